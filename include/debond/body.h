@@ -1,0 +1,127 @@
+#ifndef debond_body_h
+#define debond_body_h
+
+#include <debond/body_mesh.h>
+#include <debond/condensation.h>
+#include <debond/enriched_cells.h>
+
+#include <deal.II/lac/sparse_matrix.h>
+#include <deal.II/lac/sparsity_pattern.h>
+
+#include <memory>
+#include <vector>
+
+namespace Debond
+{
+  /**
+   * A body in its own frame: what the interface sees of it is a deformable
+   * contact surface and the force it answers with.
+   *
+   * `rigid` has no unknowns. `linear` condenses its bulk once onto the control
+   * points that contact can reach. `neo_hookean` uses the same condensed matrix
+   * as an approximate inverse of its bulk and true internal forces, so that the
+   * iteration of the whole program converges to the exact nonlinear solution.
+   *
+   * The displacement v is the *trial* state; commit() and rollback() are the
+   * only ways to and from the accepted one.
+   */
+  class Body
+  {
+  public:
+    Body(const BodyParameters &parameters, BodySide side);
+
+    const BodyMesh     &mesh() const { return body_mesh; }
+    const NurbsSurface &surface() const { return body_mesh.surface(); }
+    Material            material() const { return body_mesh.parameters().material; }
+    bool                deformable() const { return material() != Material::rigid; }
+    const EnrichedCells *cells() const { return bulk.get(); }
+
+    /** @name Contact unknowns */
+    //@{
+    /** Makes the given control points (by index) contact unknowns and condenses
+     *  everything else, at the reference configuration the first time and at
+     *  the trial state later. */
+    void set_contact_control_points(const std::vector<bool> &is_contact);
+    const std::vector<bool> &contact_control_points() const { return is_contact; }
+    /** Number of contact unknowns. */
+    unsigned int n_unknowns() const { return contact_unknowns.size(); }
+    /** For 3 (control point) + component: the number of the contact unknown, or
+     *  -1 if the component is fixed or its control point is not in contact. */
+    const std::vector<int> &unknown_of() const { return unknown_numbers; }
+    /** Stiffness condensed on the contact unknowns [N/mm]. */
+    const Eigen::MatrixXd &schur_complement() const { return condensation.schur_complement(); }
+    //@}
+
+    /** @name Residual and correction */
+    //@{
+    struct Residual
+    {
+      bool   valid = true; ///< false if a cell is turned inside out
+      double norm_squared = 0;     ///< of the whole residual, interior included [N^2]
+      double interior_squared = 0; ///< of its interior part [N^2]
+    };
+    /** Residual under the nodal contact forces @p contact_force (3 x control
+     *  points, in the body's frame, [N]), condensed on the contact unknowns:
+     *  r_c - K_ci K_ii^-1 r_i. Keeps what correct() needs. */
+    Residual residual(const ControlNet &contact_force, Eigen::VectorXd &condensed);
+    /** Moves the contact unknowns by @p dv and the interior with them. */
+    void correct(const Eigen::VectorXd &dv);
+    /** Forms the tangent at the trial state anew and condenses it. Returns
+     *  false if it is not positive definite; the old one is then kept. */
+    bool refactor();
+    //@}
+
+    /** @name State */
+    //@{
+    /** Displacements of the control points of the contact surface, body frame. */
+    Eigen::Map<const ControlNet> contact_displacement() const;
+    void commit(double time);
+    void rollback();
+    /** Starts a step from the accepted state, extrapolated linearly to @p time
+     *  if @p extrapolate and two states are known. */
+    void predict(double time, bool extrapolate);
+    /** Forgets the older state: what comes is not its continuation. */
+    void forget_rate() { has_rate = false; }
+    //@}
+
+    /** Strain energy of the trial state [N mm]. */
+    double energy() const;
+    /** What the fixed nodes exert on the body in its frame: force [N] and
+     *  moment about @p centre [N mm] with reference lever arms (which are the
+     *  current ones where nodes are fixed). Zero for a rigid body. */
+    Eigen::Matrix<double, 6, 1> support_reaction(const Eigen::Vector3d &centre);
+    /** Trial displacement of all nodes, tied vertices and, for a linear body,
+     *  the interior included: for output. */
+    Eigen::VectorXd full_displacement() { return full_displacement(v); }
+
+  private:
+    Eigen::VectorXd       contact_values(const Eigen::VectorXd &state) const;
+    Eigen::VectorXd       full_displacement(const Eigen::VectorXd &state);
+    SymmetricSparseMatrix assemble_free_tangent();
+    bool                  condense();
+    void                  compute_reaction_operator();
+
+    BodyMesh                       body_mesh;
+    std::unique_ptr<EnrichedCells> bulk; ///< none for a rigid body
+
+    dealii::SparsityPattern      sparsity;
+    dealii::SparseMatrix<double> tangent;
+
+    std::vector<int>  free_number; ///< per degree of freedom, -1: fixed or tied
+    std::vector<unsigned int> free_dofs;
+    std::vector<bool> is_contact;
+    std::vector<int>  unknown_numbers;
+    std::vector<int>  contact_unknowns; ///< free numbers, in order
+    Condensation      condensation;
+
+    Eigen::VectorXd v, v_accepted, v_before; ///< 3 n_nodes [mm]
+    double          time_accepted = 0, time_before = 0;
+    bool            has_rate = false, has_accepted = false;
+
+    Eigen::VectorXd internal_force;   ///< at the trial state
+    double          strain_energy = 0;
+    /** Linear bodies: supports' resultants about the origin per unit of v_c. */
+    Eigen::Matrix<double, 6, Eigen::Dynamic> reaction_operator;
+  };
+}
+#endif

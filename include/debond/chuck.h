@@ -1,0 +1,123 @@
+#ifndef debond_chuck_h
+#define debond_chuck_h
+
+#include <debond/time_function.h>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace Debond
+{
+  /** One of the six subsections of `Chuck`. */
+  struct ChuckComponentParameters
+  {
+    bool        loaded = false; ///< force or moment instead of displacement or angle
+    /** Expression in t (constants pi, R). Units: mm, degrees, N, N mm. */
+    std::string value = "0";
+    double      stiffness = 0;  ///< of the machine [N/mm or N mm/rad]; 0: rigid
+  };
+
+  /** The subsection `Chuck`: Translation x, y, z, Rotation x, y, z. */
+  struct ChuckParameters
+  {
+    static constexpr unsigned int n_components = 6;
+    /** "Translation x" ... "Rotation z". */
+    static const std::array<const char *, n_components> names;
+
+    std::array<ChuckComponentParameters, n_components> component;
+
+    static void declare(dealii::ParameterHandler &prm);
+    void        parse(dealii::ParameterHandler &prm);
+  };
+
+  /**
+   * The rigid top face of the implant, and with it the implant's moving frame:
+   *
+   *   x = C + u + Q (X - C + v),   Q = exp(skew(a)) R_z(gamma),
+   *
+   * with six components q = (u, a_x, a_y, gamma): translations [mm], a rotation
+   * vector in space and the angle about the implant's own axis [rad]. Each is
+   * prescribed, or an unknown with an equation of its own if it is loaded or if
+   * the machine that drives it is compliant.
+   */
+  class Chuck
+  {
+  public:
+    using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+    /** @p centre is C; @p radius the `R` of expressions [mm]. */
+    Chuck(const ChuckParameters &parameters, const Eigen::Vector3d &centre, double radius);
+
+    /** Components that are unknowns, in ascending order. */
+    const std::vector<unsigned int> &unknowns() const { return unknown_components; }
+
+    /** Sets the prescribed components of the trial state and the loads to
+     *  their values at @p time. */
+    void prescribe(double time);
+    /** The six values of the scene at a time, in internal units (radians). */
+    Vector6 values(double time) const;
+
+    const Vector6 &position() const { return q; }
+    void           correct(unsigned int component, double dq);
+    void           commit(double time);
+    void           rollback();
+    /** Starts from the accepted state; unknown components are extrapolated
+     *  linearly to @p time if asked and if two states are known. */
+    void predict(double time, bool extrapolate);
+    void forget_rate() { has_rate = false; }
+
+    /** Q of the trial state. */
+    const Eigen::Matrix3d &rotation() const { return Q; }
+    const Eigen::Vector3d &reference_centre() const { return C; }
+    /** C + u. */
+    Eigen::Vector3d centre() const { return C + q.head<3>(); }
+    /** Spatial position of the material point X + v. */
+    Eigen::Vector3d map(const Eigen::Vector3d &X, const Eigen::Vector3d &v) const
+    {
+      return centre() + Q * ((X - C) + v);
+    }
+
+    /** dx/dq_k of a point at spatial position x: e_k, or b_k x (x - C - u). */
+    Eigen::Vector3d velocity(unsigned int k, const Eigen::Vector3d &x) const;
+    /** The same for a direction carried along: 0, or b_k x d. */
+    Eigen::Vector3d velocity_of_direction(unsigned int k, const Eigen::Vector3d &d) const;
+    /** d^2 x / dq_k dq_l. */
+    Eigen::Vector3d second_derivative(unsigned int k, unsigned int l,
+                                      const Eigen::Vector3d &x) const;
+    /** Axis b_k of a rotation (k = 3, 4, 5), in space; b_5 is the implant's own axis. */
+    const Eigen::Vector3d &axis(unsigned int k) const { return b[k - 3]; }
+
+    /** Force or moment that the machine applies to component k at its trial
+     *  position [N, N mm]: the load, or stiffness times the lag behind the
+     *  prescribed value. Only for unknown components. */
+    double machine_load(unsigned int k) const;
+    /** d machine_load / dq_k. */
+    double machine_stiffness(unsigned int k) const;
+
+  private:
+    void update_frame();
+
+    const ChuckParameters     parameters;
+    const Eigen::Vector3d     C;
+    std::vector<TimeFunction> value_functions;
+    std::vector<unsigned int> unknown_components;
+
+    Vector6 q = Vector6::Zero(), q_accepted = Vector6::Zero(), q_before = Vector6::Zero();
+    double  time_accepted = 0, time_before = 0;
+    bool    has_rate = false, has_accepted = false;
+    Vector6 target = Vector6::Zero(); ///< values of the scene at the trial time
+
+    Eigen::Matrix3d                             Q;
+    std::array<Eigen::Vector3d, 3>              b;
+    std::array<std::array<Eigen::Vector3d, 3>, 3> db; ///< db[k][l] = db_k/dq_l
+  };
+}
+#endif

@@ -1,0 +1,111 @@
+#ifndef debond_contact_point_h
+#define debond_contact_point_h
+
+#include <debond/closest_point.h>
+#include <debond/friction_law.h>
+#include <debond/nurbs_surface.h>
+
+#include <Eigen/Core>
+
+namespace Debond
+{
+  /** Numbers as they appear in the VTU array `state`. */
+  enum class PointStatus : unsigned char { open = 0, stick = 1, slip = 2 };
+
+  /** The history of one slave quadrature point. */
+  struct ContactPointState
+  {
+    PointStatus status = PointStatus::open;
+    /** True if @p xi faces the point; false for points beyond the master's edge. */
+    bool has_partner = false;
+    /** The bond is gone for good (only with `Opening breaks bond`). */
+    bool broken = false;
+    /** Interacting point on the master, xi_hat. */
+    Eigen::Vector2d xi = Eigen::Vector2d::Zero();
+    /** Accumulated sliding distance g_s [mm], Eq. (12). */
+    double slip = 0;
+  };
+
+  /** The master surface in its current configuration. */
+  struct MasterSurface
+  {
+    const NurbsSurface *surface   = nullptr;
+    const ControlNet   *positions = nullptr; ///< spatial [mm]
+    /** +-1 such that this times a_1 x a_2 points to the slave. */
+    double outward_sign = 1;
+  };
+
+  /** What a point is governed by: penalties, friction, its phi_0. */
+  struct ContactPointLaw
+  {
+    double             normal_penalty     = 0; ///< eps_n [MPa/mm]
+    double             tangential_penalty = 0; ///< eps_t [MPa/mm]
+    FrictionParameters friction;
+    bool               opening_breaks_bond = false;
+  };
+
+  /** How the update is to be done. */
+  struct ContactPointMode
+  {
+    /** Closed points stick whatever their traction: a first Newton iteration
+     *  with the stick tangent cannot cycle between stick and slip. */
+    bool stick_first = false;
+    /** Gaps below this count as closed [mm]; 0 but in the very first iteration. */
+    double touch_tolerance = 0;
+    /** The interface is frictionless for now and slip is not accumulated. */
+    bool frictionless = false;
+  };
+
+  /**
+   * Everything one quadrature point contributes.
+   *
+   * Derivatives are with respect to w = (x, y, a_1, a_2, y_n), 15 numbers:
+   * slave point, master point and tangents at xi_hat, and the master point at
+   * the old xi_hat^n. They are total: the motion of xi_hat is eliminated by the
+   * implicit function theorem on its two equations.
+   */
+  struct ContactPointResult
+  {
+    ContactPointState state;
+    bool              failed = false; ///< the local iteration found no solution
+
+    /** t = eps_n g_n n + t_t [MPa], as it enters the residual of the slave. */
+    Eigen::Vector3d traction            = Eigen::Vector3d::Zero();
+    Eigen::Vector3d tangential_traction = Eigen::Vector3d::Zero();
+    /** y(xi_hat) - y(xi_hat^n) on the current surface [mm]. */
+    Eigen::Vector3d slip_increment = Eigen::Vector3d::Zero();
+    double          normal_gap     = 0; ///< g_n [mm]
+    double          pressure       = 0; ///< p >= 0 [MPa]
+    /** |d mu/d g_s| p / eps_t where the law softens; the local solution is
+     *  unique while this is below one. */
+    double softening = 0;
+
+    SurfaceBasis                 basis;     ///< master basis at xi_hat
+    SurfaceBasis                 old_basis; ///< at xi_hat^n; only when slipping
+    Eigen::Matrix<double, 3, 15> dt;        ///< dt/dw
+    Eigen::Matrix<double, 2, 15> dxi;       ///< dxi_hat/dw
+  };
+
+  /**
+   * The update of one slave quadrature point: (state_n, kinematics) ->
+   * (traction, tangent, state_n+1). A pure function: nothing but @p result is
+   * written.
+   *
+   * Stick iff eps_t |g_t| <= mu(g_s^n) p at xi_hat^n; otherwise xi_hat solves
+   * Eqs. (29) and (30),
+   *
+   *   h_alpha = a_alpha . (g - mu(g_s) p tau / eps_t) = 0,
+   *   g_s = g_s^n + |y(xi_hat) - y(xi_hat^n)|            [Eq. (32)],
+   *
+   * with tau the direction of the trial gap x - y(xi_hat^n) projected on the
+   * tangent plane at xi_hat, and mu taken at the updated g_s.
+   */
+  void update_contact_point(const ContactPointLaw   &law,
+                            const ContactPointState &old_state,
+                            double                   phi_0,
+                            const Eigen::Vector3d   &x,
+                            const MasterSurface     &master,
+                            const ContactPointMode  &mode,
+                            ContactPointResult      &result);
+}
+#endif

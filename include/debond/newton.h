@@ -1,0 +1,41 @@
+#ifndef debond_newton_h
+#define debond_newton_h
+
+#include <debond/coupled_system.h>
+
+#include <string>
+#include <vector>
+
+namespace Debond
+{
+  /** What the iteration of one step may do. */
+  struct NewtonOptions
+  {
+    double       residual_tolerance = 1e-8; ///< relative to the contact force
+    unsigned int max_iterations     = 25;
+    /** The first iteration takes every closed point as sticking. */
+    bool stick_first = false;
+    /** Gaps below this count as closed in that first iteration [mm]. */
+    double touch_tolerance = 0;
+    bool   frictionless    = false;
+  };
+
+  struct NewtonResult
+  {
+    bool         converged  = false;
+    unsigned int iterations = 0; ///< linear solves
+    std::string  why;            ///< if not converged
+    /** |residual| / reference force at each evaluation. */
+    std::vector<double> history;
+  };
+
+  /**
+   * Newton's method on the trial state of @p system from where it is. The
+   * interface's tangent is exact; for Neo-Hookean bodies the bulk's is the one
+   * that was condensed last, and is formed anew when the bulk's residual
+   * shrinks too slowly with it. Never returns converged = true unless the
+   * residual of the true law meets the tolerance.
+   */
+  NewtonResult solve_newton(CoupledSystem &system, const NewtonOptions &options);
+}
+#endif

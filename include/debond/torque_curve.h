@@ -1,0 +1,162 @@
+#ifndef debond_torque_curve_h
+#define debond_torque_curve_h
+
+#include <array>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace Debond
+{
+  class JsonObject;
+  class ResultDirectory;
+
+  /** One row of torque.csv: the accepted state at the end of a planned step.
+   *  All figures are what the chuck exerts on the implant. */
+  struct TorqueRow
+  {
+    unsigned int step       = 0;
+    double       time       = 0;
+    double       angle_deg  = 0; ///< of the chuck about the implant's own axis
+    double       torque_Nmm = 0; ///< about that axis
+    double       force_N =
+      0; ///< minus the axial force along +z: positive in compression
+    double pressure_MPa = 0; ///< force_N / reference area of the contact face
+    double phi_mean     = 0;
+    double share_stick = 0, share_slip = 0, share_open = 0;
+    unsigned int newton_iterations = 0; ///< summed over sub-steps
+    double       energy_defect     = 0;
+    std::array<double, 6>
+      chuck_reaction{}; ///< Fx, Fy, Fz [N], Mx, My, Mz [N mm] about C + u
+    // further columns
+    double work_Nmm = 0, energy_bulk_Nmm = 0, energy_interface_Nmm = 0,
+           dissipation_Nmm = 0, adhesive_work_Nmm = 0;
+    /** Quadrature bound of energy_defect: sum |dF| |dq| / 2 over max |W|. */
+    double energy_defect_bound = 0;
+    /** Contact resultant against reaction of the implant's top, relative. */
+    double reaction_defect = 0;
+    /** Chuck position: u [mm], rotations x, y, z [deg]. */
+    std::array<double, 6> chuck_position{};
+  };
+
+
+
+  /**
+   * Writes torque.csv: a line with the names of the columns, then one row per
+   * call with twelve significant digits. Every row is on its way to the disk
+   * when write() returns, so that an interrupted run leaves all of them.
+   */
+  class TorqueCurveWriter
+  {
+  public:
+    /** Begins the file anew. Throws InputError if that is impossible. */
+    explicit TorqueCurveWriter(const ResultDirectory &directory);
+
+    /** Appends a row. Throws InputError if it cannot be written. */
+    void
+    write(const TorqueRow &row);
+
+  private:
+    const std::string filename;
+    std::ofstream     file;
+  };
+
+
+
+  /** A measured or computed curve to compare with: angle [deg], torque [N mm].
+   */
+  using ReferenceCurve = std::vector<std::pair<double, double>>;
+
+  /**
+   * Reads a reference curve from a CSV file whose first line names the columns;
+   * `angle_deg` and `torque_Nmm` must be among them (so another run's
+   * torque.csv will do), others are ignored, as are empty lines and lines that
+   * begin with
+   * `#`. Throws InputError that names the entry `Output / Reference curve`, the
+   * file, the line and what was expected. An empty @p filename gives an empty
+   * curve.
+   */
+  ReferenceCurve
+  read_reference_curve(const std::string &filename);
+
+
+
+  /** What the measures need to know besides the rows. */
+  struct CurveSettings
+  {
+    /** Area that w_adh refers to [mm^2]: pi R^2 for a coin, Eq. (21). */
+    double contact_area_mm2 = std::numeric_limits<double>::quiet_NaN();
+    /** Area mean of phi_0 over the contact face, Eq. (21). */
+    double mean_phi_0 = 1;
+    /** `Output / Full sliding angle` [deg]; 0: from the curve. */
+    double full_sliding_angle_deg = 0;
+    /** First time and ends of the phases, `Load steps / Times`. */
+    std::vector<double> phase_times;
+    /** Empty: no error measures. */
+    ReferenceCurve reference;
+  };
+
+  /**
+   * What is read off a torque curve; NaN where undefined. Angles and energies
+   * are undefined if nothing rotates or if the rotation reverses; E_fric and
+   * what follows from it also if the run ends before full sliding.
+   */
+  struct CurveMeasures
+  {
+    static constexpr double undefined =
+      std::numeric_limits<double>::quiet_NaN();
+
+    double T_max_Nmm      = undefined; ///< largest |T| over the rows
+    double theta_max_deg  = undefined; ///< where T_max is first met
+    double theta_full_deg = undefined; ///< beginning of full sliding
+    double T_inf_Nmm      = undefined; ///< T of the last row
+    /** At the end of the last phase before the angle first changes. */
+    double pressure_MPa       = undefined;
+    double E_deb_Nm           = undefined; ///< Eq. (20)
+    double E_fric_Nm          = undefined; ///< Eq. (20)
+    double W_adh_Nm           = undefined; ///< Eq. (20)
+    double w_adh_N_per_m      = undefined; ///< Eq. (21)
+    double w_adh_star_N_per_m = undefined; ///< Eq. (21) with a mean phi_0 of 1
+    double D_adh_Nm           = undefined; ///< work the law spends on adhesion
+    double dissipation_Nm     = undefined;
+    double e_mp               = undefined; ///< Eq. (19), a ratio
+    double e_rel              = undefined; ///< Eq. (50), a ratio
+    unsigned int reference_rows_used = 0;  ///< in e_mp and e_rel
+    double       largest_energy_defect =
+      undefined; ///< largest magnitude over the rows
+    double largest_reaction_defect = undefined;
+  };
+
+  /** Evaluates a torque curve, be it complete, interrupted or empty. Integrals
+   *  are trapezoids over the rows. */
+  CurveMeasures
+  measure_torque_curve(const std::vector<TorqueRow> &rows,
+                       const CurveSettings          &settings);
+
+
+
+  /** Everything summary.json tells. */
+  struct RunSummary
+  {
+    CurveMeasures measures;
+    unsigned int  steps              = 0; ///< accepted, sub-steps included
+    unsigned int  newton_iterations  = 0;
+    unsigned int  dofs               = 0; ///< as the paper counts them
+    unsigned int  unknowns           = 0; ///< dofs less tied surface vertices
+    unsigned int  condensed_unknowns = 0; ///< of the coupled system at the end
+    double        wall_seconds       = 0;
+    bool          converged          = false;
+    std::string   reason; ///< why the run ended
+    std::vector<std::string> warnings;
+    /** Parts of the wall time; {"bulk", 1.5} becomes "seconds_bulk": 1.5. */
+    std::vector<std::pair<std::string, double>> seconds;
+  };
+
+  /** Adds all members of summary.json in their fixed order, further ones at
+   *  the end. */
+  void
+  add_summary(const RunSummary &summary, JsonObject &json);
+} // namespace Debond
+#endif

@@ -1,0 +1,649 @@
+#include <debond/allowed_values.h>
+#include <debond/contact_interface.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <debond/body_mesh.h>
+#include <debond/chuck.h>
+#include <debond/closest_point.h>
+#include <algorithm>
+#include <sstream>
+
+#include <Eigen/Geometry>
+
+namespace Debond
+{
+  namespace
+  {
+    /** Variants of the method that a later version brings. */
+    void
+    declare_reserved_entries(dealii::ParameterHandler &prm)
+    {
+      prm.declare_entry("Viscosity",
+                        "0",
+                        Allowed::only("0"),
+                        "Reserved: viscous regularisation of the interface "
+                        "[MPa per mm per unit of time].");
+      prm.declare_entry("Slip direction",
+                        "trial",
+                        Allowed::choice("trial", "previous gap"),
+                        "Direction in which a sliding point moves: that of the "
+                        "trial gap.");
+      prm.declare_entry("Friction update",
+                        "implicit",
+                        Allowed::choice("implicit", "explicit"),
+                        "The friction coefficient is evaluated with the "
+                        "sliding distance at the end of the step.");
+    }
+  } // namespace
+
+
+
+  void
+  InterfaceParameters::declare(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Interface");
+    prm.declare_entry("Slave",
+                      "implant",
+                      Allowed::choice("implant | bone"),
+                      "The body whose contact face carries the quadrature "
+                      "points; they are projected onto the face of the other.");
+    prm.declare_entry("Quadrature points",
+                      "5",
+                      Allowed::whole_number(1, 64),
+                      "Gauss points per direction and slave surface element.");
+    prm.declare_entry("Penalty stiffness",
+                      "585",
+                      Allowed::number_above(0, "MPa/mm"),
+                      "Normal stiffness eps_n [MPa/mm] of the interface: "
+                      "pressure per penetration.");
+    prm.declare_entry("Tangential penalty stiffness",
+                      "0",
+                      Allowed::number_from(0, "MPa/mm"),
+                      "Tangential stiffness eps_t [MPa/mm] of the interface. "
+                      "0: the same as the normal one.");
+    FrictionParameters::declare(prm);
+    prm.declare_entry("Opening breaks bond",
+                      "false",
+                      Allowed::yes_or_no(),
+                      "Whether a bonded point that opens is debonded for good. "
+                      "`false' is the law of the paper, which has no strength "
+                      "in tension and forgets that the point was open.");
+    declare_reserved_entries(prm);
+    BondingParameters::declare(prm);
+    prm.leave_subsection();
+  }
+
+
+
+  void
+  InterfaceParameters::parse(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Interface");
+    slave = prm.get("Slave") == "bone" ? SlaveSide::bone : SlaveSide::implant;
+    quadrature_points  = prm.get_integer("Quadrature points");
+    normal_penalty     = prm.get_double("Penalty stiffness");
+    tangential_penalty = prm.get_double("Tangential penalty stiffness");
+    if (tangential_penalty == 0)
+      tangential_penalty = normal_penalty;
+    opening_breaks_bond = prm.get_bool("Opening breaks bond");
+    friction.parse(prm);
+    bonding.parse(prm);
+    prm.leave_subsection();
+  }
+} // namespace Debond
+
+namespace Debond
+{
+  ContactInterface::ContactInterface(const InterfaceParameters &parameters,
+                                     const BodyMesh            &bone,
+                                     const BodyMesh            &implant)
+    : parameters(parameters)
+    , slave(parameters.slave == SlaveSide::implant ? 1 : 0)
+    , mesh{{&bone, &implant}}
+  {
+    law.normal_penalty      = parameters.normal_penalty;
+    law.tangential_penalty  = parameters.tangential_penalty;
+    law.friction            = parameters.friction;
+    law.opening_breaks_bond = parameters.opening_breaks_bond;
+    for (const auto &quadrature_point :
+         surface_quadrature(mesh[slave]->surface(), parameters.quadrature_points))
+      {
+        Point point;
+        point.element = quadrature_point.element;
+        point.xi      = quadrature_point.xi;
+        point.basis   = quadrature_point.basis;
+        point.JxW     = quadrature_point.JxW;
+        points.push_back(point);
+      }
+    for (unsigned int side = 0; side < 2; ++side)
+      forces[side].setZero(3, mesh[side]->surface().n_control_points());
+    assign_bonding();
+  }
+
+
+
+  // phi_0 belongs to the implant: with the bone as slave a point takes that of
+  // the implant point it faces at the start.
+  void ContactInterface::assign_bonding()
+  {
+    const BondingPattern pattern(parameters.bonding,
+                                 mesh[1]->surface(),
+                                 parameters.quadrature_points);
+    area_of_implant = pattern.area();
+    phi_0_mean      = pattern.mean();
+    for (unsigned int q = 0; q < points.size(); ++q)
+      if (slave == 1)
+        points[q].phi_0 = pattern.at(q);
+      else
+        {
+          Eigen::Vector3d X = Eigen::Vector3d::Zero();
+          for (unsigned int a = 0; a < points[q].basis.size; ++a)
+            X += points[q].basis.N[a] * mesh[0]->surface().control_points().col(
+                                          points[q].basis.control_point[a]);
+          const ClosestPoint faced =
+            closest_point(mesh[1]->surface(), mesh[1]->surface().control_points(), X);
+          points[q].faces_implant = faced.is_orthogonal;
+          points[q].phi_0         = faced.is_orthogonal ? pattern.at(faced.xi) : 0.;
+        }
+  }
+
+
+
+  namespace
+  {
+    Eigen::Vector3d interpolate(const SurfaceBasis &basis, const ControlNet &nodes)
+    {
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      for (unsigned int a = 0; a < basis.size; ++a)
+        sum += basis.N[a] * nodes.col(basis.control_point[a]);
+      return sum;
+    }
+
+
+
+    // Axis-parallel box around a surface (its control points), a little wider.
+    struct BoundingBox
+    {
+      Eigen::Vector3d lower, upper;
+
+      explicit BoundingBox(const ControlNet &positions)
+        : lower(positions.rowwise().minCoeff())
+        , upper(positions.rowwise().maxCoeff())
+      {
+        const double margin = 0.1 * (upper - lower).norm();
+        lower.array() -= margin;
+        upper.array() += margin;
+      }
+
+      bool contains(const Eigen::Vector3d &x) const
+      {
+        return (x.array() >= lower.array()).all() && (x.array() <= upper.array()).all();
+      }
+    };
+  } // namespace
+
+
+
+  MasterSurface
+  ContactInterface::master(const InterfaceConfiguration &configuration) const
+  {
+    return {&mesh[master_side()]->surface(),
+            &configuration.side[master_side()].positions,
+            mesh[master_side()]->outward_sign()};
+  }
+
+
+
+  void ContactInterface::initialise(const InterfaceConfiguration &configuration)
+  {
+    const MasterSurface surface = master(configuration);
+    for (Point &point : points)
+      {
+        const ClosestPoint closest = closest_point(
+          *surface.surface,
+          *surface.positions,
+          interpolate(point.basis, configuration.side[slave].positions));
+        point.accepted.xi          = closest.xi;
+        point.accepted.has_partner = closest.converged && closest.is_orthogonal;
+      }
+  }
+
+
+
+  bool ContactInterface::evaluate(const InterfaceConfiguration &configuration,
+                                  const ContactPointMode       &mode)
+  {
+    const MasterSurface surface = master(configuration);
+    const BoundingBox   box(*surface.positions);
+    for (ControlNet &force : forces)
+      force.setZero();
+    failed_point     = -1;
+    frictionless_now = mode.frictionless;
+    for (unsigned int q = 0; q < points.size(); ++q)
+      {
+        Point                &point = points[q];
+        const Eigen::Vector3d x =
+          interpolate(point.basis, configuration.side[slave].positions);
+        if (!point.accepted.has_partner && !box.contains(x))
+          {
+            point.trial       = ContactPointResult();
+            point.trial.state = point.accepted;
+            continue;
+          }
+        update_contact_point(
+          law, point.accepted, point.phi_0, x, surface, mode, point.trial);
+        if (point.trial.failed && failed_point < 0)
+          failed_point = q;
+        if (point.trial.state.status == PointStatus::open)
+          continue;
+        const Eigen::Vector3d f = point.JxW * point.trial.traction;
+        for (unsigned int a = 0; a < point.basis.size; ++a)
+          forces[slave].col(point.basis.control_point[a]) += point.basis.N[a] * f;
+        const SurfaceBasis &basis = point.trial.basis;
+        for (unsigned int b = 0; b < basis.size; ++b)
+          forces[master_side()].col(basis.control_point[b]) -= basis.N[b] * f;
+      }
+    return failed_point < 0;
+  }
+
+
+
+  namespace
+  {
+    // The local tangent of one point. Columns: x (slave nodes), y, a_1, a_2
+    // (master nodes at xi_hat), y_n (master nodes at xi_hat^n), chuck unknowns.
+    // It is assembled for all of them at once: [dt; dxi] = D * column.
+    class PointTangent
+    {
+    public:
+      using Columns = Eigen::Matrix<double, 5, Eigen::Dynamic, 0, 5, 3 * 27 + 6>;
+
+      PointTangent(const ContactInterface::Point &point,
+                   const InterfaceConfiguration  &configuration,
+                   const unsigned int             slave)
+        : point(point)
+        , configuration(configuration)
+        , slave(slave)
+      {
+        D.topRows<3>()    = point.trial.dt;
+        D.bottomRows<2>() = point.trial.dxi;
+        const Eigen::Matrix3d &Q_s = configuration.side[slave].frame;
+        const Eigen::Matrix3d &Q_m = configuration.side[1 - slave].frame;
+        D_body.leftCols<3>()       = D.leftCols<3>() * Q_s;
+        for (unsigned int block = 1; block < 5; ++block)
+          D_body.middleCols<3>(3 * block) = D.middleCols<3>(3 * block) * Q_m;
+        const bool slips     = point.trial.state.status == PointStatus::slip;
+        const bool same      = slips && point.trial.old_basis.element ==
+                                     point.trial.basis.element;
+        const unsigned int n_s = point.basis.size, n_m = point.trial.basis.size;
+        const unsigned int n_o = slips && !same ? point.trial.old_basis.size : 0;
+        const unsigned int n_k = configuration.chuck_unknowns.size();
+        columns.resize(5, 3 * (n_s + n_m + n_o) + n_k);
+        add_slave_columns(point.basis);
+        add_master_columns(point.trial.basis, slips && same ? &point.trial.old_basis : nullptr);
+        if (n_o > 0)
+          add_old_master_columns(point.trial.old_basis);
+        for (const auto &[component, number] : configuration.chuck_unknowns)
+          {
+            columns.col(n_columns) = D * chuck_direction(component);
+            number_of_column[n_columns++] = number;
+          }
+      }
+
+      // dw/dq_k: the implant's side of w moves with the chuck.
+      Eigen::Matrix<double, 15, 1> chuck_direction(const unsigned int k) const
+      {
+        Eigen::Matrix<double, 15, 1> dw = Eigen::Matrix<double, 15, 1>::Zero();
+        const Chuck                 &chuck = *configuration.chuck;
+        if (slave == 1)
+          dw.head<3>() = chuck.velocity(
+            k, interpolate(point.basis, configuration.side[1].positions));
+        else
+          {
+            SurfaceGeometry geometry;
+            contract(point.trial.basis, configuration.side[1].positions, false, geometry);
+            dw.segment<3>(3) = chuck.velocity(k, geometry.y);
+            dw.segment<3>(6) = chuck.velocity_of_direction(k, geometry.a1);
+            dw.segment<3>(9) = chuck.velocity_of_direction(k, geometry.a2);
+            if (point.trial.state.status == PointStatus::slip)
+              dw.segment<3>(12) = chuck.velocity(
+                k, interpolate(point.trial.old_basis, configuration.side[1].positions));
+          }
+        return dw;
+      }
+
+      void add_to(Eigen::MatrixXd &matrix) const
+      {
+        const Eigen::Matrix3d &Q_s = configuration.side[slave].frame;
+        const Eigen::Matrix3d &Q_m = configuration.side[1 - slave].frame;
+        const auto             dt  = columns.topRows<3>().leftCols(n_columns);
+        const auto             dxi = columns.bottomRows<2>().leftCols(n_columns);
+        using Rows = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3 * 27 + 6>;
+        const Rows slave_rows  = point.JxW * Q_s.transpose() * dt;
+        const Rows master_rows = -point.JxW * Q_m.transpose() * dt;
+        const Eigen::Vector3d t_m = -point.JxW * Q_m.transpose() * point.trial.traction;
+
+        const auto &slave_unknown  = configuration.side[slave].unknown_of;
+        const auto &master_unknown = configuration.side[1 - slave].unknown_of;
+        const SurfaceBasis &basis  = point.trial.basis;
+        for (unsigned int j = 0; j < n_columns; ++j)
+          {
+            if (number_of_column[j] < 0)
+              continue;
+            double *column = &matrix(0, number_of_column[j]);
+            for (unsigned int a = 0; a < point.basis.size; ++a)
+              for (unsigned int c = 0; c < 3; ++c)
+                {
+                  const int row = slave_unknown[3 * point.basis.control_point[a] + c];
+                  if (row >= 0)
+                    column[row] += point.basis.N[a] * slave_rows(c, j);
+                }
+            for (unsigned int b = 0; b < basis.size; ++b)
+              {
+                const double along = basis.N_1[b] * dxi(0, j) + basis.N_2[b] * dxi(1, j);
+                for (unsigned int c = 0; c < 3; ++c)
+                  {
+                    const int row = master_unknown[3 * basis.control_point[b] + c];
+                    if (row >= 0)
+                      column[row] += basis.N[b] * master_rows(c, j) + along * t_m[c];
+                  }
+              }
+            add_chuck_rows(j, column);
+          }
+      }
+
+    private:
+      void add_columns(const Eigen::Matrix<double, 5, 3> &block,
+                       const unsigned int                 side,
+                       const unsigned int                 control_point)
+      {
+        for (unsigned int c = 0; c < 3; ++c)
+          {
+            columns.col(n_columns) = block.col(c);
+            number_of_column[n_columns++] =
+              configuration.side[side].unknown_of[3 * control_point + c];
+          }
+      }
+
+      void add_slave_columns(const SurfaceBasis &basis)
+      {
+        for (unsigned int a = 0; a < basis.size; ++a)
+          add_columns(basis.N[a] * D_body.leftCols<3>(), slave, basis.control_point[a]);
+      }
+
+      void add_master_columns(const SurfaceBasis &basis, const SurfaceBasis *old)
+      {
+        for (unsigned int b = 0; b < basis.size; ++b)
+          {
+            Eigen::Matrix<double, 5, 3> block = basis.N[b] * D_body.middleCols<3>(3) +
+                                                basis.N_1[b] * D_body.middleCols<3>(6) +
+                                                basis.N_2[b] * D_body.middleCols<3>(9);
+            if (old != nullptr)
+              block += old->N[b] * D_body.middleCols<3>(12);
+            add_columns(block, 1 - slave, basis.control_point[b]);
+          }
+      }
+
+      void add_old_master_columns(const SurfaceBasis &basis)
+      {
+        for (unsigned int b = 0; b < basis.size; ++b)
+          add_columns(basis.N[b] * D_body.middleCols<3>(12),
+                      1 - slave,
+                      basis.control_point[b]);
+      }
+
+      // r_k = sum over points of f . dx/dq_k, f acting on the implant
+      void add_chuck_rows(const unsigned int j, double *column) const
+      {
+        for (const auto &[component, number] : configuration.chuck_unknowns)
+          {
+            const Eigen::Matrix<double, 15, 1> velocity = chuck_direction(component);
+            if (slave == 1)
+              column[number] +=
+                point.JxW * velocity.head<3>().dot(columns.col(j).head<3>());
+            else
+              column[number] -=
+                point.JxW *
+                (velocity.segment<3>(3).dot(columns.col(j).head<3>()) +
+                 point.trial.traction.dot(velocity.segment<3>(6) * columns(3, j) +
+                                          velocity.segment<3>(9) * columns(4, j)));
+          }
+      }
+
+      const ContactInterface::Point &point;
+      const InterfaceConfiguration  &configuration;
+      const unsigned int             slave;
+      Eigen::Matrix<double, 5, 15>   D, D_body;
+      Columns                        columns;
+      std::array<int, 3 * 27 + 6>    number_of_column;
+      unsigned int                   n_columns = 0;
+    };
+  } // namespace
+
+
+
+  void ContactInterface::add_tangent(const InterfaceConfiguration &configuration,
+                                     Eigen::MatrixXd              &matrix) const
+  {
+    for (const Point &point : points)
+      if (point.trial.state.status != PointStatus::open)
+        PointTangent(point, configuration, slave).add_to(matrix);
+  }
+
+
+
+  void ContactInterface::apply_tangent(const InterfaceConfiguration &configuration,
+                                       const Eigen::VectorXd        &direction,
+                                       Eigen::VectorXd              &result) const
+  {
+    const Chuck              &chuck = *configuration.chuck;
+    std::array<ControlNet, 2> moved, change;
+    for (unsigned int s = 0; s < 2; ++s)
+      {
+        const auto &side = configuration.side[s];
+        moved[s].setZero(3, side.positions.cols());
+        change[s].setZero(3, side.positions.cols());
+        for (unsigned int i = 0; i < side.unknown_of.size(); ++i)
+          if (side.unknown_of[i] >= 0)
+            moved[s](i % 3, i / 3) = direction[side.unknown_of[i]];
+        moved[s] = (side.frame * moved[s]).eval();
+        if (s == 1)
+          for (const auto &[component, number] : configuration.chuck_unknowns)
+            for (unsigned int A = 0; A < side.positions.cols(); ++A)
+              moved[s].col(A) +=
+                direction[number] * chuck.velocity(component, side.positions.col(A));
+      }
+
+    for (const Point &point : points)
+      if (point.trial.state.status != PointStatus::open)
+        {
+          const SurfaceBasis          &basis = point.trial.basis;
+          Eigen::Matrix<double, 15, 1> dw;
+          SurfaceGeometry              master_change;
+          contract(basis, moved[master_side()], false, master_change);
+          dw << interpolate(point.basis, moved[slave]), master_change.y,
+            master_change.a1, master_change.a2, Eigen::Vector3d::Zero();
+          if (point.trial.state.status == PointStatus::slip)
+            dw.tail<3>() = interpolate(point.trial.old_basis, moved[master_side()]);
+          const Eigen::Vector3d dt  = point.JxW * (point.trial.dt * dw);
+          const Eigen::Vector2d dxi = point.trial.dxi * dw;
+          const Eigen::Vector3d t   = point.JxW * point.trial.traction;
+          for (unsigned int a = 0; a < point.basis.size; ++a)
+            change[slave].col(point.basis.control_point[a]) += point.basis.N[a] * dt;
+          for (unsigned int b = 0; b < basis.size; ++b)
+            change[master_side()].col(basis.control_point[b]) -=
+              basis.N[b] * dt + (basis.N_1[b] * dxi[0] + basis.N_2[b] * dxi[1]) * t;
+        }
+
+    for (const auto &[component, number] : configuration.chuck_unknowns)
+      for (unsigned int A = 0; A < change[1].cols(); ++A)
+        result[number] +=
+          change[1].col(A).dot(
+            chuck.velocity(component, configuration.side[1].positions.col(A)));
+    for (unsigned int s = 0; s < 2; ++s)
+      {
+        const auto &side = configuration.side[s];
+        change[s]        = (side.frame.transpose() * change[s]).eval();
+        for (unsigned int i = 0; i < side.unknown_of.size(); ++i)
+          if (side.unknown_of[i] >= 0)
+            result[side.unknown_of[i]] += change[s](i % 3, i / 3);
+      }
+  }
+
+
+
+  FrictionCoefficient ContactInterface::friction(const Point &point) const
+  {
+    const ContactPointState &state = point.trial.state;
+    return friction_coefficient(parameters.friction,
+                                state.broken ? 0. : point.phi_0,
+                                state.slip);
+  }
+
+
+
+  void ContactInterface::commit(const InterfaceConfiguration &configuration)
+  {
+    const MasterSurface    surface = master(configuration);
+    const Eigen::Matrix3d &Q       = configuration.side[master_side()].frame;
+    const double mu_broken = parameters.friction.mu_broken;
+    for (Point &point : points)
+      {
+        const ContactPointResult &trial = point.trial;
+        const double strength =
+          frictionless_now ?
+            0. :
+            std::max(0., friction(point).mu - mu_broken) * trial.pressure;
+        accepted_dissipation +=
+          0.5 * point.JxW *
+          (Q * point.accepted_traction + trial.tangential_traction).dot(trial.slip_increment);
+        accepted_adhesive_work += 0.5 * point.JxW *
+                                  (point.accepted_adhesive_strength + strength) *
+                                  trial.slip_increment.norm();
+        point.accepted                   = trial.state;
+        point.accepted_traction          = Q.transpose() * trial.tangential_traction;
+        point.accepted_adhesive_strength = strength;
+        if (point.accepted.status == PointStatus::open)
+          {
+            const ClosestPoint closest = closest_point(
+              *surface.surface,
+              *surface.positions,
+              interpolate(point.basis, configuration.side[slave].positions),
+              &point.accepted.xi);
+            point.accepted.xi          = closest.xi;
+            point.accepted.has_partner = closest.converged && closest.is_orthogonal;
+          }
+      }
+  }
+
+
+
+  std::vector<bool> ContactInterface::touched_bone_elements() const
+  {
+    std::vector<bool> touched(mesh[0]->surface().n_elements(), false);
+    for (const Point &point : points)
+      if (point.trial.state.status != PointStatus::open)
+        {
+          touched[slave == 0 ? point.element : point.trial.basis.element] = true;
+          if (slave == 1 && point.trial.state.status == PointStatus::slip)
+            touched[point.trial.old_basis.element] = true;
+        }
+    return touched;
+  }
+
+
+
+  std::vector<bool> ContactInterface::bone_elements_under_implant(
+    const InterfaceConfiguration &configuration) const
+  {
+    const NurbsSurface &bone = mesh[0]->surface(), &implant = mesh[1]->surface();
+    std::vector<bool>   under(bone.n_elements(), false);
+    const auto          n = implant.n_elements_per_direction();
+    // dense enough to meet every element of the bone that the edge crosses
+    const unsigned int finest = std::max({n[0],
+                                          n[1],
+                                          bone.n_elements_per_direction()[0],
+                                          bone.n_elements_per_direction()[1]});
+    const unsigned int samples = 4 * finest;
+    SurfaceBasis       basis;
+    Eigen::Vector2d    guess(0.5, 0.5);
+    for (unsigned int j = 0; j <= samples; ++j)
+      for (unsigned int i = 0; i <= samples; ++i)
+        {
+          implant.evaluate({double(i) / samples, double(j) / samples}, basis, false);
+          const ClosestPoint closest =
+            closest_point(bone,
+                          configuration.side[0].positions,
+                          interpolate(basis, configuration.side[1].positions),
+                          &guess);
+          guess                              = closest.xi;
+          under[bone.element_of(closest.xi)] = true;
+        }
+    return under;
+  }
+
+
+
+  ContactInterface::Summary ContactInterface::summarise() const
+  {
+    Summary summary;
+    double  area = 0.;
+    for (const Point &point : points)
+      {
+        const ContactPointResult &trial = point.trial;
+        summary.normal_force += point.JxW * trial.pressure;
+        if (point.faces_implant)
+          {
+            area += point.JxW;
+            summary.phi_mean += point.JxW * friction(point).phi;
+            switch (trial.state.status)
+              {
+                case PointStatus::open:
+                  summary.share_open += point.JxW;
+                  break;
+                case PointStatus::stick:
+                  summary.share_stick += point.JxW;
+                  break;
+                case PointStatus::slip:
+                  summary.share_slip += point.JxW;
+                  break;
+              }
+          }
+        if (trial.state.status == PointStatus::open)
+          {
+            if (point.accepted.status != PointStatus::open && friction(point).phi > 0.)
+              ++summary.bonded_opened;
+            continue;
+          }
+        ++summary.n_closed;
+        summary.energy +=
+          0.5 * point.JxW *
+          (trial.pressure * trial.pressure / parameters.normal_penalty +
+           trial.tangential_traction.squaredNorm() / parameters.tangential_penalty);
+        summary.max_softening = std::max(summary.max_softening, trial.softening);
+        summary.max_penetration = std::max(summary.max_penetration, -trial.normal_gap);
+      }
+    for (double *share : {&summary.phi_mean,
+                          &summary.share_stick,
+                          &summary.share_slip,
+                          &summary.share_open})
+      *share /= area;
+    return summary;
+  }
+
+
+
+  std::string ContactInterface::describe_failure() const
+  {
+    if (failed_point < 0)
+      return "";
+    const Point      &point = points[failed_point];
+    std::ostringstream text;
+    text << "no solution of the friction law at the "
+         << (slave == 1 ? "implant" : "bone") << "'s quadrature point at parameters ("
+         << point.xi[0] << ", " << point.xi[1] << "), g_s = " << point.accepted.slip
+         << " mm";
+    return text.str();
+  }
+} // namespace Debond

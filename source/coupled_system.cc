@@ -1,0 +1,437 @@
+#include <debond/coupled_system.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <Eigen/Geometry>
+
+namespace Debond
+{
+  CoupledSystem::CoupledSystem(const Scene &scene, dealii::TimerOutput &timer)
+    : bone(scene.bone, BodySide::bone)
+    , implant(scene.implant, BodySide::implant)
+    , chuck(scene.chuck,
+            Eigen::Vector3d(0, 0, scene.implant.thickness()),
+            scene.implant.characteristic_radius())
+    , interface(scene.interface, bone.mesh(), implant.mesh())
+    , R(scene.implant.characteristic_radius())
+    , timer(timer)
+    , force_floor(scene.interface.normal_penalty * interface.implant_area() * 1e-6 * R)
+  {
+    configuration.chuck = &chuck;
+  }
+
+
+
+  void CoupledSystem::update_configuration()
+  {
+    configuration.side[0].positions =
+      bone.surface().control_points() + bone.contact_displacement();
+    const auto  v         = implant.contact_displacement();
+    const auto &reference = implant.surface().control_points();
+    auto       &positions = configuration.side[1].positions;
+    positions.resize(3, reference.cols());
+    for (unsigned int A = 0; A < reference.cols(); ++A)
+      positions.col(A) = chuck.map(reference.col(A), v.col(A));
+    configuration.side[1].frame = chuck.rotation();
+  }
+
+
+
+  void CoupledSystem::number_unknowns()
+  {
+    const std::array<const Body *, 2> body{{&bone, &implant}};
+    unsigned int                      first = 0;
+    for (unsigned int side = 0; side < 2; ++side)
+      {
+        configuration.side[side].unknown_of = body[side]->unknown_of();
+        for (int &number : configuration.side[side].unknown_of)
+          if (number >= 0)
+            number += first;
+        first += body[side]->n_unknowns();
+      }
+    configuration.chuck_unknowns.clear();
+    for (const unsigned int component : chuck.unknowns())
+      configuration.chuck_unknowns.emplace_back(component, first++);
+    unknowns = first;
+    residual.setZero(unknowns);
+    solver.forget();
+  }
+
+
+
+  namespace
+  {
+    // The control points that belong to the marked elements.
+    std::vector<bool> control_points_of(const NurbsSurface      &surface,
+                                        const std::vector<bool> &elements)
+    {
+      std::vector<bool>  result(surface.n_control_points(), false);
+      const unsigned int n = (surface.degree() + 1) * (surface.degree() + 1);
+      for (unsigned int element = 0; element < elements.size(); ++element)
+        if (elements[element])
+          for (unsigned int a = 0; a < n; ++a)
+            result[surface.element_control_points(element)[a]] = true;
+      return result;
+    }
+  } // namespace
+
+
+
+  void CoupledSystem::start(const double time)
+  {
+    chuck.prescribe(time);
+    update_configuration();
+    {
+      const dealii::TimerOutput::Scope t(timer, "contact");
+      interface.initialise(configuration);
+    }
+    const dealii::TimerOutput::Scope t(timer, "condensation");
+    bone.set_contact_control_points(
+      control_points_of(bone.surface(),
+                        interface.bone_elements_under_implant(configuration)));
+    implant.set_contact_control_points(
+      std::vector<bool>(implant.surface().n_control_points(), true));
+    number_unknowns();
+  }
+
+
+
+  bool CoupledSystem::extend_contact_unknowns()
+  {
+    if (!bone.deformable())
+      return false;
+    std::vector<bool>       wanted  = bone.contact_control_points();
+    const std::vector<bool> touched = control_points_of(bone.surface(),
+                                                        interface.touched_bone_elements());
+    bool                    grown   = false;
+    for (unsigned int A = 0; A < wanted.size(); ++A)
+      if (touched[A] && !wanted[A])
+        grown = wanted[A] = true;
+    if (!grown)
+      return false;
+    // everything under the implant now, so that this happens seldom
+    const std::vector<bool> under =
+      control_points_of(bone.surface(),
+                        interface.bone_elements_under_implant(configuration));
+    for (unsigned int A = 0; A < wanted.size(); ++A)
+      wanted[A] = wanted[A] || under[A];
+    const dealii::TimerOutput::Scope t(timer, "condensation");
+    bone.set_contact_control_points(wanted);
+    number_unknowns();
+    return true;
+  }
+
+
+
+  void CoupledSystem::predict(const double time, const bool extrapolate)
+  {
+    bone.predict(time, extrapolate);
+    implant.predict(time, extrapolate);
+    chuck.predict(time, extrapolate);
+    chuck.prescribe(time);
+  }
+
+
+
+  void CoupledSystem::commit(const double time)
+  {
+    bone.commit(time);
+    implant.commit(time);
+    chuck.commit(time);
+    const dealii::TimerOutput::Scope t(timer, "contact");
+    interface.commit(configuration);
+  }
+
+
+
+  void CoupledSystem::rollback()
+  {
+    bone.rollback();
+    implant.rollback();
+    chuck.rollback();
+  }
+
+
+
+  void CoupledSystem::forget_rate()
+  {
+    bone.forget_rate();
+    implant.forget_rate();
+    chuck.forget_rate();
+  }
+
+
+
+  double CoupledSystem::scale_of(const unsigned int chuck_component) const
+  {
+    return chuck_component < 3 ? 1. : R;
+  }
+
+
+
+  CoupledSystem::Residual CoupledSystem::evaluate(const ContactPointMode &mode)
+  {
+    Residual result;
+    do
+      {
+        update_configuration();
+        const dealii::TimerOutput::Scope t(timer, "contact");
+        if (!interface.evaluate(configuration, mode))
+          {
+            result.why = interface.describe_failure();
+            return result;
+          }
+      }
+    while (extend_contact_unknowns());
+
+    const dealii::TimerOutput::Scope t(timer, "bulk");
+    double           norm_squared = 0., interior_squared = 0.;
+    unsigned int     first = 0;
+    unsigned int     side  = 0;
+    for (Body *body : {&bone, &implant})
+      {
+        Eigen::VectorXd condensed;
+        const auto      part = body->residual(
+          configuration.side[side].frame.transpose() * interface.force(side), condensed);
+        if (!part.valid)
+          {
+            result.why = std::string("a cell of the ") + (side == 0 ? "bone" : "implant") +
+                         " is turned inside out";
+            return result;
+          }
+        residual.segment(first, body->n_unknowns()) = condensed;
+        norm_squared += part.norm_squared;
+        interior_squared += part.interior_squared;
+        first += body->n_unknowns();
+        ++side;
+      }
+
+    result.reference =
+      std::max(force_floor, interface.force(interface.slave_side()).norm());
+    const Chuck::Vector6 forces = chuck_forces();
+    for (const auto &[component, number] : configuration.chuck_unknowns)
+      {
+        const double load = chuck.machine_load(component);
+        residual[number]  = forces[component] - load;
+        norm_squared += std::pow(residual[number] / scale_of(component), 2);
+        result.reference =
+          std::max(result.reference, std::abs(load) / scale_of(component));
+      }
+    result.norm  = std::sqrt(norm_squared);
+    result.valid = std::isfinite(result.norm);
+    if (!result.valid)
+      result.why = "the residual is not finite";
+    result.interior_share = norm_squared > 0. ? interior_squared / norm_squared : 0.;
+    return result;
+  }
+
+
+
+  // Terms of the tangent that come from the rotation of the implant's frame and
+  // of lever arms with the unknown rotations of the chuck:
+  // (dQ^T/dq_k) f, f . (b_k x dx) and f . d^2x/dq_k dq_l.
+  void CoupledSystem::add_geometric_part(const Eigen::VectorXd &x,
+                                         Eigen::VectorXd       &y) const
+  {
+    const auto &side = configuration.side[1];
+    for (const auto &[k, row] : configuration.chuck_unknowns)
+      {
+        y[row] -= chuck.machine_stiffness(k) * x[row];
+        if (k < 3)
+          continue;
+        for (unsigned int A = 0; A < side.positions.cols(); ++A)
+          {
+            const Eigen::Vector3d f = interface.force(1).col(A);
+            const Eigen::Vector3d turned =
+              side.frame.transpose() * f.cross(chuck.axis(k));
+            for (unsigned int c = 0; c < 3; ++c)
+              {
+                const int number = side.unknown_of[3 * A + c];
+                if (number >= 0)
+                  {
+                    y[number] += turned[c] * x[row];
+                    y[row] += turned[c] * x[number];
+                  }
+              }
+            for (const auto &[l, column] : configuration.chuck_unknowns)
+              y[row] +=
+                f.dot(chuck.second_derivative(k, l, side.positions.col(A))) * x[column];
+          }
+      }
+  }
+
+
+
+  void CoupledSystem::apply(const Eigen::VectorXd &x, Eigen::VectorXd &y) const
+  {
+    const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
+    y.setZero(unknowns);
+    if (n_b > 0)
+      y.head(n_b).noalias() =
+        bone.schur_complement().selfadjointView<Eigen::Lower>() * x.head(n_b);
+    if (n_i > 0)
+      y.segment(n_b, n_i).noalias() =
+        implant.schur_complement().selfadjointView<Eigen::Lower>() * x.segment(n_b, n_i);
+    interface.apply_tangent(configuration, x, y);
+    add_geometric_part(x, y);
+  }
+
+
+
+  void CoupledSystem::assemble(Eigen::MatrixXd &matrix) const
+  {
+    const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
+    matrix.setZero(unknowns, unknowns);
+    if (n_b > 0)
+      matrix.topLeftCorner(n_b, n_b) = bone.schur_complement();
+    if (n_i > 0)
+      matrix.block(n_b, n_b, n_i, n_i) = implant.schur_complement();
+    interface.add_tangent(configuration, matrix);
+    Eigen::VectorXd unit = Eigen::VectorXd::Zero(unknowns), column(unknowns);
+    for (const auto &[k, number] : configuration.chuck_unknowns)
+      {
+        unit[number] = 1.;
+        column.setZero();
+        add_geometric_part(unit, column);
+        matrix.col(number) += column;
+        // the v-part of the border is symmetric
+        matrix.row(number).head(n_b + n_i) += column.head(n_b + n_i).transpose();
+        unit[number] = 0.;
+      }
+  }
+
+
+
+  bool CoupledSystem::is_unsupported() const
+  {
+    bool free_chuck = false;
+    for (const unsigned int k : chuck.unknowns())
+      free_chuck = free_chuck || chuck.machine_stiffness(k) == 0.;
+    return free_chuck && interface.force(1).isZero(0.) &&
+           interface.summarise().n_closed == 0;
+  }
+
+
+
+  bool CoupledSystem::solve_and_correct(const double relative_tolerance)
+  {
+    Eigen::VectorXd correction;
+    {
+      const dealii::TimerOutput::Scope t(timer, "dense solve");
+      correction = solver.solve(
+        residual,
+        [this](const Eigen::VectorXd &x, Eigen::VectorXd &y) { apply(x, y); },
+        [this](Eigen::MatrixXd &matrix) { assemble(matrix); },
+        relative_tolerance);
+    }
+    if (!correction.allFinite())
+      {
+        solver.forget();
+        return false;
+      }
+    const dealii::TimerOutput::Scope t(timer, "bulk");
+    const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
+    bone.correct(-correction.head(n_b));
+    implant.correct(-correction.segment(n_b, n_i));
+    for (const auto &[component, number] : configuration.chuck_unknowns)
+      chuck.correct(component, -correction[number]);
+    return true;
+  }
+
+
+
+  bool CoupledSystem::refactor_bulk()
+  {
+    const dealii::TimerOutput::Scope t(timer, "condensation");
+    solver.forget();
+    return bone.refactor() && implant.refactor();
+  }
+
+
+
+  std::string CoupledSystem::describe_worst_point() const
+  {
+    int          worst = 0;
+    const double value =
+      residual.size() > 0 ? residual.cwiseAbs().maxCoeff(&worst) : 0.;
+    std::ostringstream text;
+    for (unsigned int side = 0; side < 2; ++side)
+      {
+        const auto &numbers = configuration.side[side].unknown_of;
+        const auto  found   = std::find(numbers.begin(), numbers.end(), worst);
+        if (residual.size() > 0 && found != numbers.end())
+          {
+            const unsigned int index = found - numbers.begin();
+            const auto         x = configuration.side[side].positions.col(index / 3);
+            text << "residual " << value << " N in " << "xyz"[index % 3] << " at the "
+                 << (side == 0 ? "bone" : "implant") << "'s control point at (" << x[0]
+                 << ", " << x[1] << ", " << x[2] << ") mm";
+          }
+      }
+    for (const auto &[component, number] : configuration.chuck_unknowns)
+      if (number == static_cast<unsigned int>(worst))
+        text << "residual " << value << (component < 3 ? " N" : " N mm")
+             << " in the chuck's " << ChuckParameters::names[component];
+    return text.str();
+  }
+
+
+
+  Chuck::Vector6 CoupledSystem::chuck_forces() const
+  {
+    Chuck::Vector6 result = Chuck::Vector6::Zero();
+    const auto    &x      = configuration.side[1].positions;
+    for (unsigned int A = 0; A < x.cols(); ++A)
+      for (unsigned int k = 0; k < 6; ++k)
+        result[k] += interface.force(1).col(A).dot(chuck.velocity(k, x.col(A)));
+    return result;
+  }
+
+
+
+  Chuck::Vector6 CoupledSystem::chuck_resultant() const
+  {
+    Chuck::Vector6 result = Chuck::Vector6::Zero();
+    const auto    &x      = configuration.side[1].positions;
+    for (unsigned int A = 0; A < x.cols(); ++A)
+      {
+        const Eigen::Vector3d f = interface.force(1).col(A);
+        const Eigen::Vector3d r = x.col(A) - chuck.centre();
+        result.head<3>() += f;
+        result.tail<3>() += r.cross(f);
+      }
+    return result;
+  }
+
+
+
+  double CoupledSystem::reaction_defect()
+  {
+    if (!implant.deformable())
+      return 0.;
+    // in the implant's frame; a linear body balances moments with reference
+    // lever arms only
+    const Eigen::Vector3d C         = chuck.reference_centre();
+    const auto           &reference = implant.surface().control_points();
+    const auto            v         = implant.contact_displacement();
+    Chuck::Vector6        contact   = Chuck::Vector6::Zero();
+    for (unsigned int A = 0; A < reference.cols(); ++A)
+      {
+        const Eigen::Vector3d f =
+          chuck.rotation().transpose() * interface.force(1).col(A);
+        Eigen::Vector3d arm = reference.col(A) - C;
+        if (implant.material() == Material::neo_hookean)
+          arm += v.col(A);
+        contact.head<3>() += f;
+        contact.tail<3>() += arm.cross(f);
+      }
+    Chuck::Vector6 support    = implant.support_reaction(C);
+    Chuck::Vector6 difference = contact - support;
+    for (Chuck::Vector6 *resultant : {&contact, &support, &difference})
+      resultant->tail<3>() /= R;
+    return difference.norm() /
+           std::max({contact.norm(), support.norm(), force_floor});
+  }
+} // namespace Debond

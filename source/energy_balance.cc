@@ -1,0 +1,55 @@
+#include <debond/energy_balance.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Debond
+{
+  void EnergyBalance::add(const Chuck::Vector6 &forces,
+                          const Chuck::Vector6 &position,
+                          const double          energy_bulk,
+                          const double          energy_interface,
+                          const double          dissipation)
+  {
+    stored     = energy_bulk + energy_interface;
+    dissipated = dissipation;
+    if (started)
+      {
+        const Chuck::Vector6 dq = position - last_position;
+        W += 0.5 * (forces + last_forces).dot(dq);
+        bound += 0.5 * (forces - last_forces).cwiseAbs().dot(dq.cwiseAbs());
+        max_W = std::max(max_W, std::abs(W));
+      }
+    else
+      {
+        started          = true;
+        first_stored     = stored;
+        first_dissipated = dissipated;
+      }
+    last_forces   = forces;
+    last_position = position;
+  }
+
+
+
+  double EnergyBalance::defect() const
+  {
+    return max_W > 0. ?
+             (W - (stored - first_stored) - (dissipated - first_dissipated)) / max_W :
+             0.;
+  }
+
+
+
+  double EnergyBalance::defect_bound() const
+  {
+    return max_W > 0. ? bound / max_W : 0.;
+  }
+
+
+
+  bool EnergyBalance::dissipates_too_much() const
+  {
+    return dissipated - first_dissipated > W + bound + 1e-9 * max_W;
+  }
+} // namespace Debond

@@ -1,0 +1,252 @@
+#include <debond/enriched_cells.h>
+
+#include <Eigen/LU>
+
+#include <cmath>
+
+namespace Debond
+{
+  namespace
+  {
+    // Values and derivatives of the four bilinear functions on [-1,1]^2 in
+    // lexicographic order.
+    void bilinear(const double xi,
+                  const double eta,
+                  double (&L)[4],
+                  double (&L_xi)[4],
+                  double (&L_eta)[4])
+    {
+      for (unsigned int a = 0; a < 4; ++a)
+        {
+          const double s = (a % 2 == 0 ? -1. : 1.), t = (a / 2 == 0 ? -1. : 1.);
+          L[a]     = 0.25 * (1. + s * xi) * (1. + t * eta);
+          L_xi[a]  = 0.25 * s * (1. + t * eta);
+          L_eta[a] = 0.25 * t * (1. + s * xi);
+        }
+    }
+
+
+
+    // Values and derivatives with respect to (xi, eta, zeta).
+    void reference_shape(const BodyMesh              &mesh,
+                         const BodyMesh::Cell        &cell,
+                         const Eigen::Vector3d       &point,
+                         std::vector<double>          &N,
+                         std::vector<Eigen::Vector3d> &dN)
+    {
+      double L[4], L_xi[4], L_eta[4];
+      bilinear(point[0], point[1], L, L_xi, L_eta);
+      const double near = 0.5 * (1. - point[2]), far = 0.5 * (1. + point[2]);
+      N.clear();
+      dN.clear();
+      if (cell.enriched)
+        {
+          const auto bounds = mesh.surface().element_bounds(cell.surface_element);
+          const Eigen::Vector2d half = 0.5 * (bounds[1] - bounds[0]);
+          const Eigen::Vector2d parameter =
+            bounds[0] +
+            half.cwiseProduct(point.head<2>() + Eigen::Vector2d::Ones());
+          SurfaceBasis basis;
+          mesh.surface().evaluate_in_element(cell.surface_element,
+                                             parameter,
+                                             basis,
+                                             false);
+          for (unsigned int a = 0; a < basis.size; ++a)
+            {
+              N.push_back(near * basis.N[a]);
+              dN.emplace_back(near * basis.N_1[a] * half[0],
+                              near * basis.N_2[a] * half[1],
+                              -0.5 * basis.N[a]);
+            }
+          for (unsigned int a = 0; a < 4; ++a)
+            {
+              N.push_back(far * L[a]);
+              dN.emplace_back(far * L_xi[a], far * L_eta[a], 0.5 * L[a]);
+            }
+        }
+      else
+        for (unsigned int v = 0; v < 8; ++v)
+          {
+            const unsigned int a = v % 4;
+            const double       z = (v < 4 ? near : far);
+            N.push_back(z * L[a]);
+            dN.emplace_back(z * L_xi[a],
+                            z * L_eta[a],
+                            (v < 4 ? -0.5 : 0.5) * L[a]);
+          }
+    }
+  } // namespace
+
+
+
+  CellShape shape_functions(const BodyMesh        &mesh,
+                            const BodyMesh::Cell  &cell,
+                            const Eigen::Vector3d &point)
+  {
+    CellShape                    shape;
+    std::vector<Eigen::Vector3d> dN;
+    reference_shape(mesh, cell, point, shape.N, dN);
+
+    shape.X           = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d J = Eigen::Matrix3d::Zero(); // dX / d(xi, eta, zeta)
+    for (unsigned int a = 0; a < dN.size(); ++a)
+      {
+        const Eigen::Vector3d &X_a = mesh.reference_position(cell.nodes[a]);
+        shape.X += shape.N[a] * X_a;
+        J += X_a * dN[a].transpose();
+      }
+    // On top of the bone zeta points downwards: the determinant is negative
+    // there, which changes nothing but its sign.
+    shape.determinant               = std::abs(J.determinant());
+    const Eigen::Matrix3d J_inverse = J.inverse();
+    for (const auto &derivative : dN)
+      shape.gradient.push_back(J_inverse.transpose() * derivative);
+    return shape;
+  }
+
+
+
+  EnrichedCells::EnrichedCells(const BodyMesh &mesh, const NeoHookean &material)
+    : bulk_material(material)
+  {
+    const double gauss = 1. / std::sqrt(3.);
+    for (const auto &cell : mesh.cells())
+      {
+        const unsigned int n = cell.nodes.size();
+        n_cell_nodes.push_back(n);
+        first_node.push_back(node_list.size());
+        node_list.insert(node_list.end(), cell.nodes.begin(), cell.nodes.end());
+
+        const std::size_t offset = gradient_list.size();
+        gradient_list.resize(offset + 3 * n_q * n);
+        for (unsigned int q = 0; q < n_q; ++q)
+          {
+            const CellShape shape =
+              shape_functions(mesh,
+                              cell,
+                              gauss * Eigen::Vector3d(q & 1 ? 1 : -1,
+                                                      q & 2 ? 1 : -1,
+                                                      q & 4 ? 1 : -1));
+            JxW.push_back(shape.determinant); // all Gauss weights are 1
+            for (unsigned int a = 0; a < n; ++a)
+              for (unsigned int d = 0; d < 3; ++d)
+                gradient_list[offset + (3 * a + d) * n_q + q] =
+                  shape.gradient[a][d];
+          }
+      }
+  }
+
+
+
+  void EnrichedCells::gradient_at_points(const unsigned int     cell,
+                                         const Eigen::VectorXd &v,
+                                         double (&H)[3][3][n_q]) const
+  {
+    for (auto &row : H)
+      for (auto &entry : row)
+        for (double &value : entry)
+          value = 0.;
+    const double *G = gradients(cell);
+    for (unsigned int a = 0; a < n_cell_nodes[cell]; ++a, G += 3 * n_q)
+      {
+        const double *v_a = &v[3 * nodes(cell)[a]];
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int d = 0; d < 3; ++d)
+            for (unsigned int q = 0; q < n_q; ++q)
+              H[i][d][q] += v_a[i] * G[d * n_q + q];
+      }
+  }
+
+
+
+  bool EnrichedCells::internal_forces(const Eigen::VectorXd &v,
+                                      Eigen::VectorXd       &force,
+                                      double                &energy) const
+  {
+    energy            = 0.;
+    double smallest_J = 1.;
+    for (unsigned int cell = 0; cell < n_cells(); ++cell)
+      {
+        double H[3][3][n_q], P[3][3][n_q];
+        gradient_at_points(cell, v, H);
+        for (unsigned int q = 0; q < n_q; ++q)
+          {
+            double H_q[3][3], P_q[3][3];
+            for (unsigned int i = 0; i < 3; ++i)
+              for (unsigned int d = 0; d < 3; ++d)
+                H_q[i][d] = H[i][d][q];
+            bulk_material.stress(H_q, P_q);
+            const double weight = JxW[n_q * cell + q];
+            energy += bulk_material.energy(H_q) * weight;
+            smallest_J =
+              std::min(smallest_J, 1. + NeoHookean::volume_change(H_q));
+            for (unsigned int i = 0; i < 3; ++i)
+              for (unsigned int d = 0; d < 3; ++d)
+                P[i][d][q] = P_q[i][d] * weight;
+          }
+
+        const double *G = gradients(cell);
+        for (unsigned int a = 0; a < n_cell_nodes[cell]; ++a, G += 3 * n_q)
+          for (unsigned int i = 0; i < 3; ++i)
+            {
+              double f[n_q];
+              for (unsigned int q = 0; q < n_q; ++q)
+                f[q] = P[i][0][q] * G[q] + P[i][1][q] * G[n_q + q] +
+                       P[i][2][q] * G[2 * n_q + q];
+              force[3 * nodes(cell)[a] + i] += ((f[0] + f[1]) + (f[2] + f[3])) +
+                                               ((f[4] + f[5]) + (f[6] + f[7]));
+            }
+      }
+    return smallest_J > 0. && std::isfinite(energy);
+  }
+
+
+
+  void EnrichedCells::displacement_gradients(const unsigned int     cell,
+                                             const Eigen::VectorXd &v,
+                                             double (&H)[n_q][3][3]) const
+  {
+    double H_soa[3][3][n_q];
+    gradient_at_points(cell, v, H_soa);
+    for (unsigned int q = 0; q < n_q; ++q)
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int d = 0; d < 3; ++d)
+          H[q][i][d] = H_soa[i][d][q];
+  }
+
+
+
+  void EnrichedCells::tangent(const unsigned int     cell,
+                              const Eigen::VectorXd &v,
+                              Eigen::MatrixXd       &K) const
+  {
+    const unsigned int n = n_cell_nodes[cell];
+    K.setZero(3 * n, 3 * n);
+    double H[n_q][3][3];
+    displacement_gradients(cell, v, H);
+    // columns: dF_kL for a displacement of node b in direction k
+    Eigen::MatrixXd B(9, 3 * n);
+    for (unsigned int q = 0; q < n_q; ++q)
+      {
+        double C[9][9];
+        bulk_material.tangent(H[q], C);
+        B.setZero();
+        for (unsigned int a = 0; a < n; ++a)
+          for (unsigned int d = 0; d < 3; ++d)
+            for (unsigned int i = 0; i < 3; ++i)
+              B(3 * i + d, 3 * a + i) = gradients(cell)[(3 * a + d) * n_q + q];
+        const Eigen::Map<Eigen::Matrix<double, 9, 9, Eigen::RowMajor>> C_map(&C[0][0]);
+        K.noalias() += B.transpose() * (JxW[n_q * cell + q] * (C_map * B));
+      }
+  }
+
+
+
+  double EnrichedCells::volume() const
+  {
+    double sum = 0.;
+    for (const double weight : JxW)
+      sum += weight;
+    return sum;
+  }
+}

@@ -1,0 +1,140 @@
+#include <debond/allowed_values.h>
+#include <debond/load_stepping.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <cmath>
+#include <numeric>
+
+namespace Debond
+{
+  void
+  LoadSteppingParameters::declare(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Load steps");
+    prm.declare_entry("Times",
+                      "0, 1, 2",
+                      Allowed::numbers(2, 0, false, "time"),
+                      "First time and the ends of the phases, increasing. Time "
+                      "is a mere parameter of the load: nothing has inertia.");
+    prm.declare_entry("Steps",
+                      "1, 1000",
+                      Allowed::whole_numbers(1, 0),
+                      "Number of planned steps in each phase: one number less "
+                      "than Times.");
+    prm.declare_entry("Adaptive",
+                      "false",
+                      Allowed::choice("false", "true"),
+                      "Reserved: steps of a size chosen by the program. A step "
+                      "that does not converge is halved in any case.");
+    prm.declare_entry("Tolerance",
+                      "1e-3",
+                      Allowed::number_above(0, ""),
+                      "Relative accuracy wanted of the torque curve; used only "
+                      "where steps or models are chosen by the program.");
+    prm.declare_entry("Smallest step fraction",
+                      "1e-4",
+                      Allowed::number_between_excluding_lower(0, 1, ""),
+                      "Smallest step as a fraction of a planned step; if a "
+                      "smaller one were needed the run stops with an error.");
+    prm.declare_entry("Residual tolerance",
+                      "1e-8",
+                      Allowed::number_between_excluding_lower(0, 0.1, ""),
+                      "A step has converged when the residual is below this "
+                      "fraction of the contact force.");
+    prm.leave_subsection();
+  }
+
+
+
+  void
+  LoadSteppingParameters::parse(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Load steps");
+    times                  = to_numbers(prm.get("Times"));
+    steps                  = to_whole_numbers(prm.get("Steps"));
+    smallest_step_fraction = prm.get_double("Smallest step fraction");
+    residual_tolerance     = prm.get_double("Residual tolerance");
+    prm.leave_subsection();
+  }
+} // namespace Debond
+
+namespace Debond
+{
+  LoadStepping::LoadStepping(const LoadSteppingParameters &parameters)
+    : parameters(parameters)
+    , total_steps(
+        std::accumulate(parameters.steps.begin(), parameters.steps.end(), 0u))
+  {}
+
+
+
+  unsigned int LoadStepping::phase(const unsigned int step) const
+  {
+    unsigned int phase = 0;
+    for (unsigned int end = parameters.steps[0];
+         step > end && phase + 1 < parameters.steps.size();
+         end += parameters.steps[phase])
+      ++phase;
+    return phase;
+  }
+
+
+
+  double LoadStepping::time(const unsigned int step) const
+  {
+    if (step == 0)
+      return parameters.times[0];
+    const unsigned int p     = phase(step);
+    const unsigned int first = std::accumulate(parameters.steps.begin(),
+                                               parameters.steps.begin() + p,
+                                               0u);
+    if (step - first == parameters.steps[p])
+      return parameters.times[p + 1];
+    return parameters.times[p] + (parameters.times[p + 1] - parameters.times[p]) *
+                                   (step - first) / parameters.steps[p];
+  }
+
+
+
+  bool LoadStepping::begins_phase(const unsigned int step) const
+  {
+    return step <= 1 || phase(step) != phase(step - 1);
+  }
+
+
+
+  void LoadStepping::begin(const unsigned int step)
+  {
+    current = step;
+    done    = 0.;
+  }
+
+
+
+  double LoadStepping::target_time() const
+  {
+    if (done + size == 1.)
+      return time(current);
+    return time(current - 1) +
+           (time(current) - time(current - 1)) * (done + size);
+  }
+
+
+
+  void LoadStepping::accept()
+  {
+    done += size;
+    // twice as large if the step then still ends on its grid
+    if (size < 1. && std::fmod(done, 2. * size) == 0.)
+      size *= 2.;
+  }
+
+
+
+  bool LoadStepping::reject()
+  {
+    size *= 0.5;
+    return size >= parameters.smallest_step_fraction;
+  }
+} // namespace Debond

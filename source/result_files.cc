@@ -1,0 +1,211 @@
+#include <debond/allowed_values.h>
+#include <debond/input_error.h>
+#include <debond/result_files.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+namespace Debond
+{
+  void
+  OutputParameters::declare(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Output");
+    prm.declare_entry("Directory",
+                      "output/coin",
+                      Allowed::text("the name of a directory"),
+                      "Directory for the results, relative to the working "
+                      "directory; created if missing. One that holds results "
+                      "of another scene is refused without --force.");
+    prm.declare_entry("Fields every",
+                      "50",
+                      Allowed::whole_number(0, std::numeric_limits<int>::max()),
+                      "Number of planned steps between VTU files; 0: none.");
+    prm.declare_entry("Reference curve",
+                      "",
+                      Allowed::optional_text("the name of a CSV file"),
+                      "CSV file with the columns angle_deg,torque_Nmm to "
+                      "compare the torque curve with; empty: none.");
+    prm.declare_entry("Full sliding angle",
+                      "0",
+                      Allowed::number_from(0, "deg"),
+                      "Angle theta_full [deg] from which on E_fric is counted. "
+                      "0: the last angle with a torque of at least 0.999 of "
+                      "the largest.");
+    prm.declare_entry("Checkpoint every",
+                      "0",
+                      Allowed::only("0"),
+                      "Reserved: planned steps between checkpoints.");
+    prm.declare_entry("Console",
+                      "steps",
+                      Allowed::choice("steps | quiet"),
+                      "`steps': a line for each step, progress and timings. "
+                      "`quiet': warnings and errors only.");
+    prm.leave_subsection();
+  }
+
+
+
+  void
+  OutputParameters::parse(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Output");
+    directory          = prm.get("Directory");
+    fields_every       = prm.get_integer("Fields every");
+    reference_curve    = prm.get("Reference curve");
+    full_sliding_angle = prm.get_double("Full sliding angle");
+    console =
+      prm.get("Console") == "quiet" ? ConsoleKind::quiet : ConsoleKind::steps;
+    prm.leave_subsection();
+  }
+
+
+
+  void
+  write_file(const std::string &filename, const std::string &text)
+  {
+    const std::string temporary = filename + ".partial";
+    {
+      std::ofstream file(temporary, std::ios::binary);
+      file << text;
+      file.close();
+      if (!file)
+        throw InputError("cannot write '" + filename +
+                         "': " + std::strerror(errno));
+    }
+    if (std::rename(temporary.c_str(), filename.c_str()) != 0)
+      throw InputError("cannot write '" + filename +
+                       "': " + std::strerror(errno));
+  }
+
+
+
+  ResultDirectory::ResultDirectory(const OutputParameters &output,
+                                   const std::string      &completed_parameters)
+    : directory(output.directory)
+  {
+    while (directory.size() > 1 && directory.back() == '/')
+      directory.pop_back();
+    const std::string entry = "Output / Directory = '" + output.directory + "'";
+
+    std::error_code error;
+    std::filesystem::create_directories(directory, error);
+    if (error)
+      throw InputError(
+        entry + ": this directory cannot be created: " + error.message());
+
+    const std::string filename = file("parameters.prm");
+    if (std::filesystem::exists(filename, error) &&
+        !output.overwrite_other_results)
+      {
+        std::ostringstream existing;
+        existing << std::ifstream(filename, std::ios::binary).rdbuf();
+        if (existing.str() != completed_parameters)
+          throw InputError(entry +
+                           ": this directory holds results of another scene "
+                           "(compare its parameters.prm): choose another one, "
+                           "or overwrite them with --force");
+      }
+
+    try
+      {
+        write_file(filename, completed_parameters);
+      }
+    catch (const InputError &reason)
+      {
+        throw InputError(entry + ": " + reason.what());
+      }
+  }
+
+
+
+  namespace
+  {
+    std::string
+    quoted(const std::string &text)
+    {
+      std::string result = "\"";
+      for (const char c : text)
+        if (c == '"' || c == '\\')
+          result += std::string("\\") + c;
+        else if (c == '\n')
+          result += "\\n";
+        else if (c == '\t')
+          result += "\\t";
+        else if (static_cast<unsigned char>(c) < 32)
+          {
+            char code[8];
+            std::snprintf(code, sizeof(code), "\\u%04x", c);
+            result += code;
+          }
+        else
+          result += c;
+      return result + '"';
+    }
+  } // namespace
+
+
+
+  void
+  JsonObject::add(const std::string &name, const double value)
+  {
+    if (!std::isfinite(value))
+      return add_text(name, "null");
+    std::ostringstream number;
+    number.precision(12);
+    number << value;
+    add_text(name, number.str());
+  }
+
+
+
+  void
+  JsonObject::add(const std::string &name, const std::string &value)
+  {
+    add_text(name, quoted(value));
+  }
+
+
+
+  void
+  JsonObject::add(const std::string &name, const char *const value)
+  {
+    add_text(name, quoted(value));
+  }
+
+
+
+  void
+  JsonObject::add(const std::string              &name,
+                  const std::vector<std::string> &values)
+  {
+    std::string list;
+    for (const std::string &value : values)
+      list += (list.empty() ? "" : ", ") + quoted(value);
+    add_text(name, "[" + list + "]");
+  }
+
+
+
+  void
+  JsonObject::add_text(const std::string &name, const std::string &json)
+  {
+    members += (members.empty() ? "  " : ",\n  ") + quoted(name) + ": " + json;
+  }
+
+
+
+  std::string
+  JsonObject::text() const
+  {
+    return "{\n" + members + "\n}\n";
+  }
+} // namespace Debond

@@ -1,0 +1,20 @@
+#include <debond/runtime.h>
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/multithread_info.h>
+
+// Declared here because the headers of OpenBLAS declare LAPACK, too.
+extern "C" void
+openblas_set_num_threads(int n_threads);
+
+namespace Debond
+{
+  void
+  set_up_libraries()
+  {
+    dealii::deal_II_exceptions::disable_abort_on_exception();
+    dealii::deal_II_exceptions::suppress_stacktrace_in_exceptions();
+    dealii::MultithreadInfo::set_thread_limit(1);
+    openblas_set_num_threads(1);
+  }
+} // namespace Debond

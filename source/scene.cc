@@ -1,0 +1,362 @@
+#include <debond/allowed_values.h>
+#include <debond/scene.h>
+#include <debond/scene_entries.h>
+#include <debond/scene_file.h>
+#include <debond/time_function.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numeric>
+#include <ostream>
+#include <sstream>
+
+namespace Debond
+{
+  void
+  Scene::declare(dealii::ParameterHandler &prm)
+  {
+    prm.declare_entry("Title",
+                      "",
+                      Allowed::optional_text("any text"),
+                      "Title of the scene, for people.");
+    prm.declare_entry("Model",
+                      "finite elements",
+                      Allowed::choice("finite elements",
+                                      "foundation | analytical | mathieu | "
+                                      "auto"),
+                      "Model that is solved: two bodies of finite elements "
+                      "with an interface between them.");
+    prm.declare_entry("Task",
+                      "simulate",
+                      Allowed::choice("simulate", "calibrate"),
+                      "What to do with the model: run it once.");
+    BodyParameters::declare_bone(prm);
+    BodyParameters::declare_implant(prm);
+    InterfaceParameters::declare(prm);
+    ChuckParameters::declare(prm);
+    LoadSteppingParameters::declare(prm);
+    OutputParameters::declare(prm);
+  }
+
+
+
+  void
+  Scene::parse(dealii::ParameterHandler &prm)
+  {
+    title = prm.get("Title");
+    bone.parse_bone(prm);
+    implant.parse_implant(prm);
+    interface.parse(prm);
+    chuck.parse(prm);
+    load_steps.parse(prm);
+    output.parse(prm);
+  }
+
+
+
+  namespace
+  {
+    std::string
+    to_text(const double number)
+    {
+      std::ostringstream out;
+      out.precision(12);
+      out << number;
+      return out.str();
+    }
+
+
+
+    void
+    check_cells(const BodyParameters &body, const std::string &name)
+    {
+      const double n_cells =
+        static_cast<double>(body.cells[0]) * body.cells[1] * body.cells[2];
+      constexpr double largest_number = 2e6;
+      if (n_cells > largest_number)
+        throw InputError(name + " / Cells: " + to_text(n_cells) +
+                         " cells are more than this program can solve for, " +
+                         to_text(largest_number));
+
+      const double thinnest = std::pow(1. / body.cells[2], body.layer_grading);
+      if (thinnest < 1e-6)
+        throw InputError(
+          name + " / Layer grading = " + to_text(body.layer_grading) +
+          " makes the first of " + std::to_string(body.cells[2]) +
+          " layers thinner than a millionth of the body");
+    }
+
+
+
+    void
+    check_faces(const BodyParameters &bone, const BodyParameters &implant)
+    {
+      const bool is_coin = implant.shape == BodyShape::coin;
+      for (unsigned int d = 0; d < 2; ++d)
+        {
+          const double width = is_coin ? 2 * implant.radius : implant.size[d];
+          if (width > bone.size[d])
+            throw InputError(
+              std::string("Implant / ") + (is_coin ? "Radius" : "Size") +
+              ": the implant is " + to_text(width) + " mm wide in " + "xy"[d] +
+              ", wider than the bone below it (Bone / Size: " +
+              to_text(bone.size[d]) + " mm)");
+        }
+    }
+
+
+
+    void
+    check_bonding(const BondingParameters &bonding,
+                  const BodyParameters    &implant)
+    {
+      if (bonding.pattern == BondingPatternKind::homogeneous &&
+          bonding.bonded_fraction != 1)
+        throw InputError("Interface / Bonding / Bonded fraction = " +
+                         to_text(bonding.bonded_fraction) +
+                         " contradicts Pattern = homogeneous, which is bonded "
+                         "everywhere: use Pattern = disk, or Initial bonding "
+                         "for a lower degree of bonding");
+      if (bonding.pattern == BondingPatternKind::disk &&
+          implant.shape != BodyShape::coin)
+        throw InputError("Interface / Bonding / Pattern = 'disk' is defined "
+                         "for Implant / Shape = coin only");
+    }
+
+
+
+    void
+    check_times(const LoadSteppingParameters &load_steps)
+    {
+      const std::vector<double> &times = load_steps.times;
+      for (std::size_t i = 1; i < times.size(); ++i)
+        if (!(times[i] > times[i - 1]))
+          throw InputError("Load steps / Times: " + to_text(times[i]) +
+                           " after " + to_text(times[i - 1]) +
+                           ": times must increase");
+      if (load_steps.steps.size() + 1 != times.size())
+        throw InputError("Load steps / Steps: one number fewer than in Times "
+                         "is expected: " +
+                         std::to_string(times.size() - 1) + ", not " +
+                         std::to_string(load_steps.steps.size()));
+      const double n_steps =
+        std::accumulate(load_steps.steps.begin(), load_steps.steps.end(), 0.);
+      if (n_steps > 1e7)
+        throw InputError("Load steps / Steps: " + to_text(n_steps) +
+                         " steps are more than the 1e7 allowed");
+    }
+
+
+
+    /** The planned times, or an even choice of them if there are many; first
+     *  and last time of each phase included. */
+    std::vector<double>
+    sample_times(const LoadSteppingParameters &load_steps)
+    {
+      constexpr unsigned int largest_number = 1000;
+      const unsigned int     n_phases       = load_steps.steps.size();
+      const unsigned int     largest_in_phase =
+        std::max(1U, largest_number / n_phases);
+
+      std::vector<double> samples{load_steps.times[0]};
+      for (unsigned int phase = 0; phase < n_phases; ++phase)
+        {
+          const double       begin = load_steps.times[phase];
+          const double       end   = load_steps.times[phase + 1];
+          const unsigned int n =
+            std::min(load_steps.steps[phase], largest_in_phase);
+          for (unsigned int i = 1; i < n; ++i)
+            samples.push_back(begin + (end - begin) * i / n);
+          samples.push_back(end);
+        }
+      return samples;
+    }
+
+
+
+    /** Whether a component changes with time or carries a load; refuses
+     *  expressions that cannot be read or have no finite value. */
+    bool
+    check_component(const ChuckComponentParameters &component,
+                    const std::string              &name,
+                    const std::vector<double>      &times,
+                    const double                    radius)
+    {
+      if (component.loaded && component.stiffness != 0)
+        throw InputError(name +
+                         " / Stiffness has no effect where the machine "
+                         "prescribes a load: it is for Control = " +
+                         (name.find("Rotation") == std::string::npos ?
+                            "displacement" :
+                            "angle"));
+      try
+        {
+          const TimeFunction value(component.value, radius);
+          const double       first_value = value(times.front());
+          bool               varies      = false;
+          for (const double time : times)
+            varies = (value(time) != first_value) || varies;
+          return varies || (component.loaded && first_value != 0);
+        }
+      catch (const InputError &error)
+        {
+          throw InputError(name + " / Value: " + error.what());
+        }
+    }
+
+
+
+    void
+    check_chuck(const Scene &scene)
+    {
+      const std::vector<double> times  = sample_times(scene.load_steps);
+      const double              radius = scene.implant.characteristic_radius();
+      bool                      moves  = false;
+      for (unsigned int c = 0; c < ChuckParameters::n_components; ++c)
+        moves =
+          check_component(scene.chuck.component[c],
+                          std::string("Chuck / ") + ChuckParameters::names[c],
+                          times,
+                          radius) ||
+          moves;
+      if (!moves)
+        throw InputError("nothing moves in this scene: all six chuck "
+                         "components have constant values and none carries a "
+                         "load. Give for instance Chuck / Translation z / "
+                         "Value = -0.0049 * min(t, 1)");
+    }
+
+
+
+    void
+    check_friction(const FrictionParameters     &friction,
+                   const LoadSteppingParameters &load_steps)
+    {
+      if (friction.kind != FrictionLawKind::frictionless &&
+          friction.starts_at > load_steps.times.back())
+        throw InputError(
+          "Interface / Friction starts at = " + to_text(friction.starts_at) +
+          " is after the last of Load steps / Times: use "
+          "Friction law = frictionless if none is wanted");
+    }
+
+
+
+    void
+    check_output(const OutputParameters &output)
+    {
+      if (!output.reference_curve.empty() &&
+          !std::ifstream(output.reference_curve))
+        throw InputError("Output / Reference curve = '" +
+                         output.reference_curve +
+                         "': this file cannot be opened");
+    }
+  } // namespace
+
+
+
+  void
+  Scene::check() const
+  {
+    check_cells(bone, "Bone");
+    check_cells(implant, "Implant");
+    check_faces(bone, implant);
+    check_bonding(interface.bonding, implant);
+    check_times(load_steps);
+    check_friction(interface.friction, load_steps);
+    check_chuck(*this);
+    check_output(output);
+  }
+
+
+
+  namespace
+  {
+    /** Where the entry is set whose name @p message begins with; the name of
+     *  the scene if it is not set. */
+    std::string
+    place_of(const std::string             &message,
+             const std::vector<SceneEntry> &entries,
+             const std::string             &scene_name)
+    {
+      std::string place = scene_name;
+      for (const SceneEntry &entry : entries)
+        {
+          const std::string name = entry.full_name();
+          if (message.compare(0, name.size(), name) == 0 &&
+              (message.size() == name.size() || message[name.size()] == ' ' ||
+               message[name.size()] == ':'))
+            place = entry.place;
+        }
+      return place;
+    }
+
+
+
+    Scene
+    scene_from_entries(std::vector<SceneEntry>         entries,
+                       const std::vector<std::string> &overrides,
+                       const std::string              &name)
+    {
+      for (const std::string &override_text : overrides)
+        entries.push_back(read_override(override_text));
+
+      dealii::ParameterHandler prm;
+      Scene::declare(prm);
+      apply_entries(entries, prm);
+
+      Scene scene;
+      try
+        {
+          scene.parse(prm);
+          scene.check();
+        }
+      catch (const InputError &error)
+        {
+          throw InputError(place_of(error.what(), entries, name) + ": " +
+                           error.what());
+        }
+
+      std::ostringstream completed;
+      prm.print_parameters(completed,
+                           dealii::ParameterHandler::ShortPRM |
+                             dealii::ParameterHandler::KeepDeclarationOrder);
+      scene.completed_parameters = completed.str();
+      return scene;
+    }
+  } // namespace
+
+
+
+  Scene
+  Scene::from_file(const std::string              &filename,
+                   const std::vector<std::string> &overrides)
+  {
+    return scene_from_entries(read_scene_file(filename), overrides, filename);
+  }
+
+
+
+  Scene
+  Scene::from_text(const std::string              &text,
+                   const std::vector<std::string> &overrides,
+                   const std::string              &name)
+  {
+    return scene_from_entries(read_scene_text(text, name), overrides, name);
+  }
+
+
+
+  void
+  print_parameters(std::ostream &out, const Scene *scene)
+  {
+    dealii::ParameterHandler prm;
+    Scene::declare(prm);
+    if (scene != nullptr)
+      apply_entries(read_scene_text(scene->completed_parameters, "scene"), prm);
+    print_entries(prm, out);
+  }
+} // namespace Debond

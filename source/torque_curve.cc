@@ -1,0 +1,472 @@
+#include <debond/allowed_values.h>
+#include <debond/input_error.h>
+#include <debond/result_files.h>
+#include <debond/torque_curve.h>
+
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <locale>
+#include <sstream>
+
+namespace Debond
+{
+  namespace
+  {
+    using Columns = std::vector<std::pair<std::string, double>>;
+
+    /** Names and values of a row, in the order of the file. The first eighteen
+     *  are fixed: users' scripts count on them. */
+    Columns
+    columns(const TorqueRow &row)
+    {
+      Columns           result{{"step", row.step},
+                     {"time", row.time},
+                     {"angle_deg", row.angle_deg},
+                     {"torque_Nmm", row.torque_Nmm},
+                     {"force_N", row.force_N},
+                     {"pressure_MPa", row.pressure_MPa},
+                     {"phi_mean", row.phi_mean},
+                     {"share_stick", row.share_stick},
+                     {"share_slip", row.share_slip},
+                     {"share_open", row.share_open},
+                     {"newton_iterations", row.newton_iterations},
+                     {"energy_defect", row.energy_defect}};
+      const char *const reactions[] = {"chuck_Fx_N",
+                                       "chuck_Fy_N",
+                                       "chuck_Fz_N",
+                                       "chuck_Mx_Nmm",
+                                       "chuck_My_Nmm",
+                                       "chuck_Mz_Nmm"};
+      for (unsigned int k = 0; k < 6; ++k)
+        result.emplace_back(reactions[k], row.chuck_reaction[k]);
+
+      result.insert(result.end(),
+                    {{"work_Nmm", row.work_Nmm},
+                     {"energy_bulk_Nmm", row.energy_bulk_Nmm},
+                     {"energy_interface_Nmm", row.energy_interface_Nmm},
+                     {"dissipation_Nmm", row.dissipation_Nmm},
+                     {"adhesive_work_Nmm", row.adhesive_work_Nmm},
+                     {"energy_defect_bound", row.energy_defect_bound},
+                     {"reaction_defect", row.reaction_defect}});
+      const char *const positions[] = {"chuck_ux_mm",
+                                       "chuck_uy_mm",
+                                       "chuck_uz_mm",
+                                       "chuck_rx_deg",
+                                       "chuck_ry_deg",
+                                       "chuck_rz_deg"};
+      for (unsigned int k = 0; k < 6; ++k)
+        result.emplace_back(positions[k], row.chuck_position[k]);
+      return result;
+    }
+
+
+
+    /** Writes a whole line and pushes it to the disk. */
+    void
+    write_line(std::ofstream     &file,
+               const std::string &filename,
+               const std::string &line)
+    {
+      file << line << std::flush;
+      if (!file)
+        throw InputError("cannot write '" + filename +
+                         "': " + std::strerror(errno));
+    }
+  } // namespace
+
+
+
+  TorqueCurveWriter::TorqueCurveWriter(const ResultDirectory &directory)
+    : filename(directory.file("torque.csv"))
+    , file(filename, std::ios::binary)
+  {
+    std::string header;
+    for (const auto &column : columns(TorqueRow()))
+      header += (header.empty() ? "" : ",") + column.first;
+    write_line(file, filename, header + "\n");
+  }
+
+
+
+  void
+  TorqueCurveWriter::write(const TorqueRow &row)
+  {
+    std::ostringstream line;
+    line.imbue(std::locale::classic());
+    line.precision(12);
+    bool first = true;
+    for (const auto &column : columns(row))
+      {
+        line << (first ? "" : ",") << column.second;
+        first = false;
+      }
+    write_line(file, filename, line.str() + "\n");
+  }
+
+
+
+  namespace
+  {
+    /** Where in a file we are, for messages. */
+    struct LineOfReference
+    {
+      const std::string &filename;
+      unsigned int       number;
+
+      [[noreturn]] void
+      refuse(const std::string &message) const
+      {
+        throw InputError("Output / Reference curve = '" + filename +
+                         "', line " + std::to_string(number) + ": " + message);
+      }
+    };
+
+
+
+    /** Number of the column called @p name; refuses the line if there is none.
+     */
+    unsigned int
+    column_called(const std::string              &name,
+                  const std::vector<std::string> &header,
+                  const LineOfReference          &line)
+    {
+      const auto found = std::find(header.begin(), header.end(), name);
+      if (found == header.end())
+        line.refuse("the first line must name the columns, angle_deg and "
+                    "torque_Nmm among them; there is no '" +
+                    name + "'");
+      return found - header.begin();
+    }
+
+
+
+    double
+    number_in(const std::vector<std::string> &items,
+              const unsigned int              column,
+              const std::string              &name,
+              const LineOfReference          &line)
+    {
+      if (column >= items.size())
+        line.refuse("no value for " + name);
+      double value = 0;
+      if (!read_number(items[column], value))
+        line.refuse("'" + items[column] + "' is no number (" + name + ")");
+      return value;
+    }
+  } // namespace
+
+
+
+  ReferenceCurve
+  read_reference_curve(const std::string &filename)
+  {
+    ReferenceCurve curve;
+    if (filename.empty())
+      return curve;
+    const std::string entry = "Output / Reference curve = '" + filename + "'";
+    std::ifstream     file(filename);
+    if (!file)
+      throw InputError(entry +
+                       ": this file cannot be read: " + std::strerror(errno));
+
+    LineOfReference line{filename, 0};
+    std::string     text;
+    bool            has_header   = false;
+    unsigned int    angle_column = 0, torque_column = 0;
+    while (std::getline(file, text))
+      {
+        ++line.number;
+        if (line.number == 1 && text.compare(0, 3, "\xEF\xBB\xBF") == 0)
+          text.erase(0, 3); // the mark that spreadsheets begin a file with
+        text = dealii::Utilities::trim(text);
+        if (text.empty() || text[0] == '#')
+          continue;
+        const std::vector<std::string> items = split_list(text);
+        if (!has_header)
+          {
+            angle_column  = column_called("angle_deg", items, line);
+            torque_column = column_called("torque_Nmm", items, line);
+            has_header    = true;
+          }
+        else
+          curve.emplace_back(
+            number_in(items, angle_column, "angle_deg", line),
+            number_in(items, torque_column, "torque_Nmm", line));
+      }
+    if (curve.empty())
+      throw InputError(entry +
+                       ": this file holds no row of numbers; expected "
+                       "are a line angle_deg,torque_Nmm and rows below");
+    return curve;
+  }
+
+
+
+  namespace
+  {
+    using Rows = std::vector<TorqueRow>;
+
+    double
+    radians(const double degrees)
+    {
+      return degrees * dealii::numbers::PI / 180.;
+    }
+
+
+
+    /** How the angle runs over the rows. Changes that are rounding errors of a
+     *  chuck that is free to turn are no rotation. */
+    struct Rotation
+    {
+      double       tolerance = 0; ///< [deg]
+      double       direction = 0; ///< +1, -1; 0: nothing rotates
+      bool         reverses  = false;
+      unsigned int first_row = 0; ///< the first one with another angle
+
+      explicit Rotation(const Rows &rows)
+      {
+        if (rows.empty())
+          return;
+        const double start  = rows.front().angle_deg;
+        double       lowest = start, highest = start;
+        for (const TorqueRow &row : rows)
+          {
+            lowest  = std::min(lowest, row.angle_deg);
+            highest = std::max(highest, row.angle_deg);
+          }
+        tolerance = 1e-9 * std::max(1., highest - lowest);
+        if (!(highest - lowest > tolerance))
+          return;
+
+        while (std::abs(rows[first_row].angle_deg - start) <= tolerance)
+          ++first_row;
+        direction       = (rows[first_row].angle_deg > start ? 1. : -1.);
+        double furthest = direction * start;
+        for (const TorqueRow &row : rows)
+          {
+            reverses =
+              reverses || direction * row.angle_deg < furthest - tolerance;
+            furthest = std::max(furthest, direction * row.angle_deg);
+          }
+      }
+
+      bool
+      is_one_way() const
+      {
+        return direction != 0. && !reverses;
+      }
+    };
+
+
+
+    /** The last angle with |T| >= 0.999 T_max, linear between rows. Unlike the
+     *  angle of the maximum itself, around which the curve is flat, it is a
+     *  well-conditioned quantity. */
+    double
+    last_angle_near_maximum(const Rows &rows, const double T_max)
+    {
+      const double threshold = 0.999 * T_max;
+      unsigned int i         = rows.size() - 1;
+      while (std::abs(rows[i].torque_Nmm) < threshold)
+        --i; // ends at the row of T_max
+      if (i + 1 == rows.size())
+        return rows[i].angle_deg;
+      const double sign  = (rows[i].torque_Nmm < 0. ? -1. : 1.);
+      const double above = sign * rows[i].torque_Nmm;
+      const double below = sign * rows[i + 1].torque_Nmm;
+      return rows[i].angle_deg + (above - threshold) / (above - below) *
+                                   (rows[i + 1].angle_deg - rows[i].angle_deg);
+    }
+
+
+
+    /** Eqs. (20) and (21). */
+    void
+    measure_energies(const Rows          &rows,
+                     const Rotation      &rotation,
+                     const CurveSettings &settings,
+                     CurveMeasures       &measures)
+    {
+      double E_deb = 0; // [N mm], as all energies here
+      for (unsigned int i = 0; i + 1 < rows.size(); ++i)
+        E_deb += 0.5 * (rows[i].torque_Nmm + rows[i + 1].torque_Nmm) *
+                 radians(rows[i + 1].angle_deg - rows[i].angle_deg);
+      measures.E_deb_Nm = 1e-3 * E_deb;
+
+      measures.theta_full_deg =
+        settings.full_sliding_angle_deg > 0. ?
+          rotation.direction * settings.full_sliding_angle_deg :
+          last_angle_near_maximum(rows, measures.T_max_Nmm);
+      const double sliding_deg =
+        rows.back().angle_deg - measures.theta_full_deg;
+      if (rotation.direction * sliding_deg < -rotation.tolerance)
+        return; // full sliding was not reached
+      const double E_fric = measures.T_inf_Nmm * radians(sliding_deg);
+      const double W_adh  = E_deb - E_fric;
+      measures.E_fric_Nm  = 1e-3 * E_fric;
+      measures.W_adh_Nm   = 1e-3 * W_adh;
+
+      // 1 N mm / mm^2 = 1000 N / m
+      measures.w_adh_star_N_per_m = 1e3 * W_adh / settings.contact_area_mm2;
+      if (settings.mean_phi_0 > 0.)
+        measures.w_adh_N_per_m =
+          measures.w_adh_star_N_per_m / settings.mean_phi_0;
+    }
+
+
+
+    /** Torque at an angle, linear between rows of a rotation that does not
+     *  reverse; NaN outside. */
+    double
+    torque_at(const Rows &rows, const Rotation &rotation, double angle_deg)
+    {
+      const double s = rotation.direction;
+      // the last row's angle went from degrees to radians and back
+      if (std::abs(angle_deg - rows.back().angle_deg) <= rotation.tolerance)
+        angle_deg = rows.back().angle_deg;
+      for (unsigned int i = 0; i + 1 < rows.size(); ++i)
+        {
+          const double begin = rows[i].angle_deg, end = rows[i + 1].angle_deg;
+          if (s * begin <= s * angle_deg && s * angle_deg <= s * end &&
+              begin != end)
+            return rows[i].torque_Nmm +
+                   (angle_deg - begin) / (end - begin) *
+                     (rows[i + 1].torque_Nmm - rows[i].torque_Nmm);
+        }
+      return CurveMeasures::undefined;
+    }
+
+
+
+    /** Eqs. (19) and (50). Rows of the reference with next to no torque would
+     *  dominate a relative error and are left out. */
+    void
+    measure_errors(const Rows           &rows,
+                   const Rotation       &rotation,
+                   const ReferenceCurve &reference,
+                   CurveMeasures        &measures)
+    {
+      double largest = 0;
+      for (const auto &[angle_deg, torque_Nmm] : reference)
+        largest = std::max(largest, std::abs(torque_Nmm));
+
+      double       sum_mp = 0, sum_rel = 0;
+      unsigned int n = 0;
+      for (const auto &[angle_deg, T_reference] : reference)
+        {
+          const double T = torque_at(rows, rotation, angle_deg);
+          if (angle_deg > 0. && std::abs(T_reference) > 0.01 * largest &&
+              std::isfinite(T))
+            {
+              sum_mp += std::abs((T - T_reference) / T_reference);
+              sum_rel += std::abs(T - T_reference) / measures.T_max_Nmm;
+              ++n;
+            }
+        }
+      measures.reference_rows_used = n;
+      if (n > 0)
+        {
+          measures.e_mp  = sum_mp / n;
+          measures.e_rel = sum_rel / n;
+        }
+    }
+
+
+
+    /** Pressure at the end of the last phase before the angle first changes. */
+    double
+    pressure_before_rotation(const Rows                &rows,
+                             const Rotation            &rotation,
+                             const std::vector<double> &phase_times)
+    {
+      const unsigned int last =
+        rotation.direction == 0. ? rows.size() - 1 : rotation.first_row - 1;
+      for (unsigned int i = last; i > 0; --i)
+        for (const double time : phase_times)
+          if (std::abs(rows[i].time - time) <=
+              1e-9 * (phase_times.back() - phase_times.front()))
+            return rows[i].pressure_MPa;
+      // no phase ends before: the first row, or what there is without rotation
+      return rows[rotation.direction == 0. ? last : 0].pressure_MPa;
+    }
+  } // namespace
+
+
+
+  CurveMeasures
+  measure_torque_curve(const std::vector<TorqueRow> &rows,
+                       const CurveSettings          &settings)
+  {
+    CurveMeasures measures;
+    if (rows.empty())
+      return measures;
+
+    const Rotation   rotation(rows);
+    const TorqueRow *peak          = &rows.front();
+    measures.largest_energy_defect = measures.largest_reaction_defect = 0;
+    for (const TorqueRow &row : rows)
+      {
+        if (std::abs(row.torque_Nmm) > std::abs(peak->torque_Nmm))
+          peak = &row;
+        measures.largest_energy_defect =
+          std::max(measures.largest_energy_defect, std::abs(row.energy_defect));
+        measures.largest_reaction_defect =
+          std::max(measures.largest_reaction_defect, row.reaction_defect);
+      }
+    measures.T_max_Nmm = std::abs(peak->torque_Nmm);
+    measures.T_inf_Nmm = rows.back().torque_Nmm;
+    measures.pressure_MPa =
+      pressure_before_rotation(rows, rotation, settings.phase_times);
+    measures.D_adh_Nm       = 1e-3 * rows.back().adhesive_work_Nmm;
+    measures.dissipation_Nm = 1e-3 * rows.back().dissipation_Nmm;
+    if (rotation.is_one_way())
+      {
+        measures.theta_max_deg = peak->angle_deg;
+        measure_energies(rows, rotation, settings, measures);
+        measure_errors(rows, rotation, settings.reference, measures);
+      }
+    return measures;
+  }
+
+
+
+  void
+  add_summary(const RunSummary &summary, JsonObject &json)
+  {
+    const CurveMeasures &m = summary.measures;
+    json.add("T_max_Nmm", m.T_max_Nmm);
+    json.add("theta_max_deg", m.theta_max_deg);
+    json.add("theta_full_deg", m.theta_full_deg);
+    json.add("T_inf_Nmm", m.T_inf_Nmm);
+    json.add("pressure_MPa", m.pressure_MPa);
+    json.add("E_deb_Nm", m.E_deb_Nm);
+    json.add("E_fric_Nm", m.E_fric_Nm);
+    json.add("W_adh_Nm", m.W_adh_Nm);
+    json.add("w_adh_N_per_m", m.w_adh_N_per_m);
+    json.add("w_adh_star_N_per_m", m.w_adh_star_N_per_m);
+    json.add("D_adh_Nm", m.D_adh_Nm);
+    json.add("dissipation_Nm", m.dissipation_Nm);
+    json.add("e_mp", m.e_mp);
+    json.add("e_rel", m.e_rel);
+    json.add("steps", summary.steps);
+    json.add("newton_iterations", summary.newton_iterations);
+    json.add("dofs", summary.dofs);
+    json.add("unknowns", summary.unknowns);
+    json.add("wall_seconds", summary.wall_seconds);
+    json.add("converged", summary.converged);
+    json.add("reason", summary.reason);
+    json.add("warnings", summary.warnings);
+
+    json.add("condensed_unknowns", summary.condensed_unknowns);
+    json.add("reference_rows_used", m.reference_rows_used);
+    json.add("largest_energy_defect", m.largest_energy_defect);
+    json.add("largest_reaction_defect", m.largest_reaction_defect);
+    for (const auto &[name, seconds] : summary.seconds)
+      json.add("seconds_" + name, seconds);
+  }
+} // namespace Debond

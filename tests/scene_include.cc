@@ -1,0 +1,50 @@
+// A scene may include another and set its entries again; files that include
+// each other, or that set again what the including file has set, are refused.
+
+#include <debond/scene.h>
+
+#include <fstream>
+#include <iostream>
+
+namespace
+{
+  void
+  show(const std::string &text)
+  {
+    try
+      {
+        const Debond::Scene scene = Debond::Scene::from_text(text);
+        std::cout << scene.title << ", " << scene.bone.young_modulus << '\n';
+      }
+    catch (const Debond::InputError &error)
+      {
+        std::cout << error.what() << '\n';
+      }
+  }
+} // namespace
+
+
+
+int
+main()
+{
+  std::ofstream("base.prm") << "set Title = base\r\n"
+                               "subsection Bone\n"
+                               "  set Young modulus = \\\n"
+                               "    21000\n"
+                               "end\n"
+                               "subsection Chuck\n"
+                               "  subsection Rotation z\n"
+                               "    set Value = t\n"
+                               "  end\n"
+                               "end\n";
+  std::ofstream("loop.prm") << "include loop_back.prm\n";
+  std::ofstream("loop_back.prm") << "include loop.prm\n";
+
+  show("include base.prm\n");
+  show("include base.prm\nset Title = derived\n");
+  show("include base.prm\nset Title = derived\nset Title = twice\n");
+  show("set Title = first\ninclude base.prm\n");
+  show("include base.prm\ninclude base.prm\n");
+  show("include loop.prm\n");
+}

@@ -1,0 +1,339 @@
+// Runs a scene and checks its results against what comments in the scene
+// expect, reading the result files as a user would:
+//
+//   # expect: T_max_Nmm = 50.32 within 0.1 %  (where the number is from)
+//   # expect: converged = 1 within 0
+//   # expect: T_max_Nmm below 60
+//   # expect: T_max_Nmm above 40
+//   # expect: torque_Nmm at angle_deg 0.05 = 31.32 within 0.15 %
+//   # expect: torque_Nmm at angle_deg 0.05 above 31
+//   # expect: energy_defect max below 1e-3
+//   # run: --set "Implant/Cells=12, 2" --set "Bone/Material=rigid"
+//
+// A name alone is a key of summary.json (true counts as 1). `at COLUMN VALUE`
+// is the last row of torque.csv with that value in that column, `max` the
+// largest absolute value in a column. A tolerance without % is absolute. Prints
+// a line for each expectation; the exit code says only whether the scene could
+// be run.
+
+#include <debond/debonding_problem.h>
+#include <debond/runtime.h>
+#include <debond/scene.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <regex>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace
+{
+  /** What makes an expectation fail other than a wrong number. */
+  using Problem = std::runtime_error;
+
+
+
+  std::string
+  contents_of(const std::string &filename)
+  {
+    std::ifstream file(filename);
+    if (!file)
+      throw Problem("cannot open " + filename);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+
+
+
+  double
+  to_number(const std::string &text)
+  {
+    std::size_t end   = 0;
+    double      value = 0;
+    try
+      {
+        value = std::stod(text, &end);
+      }
+    catch (const std::exception &)
+      {
+        end = 0;
+      }
+    if (end == 0 || end != text.size())
+      throw Problem("'" + text + "' is no number");
+    return value;
+  }
+
+
+
+  struct Table
+  {
+    std::vector<std::string>         columns;
+    std::vector<std::vector<double>> rows;
+
+    std::size_t
+    column(const std::string &name) const
+    {
+      const auto position = std::find(columns.begin(), columns.end(), name);
+      if (position == columns.end())
+        throw Problem("torque.csv has no column " + name);
+      return position - columns.begin();
+    }
+  };
+
+
+
+  std::vector<std::string>
+  split_at_commas(const std::string &line)
+  {
+    std::vector<std::string> items;
+    std::istringstream       text(line);
+    std::string              item;
+    while (std::getline(text, item, ','))
+      items.push_back(item);
+    return items;
+  }
+
+
+
+  Table
+  read_table(const std::string &filename)
+  {
+    std::istringstream lines(contents_of(filename));
+    std::string        line;
+    Table              table;
+    std::getline(lines, line);
+    table.columns = split_at_commas(line);
+    while (std::getline(lines, line))
+      {
+        std::vector<double> row;
+        for (const std::string &item : split_at_commas(line))
+          row.push_back(to_number(item));
+        if (row.size() != table.columns.size())
+          throw Problem(filename + " has a row of another length");
+        table.rows.push_back(row);
+      }
+    return table;
+  }
+
+
+
+  /** The numbers and booleans of a flat JSON object. */
+  std::map<std::string, double>
+  read_summary(const std::string &filename)
+  {
+    const std::string text = contents_of(filename);
+    const std::regex  member(
+      "\"([^\"]+)\"\\s*:\\s*(true|false|[-+0-9.eE]+)\\s*[,}\\n]");
+    std::map<std::string, double> summary;
+    for (std::sregex_iterator i(text.begin(), text.end(), member), end;
+         i != end;
+         ++i)
+      {
+        const std::string value = (*i)[2];
+        summary[(*i)[1]]        = value == "true"  ? 1. :
+                                  value == "false" ? 0. :
+                                                     to_number(value);
+      }
+    return summary;
+  }
+
+
+
+  struct Results
+  {
+    Table                         table;
+    std::map<std::string, double> summary;
+  };
+
+
+
+  double
+  value_at_row(const Table       &table,
+               const std::string &name,
+               const std::string &where,
+               const double       position)
+  {
+    const std::size_t column       = table.column(name);
+    const std::size_t where_column = table.column(where);
+    const double      tolerance    = 1e-9 * std::max(1., std::abs(position));
+    for (auto row = table.rows.rbegin(); row != table.rows.rend(); ++row)
+      if (std::abs((*row)[where_column] - position) <= tolerance)
+        return (*row)[column];
+    throw Problem("torque.csv has no such row");
+  }
+
+
+
+  double
+  largest_value(const Table &table, const std::string &name)
+  {
+    const std::size_t column = table.column(name);
+    double            result = 0;
+    for (const auto &row : table.rows)
+      result = std::max(result, std::abs(row[column]));
+    return result;
+  }
+
+
+
+  /** Reads the part of an expectation that names a value. */
+  double
+  value_of(std::istream &words, const Results &results)
+  {
+    std::string name, next, where, position;
+    words >> name;
+    const auto beginning = words.tellg();
+    words >> next;
+    if (next == "max")
+      return largest_value(results.table, name);
+    if (next == "at")
+      {
+        words >> where >> position;
+        return value_at_row(results.table, name, where, to_number(position));
+      }
+    words.seekg(beginning);
+    if (results.summary.count(name) == 0)
+      throw Problem("summary.json has no number " + name);
+    return results.summary.at(name);
+  }
+
+
+
+  /** Whether @p value is as the rest of the expectation says. */
+  bool
+  is_met(const double value, std::istream &words)
+  {
+    std::string relation, bound, within, tolerance, percent, rest;
+    words >> relation >> bound;
+    const double number = to_number(bound);
+    bool         result = false;
+    if (relation == "below")
+      result = value < number;
+    else if (relation == "above")
+      result = value > number;
+    else if (relation == "=" && words >> within >> tolerance &&
+             within == "within")
+      {
+        const bool is_relative = static_cast<bool>(words >> percent);
+        if (is_relative && percent != "%")
+          throw Problem("cannot read this expectation");
+        const double unit = is_relative ? 0.01 * std::abs(number) : 1.;
+        result = std::abs(value - number) <= to_number(tolerance) * unit;
+      }
+    else
+      throw Problem("cannot read this expectation");
+    if (words >> rest)
+      throw Problem("cannot read this expectation");
+    return result;
+  }
+
+
+
+  /** The line about one expectation. */
+  std::string
+  verdict(const std::string &expectation, const Results &results)
+  {
+    std::istringstream words(expectation.substr(0, expectation.find('(')));
+    try
+      {
+        const double value = value_of(words, results);
+        if (is_met(value, words))
+          return "ok: " + expectation;
+        std::ostringstream line;
+        line.precision(8);
+        line << "FAILED: " << expectation << ": got " << value;
+        return line.str();
+      }
+    catch (const Problem &problem)
+      {
+        return "FAILED: " + expectation + ": " + problem.what();
+      }
+  }
+
+
+
+  /** What follows @p keyword in comment lines of the scene. */
+  std::vector<std::string>
+  comments(const std::string &scene_text, const std::string &keyword)
+  {
+    const std::regex   line_pattern("\\s*#\\s*" + keyword + ":\\s*(.*?)\\s*");
+    std::istringstream lines(scene_text);
+    std::string        line;
+    std::smatch        match;
+    std::vector<std::string> result;
+    while (std::getline(lines, line))
+      if (std::regex_match(line, match, line_pattern))
+        result.push_back(match[1]);
+    return result;
+  }
+
+
+
+  /** The arguments of `--set` in the `run` comments. */
+  std::vector<std::string>
+  overrides(const std::string &scene_text)
+  {
+    std::vector<std::string> result;
+    const std::regex         option("--set\\s+(\"([^\"]*)\"|(\\S+))");
+    for (const std::string &line : comments(scene_text, "run"))
+      for (std::sregex_iterator i(line.begin(), line.end(), option), end;
+           i != end;
+           ++i)
+        result.push_back((*i)[2].matched ? (*i)[2] : (*i)[3]);
+    result.push_back("Output/Console=quiet");
+    return result;
+  }
+
+
+
+  void
+  check(const std::string &scene_file)
+  {
+    const std::string scene_text = contents_of(scene_file);
+    Debond::Scene     scene =
+      Debond::Scene::from_file(scene_file, overrides(scene_text));
+    scene.output.overwrite_other_results = true;
+    Debond::DebondingProblem problem(scene);
+    problem.run();
+
+    const Results results{read_table(scene.output.directory + "/torque.csv"),
+                          read_summary(scene.output.directory +
+                                       "/summary.json")};
+    const std::vector<std::string> expectations =
+      comments(scene_text, "expect");
+    for (const std::string &expectation : expectations)
+      std::cout << verdict(expectation, results) << '\n';
+    if (expectations.empty())
+      std::cout << "FAILED: the scene expects nothing\n";
+  }
+} // namespace
+
+
+
+int
+main(int argc, char *argv[])
+{
+  Debond::set_up_libraries();
+  if (argc != 2)
+    {
+      std::cerr << "usage: check_scene SCENE.prm\n";
+      return 1;
+    }
+  try
+    {
+      check(argv[1]);
+      return 0;
+    }
+  catch (const std::exception &error)
+    {
+      std::cout << error.what() << std::endl;
+      return 1;
+    }
+}

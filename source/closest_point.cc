@@ -27,6 +27,9 @@ namespace Debond
     constexpr unsigned int max_starts    = 8; // of the global search
     constexpr double       smallest_step = 1e-14;
 
+    // Keeps a surface shrunk to a point from a 0/0; its square is a number too.
+    constexpr double least_curvature = 1e-100;
+
     using Bounds = std::array<Eigen::Vector2d, 2>;
 
     struct Problem
@@ -126,10 +129,9 @@ namespace Debond
       if (H.is_positive())
         return H;
 
-      // The least number keeps a surface shrunk to a point from a 0/0.
       const double shift =
         1e-8 * (s.geometry.a1.squaredNorm() + s.geometry.a2.squaredNorm()) +
-        std::numeric_limits<double>::min();
+        least_curvature;
       const double det = std::abs(H.determinant());
       const double m11 = H.h11 * H.h11 + H.h12 * H.h12;
       const double m22 = H.h22 * H.h22 + H.h12 * H.h12;
@@ -237,10 +239,9 @@ namespace Debond
               (c == 0 ? s.geometry.a11 : s.geometry.a22);
             const double first  = a.squaredNorm();
             const double newton = first - s.r.dot(aa);
-            const double h      = newton > 1e-8 * first ?
-                                    newton :
-                                    first + std::numeric_limits<double>::min();
-            step[c]             = std::clamp(-g[c] / h, lower[c], upper[c]);
+            const double h =
+              newton > 1e-8 * first ? newton : first + least_curvature;
+            step[c] = std::clamp(-g[c] / h, lower[c], upper[c]);
           }
       return step;
     }

@@ -201,9 +201,18 @@ namespace Debond
       dealii::Utilities::int_to_string(series.files.size(), 4) + ".vtu";
     write_file(directory.file(name), vtu);
     series.files.emplace_back(time, name);
+
+    // deal.II's write_pvd_record() would add the date
     std::ostringstream record;
     record.precision(12);
-    dealii::DataOutBase::write_pvd_record(record, series.files);
+    record << "<?xml version=\"1.0\"?>\n"
+              "<VTKFile type=\"Collection\" version=\"0.1\">\n"
+              "  <Collection>\n";
+    for (const auto &[file_time, file] : series.files)
+      record << "    <DataSet timestep=\"" << file_time << "\" file=\"" << file
+             << "\"/>\n";
+    record << "  </Collection>\n"
+              "</VTKFile>\n";
     write_file(directory.file(series.name + ".pvd"), record.str());
   }
 

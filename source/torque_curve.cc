@@ -102,7 +102,7 @@ namespace Debond
     bool first = true;
     for (const auto &column : columns(row))
       {
-        line << (first ? "" : ",") << column.second;
+        line << (first ? "" : ",") << column.second + 0.; // no "-0"
         first = false;
       }
     write_line(file, filename, line.str() + "\n");

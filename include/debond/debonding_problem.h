@@ -44,12 +44,17 @@ namespace Debond
   private:
     struct Run;
 
-    void set_up();
-    void solve_first_row();
-    void solve_planned_step(unsigned int step);
-    unsigned int solve_sub_step(double time, bool extrapolate);
-    void accept_row(unsigned int step, unsigned int iterations);
-    void finish(bool converged, const std::string &reason);
+    void         set_up();
+    void         solve_first_row();
+    void         solve_planned_step(unsigned int step);
+    /** Tries one sub-step; returns the Newton iterations spent, and whether it
+     *  was accepted in @p accepted. */
+    unsigned int try_sub_step(double time, bool extrapolate, bool &accepted);
+    void         accept(double time);
+    void         check_accepted_state();
+    void         write_row(unsigned int step, unsigned int iterations);
+    void         write_fields(unsigned int step);
+    void         finish(bool converged, const std::string &reason);
 
     const Scene          scene;
     std::unique_ptr<Run> state;

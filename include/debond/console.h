@@ -1,0 +1,42 @@
+#ifndef debond_console_h
+#define debond_console_h
+
+#include <debond/result_files.h>
+#include <debond/torque_curve.h>
+
+#include <chrono>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace Debond
+{
+  /** What a run says on its standard output: one line a step, a line of
+   *  progress that is overwritten if the output is a terminal, warnings. */
+  class Console
+  {
+  public:
+    Console(ConsoleKind kind, std::ostream &out);
+
+    void headline(const std::string &text);
+    /** The row of @p n_steps planned ones that was just accepted. */
+    void row(const TorqueRow &row, unsigned int n_steps);
+    /** Printed, with the step, the first time only; kept for the summary. */
+    void warn(const std::string &key, const std::string &text);
+    const std::vector<std::string> &warnings() const { return warning_texts; }
+    std::ostream &stream() { return out; }
+    bool          quiet() const { return kind == ConsoleKind::quiet; }
+
+  private:
+    void erase_progress();
+    void show_progress(unsigned int step, unsigned int n_steps);
+
+    const ConsoleKind        kind;
+    std::ostream            &out;
+    const bool               on_terminal;
+    bool                     progress_shown = false, columns_named = false;
+    std::vector<std::string> warning_keys, warning_texts;
+    const std::chrono::steady_clock::time_point start;
+  };
+}
+#endif

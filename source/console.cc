@@ -1,0 +1,92 @@
+#include <debond/console.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+
+namespace Debond
+{
+  Console::Console(const ConsoleKind kind, std::ostream &out)
+    : kind(kind)
+    , out(out)
+    , on_terminal(&out == &std::cout && isatty(STDOUT_FILENO))
+    , start(std::chrono::steady_clock::now())
+  {}
+
+
+
+  void Console::erase_progress()
+  {
+    if (progress_shown)
+      out << "\r\033[K";
+    progress_shown = false;
+  }
+
+
+
+  void Console::headline(const std::string &text)
+  {
+    if (!quiet())
+      out << text << std::endl;
+  }
+
+
+
+  void Console::row(const TorqueRow &row, const unsigned int n_steps)
+  {
+    if (quiet())
+      return;
+    erase_progress();
+    if (!columns_named)
+      out << "   step  angle/deg  torque/Nmm  pressure/MPa  slipping/%  iterations\n";
+    columns_named = true;
+    char line[120];
+    // + 0. turns a negative zero into zero
+    std::snprintf(line,
+                  sizeof(line),
+                  "%7u %10.4f %11.4f %13.4f %11.1f %11u\n",
+                  row.step,
+                  row.angle_deg + 0.,
+                  row.torque_Nmm + 0.,
+                  row.pressure_MPa + 0.,
+                  100. * row.share_slip,
+                  row.newton_iterations);
+    out << line;
+    if (on_terminal)
+      show_progress(row.step, n_steps);
+  }
+
+
+
+  void Console::show_progress(const unsigned int step, const unsigned int n_steps)
+  {
+    const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (step == 0 || step == n_steps)
+      return;
+    const double left = seconds * (n_steps - step) / step;
+    char         line[120];
+    std::snprintf(line,
+                  sizeof(line),
+                  "%5.1f %% done, %.0f s so far, about %.0f s to go",
+                  100. * step / n_steps,
+                  seconds,
+                  left);
+    out << line << std::flush;
+    progress_shown = true;
+  }
+
+
+
+  void Console::warn(const std::string &key, const std::string &text)
+  {
+    if (std::find(warning_keys.begin(), warning_keys.end(), key) != warning_keys.end())
+      return;
+    warning_keys.push_back(key);
+    warning_texts.push_back(text);
+    erase_progress();
+    out << "warning: " << text << std::endl;
+  }
+} // namespace Debond

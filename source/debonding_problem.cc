@@ -1,0 +1,435 @@
+#include <debond/closed_forms.h>
+#include <debond/console.h>
+#include <debond/coupled_system.h>
+#include <debond/debonding_problem.h>
+#include <debond/energy_balance.h>
+#include <debond/field_output.h>
+#include <debond/newton.h>
+
+#include <deal.II/base/timer.h>
+
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+
+namespace Debond
+{
+  /** Everything that lives as long as a run. */
+  struct DebondingProblem::Run
+  {
+    explicit Run(const Scene &scene)
+      : console(scene.output.console, std::cout)
+      , timer(std::cout,
+              dealii::TimerOutput::never,
+              dealii::TimerOutput::wall_times)
+      , stepping(scene.load_steps)
+    {}
+
+    Console                            console;
+    dealii::TimerOutput                timer;
+    dealii::Timer                      wall_clock;
+    LoadStepping                       stepping;
+    std::unique_ptr<ResultDirectory>   directory;
+    std::unique_ptr<CoupledSystem>     system;
+    std::unique_ptr<TorqueCurveWriter> torque_writer;
+    std::unique_ptr<FieldOutput>       field_output;
+    ReferenceCurve                     reference;
+    EnergyBalance                      energy;
+
+    std::vector<TorqueRow> rows;
+    double                 time              = 0; ///< of the accepted state
+    unsigned int           accepted_steps    = 0; ///< sub-steps included
+    unsigned int           newton_iterations = 0;
+    unsigned int           step              = 0; ///< planned step at work
+    std::string            last_failure;
+  };
+
+
+
+  DebondingProblem::DebondingProblem(const Scene &scene)
+    : scene(scene)
+    , state(std::make_unique<Run>(scene))
+  {}
+
+  DebondingProblem::~DebondingProblem() = default;
+
+  const std::vector<TorqueRow> &DebondingProblem::rows() const
+  {
+    return state->rows;
+  }
+
+
+
+  void DebondingProblem::run()
+  {
+    set_up();
+    try
+      {
+        solve_first_row();
+        for (unsigned int step = 1; step <= state->stepping.n_steps(); ++step)
+          solve_planned_step(step);
+      }
+    catch (const std::exception &error)
+      {
+        finish(false, error.what());
+        throw;
+      }
+    finish(true, "all planned steps are done");
+  }
+
+
+
+  namespace
+  {
+    std::string unknowns_of(const CoupledSystem &system)
+    {
+      std::ostringstream text;
+      text << system.bone.mesh().n_dofs_as_published() +
+                system.implant.mesh().n_dofs_as_published()
+           << " degrees of freedom, "
+           << system.bone.mesh().n_unknowns() + system.implant.mesh().n_unknowns()
+           << " of them unknowns, " << system.n_unknowns()
+           << " after condensation on the contact surfaces";
+      return text.str();
+    }
+  } // namespace
+
+
+
+  void DebondingProblem::set_up()
+  {
+    state->directory =
+      std::make_unique<ResultDirectory>(scene.output, scene.completed_parameters);
+    state->reference = read_reference_curve(scene.output.reference_curve);
+    state->torque_writer = std::make_unique<TorqueCurveWriter>(*state->directory);
+    {
+      const dealii::TimerOutput::Scope t(state->timer, "set-up");
+      state->system = std::make_unique<CoupledSystem>(scene, state->timer);
+    }
+    state->system->start(state->stepping.time(0));
+    if (scene.output.fields_every > 0)
+      state->field_output = std::make_unique<FieldOutput>(*state->directory,
+                                                          state->system->bone,
+                                                          state->system->implant,
+                                                          state->system->interface,
+                                                          state->system->chuck);
+    if (!scene.title.empty())
+      state->console.headline(scene.title);
+    state->console.headline(unknowns_of(*state->system));
+  }
+
+
+
+  // Row 0: the state at the first time, solved like a step.
+  void DebondingProblem::solve_first_row()
+  {
+    bool               accepted   = false;
+    const double       time       = state->stepping.time(0);
+    state->time                   = time;
+    const unsigned int iterations = try_sub_step(time, false, accepted);
+    if (!accepted)
+      throw RunError("The state at the first time, " + std::to_string(time) +
+                     ", could not be found: " + state->last_failure);
+    accept(time);
+    write_row(0, iterations);
+    write_fields(0);
+  }
+
+
+
+  void DebondingProblem::solve_planned_step(const unsigned int step)
+  {
+    LoadStepping &stepping   = state->stepping;
+    unsigned int  iterations = 0;
+    state->step              = step;
+    // a new phase is not the continuation of the last one
+    bool extrapolate = !stepping.begins_phase(step);
+    for (stepping.begin(step); !stepping.finished();)
+      {
+        const double time     = stepping.target_time();
+        bool         accepted = false;
+        iterations += try_sub_step(time, extrapolate, accepted);
+        if (!accepted && extrapolate) // the prediction may be to blame
+          iterations += try_sub_step(time, false, accepted);
+        if (accepted)
+          {
+            accept(time);
+            stepping.accept();
+            extrapolate = true;
+          }
+        else if (!stepping.reject())
+          {
+            std::ostringstream message;
+            message << "Step " << step << " of " << stepping.n_steps()
+                    << " failed at time " << time << ", angle "
+                    << state->system->chuck.position()[5] * 180. / M_PI
+                    << " deg, with the smallest allowed part of a step: "
+                    << state->last_failure;
+            throw RunError(message.str());
+          }
+      }
+    write_row(step, iterations);
+    write_fields(step);
+  }
+
+
+
+  unsigned int DebondingProblem::try_sub_step(const double time,
+                                              const bool   extrapolate,
+                                              bool        &accepted)
+  {
+    CoupledSystem &system = *state->system;
+    NewtonOptions  options;
+    options.residual_tolerance = scene.load_steps.residual_tolerance;
+    options.stick_first        = !extrapolate;
+    options.touch_tolerance    = 1e-12 * system.R;
+    options.frictionless       = state->time < scene.interface.friction.starts_at;
+    system.predict(time, extrapolate);
+    const NewtonResult result = solve_newton(system, options);
+    state->newton_iterations += result.iterations;
+    accepted = result.converged;
+    if (!accepted)
+      {
+        state->last_failure = result.why;
+        system.rollback();
+      }
+    return result.iterations;
+  }
+
+
+
+  void DebondingProblem::accept(const double time)
+  {
+    check_accepted_state();
+    CoupledSystem &system           = *state->system;
+    const double   energy_interface = system.interface.summarise().energy;
+    system.commit(time);
+    state->energy.add(system.chuck_forces(),
+                      system.chuck.position(),
+                      system.bone.energy() + system.implant.energy(),
+                      energy_interface,
+                      system.interface.dissipation());
+    state->time = time;
+    ++state->accepted_steps;
+    if (state->energy.dissipates_too_much())
+      state->console.warn("dissipation",
+                          "more energy is dissipated than was put in: the steps "
+                          "are too large for the energy balance to be trusted");
+  }
+
+
+
+  // What a user has to know about a state that is about to be accepted.
+  void DebondingProblem::check_accepted_state()
+  {
+    CoupledSystem    &system  = *state->system;
+    const auto        summary = system.interface.summarise();
+    const std::string where   = "step " + std::to_string(state->step) + ": ";
+    if (summary.max_softening >= 1.)
+      state->console.warn("uniqueness",
+                          where +
+                            "the friction law softens faster than the interface is "
+                            "stiff (|d mu/d g_s| p / eps_t >= 1): its local solution "
+                            "is not unique");
+    if (summary.bonded_opened > 0)
+      state->console.warn(
+        "opening",
+        where + "bonded points open (" + std::to_string(summary.bonded_opened) +
+          "): the law has no strength in tension, so that pulling costs nothing" +
+          (scene.interface.opening_breaks_bond ? "" :
+                                                 ", and points that close again are "
+                                                 "bonded as before"));
+    if (system.reaction_defect() > 1e-6)
+      {
+        std::ostringstream text;
+        text << where << "contact forces and the reaction of the implant's top differ by "
+             << system.reaction_defect() << " of the larger";
+        state->console.warn("reaction", text.str());
+      }
+  }
+
+
+
+  void DebondingProblem::write_row(const unsigned int step,
+                                   const unsigned int iterations)
+  {
+    CoupledSystem        &system   = *state->system;
+    const auto            summary  = system.interface.summarise();
+    const Chuck::Vector6 &q        = system.chuck.position();
+    const Chuck::Vector6  reaction = system.chuck_resultant();
+
+    TorqueRow row;
+    row.step         = step;
+    row.time         = state->time;
+    row.angle_deg    = q[5] * 180. / M_PI;
+    row.torque_Nmm   = system.chuck_forces()[5];
+    row.force_N      = -reaction[2];
+    row.pressure_MPa = row.force_N / system.interface.implant_area();
+    row.phi_mean     = summary.phi_mean;
+    row.share_stick  = summary.share_stick;
+    row.share_slip   = summary.share_slip;
+    row.share_open   = summary.share_open;
+    row.newton_iterations    = iterations;
+    row.energy_defect        = state->energy.defect();
+    row.work_Nmm             = state->energy.work();
+    row.energy_bulk_Nmm      = system.bone.energy() + system.implant.energy();
+    row.energy_interface_Nmm = summary.energy;
+    row.dissipation_Nmm      = system.interface.dissipation();
+    row.adhesive_work_Nmm    = system.interface.adhesive_work();
+    row.energy_defect_bound  = state->energy.defect_bound();
+    row.reaction_defect      = system.reaction_defect();
+    for (unsigned int k = 0; k < 6; ++k)
+      {
+        row.chuck_reaction[k] = reaction[k];
+        row.chuck_position[k] = q[k] * (k < 3 ? 1. : 180. / M_PI);
+      }
+    state->rows.push_back(row);
+
+    const dealii::TimerOutput::Scope t(state->timer, "output");
+    state->torque_writer->write(row);
+    state->console.row(row, state->stepping.n_steps());
+  }
+
+
+
+  void DebondingProblem::write_fields(const unsigned int step)
+  {
+    if (!state->field_output)
+      return;
+    const bool last = (step == state->stepping.n_steps());
+    if (step % scene.output.fields_every == 0 || last)
+      {
+        const dealii::TimerOutput::Scope t(state->timer, "output");
+        state->field_output->write(state->time);
+      }
+  }
+
+
+
+  void DebondingProblem::finish(const bool converged, const std::string &reason)
+  {
+    const CoupledSystem &system = *state->system;
+    CurveSettings        settings;
+    settings.contact_area_mm2       = scene.implant.shape == BodyShape::coin ?
+                                        M_PI * scene.implant.radius * scene.implant.radius :
+                                        system.interface.implant_area();
+    settings.mean_phi_0             = system.interface.mean_initial_bonding();
+    settings.full_sliding_angle_deg = scene.output.full_sliding_angle;
+    settings.phase_times            = scene.load_steps.times;
+    settings.reference              = state->reference;
+
+    RunSummary summary;
+    summary.measures          = measure_torque_curve(state->rows, settings);
+    summary.steps             = state->accepted_steps;
+    summary.newton_iterations = state->newton_iterations;
+    summary.dofs              = system.bone.mesh().n_dofs_as_published() +
+                   system.implant.mesh().n_dofs_as_published();
+    summary.unknowns =
+      system.bone.mesh().n_unknowns() + system.implant.mesh().n_unknowns();
+    summary.condensed_unknowns = system.n_unknowns();
+    summary.converged          = converged;
+    summary.reason             = reason;
+    summary.warnings           = state->console.warnings();
+    for (const auto &[section, seconds] :
+         state->timer.get_summary_data(dealii::TimerOutput::total_wall_time))
+      summary.seconds.emplace_back(section, seconds);
+    summary.wall_seconds = state->wall_clock.wall_time();
+
+    JsonObject json;
+    add_summary(summary, json);
+    write_file(state->directory->file("summary.json"), json.text());
+    if (converged && !state->console.quiet())
+      state->timer.print_summary();
+  }
+
+
+
+  namespace
+  {
+    // Stiffness of the two half spaces' disk-shaped parts of the surface per
+    // area, [MPa/mm]: pressed (rigid punch) and twisted (Reissner-Sagoci), the
+    // implant as a bar of its height.
+    double in_series(const double a, const double b, const double c)
+    {
+      return 1. / (1. / a + 1. / b + 1. / c);
+    }
+
+    double compliance_free(const BodyParameters &body, const double stiffness)
+    {
+      return body.material == Material::rigid ?
+               std::numeric_limits<double>::infinity() :
+               stiffness;
+    }
+
+
+
+    void print_forecast(const Scene &scene, std::ostream &out)
+    {
+      const double          R       = scene.implant.radius;
+      const BodyParameters &bone    = scene.bone;
+      const BodyParameters &implant = scene.implant;
+      const double G_b = bone.young_modulus / (2. * (1. + bone.poisson_ratio));
+      const double G_i = implant.young_modulus / (2. * (1. + implant.poisson_ratio));
+      const double k_n = in_series(
+        scene.interface.normal_penalty,
+        compliance_free(bone,
+                        2. * bone.young_modulus /
+                          ((1. - std::pow(bone.poisson_ratio, 2)) * M_PI * R)),
+        compliance_free(implant, implant.young_modulus / implant.height));
+      const double k_t =
+        in_series(scene.interface.tangential_penalty,
+                  compliance_free(bone, 32. * G_b / (3. * M_PI * R)),
+                  compliance_free(implant, G_i / implant.height));
+
+      const Chuck  chuck(scene.chuck, Eigen::Vector3d::Zero(), R);
+      const auto   last = chuck.values(scene.load_steps.times.back());
+      const double p =
+        scene.chuck.component[2].loaded ? -last[2] / (M_PI * R * R) : -last[2] * k_n;
+      out << "Closed forms foretell (bodies as springs in series with the interface, "
+             "to some 5 %):\n"
+          << "  mean pressure at the end " << p << " MPa, force " << p * M_PI * R * R
+          << " N\n"
+          << "  torsional stiffness while everything sticks "
+          << 0.5 * M_PI * std::pow(R, 4) * k_t << " N mm/rad\n";
+      RigidBodiesTorsion::Parameters parameters;
+      parameters.radius             = R;
+      parameters.push_in            = p / k_n;
+      parameters.normal_penalty     = k_n;
+      parameters.tangential_penalty = k_t;
+      parameters.phi_0              = scene.interface.bonding.initial_bonding *
+                         scene.interface.bonding.bonded_fraction;
+      parameters.friction = scene.interface.friction;
+      if (p <= 0. || scene.chuck.component[5].loaded || last[5] == 0.)
+        return;
+      if (!RigidBodiesTorsion::has_unique_solution(parameters))
+        {
+          out << "  the friction law softens too fast for a unique solution\n";
+          return;
+        }
+      const RigidBodiesTorsion form(parameters);
+      double                   T_max = 0.;
+      for (unsigned int i = 1; i <= 1000; ++i)
+        T_max = std::max(T_max, std::abs(form.torque(last[5] * i / 1000)));
+      out << "  largest torque " << T_max << " N mm, at the end "
+          << form.torque(last[5]) << " N mm\n";
+    }
+  } // namespace
+
+
+
+  void DebondingProblem::check(std::ostream &out)
+  {
+    CoupledSystem system(scene, state->timer);
+    system.start(state->stepping.time(0));
+    out << unknowns_of(system) << '\n'
+        << system.interface.n_points() << " slave quadrature points on the "
+        << (system.interface.slave_side() == 1 ? "implant" : "bone")
+        << ", mean phi_0 " << system.interface.mean_initial_bonding() << '\n'
+        << state->stepping.n_steps() << " planned steps from time "
+        << scene.load_steps.times.front() << " to " << scene.load_steps.times.back()
+        << '\n';
+    if (scene.implant.shape == BodyShape::coin)
+      print_forecast(scene, out);
+  }
+} // namespace Debond

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 
@@ -43,14 +44,17 @@ namespace Debond
       out << "   step  angle/deg  torque/Nmm  pressure/MPa  slipping/%  iterations\n";
     columns_named = true;
     char line[120];
-    // + 0. turns a negative zero into zero
+    // no negative zeros
+    const auto rounded = [](const double value) {
+      return std::abs(value) < 5e-5 ? 0. : value;
+    };
     std::snprintf(line,
                   sizeof(line),
                   "%7u %10.4f %11.4f %13.4f %11.1f %11u\n",
                   row.step,
-                  row.angle_deg + 0.,
-                  row.torque_Nmm + 0.,
-                  row.pressure_MPa + 0.,
+                  rounded(row.angle_deg),
+                  rounded(row.torque_Nmm),
+                  rounded(row.pressure_MPa),
                   100. * row.share_slip,
                   row.newton_iterations);
     out << line;

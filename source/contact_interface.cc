@@ -141,10 +141,13 @@ namespace Debond
           for (unsigned int a = 0; a < points[q].basis.size; ++a)
             X += points[q].basis.N[a] * mesh[0]->surface().control_points().col(
                                           points[q].basis.control_point[a]);
-          const ClosestPoint faced =
-            closest_point(mesh[1]->surface(), mesh[1]->surface().control_points(), X);
-          points[q].faces_implant = faced.is_orthogonal;
-          points[q].phi_0         = faced.is_orthogonal ? pattern.at(faced.xi) : 0.;
+          const NurbsSurface &implant = mesh[1]->surface();
+          const ClosestPoint  faced =
+            project({&implant, &implant.control_points(), mesh[1]->outward_sign()},
+                    X,
+                    nullptr,
+                    points[q].faces_implant);
+          points[q].phi_0 = points[q].faces_implant ? pattern.at(faced.xi) : 0.;
         }
   }
 
@@ -159,28 +162,6 @@ namespace Debond
         sum += basis.N[a] * nodes.col(basis.control_point[a]);
       return sum;
     }
-
-
-
-    // Axis-parallel box around a surface (its control points), a little wider.
-    struct BoundingBox
-    {
-      Eigen::Vector3d lower, upper;
-
-      explicit BoundingBox(const ControlNet &positions)
-        : lower(positions.rowwise().minCoeff())
-        , upper(positions.rowwise().maxCoeff())
-      {
-        const double margin = 0.1 * (upper - lower).norm();
-        lower.array() -= margin;
-        upper.array() += margin;
-      }
-
-      bool contains(const Eigen::Vector3d &x) const
-      {
-        return (x.array() >= lower.array()).all() && (x.array() <= upper.array()).all();
-      }
-    };
   } // namespace
 
 
@@ -195,18 +176,42 @@ namespace Debond
 
 
 
+  void ContactInterface::project_accepted(Point                        &point,
+                                          const MasterSurface          &master,
+                                          const InterfaceConfiguration &configuration,
+                                          const bool use_guess) const
+  {
+    const ClosestPoint closest =
+      project(master,
+              interpolate(point.basis, configuration.side[slave].positions),
+              use_guess ? &point.accepted.xi : nullptr,
+              point.accepted.has_partner);
+    point.accepted.xi = closest.xi;
+    point.clearance   = closest.distance;
+  }
+
+
+
+  // Every point of a surface is a convex combination of control points.
+  double ContactInterface::motion(const InterfaceConfiguration &configuration) const
+  {
+    double sum = 0.;
+    for (unsigned int side = 0; side < 2; ++side)
+      sum += (configuration.side[side].positions - accepted_positions[side])
+               .colwise()
+               .norm()
+               .maxCoeff();
+    return sum;
+  }
+
+
+
   void ContactInterface::initialise(const InterfaceConfiguration &configuration)
   {
-    const MasterSurface surface = master(configuration);
+    for (unsigned int side = 0; side < 2; ++side)
+      accepted_positions[side] = configuration.side[side].positions;
     for (Point &point : points)
-      {
-        const ClosestPoint closest = closest_point(
-          *surface.surface,
-          *surface.positions,
-          interpolate(point.basis, configuration.side[slave].positions));
-        point.accepted.xi          = closest.xi;
-        point.accepted.has_partner = closest.converged && closest.is_orthogonal;
-      }
+      project_accepted(point, master(configuration), configuration, false);
   }
 
 
@@ -215,22 +220,25 @@ namespace Debond
                                   const ContactPointMode       &mode)
   {
     const MasterSurface surface = master(configuration);
-    const BoundingBox   box(*surface.positions);
+    const double        moved   = motion(configuration);
     for (ControlNet &force : forces)
       force.setZero();
     failed_point     = -1;
     frictionless_now = mode.frictionless;
     for (unsigned int q = 0; q < points.size(); ++q)
       {
-        Point                &point = points[q];
-        const Eigen::Vector3d x =
-          interpolate(point.basis, configuration.side[slave].positions);
-        if (!point.accepted.has_partner && !box.contains(x))
+        Point &point = points[q];
+        if (!point.accepted.has_partner && point.clearance > moved)
           {
-            point.trial       = ContactPointResult();
-            point.trial.state = point.accepted;
+            // still beyond the edge: open
+            point.trial.state    = point.accepted;
+            point.trial.pressure = point.trial.normal_gap = point.trial.softening = 0.;
+            point.trial.traction = point.trial.tangential_traction =
+              point.trial.slip_increment = Eigen::Vector3d::Zero();
             continue;
           }
+        const Eigen::Vector3d x =
+          interpolate(point.basis, configuration.side[slave].positions);
         update_contact_point(
           law, point.accepted, point.phi_0, x, surface, mode, point.trial);
         if (point.trial.failed && failed_point < 0)
@@ -507,9 +515,17 @@ namespace Debond
   {
     const MasterSurface    surface = master(configuration);
     const Eigen::Matrix3d &Q       = configuration.side[master_side()].frame;
-    const double mu_broken = parameters.friction.mu_broken;
+    const double           mu_broken = parameters.friction.mu_broken;
+    const double           moved     = motion(configuration);
+    for (unsigned int side = 0; side < 2; ++side)
+      accepted_positions[side] = configuration.side[side].positions;
     for (Point &point : points)
       {
+        if (!point.accepted.has_partner && point.clearance > moved)
+          {
+            point.clearance -= moved;
+            continue;
+          }
         const ContactPointResult &trial = point.trial;
         const double strength =
           frictionless_now ?
@@ -525,15 +541,7 @@ namespace Debond
         point.accepted_traction          = Q.transpose() * trial.tangential_traction;
         point.accepted_adhesive_strength = strength;
         if (point.accepted.status == PointStatus::open)
-          {
-            const ClosestPoint closest = closest_point(
-              *surface.surface,
-              *surface.positions,
-              interpolate(point.basis, configuration.side[slave].positions),
-              &point.accepted.xi);
-            point.accepted.xi          = closest.xi;
-            point.accepted.has_partner = closest.converged && closest.is_orthogonal;
-          }
+          project_accepted(point, surface, configuration, true);
       }
   }
 

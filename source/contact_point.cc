@@ -373,12 +373,33 @@ namespace Debond
     {
       if (state.has_partner)
         return true;
-      const ClosestPoint closest = closest_point(*master.surface, *master.positions, x);
-      state.xi                   = closest.xi;
-      state.has_partner          = closest.converged && closest.is_orthogonal;
+      state.xi = project(master, x, nullptr, state.has_partner).xi;
       return state.has_partner;
     }
   } // namespace
+
+
+
+  ClosestPoint project(const MasterSurface   &master,
+                       const Eigen::Vector3d &x,
+                       const Eigen::Vector2d *guess,
+                       bool                  &faces)
+  {
+    const ClosestPoint closest =
+      closest_point(*master.surface, *master.positions, x, guess);
+    faces = closest.converged && closest.is_orthogonal;
+    if (faces)
+      {
+        SurfaceBasis    basis;
+        SurfaceGeometry geometry;
+        master.surface->evaluate(closest.xi, basis, false);
+        contract(basis, *master.positions, false, geometry);
+        constexpr double smallest_angle = 0.01; // between the tangents
+        faces = geometry.a1.cross(geometry.a2).norm() >
+                smallest_angle * geometry.a1.norm() * geometry.a2.norm();
+      }
+    return closest;
+  }
 
 
 
@@ -432,11 +453,10 @@ namespace Debond
     SlipOutcome outcome = problem.solve(start.xi, result);
     if (outcome == SlipOutcome::not_found)
       {
-        const ClosestPoint closest =
-          closest_point(*master.surface, *master.positions, x, &start.xi);
+        bool               faces;
+        const ClosestPoint closest = project(master, x, &start.xi, faces);
         if (closest.converged)
-          outcome = closest.is_orthogonal ? problem.solve(closest.xi, result) :
-                                            SlipOutcome::left_patch;
+          outcome = faces ? problem.solve(closest.xi, result) : SlipOutcome::left_patch;
       }
     if (outcome == SlipOutcome::solved && problem.normal_gap() < 0.)
       {

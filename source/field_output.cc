@@ -427,6 +427,20 @@ namespace Debond
 
 
 
+    /** Gap of a point that faces the master, 0 of one that does not: the
+     *  distance to the nearest border is no gap. An open point with a negative
+     *  gap is beyond the border, too. */
+    double
+    gap_to_partner(const ContactPointResult &result)
+    {
+      const bool is_open = (result.state.status == PointStatus::open);
+      return is_open && (!result.state.has_partner || result.normal_gap < 0.) ?
+               0. :
+               result.normal_gap;
+    }
+
+
+
     /** All interpolated fields of a quadrature point, one after the other. */
     std::vector<double>
     point_values(const ContactInterface        &interface,
@@ -436,7 +450,7 @@ namespace Debond
       std::vector<double>       values{point.trial.pressure};
       append_values(values, -point.trial.tangential_traction);
       values.insert(values.end(),
-                    {point.trial.normal_gap,
+                    {gap_to_partner(point.trial),
                      point.trial.state.slip,
                      point.phi_0,
                      friction.phi,

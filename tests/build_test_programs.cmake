@@ -1,4 +1,7 @@
-# Builds all test programs, called with -DBINARY_DIR=...
+# Builds all test programs and removes what earlier tests left behind, called with -DBINARY_DIR=...
+#
+# What is left behind must go: the runner would not run a test again after a change of its scene (it knows only of the
+# program), and the program refuses a directory with results of another scene.
 #
 # Each compiled test of deal.II has a source interrupt_guard.cc; its runner takes one that is in place for the trace of
 # an interrupted test and compiles everything again, and puts it aside, with the suffix _bck, after each test. So put
@@ -16,6 +19,13 @@ execute_process(COMMAND ${CMAKE_COMMAND} --build ${BINARY_DIR} --target test_pro
 file(GLOB_RECURSE guards "${BINARY_DIR}/tests/interrupt_guard.cc")
 foreach(guard ${guards})
   file(RENAME "${guard}" "${guard}_bck")
+endforeach()
+
+foreach(leftover output failing_output diff failing_diff results)
+  file(GLOB leftovers "${BINARY_DIR}/tests/*/${leftover}" "${BINARY_DIR}/tests/*/*/${leftover}")
+  if(leftovers)
+    file(REMOVE_RECURSE ${leftovers})
+  endif()
 endforeach()
 
 if(NOT result EQUAL 0)

@@ -111,6 +111,9 @@ namespace Debond
       double          JxW   = 0; ///< reference area [mm^2]
       double          phi_0 = 0;
       ContactPointState  accepted;
+      /** For points beyond the master's edge: how far the surfaces may still
+       *  move before such a point has to be projected again [mm]. */
+      double             clearance = 0;
       /** Tangential traction of the accepted state in the master's frame [MPa]. */
       Eigen::Vector3d    accepted_traction = Eigen::Vector3d::Zero();
       double             accepted_adhesive_strength = 0; ///< (mu - mu_b) p [MPa]
@@ -154,6 +157,13 @@ namespace Debond
   private:
     void make_points();
     void assign_bonding();
+    void project_accepted(Point                        &point,
+                          const MasterSurface          &master,
+                          const InterfaceConfiguration &configuration,
+                          bool                          use_guess) const;
+    /** Bound of how far points of the two surfaces have moved towards each
+     *  other since the accepted configuration [mm]. */
+    double motion(const InterfaceConfiguration &configuration) const;
     MasterSurface master(const InterfaceConfiguration &configuration) const;
 
     const InterfaceParameters parameters;
@@ -163,6 +173,7 @@ namespace Debond
     std::vector<Point>        points;
     double                    area_of_implant = 0, phi_0_mean = 0;
     std::array<ControlNet, 2> forces;
+    std::array<ControlNet, 2> accepted_positions;
     double accepted_dissipation = 0, accepted_adhesive_work = 0;
     int    failed_point = -1;
     bool   frictionless_now = false;

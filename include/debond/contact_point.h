@@ -35,6 +35,15 @@ namespace Debond
     double outward_sign = 1;
   };
 
+  /** The closest point of the master to @p x, and in @p faces whether it can be
+   *  an interacting point: found, x - y normal to the surface there, and the
+   *  surface regular. In the corners of a disk the tangents are parallel; once
+   *  it is deformed the normal close to them can point anywhere. */
+  ClosestPoint project(const MasterSurface   &master,
+                       const Eigen::Vector3d &x,
+                       const Eigen::Vector2d *guess,
+                       bool                  &faces);
+
   /** What a point is governed by: penalties, friction, its phi_0. */
   struct ContactPointLaw
   {

@@ -1,0 +1,358 @@
+// What the VTU files hold, read back: two rigid bodies, pressed and turned. The
+// disk is round, warping gives the turned implant, the interface arrays are
+// those of the closed form; the series names files and times; nothing depends
+// on the date.
+
+#include <debond/body.h>
+#include <debond/chuck.h>
+#include <debond/closed_forms.h>
+#include <debond/contact_interface.h>
+#include <debond/field_output.h>
+#include <debond/result_files.h>
+
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/utilities.h>
+
+#include <zlib.h>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+using namespace Debond;
+
+constexpr double depth = 0.0049;                     // [mm]
+constexpr double angle = dealii::numbers::PI / 180.; // [rad]
+
+void
+report(const std::string &what, const double deviation, const double limit)
+{
+  std::cout << what << " below " << limit << ": ";
+  if (deviation < limit) // false for NaN as well
+    std::cout << "yes" << std::endl;
+  else
+    std::cout << "NO, " << deviation << std::endl;
+}
+
+
+
+std::string
+contents(const std::string &filename)
+{
+  std::ostringstream text;
+  text << std::ifstream(filename, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+
+
+/** Values of an array of a VTU file, or its points if @p name is empty: one
+ *  compressed block after a header of four numbers. */
+std::vector<float>
+read_array(const std::string &vtu, const std::string &name)
+{
+  const std::string key   = name.empty() ? "<Points>" : "Name=\"" + name + "\"";
+  const auto        found = vtu.find(key);
+  if (found == std::string::npos)
+    return {};
+  const auto array  = vtu.find("format=\"binary\">", found);
+  const auto begin  = vtu.find_first_not_of(" \n", vtu.find('>', array) + 1);
+  const auto end    = vtu.find_first_of(" \n<", begin);
+  const auto header = dealii::Utilities::decode_base64(vtu.substr(begin, 24));
+  const auto data =
+    dealii::Utilities::decode_base64(vtu.substr(begin + 24, end - begin - 24));
+  std::uint32_t sizes[4];
+  std::memcpy(sizes, header.data(), sizeof(sizes));
+  std::vector<float> values(sizes[1] / sizeof(float));
+  uLongf             n_bytes = sizes[1];
+  const int status = uncompress(reinterpret_cast<Bytef *>(values.data()),
+                                &n_bytes,
+                                data.data(),
+                                sizes[3]);
+  return status == Z_OK ? values : std::vector<float>();
+}
+
+
+
+/** Largest value that @p deviation has at the points of a file; NaN if there
+ *  are none. */
+double
+largest(const unsigned int                               n_points,
+        const std::function<double(const unsigned int)> &deviation)
+{
+  double result = n_points > 0 ? 0. : NAN;
+  for (unsigned int i = 0; i < n_points; ++i)
+    {
+      const double value = deviation(i);
+      if (!std::isnan(result) && !(value <= result))
+        result = value;
+    }
+  return result;
+}
+
+
+
+Eigen::Vector3d
+vector_at(const std::vector<float> &values, const unsigned int i)
+{
+  return {values.at(3 * i), values.at(3 * i + 1), values.at(3 * i + 2)};
+}
+
+
+
+/** Rigid bodies on the interface as the chuck has moved them. */
+struct Model
+{
+  InterfaceParameters interface_parameters;
+  Body                bone, implant;
+  Chuck               chuck;
+  ContactInterface    interface;
+
+  explicit Model(const std::array<BodyParameters, 2> &bodies)
+    : bone(bodies[0], BodySide::bone)
+    , implant(bodies[1], BodySide::implant)
+    , chuck(motion(), Eigen::Vector3d(0, 0, bodies[1].height), 2.5)
+    , interface(interface_parameters, bone.mesh(), implant.mesh())
+  {
+    interface.initialise(configuration());
+  }
+
+  static ChuckParameters
+  motion()
+  {
+    ChuckParameters parameters;
+    parameters.component[2].value = "-0.0049 * t";
+    parameters.component[5].value = "t"; // degrees
+    return parameters;
+  }
+
+  InterfaceConfiguration
+  configuration() const
+  {
+    InterfaceConfiguration result;
+    result.chuck             = &chuck;
+    result.side[0].positions = bone.surface().control_points();
+    result.side[1].positions = implant.surface().control_points();
+    result.side[1].frame     = chuck.rotation();
+    for (unsigned int A = 0; A < result.side[1].positions.cols(); ++A)
+      result.side[1].positions.col(A) =
+        chuck.map(implant.surface().control_points().col(A),
+                  Eigen::Vector3d::Zero());
+    return result;
+  }
+
+  void
+  move_to(const double time)
+  {
+    chuck.prescribe(time);
+    interface.evaluate(configuration(), ContactPointMode());
+  }
+};
+
+
+
+std::array<BodyParameters, 2>
+rigid_bodies()
+{
+  std::array<BodyParameters, 2> bodies;
+  bodies[0].cells = {{5, 5, 2}};
+  bodies[1].shape = BodyShape::coin;
+  bodies[1].cells = {{6, 6, 2}};
+  for (BodyParameters &body : bodies)
+    body.material = Material::rigid;
+  return bodies;
+}
+
+
+
+/** x - X of a point of the implant. */
+Eigen::Vector3d
+turned(const Eigen::Vector3d &X)
+{
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * X[0] - s * X[1] - X[0], s * X[0] + c * X[1] - X[1], -depth};
+}
+
+
+
+void
+check_bulk(const std::string &vtu)
+{
+  const auto X = read_array(vtu, ""), u = read_array(vtu, "displacement");
+  const auto body             = read_array(vtu, "body");
+  const auto v                = read_array(vtu, "displacement_in_frame");
+  const auto stress           = read_array(vtu, "stress_MPa");
+  const auto mises            = read_array(vtu, "von_Mises_MPa");
+  const unsigned int n_points = body.size();
+  std::cout << "bulk: arrays of all points: "
+            << (X.size() == 3 * n_points && u.size() == 3 * n_points &&
+                    v.size() == 3 * n_points && stress.size() == 9 * n_points &&
+                    mises.size() == n_points ?
+                  "yes" :
+                  "NO")
+            << std::endl;
+
+  report("bulk: deviation of displacements [mm]",
+         largest(n_points,
+                 [&](const unsigned int i) {
+                   const Eigen::Vector3d expected = body[i] == 1 ?
+                                                      turned(vector_at(X, i)) :
+                                                      Eigen::Vector3d::Zero();
+                   return (vector_at(u, i) - expected).norm() +
+                          vector_at(v, i).norm();
+                 }),
+         1e-6);
+  report("bulk: stress of rigid bodies",
+         largest(n_points,
+                 [&](const unsigned int i) {
+                   return std::abs(mises.at(i)) + std::abs(stress.at(9 * i));
+                 }),
+         1e-300);
+
+  unsigned int n_on_circle = 0;
+  const double outside     = largest(n_points, [&](const unsigned int i) {
+    if (body[i] == 0)
+      return 0.;
+    const double r = vector_at(X, i).head<2>().norm();
+    if (X[3 * i + 2] == 0 && std::abs(r - 2.5) < 1e-6)
+      ++n_on_circle;
+    return std::max(0., r - 2.5);
+  });
+  report("bulk: points outside the circle [mm]", outside, 1e-6);
+  // 24 pieces along each of the four sides; points of neighbours coincide
+  std::cout << "bulk: points on the circle at the contact face: " << n_on_circle
+            << std::endl;
+}
+
+
+
+void
+check_interface(const std::string &vtu)
+{
+  const auto X = read_array(vtu, ""), u = read_array(vtu, "displacement");
+  const auto traction = read_array(vtu, "traction_MPa");
+  const auto pressure = read_array(vtu, "pressure_MPa");
+  const auto gap = read_array(vtu, "gap_mm"), slip = read_array(vtu, "slip_mm");
+  const auto phi = read_array(vtu, "phi"), phi_0 = read_array(vtu, "phi_0");
+  const auto mu = read_array(vtu, "mu"), state = read_array(vtu, "state");
+  const unsigned int n_points = state.size();
+
+  report("interface: deviation of displacements [mm]",
+         largest(n_points,
+                 [&](const unsigned int i) {
+                   return (vector_at(u, i) - turned(vector_at(X, i))).norm();
+                 }),
+         1e-6);
+  report("interface: deviation of pressure [MPa]",
+         largest(n_points,
+                 [&](const unsigned int i) {
+                   return std::abs(pressure.at(i) - 585 * depth);
+                 }),
+         1e-6);
+  report("interface: deviation of gap [mm]",
+         largest(n_points,
+                 [&](const unsigned int i) {
+                   return std::abs(gap.at(i) + depth);
+                 }),
+         1e-8);
+  report("interface: deviation of phi_0",
+         largest(n_points,
+                 [&](const unsigned int i) {
+                   return std::abs(phi_0.at(i) - 1.);
+                 }),
+         1e-6);
+
+  RigidBodiesTorsion::Parameters parameters;
+  parameters.radius         = 2.5;
+  parameters.push_in        = depth;
+  parameters.normal_penalty = parameters.tangential_penalty = 585;
+  const RigidBodiesTorsion exact(parameters);
+  // Between quadrature points values are interpolated, and beyond the outermost
+  // they are constant: that is no more than a picture needs.
+  report("interface: deviation of slip [mm]",
+         largest(n_points,
+                 [&](const unsigned int i) {
+                   const double r = vector_at(X, i).norm();
+                   return std::abs(slip.at(i) - exact.slip(r, angle));
+                 }),
+         1e-3);
+  report("interface: deviation of traction against the rotation [MPa]",
+         largest(n_points,
+                 [&](const unsigned int i) {
+                   const Eigen::Vector3d x = vector_at(X, i);
+                   const double          r = x.norm();
+                   if (r < 0.3) // sticks near the axis, with a kink
+                     return 0.;
+                   const double c = std::cos(angle), s = std::sin(angle);
+                   const Eigen::Vector3d direction(s * x[0] + c * x[1],
+                                                   s * x[1] - c * x[0],
+                                                   0);
+                   return (vector_at(traction, i) -
+                           exact.traction(r, angle) * direction / r)
+                     .norm();
+                 }),
+         0.1);
+  report("interface: deviation of mu from 0.4 + 0.18 phi",
+         largest(n_points,
+                 [&](const unsigned int i) {
+                   return std::abs(mu.at(i) - 0.4 - 0.18 * phi.at(i));
+                 }),
+         1e-6);
+  unsigned int wrong = 0, n_stick = 0;
+  for (unsigned int i = 0; i < n_points; ++i)
+    {
+      const double r = vector_at(X, i).norm();
+      n_stick += (state[i] == 1);
+      wrong += (r < 0.05 && state[i] != 1) || (r > 0.3 && state[i] != 2);
+    }
+  std::cout << "interface: points that stick, if any, are near the axis: "
+            << (n_stick > 0 && wrong == 0 ? "yes" : "NO") << std::endl;
+}
+
+
+
+int
+main()
+{
+  OutputParameters output;
+  output.overwrite_other_results = true;
+  std::vector<std::string> names{"bulk-0000.vtu",
+                                 "bulk-0001.vtu",
+                                 "bulk.pvd",
+                                 "interface-0000.vtu",
+                                 "interface-0001.vtu",
+                                 "interface.pvd"};
+  for (const std::string name : {"results/fields", "results/again"})
+    {
+      output.directory = name;
+      const ResultDirectory directory(output, "");
+      Model                 model(rigid_bodies());
+      FieldOutput           fields(
+        directory, model.bone, model.implant, model.interface, model.chuck);
+      fields.write(0);
+      model.move_to(1);
+      fields.write(1. / 3.);
+    }
+
+  check_bulk(contents("results/fields/bulk-0001.vtu"));
+  check_interface(contents("results/fields/interface-0001.vtu"));
+
+  bool equal = true, dated = false;
+  for (const std::string &name : names)
+    {
+      const std::string text = contents("results/fields/" + name);
+      equal =
+        equal && !text.empty() && text == contents("results/again/" + name);
+      dated = dated || text.find("library on") != std::string::npos;
+    }
+  std::cout << "a second run writes the same files: " << (equal ? "yes" : "NO")
+            << std::endl
+            << "no file holds the date: " << (dated ? "NO" : "yes") << std::endl
+            << contents("results/fields/bulk.pvd")
+            << contents("results/fields/interface.pvd");
+}

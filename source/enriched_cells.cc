@@ -140,20 +140,21 @@ namespace Debond
 
   void EnrichedCells::gradient_at_points(const unsigned int     cell,
                                          const Eigen::VectorXd &v,
-                                         double (&H)[3][3][n_q]) const
+                                         PointValues (&H)[3][3]) const
   {
     for (auto &row : H)
-      for (auto &entry : row)
-        for (double &value : entry)
-          value = 0.;
+      for (PointValues &entry : row)
+        entry.setZero();
     const double *G = gradients(cell);
     for (unsigned int a = 0; a < n_cell_nodes[cell]; ++a, G += 3 * n_q)
       {
         const double *v_a = &v[3 * nodes(cell)[a]];
-        for (unsigned int i = 0; i < 3; ++i)
-          for (unsigned int d = 0; d < 3; ++d)
-            for (unsigned int q = 0; q < n_q; ++q)
-              H[i][d][q] += v_a[i] * G[d * n_q + q];
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            const Eigen::Map<const PointValues> G_d(G + d * n_q);
+            for (unsigned int i = 0; i < 3; ++i)
+              H[i][d] += v_a[i] * G_d;
+          }
       }
   }
 
@@ -164,40 +165,30 @@ namespace Debond
                                       double                &energy) const
   {
     energy            = 0.;
-    double smallest_J = 1.;
+    double smallest_j = 0.;
     for (unsigned int cell = 0; cell < n_cells(); ++cell)
       {
-        double H[3][3][n_q], P[3][3][n_q];
+        PointValues H[3][3], P[3][3];
         gradient_at_points(cell, v, H);
-        for (unsigned int q = 0; q < n_q; ++q)
-          {
-            double H_q[3][3], P_q[3][3];
-            for (unsigned int i = 0; i < 3; ++i)
-              for (unsigned int d = 0; d < 3; ++d)
-                H_q[i][d] = H[i][d][q];
-            bulk_material.stress(H_q, P_q);
-            const double weight = JxW[n_q * cell + q];
-            energy += bulk_material.energy(H_q) * weight;
-            smallest_J =
-              std::min(smallest_J, 1. + NeoHookean::volume_change(H_q));
-            for (unsigned int i = 0; i < 3; ++i)
-              for (unsigned int d = 0; d < 3; ++d)
-                P[i][d][q] = P_q[i][d] * weight;
-          }
+        bulk_material.stress(H, P);
+        const Eigen::Map<const PointValues> weight(&JxW[n_q * cell]);
+        energy += (bulk_material.energy(H) * weight).sum();
+        smallest_j =
+          std::min(smallest_j, NeoHookean::volume_change(H).minCoeff());
+        for (auto &row : P)
+          for (PointValues &entry : row)
+            entry *= weight;
 
         const double *G = gradients(cell);
         for (unsigned int a = 0; a < n_cell_nodes[cell]; ++a, G += 3 * n_q)
-          for (unsigned int i = 0; i < 3; ++i)
-            {
-              double f[n_q];
-              for (unsigned int q = 0; q < n_q; ++q)
-                f[q] = P[i][0][q] * G[q] + P[i][1][q] * G[n_q + q] +
-                       P[i][2][q] * G[2 * n_q + q];
-              force[3 * nodes(cell)[a] + i] += ((f[0] + f[1]) + (f[2] + f[3])) +
-                                               ((f[4] + f[5]) + (f[6] + f[7]));
-            }
+          {
+            const Eigen::Map<const PointValues> G_0(G), G_1(G + n_q), G_2(G + 2 * n_q);
+            for (unsigned int i = 0; i < 3; ++i)
+              force[3 * nodes(cell)[a] + i] +=
+                (P[i][0] * G_0 + P[i][1] * G_1 + P[i][2] * G_2).sum();
+          }
       }
-    return smallest_J > 0. && std::isfinite(energy);
+    return smallest_j > -1. && std::isfinite(energy);
   }
 
 
@@ -206,12 +197,12 @@ namespace Debond
                                              const Eigen::VectorXd &v,
                                              double (&H)[n_q][3][3]) const
   {
-    double H_soa[3][3][n_q];
-    gradient_at_points(cell, v, H_soa);
+    PointValues side_by_side[3][3];
+    gradient_at_points(cell, v, side_by_side);
     for (unsigned int q = 0; q < n_q; ++q)
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int d = 0; d < 3; ++d)
-          H[q][i][d] = H_soa[i][d][q];
+          H[q][i][d] = side_by_side[i][d][q];
   }
 
 

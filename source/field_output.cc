@@ -132,8 +132,10 @@ namespace Debond
 
 
     /** Appends the components of a vector or, row by row, a matrix. */
+    template <typename Derived>
     void
-    append_values(std::vector<double> &values, const Eigen::MatrixXd &matrix)
+    append_values(std::vector<double>              &values,
+                  const Eigen::MatrixBase<Derived> &matrix)
     {
       for (unsigned int i = 0; i < matrix.rows(); ++i)
         for (unsigned int j = 0; j < matrix.cols(); ++j)
@@ -321,7 +323,7 @@ namespace Debond
         values.clear();
         append_values(values, is_implant ? chuck.map(X, v_point) - X : v_point);
         append_values(values, v_point);
-        append_values(values, Q * sigma * Q.transpose());
+        append_values(values, (Q * sigma * Q.transpose()).eval());
         values.push_back(von_mises(sigma));
         values.push_back(is_implant ? 1. : 0.);
         output.add_point(X, values);

@@ -2,21 +2,6 @@
 
 namespace Debond
 {
-  double NeoHookean::energy(const double (&H)[3][3]) const
-  {
-    // (tr C - 3)/2 = tr H + H:H/2, and tr H - ln J = (tr H - j) + (j - ln(1+j)).
-    double HH = 0;
-    for (const auto &row : H)
-      for (const double h : row)
-        HH += h * h;
-    const double trace = H[0][0] + H[1][1] + H[2][2];
-    const double j     = volume_change(H);
-    const double ln_J  = std::log1p(j);
-    return G * (0.5 * HH + (trace - j) + (j - ln_J)) + 0.5 * Lambda * ln_J * ln_J;
-  }
-
-
-
   void NeoHookean::tangent(const double (&H)[3][3], double (&C)[9][9]) const
   {
     const double j = volume_change(H);

@@ -7,6 +7,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -435,6 +436,23 @@ namespace Debond
 
 
 
+  namespace
+  {
+    /** Makes a name that programs can use: "set-up" becomes "set_up". */
+    std::string
+    with_underscores(std::string name)
+    {
+      std::replace_if(
+        name.begin(),
+        name.end(),
+        [](const unsigned char c) { return std::isalnum(c) == 0; },
+        '_');
+      return name;
+    }
+  } // namespace
+
+
+
   void
   add_summary(const RunSummary &summary, JsonObject &json)
   {
@@ -467,6 +485,6 @@ namespace Debond
     json.add("largest_energy_defect", m.largest_energy_defect);
     json.add("largest_reaction_defect", m.largest_reaction_defect);
     for (const auto &[name, seconds] : summary.seconds)
-      json.add("seconds_" + name, seconds);
+      json.add("seconds_" + with_underscores(name), seconds);
   }
 } // namespace Debond

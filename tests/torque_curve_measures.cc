@@ -340,7 +340,7 @@ show_files()
     measure_torque_curve(make_rows({{0, 0, 0, 0}}), settings());
   summary.reason   = "test";
   summary.warnings = {"one", "two"};
-  summary.seconds  = {{"bulk", 1.5}};
+  summary.seconds  = {{"dense solve", 1.5}};
   JsonObject json;
   add_summary(summary, json);
   std::cout << json.text() << std::endl;

@@ -81,9 +81,11 @@ namespace Debond
     {
       return &gradient_list[3 * n_q * first_node[cell]];
     }
+    /** One number for each Gauss point of a cell. */
+    using PointValues = Eigen::Array<double, n_q, 1>;
     void gradient_at_points(unsigned int           cell,
                             const Eigen::VectorXd &v,
-                            double (&H)[3][3][n_q]) const;
+                            PointValues (&H)[3][3]) const;
 
     const NeoHookean          bulk_material;
     std::vector<unsigned int> n_cell_nodes, first_node, node_list;

@@ -11,7 +11,8 @@ namespace Debond
    *
    * Everything is a function of the displacement gradient H = F - I, never of
    * F itself: strains are of the order of 1e-3 here, and F - F^-T or ln J
-   * computed from F would lose the three leading digits.
+   * computed from F would lose the three leading digits. Number is double, or
+   * an Eigen array of doubles for several points at once.
    */
   struct NeoHookean
   {
@@ -77,8 +78,21 @@ namespace Debond
                     pressure_term * A[i][k];
     }
 
-    /** Strain energy density W [MPa = N mm / mm^3]. */
-    double energy(const double (&H)[3][3]) const;
+    /** Strain energy density W [MPa = N mm / mm^3], with
+     *  (tr C - 3)/2 = tr H + H:H/2 and tr H - ln J = (tr H - j) + (j - ln(1+j)),
+     *  j = J - 1. */
+    template <typename Number>
+    Number energy(const Number (&H)[3][3]) const
+    {
+      using std::log1p;
+      Number HH = H[0][0] * H[0][0];
+      for (unsigned int k = 1; k < 9; ++k)
+        HH += H[k / 3][k % 3] * H[k / 3][k % 3];
+      const Number j    = volume_change(H);
+      const Number ln_J = log1p(j);
+      return G * (0.5 * HH + (H[0][0] + H[1][1] + H[2][2] - j) + (j - ln_J)) +
+             0.5 * Lambda * ln_J * ln_J;
+    }
 
     /** dP_iJ / dF_kL = G (d_ik d_JL + A_iL A_kJ) + Lambda (A_iJ A_kL - ln J A_iL A_kJ),
      *  A = F^-T; row 3 i + J, column 3 k + L. */

@@ -150,7 +150,8 @@ namespace Debond
     bool          converged          = false;
     std::string   reason; ///< why the run ended
     std::vector<std::string> warnings;
-    /** Parts of the wall time; {"bulk", 1.5} becomes "seconds_bulk": 1.5. */
+    /** Parts of the wall time; {"dense solve", 1.5} becomes
+     *  "seconds_dense_solve": 1.5. */
     std::vector<std::pair<std::string, double>> seconds;
   };
 

@@ -1,0 +1,163 @@
+#ifndef debond_tests_driven_scene_h
+#define debond_tests_driven_scene_h
+
+// What compiled tests of whole scenes share: scenes that are taken step by
+// step with the state at hand, scenes that the program runs, and verdicts.
+
+#include <debond/debonding_problem.h>
+#include <debond/newton.h>
+#include <debond/runtime.h>
+
+#include <cmath>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+inline void
+report(const std::string &what, const double deviation, const double limit)
+{
+  std::cout << what << " below " << limit << ": ";
+  if (deviation < limit) // false for NaN as well
+    std::cout << "yes" << std::endl;
+  else
+    std::cout << "NO, " << deviation << std::endl;
+}
+
+
+
+inline void
+report(const std::string &what, const bool is_true)
+{
+  std::cout << what << ": " << (is_true ? "yes" : "NO") << std::endl;
+}
+
+
+
+/** Keeps a NaN once there is one, which std::max would not. */
+inline void
+keep_largest(double &largest, const double value)
+{
+  if (!std::isnan(largest) && !(value <= largest))
+    largest = value;
+}
+
+
+
+/** A scene taken step by step. Steps are not halved: one that does not converge
+ *  ends the test. */
+class DrivenScene
+{
+public:
+  explicit DrivenScene(const std::string              &text,
+                       const std::vector<std::string> &overrides = {})
+    : scene(Debond::Scene::from_text(text, overrides))
+    , timer(std::cout,
+            dealii::TimerOutput::never,
+            dealii::TimerOutput::wall_times)
+    , system(scene, timer)
+    , stepping(scene.load_steps)
+  {
+    system.start(stepping.time(0));
+    solve();
+  }
+
+  /** Goes to the next planned time. False if there is none. */
+  bool
+  advance()
+  {
+    if (step == stepping.n_steps())
+      return false;
+    ++step;
+    solve();
+    return true;
+  }
+
+  /** Goes to a planned time. */
+  void
+  advance_to(const double time)
+  {
+    while (stepping.time(step) < time && advance())
+      ;
+    if (stepping.time(step) != time)
+      throw std::runtime_error("no step ends at this time");
+  }
+
+  double
+  angle_deg() const
+  {
+    return system.chuck.position()[5] * 180. / M_PI;
+  }
+
+  const Debond::Scene scene;
+
+private:
+  dealii::TimerOutput timer;
+
+public:
+  Debond::CoupledSystem system;
+  /** Newton iterations of the last step. */
+  unsigned int iterations = 0;
+
+private:
+  void
+  solve()
+  {
+    Debond::NewtonOptions options;
+    options.residual_tolerance = scene.load_steps.residual_tolerance;
+    options.stick_first        = stepping.begins_phase(step);
+    options.touch_tolerance    = 1e-12 * system.R;
+    options.frictionless =
+      step > 0 &&
+      stepping.time(step - 1) < scene.interface.friction.starts_at;
+    system.predict(stepping.time(step), !options.stick_first);
+    const Debond::NewtonResult result = solve_newton(system, options);
+    iterations                        = result.iterations;
+    if (!result.converged)
+      throw std::runtime_error("step " + std::to_string(step) + ": " +
+                               result.why);
+    system.commit(stepping.time(step));
+  }
+
+  Debond::LoadStepping stepping;
+  unsigned int         step = 0;
+};
+
+
+
+/** The rows of a scene that the program runs, with results in the directory
+ *  results/@p name. */
+inline std::vector<Debond::TorqueRow>
+run_scene(const std::string              &name,
+          const std::string              &text,
+          const std::vector<std::string> &overrides = {})
+{
+  Debond::Scene scene                  = Debond::Scene::from_text(text, overrides);
+  scene.output.directory               = "results/" + name;
+  scene.output.fields_every            = 0;
+  scene.output.console                 = Debond::ConsoleKind::quiet;
+  scene.output.overwrite_other_results = true;
+  Debond::DebondingProblem problem(scene);
+  problem.run();
+  return problem.rows();
+}
+
+
+
+/** The main of all these tests. */
+inline int
+run_test(void (*test)())
+{
+  Debond::set_up_libraries();
+  try
+    {
+      test();
+      return 0;
+    }
+  catch (const std::exception &error)
+    {
+      std::cout << "NO, stopped: " << error.what() << std::endl;
+      return 1;
+    }
+}
+#endif

@@ -298,9 +298,12 @@ namespace Debond
       for (unsigned int node = 0; node < body_mesh.n_nodes(); ++node)
         for (unsigned int c = 0; c < 3; ++c)
           if (body_mesh.is_fixed(node, c))
-            for (unsigned int k = 0; k < 6; ++k)
-              about_origin[k] += internal_force[3 * node + c] *
-                                 rigid_mode(k, body_mesh.reference_position(node))[c];
+            {
+              const Eigen::Vector3d x =
+                body_mesh.reference_position(node) + v.segment<3>(3 * node);
+              for (unsigned int k = 0; k < 6; ++k)
+                about_origin[k] += internal_force[3 * node + c] * rigid_mode(k, x)[c];
+            }
     about_origin.tail<3>() -= centre.cross(about_origin.head<3>().eval());
     return about_origin;
   }

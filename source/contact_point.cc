@@ -365,6 +365,28 @@ namespace Debond
 
 
 
+    // A point that closes without an xi_hat^n of its own sticks where it is: it
+    // has no tangential gap, and xi_hat, its projection, moves with it as on a
+    // frictionless interface.
+    void follow_projection(const ContactPointLaw   &law,
+                           const ContactPointState &start,
+                           const Vector3d          &x,
+                           const Vector3d          &y,
+                           const MasterSurface     &master,
+                           ContactPointResult      &result)
+    {
+      const PointFriction none{law.friction, 0., true};
+      ContactPointResult  projected;
+      SlipProblem         problem(law, none, start.slip, x, y, master);
+      if (problem.solve(start.xi, projected) != SlipOutcome::solved)
+        return;
+      problem.report(projected);
+      result.dt  = projected.dt;
+      result.dxi = projected.dxi;
+    }
+
+
+
     // An open point beyond the edge of the master has no xi_hat^n: it starts
     // where it is now, if it faces the master at all.
     bool find_partner(const Vector3d      &x,
@@ -438,6 +460,8 @@ namespace Debond
     if (closed && (mode.stick_first || trial_traction <= limit))
       {
         set_stick(law, start, gap, normal, normal_gap, result);
+        if (!old_state.has_partner && normal_gap.value < 0.)
+          follow_projection(law, start, x, geometry.y, master, result);
         return;
       }
     if (mode.stick_first)

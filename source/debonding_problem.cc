@@ -7,6 +7,7 @@
 #include <debond/newton.h>
 
 #include <deal.II/base/timer.h>
+#include <deal.II/base/utilities.h>
 
 #include <cmath>
 #include <iomanip>
@@ -297,8 +298,9 @@ namespace Debond
   {
     if (!state->field_output)
       return;
-    const bool last = (step == state->stepping.n_steps());
-    if (step % scene.output.fields_every == 0 || last)
+    const LoadStepping &stepping = state->stepping;
+    if (stepping.step_in_phase(step) % scene.output.fields_every == 0 ||
+        stepping.ends_phase(step))
       {
         const dealii::TimerOutput::Scope t(state->timer, "output");
         state->field_output->write(state->time);
@@ -335,6 +337,9 @@ namespace Debond
          state->timer.get_summary_data(dealii::TimerOutput::total_wall_time))
       summary.seconds.emplace_back(section, seconds);
     summary.wall_seconds = state->wall_clock.wall_time();
+    dealii::Utilities::System::MemoryStats memory;
+    dealii::Utilities::System::get_memory_stats(memory);
+    summary.peak_memory_MB = memory.VmHWM / 1024.; // from kB
 
     JsonObject json;
     add_summary(summary, json);

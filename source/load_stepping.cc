@@ -85,14 +85,29 @@ namespace Debond
   {
     if (step == 0)
       return parameters.times[0];
-    const unsigned int p     = phase(step);
-    const unsigned int first = std::accumulate(parameters.steps.begin(),
-                                               parameters.steps.begin() + p,
-                                               0u);
-    if (step - first == parameters.steps[p])
+    const unsigned int p = phase(step);
+    if (ends_phase(step))
       return parameters.times[p + 1];
     return parameters.times[p] + (parameters.times[p + 1] - parameters.times[p]) *
-                                   (step - first) / parameters.steps[p];
+                                   step_in_phase(step) / parameters.steps[p];
+  }
+
+
+
+  unsigned int LoadStepping::step_in_phase(const unsigned int step) const
+  {
+    if (step == 0)
+      return 0;
+    return step - std::accumulate(parameters.steps.begin(),
+                                  parameters.steps.begin() + phase(step),
+                                  0u);
+  }
+
+
+
+  bool LoadStepping::ends_phase(const unsigned int step) const
+  {
+    return step > 0 && step_in_phase(step) == parameters.steps[phase(step)];
   }
 
 

@@ -87,13 +87,16 @@ namespace Debond
               }
             system.evaluate(mode); // condensed with the new factor
           }
+        if (system.is_unsupported())
+          {
+            result.why = "a loaded chuck has nothing to act against: the bodies are "
+                         "not in contact";
+            return result;
+          }
         if (!system.solve_and_correct(
               linear_tolerance(error, options.residual_tolerance)))
           {
-            result.why = system.is_unsupported() ?
-                           "a loaded chuck has nothing to act against: the bodies are "
-                           "not in contact" :
-                           "the system of equations is singular";
+            result.why = "the system of equations is singular";
             return result;
           }
         ++result.iterations;

@@ -28,7 +28,9 @@ namespace Debond
     prm.declare_entry("Fields every",
                       "50",
                       Allowed::whole_number(0, std::numeric_limits<int>::max()),
-                      "Number of planned steps between VTU files; 0: none.");
+                      "Planned steps between VTU files, counted from the "
+                      "beginning of each phase, whose end is always written; "
+                      "0: no VTU files.");
     prm.declare_entry("Reference curve",
                       "",
                       Allowed::optional_text("the name of a CSV file"),

@@ -481,6 +481,7 @@ namespace Debond
     json.add("warnings", summary.warnings);
 
     json.add("condensed_unknowns", summary.condensed_unknowns);
+    json.add("peak_memory_MB", summary.peak_memory_MB);
     json.add("reference_rows_used", m.reference_rows_used);
     json.add("largest_energy_defect", m.largest_energy_defect);
     json.add("largest_reaction_defect", m.largest_reaction_defect);

@@ -84,6 +84,12 @@ public:
   }
 
   double
+  time() const
+  {
+    return stepping.time(step);
+  }
+
+  double
   angle_deg() const
   {
     return system.chuck.position()[5] * 180. / M_PI;

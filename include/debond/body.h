@@ -86,9 +86,10 @@ namespace Debond
 
     /** Strain energy of the trial state [N mm]. */
     double energy() const;
-    /** What the fixed nodes exert on the body in its frame: force [N] and
-     *  moment about @p centre [N mm] with reference lever arms (which are the
-     *  current ones where nodes are fixed). Zero for a rigid body. */
+    /** What the supports exert on the body in its frame: force [N] and moment
+     *  about @p centre [N mm]. Lever arms are the current ones for a
+     *  Neo-Hookean body, those of the reference configuration for a linear one,
+     *  which balances moments only with them. Zero for a rigid body. */
     Eigen::Matrix<double, 6, 1> support_reaction(const Eigen::Vector3d &centre);
     /** Trial displacement of all nodes, tied vertices and, for a linear body,
      *  the interior included: for output. */

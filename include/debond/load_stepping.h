@@ -39,6 +39,10 @@ namespace Debond
     double time(unsigned int step) const;
     /** True for the first planned step of a phase. */
     bool begins_phase(unsigned int step) const;
+    /** Number of a planned step within its phase, from 1; 0 for step 0. */
+    unsigned int step_in_phase(unsigned int step) const;
+    /** True for the last planned step of a phase. */
+    bool ends_phase(unsigned int step) const;
     /** Index of the phase (0, 1, ...) that a planned step > 0 belongs to. */
     unsigned int phase(unsigned int step) const;
 

@@ -147,6 +147,7 @@ namespace Debond
     unsigned int  unknowns           = 0; ///< dofs less tied surface vertices
     unsigned int  condensed_unknowns = 0; ///< of the coupled system at the end
     double        wall_seconds       = 0;
+    double        peak_memory_MB     = 0; ///< of the process
     bool          converged          = false;
     std::string   reason; ///< why the run ended
     std::vector<std::string> warnings;

@@ -1,0 +1,755 @@
+// The tangent of a contact point on a curved, deformed master - sticking,
+// sliding, opening - agrees with automatic differentiation of its equations,
+// written here anew: traction and forces on the master with respect to the
+// slave point and to every control point of the master. A point sticks if and
+// only if its trial traction is within the friction limit.
+
+#include <debond/contact_point.h>
+
+#include <Eigen/Geometry>
+
+#include <Sacado.hpp>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "checks.h"
+
+using namespace Debond;
+
+// Derivatives with respect to the slave point and all control points, and with
+// respect to the two parameters of the surface.
+using Fad   = Sacado::Fad::DFad<double>;
+using Local = Sacado::Fad::SFad<double, 2>;
+
+double
+value(const double x)
+{
+  return x;
+}
+template <typename Number>
+double
+value(const Number &x)
+{
+  return x.val();
+}
+
+
+
+template <typename Number>
+using Vector = std::array<Number, 3>;
+
+template <typename Number>
+Number
+dot(const Vector<Number> &a, const Vector<Number> &b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/** a + factor b */
+template <typename Number>
+Vector<Number>
+add(const Vector<Number> &a, const Number &factor, const Vector<Number> &b)
+{
+  Vector<Number> c;
+  for (unsigned int i = 0; i < 3; ++i)
+    c[i] = a[i] + factor * b[i];
+  return c;
+}
+
+template <typename Number>
+Number
+norm(const Vector<Number> &a)
+{
+  using std::sqrt;
+  return sqrt(dot(a, a));
+}
+
+
+
+/** B-spline i of degree p by the recursion of Cox and de Boor, 0/0 = 0. */
+template <typename Number>
+Number
+b_spline(const std::vector<double> &U,
+         const unsigned int         i,
+         const unsigned int         p,
+         const Number              &u)
+{
+  if (p == 0)
+    return Number(U[i] <= value(u) && value(u) < U[i + 1] ? 1. : 0.);
+  Number result = 0.;
+  if (U[i + p] > U[i])
+    result += (u - U[i]) / (U[i + p] - U[i]) * b_spline(U, i, p - 1, u);
+  if (U[i + p + 1] > U[i + 1])
+    result += (U[i + p + 1] - u) / (U[i + p + 1] - U[i + 1]) *
+              b_spline(U, i + 1, p - 1, u);
+  return result;
+}
+
+template <typename Number>
+Number
+b_spline_derivative(const std::vector<double> &U,
+                    const unsigned int         i,
+                    const unsigned int         p,
+                    const Number              &u)
+{
+  Number result = 0.;
+  if (U[i + p] > U[i])
+    result += p / (U[i + p] - U[i]) * b_spline(U, i, p - 1, u);
+  if (U[i + p + 1] > U[i + 1])
+    result -= p / (U[i + p + 1] - U[i + 1]) * b_spline(U, i + 1, p - 1, u);
+  return result;
+}
+
+
+
+/** A point of the master: basis functions of the whole patch, position,
+ *  tangents, and the normal that points to the slave. */
+template <typename Number>
+struct MasterPoint
+{
+  std::vector<Number> N;
+  Vector<Number>      y, a1, a2, n;
+
+  MasterPoint(const MasterSurface               &master,
+              const std::vector<Vector<Number>> &positions,
+              const std::array<Number, 2>       &xi)
+  {
+    const NurbsSurface &surface = *master.surface;
+    const auto          n_1d    = surface.n_control_points_per_direction();
+    std::array<std::vector<Number>, 2> B, dB;
+    for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int i = 0; i < n_1d[d]; ++i)
+        {
+          const auto &U = surface.knots(d).knots();
+          B[d].push_back(b_spline(U, i, surface.degree(), xi[d]));
+          dB[d].push_back(b_spline_derivative(U, i, surface.degree(), xi[d]));
+        }
+
+    Number              W = 0., W_1 = 0., W_2 = 0.;
+    std::vector<Number> w, w_1, w_2;
+    for (unsigned int j = 0; j < n_1d[1]; ++j)
+      for (unsigned int i = 0; i < n_1d[0]; ++i)
+        {
+          const double weight = surface.weights()[w.size()];
+          w.push_back(weight * B[0][i] * B[1][j]);
+          w_1.push_back(weight * dB[0][i] * B[1][j]);
+          w_2.push_back(weight * B[0][i] * dB[1][j]);
+          W += w.back();
+          W_1 += w_1.back();
+          W_2 += w_2.back();
+        }
+    y = a1 = a2 = {{0., 0., 0.}};
+    for (unsigned int A = 0; A < w.size(); ++A)
+      {
+        N.push_back(w[A] / W);
+        const Number N_1 = (w_1[A] - N[A] * W_1) / W;
+        const Number N_2 = (w_2[A] - N[A] * W_2) / W;
+        y                = add(y, N[A], positions[A]);
+        a1               = add(a1, N_1, positions[A]);
+        a2               = add(a2, N_2, positions[A]);
+      }
+    for (unsigned int i = 0; i < 3; ++i)
+      n[i] = master.outward_sign * (a1[(i + 1) % 3] * a2[(i + 2) % 3] -
+                                    a1[(i + 2) % 3] * a2[(i + 1) % 3]);
+    const Number length = norm(n);
+    for (Number &component : n)
+      component /= length;
+  }
+};
+
+
+
+/** Eqs. (11) and (13). */
+template <typename Number>
+Number
+friction_coefficient_at(const FrictionParameters &friction,
+                        const double              phi_0,
+                        const Number             &g_s)
+{
+  using std::sin;
+  if (friction.kind == FrictionLawKind::frictionless)
+    return 0.;
+  if (friction.kind == FrictionLawKind::coulomb)
+    return friction.mu_broken;
+  const double b_s   = friction.transition_factor;
+  const Number x     = g_s / friction.sliding_threshold;
+  Number       decay = 1.;
+  if (value(x) > 1. + 2. * b_s)
+    decay = 0.;
+  else if (value(x) >= 1.)
+    decay = 0.5 - 0.5 * sin(M_PI / (2. * b_s) * (x - b_s - 1.));
+  return phi_0 * decay * friction.mu_unbroken +
+         (1. - phi_0 * decay) * friction.mu_broken;
+}
+
+
+
+/** What a point is and what it is asked to do. */
+struct Setting
+{
+  ContactPointLaw   law;
+  ContactPointMode  mode;
+  ContactPointState old_state;
+  double            phi_0 = 0.9;
+  MasterSurface     master;
+  Eigen::Vector3d   x;
+
+  double
+  bond() const
+  {
+    return old_state.broken ? 0. : phi_0;
+  }
+};
+
+/** The penalty law with the gap split at a point of the master. */
+template <typename Number>
+struct Gap
+{
+  Number         g_n, pressure;
+  Vector<Number> tangential;
+
+  Gap(const Setting             &setting,
+      const Vector<Number>      &x,
+      const MasterPoint<Number> &at)
+  {
+    const Vector<Number> g = add(x, Number(-1.), at.y);
+    g_n                    = dot(at.n, g);
+    pressure               = 0.;
+    if (value(g_n) < 0.)
+      pressure = -setting.law.normal_penalty * g_n;
+    tangential = add(g, Number(-g_n), at.n);
+  }
+};
+
+template <typename Number>
+Vector<Number>
+penalty_traction(const Setting             &setting,
+                 const Gap<Number>         &gap,
+                 const MasterPoint<Number> &at)
+{
+  Vector<Number> t;
+  for (unsigned int i = 0; i < 3; ++i)
+    t[i] = setting.law.normal_penalty * gap.g_n * at.n[i] +
+           setting.law.tangential_penalty * gap.tangential[i];
+  return t;
+}
+
+/** The two equations of sliding at @p at, Eqs. (29) and (30). */
+template <typename Number>
+std::array<Number, 2>
+slip_equations(const Setting             &setting,
+               const Vector<Number>      &x,
+               const MasterPoint<Number> &old,
+               const MasterPoint<Number> &at,
+               Number                    &g_s)
+{
+  const Gap<Number> gap(setting, x, at);
+  Number            mu = 0.;
+  g_s                  = setting.old_state.slip;
+  if (!setting.mode.frictionless)
+    {
+      g_s += norm(add(at.y, Number(-1.), old.y));
+      mu = friction_coefficient_at(setting.law.friction, setting.bond(), g_s);
+    }
+  const Vector<Number> trial = add(x, Number(-1.), old.y);
+  const Vector<Number> u     = add(trial, Number(-dot(trial, at.n)), at.n);
+  const Number         elastic =
+    mu * gap.pressure / (setting.law.tangential_penalty * norm(u));
+  const Vector<Number> excess = add(gap.tangential, Number(-elastic), u);
+  return {{dot(at.a1, excess), dot(at.a2, excess)}};
+}
+
+
+
+/** The seeded kinematics of a setting. */
+template <typename Number>
+struct Kinematics
+{
+  Vector<Number>              x;
+  std::vector<Vector<Number>> positions;
+};
+
+Kinematics<Local>
+constants(const Setting &setting)
+{
+  Kinematics<Local> kinematics;
+  const ControlNet &net = *setting.master.positions;
+  kinematics.positions.resize(net.cols());
+  for (unsigned int c = 0; c < 3; ++c)
+    {
+      kinematics.x[c] = setting.x[c];
+      for (unsigned int A = 0; A < net.cols(); ++A)
+        kinematics.positions[A][c] = net(c, A);
+    }
+  return kinematics;
+}
+
+Kinematics<Fad>
+seeded(const Setting &setting)
+{
+  Kinematics<Fad>   kinematics;
+  const ControlNet &net     = *setting.master.positions;
+  const int         n_seeds = 3 + 3 * net.cols();
+  kinematics.positions.resize(net.cols());
+  for (unsigned int c = 0; c < 3; ++c)
+    {
+      kinematics.x[c] = Fad(n_seeds, c, setting.x[c]);
+      for (unsigned int A = 0; A < net.cols(); ++A)
+        kinematics.positions[A][c] = Fad(n_seeds, 3 + 3 * A + c, net(c, A));
+    }
+  return kinematics;
+}
+
+
+
+/** Newton's method for xi_hat on numbers that carry derivatives, until these
+ *  have converged as well. Starts at @p xi; returns how far it moved. */
+double
+solve_slip(const Setting         &setting,
+           const Kinematics<Fad> &kinematics,
+           std::array<Fad, 2>    &xi,
+           Fad                   &g_s)
+{
+  const std::array<double, 2> start = {{xi[0].val(), xi[1].val()}};
+  const std::array<Fad, 2>    xi_old{
+    {setting.old_state.xi[0], setting.old_state.xi[1]}};
+  const MasterPoint<Fad> old(setting.master, kinematics.positions, xi_old);
+
+  const Kinematics<Local>    fixed = constants(setting);
+  const std::array<Local, 2> xi_old_fixed{
+    {setting.old_state.xi[0], setting.old_state.xi[1]}};
+  const MasterPoint<Local> old_fixed(setting.master,
+                                     fixed.positions,
+                                     xi_old_fixed);
+  for (unsigned int iteration = 0; iteration < 8; ++iteration)
+    {
+      const std::array<Local, 2> xi_local{
+        {Local(2, 0, xi[0].val()), Local(2, 1, xi[1].val())}};
+      const MasterPoint<Local>   at_local(setting.master,
+                                        fixed.positions,
+                                        xi_local);
+      Local                      unused;
+      const std::array<Local, 2> h_local =
+        slip_equations(setting, fixed.x, old_fixed, at_local, unused);
+      Eigen::Matrix2d J;
+      for (unsigned int i = 0; i < 2; ++i)
+        for (unsigned int j = 0; j < 2; ++j)
+          J(i, j) = h_local[i].dx(j);
+      const double determinant = J(0, 0) * J(1, 1) - J(0, 1) * J(1, 0);
+
+      const MasterPoint<Fad>   at(setting.master, kinematics.positions, xi);
+      const std::array<Fad, 2> h =
+        slip_equations(setting, kinematics.x, old, at, g_s);
+      const Fad step_1 = (J(1, 1) * h[0] - J(0, 1) * h[1]) / determinant;
+      const Fad step_2 = (J(0, 0) * h[1] - J(1, 0) * h[0]) / determinant;
+      xi[0] -= step_1;
+      xi[1] -= step_2;
+    }
+  return std::hypot(xi[0].val() - start[0], xi[1].val() - start[1]);
+}
+
+
+
+/** Largest deviations from the reference, relative to its largest entry. */
+struct Deviation
+{
+  double       xi = 0, slip = 0, traction = 0, dt = 0, dforce = 0;
+  unsigned int n_other_status = 0, n_other_element = 0;
+  double       slip_from = 1e9, slip_to = 0, softening = 0;
+};
+
+using Matrix = Eigen::MatrixXd;
+
+double
+relative_deviation(const Matrix &ours, const Matrix &reference)
+{
+  const double scale = reference.cwiseAbs().maxCoeff();
+  double       worst = 0;
+  for (unsigned int k = 0; k < ours.size(); ++k)
+    grow(worst, std::abs(ours(k) - reference(k)) / scale);
+  return worst;
+}
+
+/** What the program says of the derivatives with respect to x and all control
+ *  points: chain rule from w = (x, y, a_1, a_2, y_n). */
+void
+chain(const ContactPointResult &result,
+      const unsigned int        n_control_points,
+      Matrix                   &dt,
+      Matrix                   &dforce)
+{
+  Matrix W = Matrix::Zero(15, 3 + 3 * n_control_points);
+  W.topLeftCorner<3, 3>().setIdentity();
+  const auto add_block =
+    [&](const int row, const unsigned int A, const double factor) {
+      W.block<3, 3>(row, 3 + 3 * A) += factor * Eigen::Matrix3d::Identity();
+    };
+  for (unsigned int a = 0; a < result.basis.size; ++a)
+    {
+      const unsigned int A = result.basis.control_point[a];
+      add_block(3, A, result.basis.N[a]);
+      add_block(6, A, result.basis.N_1[a]);
+      add_block(9, A, result.basis.N_2[a]);
+    }
+  if (result.state.status == PointStatus::slip)
+    for (unsigned int a = 0; a < result.old_basis.size; ++a)
+      add_block(12, result.old_basis.control_point[a], result.old_basis.N[a]);
+
+  dt               = result.dt * W;
+  const Matrix dxi = result.dxi * W;
+  dforce           = Matrix::Zero(3 * n_control_points, W.cols());
+  for (unsigned int b = 0; b < result.basis.size; ++b)
+    dforce.middleRows<3>(3 * result.basis.control_point[b]) =
+      result.basis.N[b] * dt +
+      result.traction *
+        (result.basis.N_1[b] * dxi.row(0) + result.basis.N_2[b] * dxi.row(1));
+}
+
+/** Compares a closed point. */
+void
+compare(const Setting    &setting,
+        const PointStatus expected,
+        Deviation        &deviation)
+{
+  ContactPointResult result;
+  update_contact_point(setting.law,
+                       setting.old_state,
+                       setting.phi_0,
+                       setting.x,
+                       setting.master,
+                       setting.mode,
+                       result);
+  if (result.failed || result.state.status != expected)
+    {
+      ++deviation.n_other_status;
+      return;
+    }
+
+  const Kinematics<Fad> kinematics = seeded(setting);
+  std::array<Fad, 2>    xi{{result.state.xi[0], result.state.xi[1]}};
+  Fad                   g_s = setting.old_state.slip;
+  if (!setting.old_state.has_partner)
+    {
+      // it closes where it is: xi_hat is its projection and moves with it
+      Setting projection           = setting;
+      projection.mode.frictionless = true;
+      projection.old_state.xi = result.state.xi + Eigen::Vector2d(0.01, 0.02);
+      grow(deviation.xi, solve_slip(projection, kinematics, xi, g_s));
+    }
+  else if (expected == PointStatus::slip)
+    grow(deviation.xi, solve_slip(setting, kinematics, xi, g_s));
+  else
+    grow(deviation.xi, (result.state.xi - setting.old_state.xi).norm());
+  grow(deviation.slip, std::abs(result.state.slip - g_s.val()));
+  deviation.slip_from = std::min(deviation.slip_from, g_s.val());
+  deviation.slip_to   = std::max(deviation.slip_to, g_s.val());
+  deviation.softening = std::max(deviation.softening, result.softening);
+  deviation.n_other_element +=
+    (setting.master.surface->element_of(setting.old_state.xi) !=
+     result.basis.element);
+
+  const MasterPoint<Fad> at(setting.master, kinematics.positions, xi);
+  const Vector<Fad>      t =
+    penalty_traction(setting, Gap<Fad>(setting, kinematics.x, at), at);
+
+  const unsigned int n_cp    = kinematics.positions.size();
+  const unsigned int n_seeds = 3 + 3 * n_cp;
+  Matrix             traction(3, 1), dt(3, n_seeds);
+  Matrix             dforce = Matrix::Zero(3 * n_cp, n_seeds);
+  for (unsigned int c = 0; c < 3; ++c)
+    {
+      traction(c, 0) = t[c].val();
+      for (unsigned int k = 0; k < n_seeds; ++k)
+        dt(c, k) = t[c].dx(k);
+      for (unsigned int B = 0; B < n_cp; ++B)
+        {
+          const Fad force = at.N[B] * t[c];
+          for (unsigned int k = 0; k < n_seeds; ++k)
+            dforce(3 * B + c, k) = force.dx(k);
+        }
+    }
+  Matrix our_dt, our_dforce;
+  chain(result, n_cp, our_dt, our_dforce);
+  grow(deviation.traction, relative_deviation(result.traction, traction));
+  grow(deviation.dt, relative_deviation(our_dt, dt));
+  grow(deviation.dforce, relative_deviation(our_dforce, dforce));
+}
+
+
+
+/** A master of size one with 3 x 3 elements, bumps and a distorted net. */
+struct Master
+{
+  std::string  name;
+  NurbsSurface surface;
+  ControlNet   positions;
+
+  Master(const std::string &name, const NurbsSurface &surface)
+    : name(name)
+    , surface(surface)
+    , positions(surface.control_points())
+  {
+    for (unsigned int A = 0; A < positions.cols(); ++A)
+      positions.col(A) += Eigen::Vector3d(random_number(-0.03, 0.03),
+                                          random_number(-0.03, 0.03),
+                                          random_number(-0.07, 0.07));
+    positions = (Eigen::AngleAxisd(0.5, Eigen::Vector3d(1, -2, 3).normalized())
+                   .toRotationMatrix() *
+                 positions)
+                  .eval();
+  }
+};
+
+/** Places x at the given gap from the point @p xi of the master. */
+void
+place(Setting               &setting,
+      const Eigen::Vector2d &xi,
+      const double           g_n,
+      const double           g_t,
+      const double           angle)
+{
+  SurfaceBasis    basis;
+  SurfaceGeometry geometry;
+  setting.master.surface->evaluate(xi, basis, false);
+  contract(basis, *setting.master.positions, false, geometry);
+  const Eigen::Vector3d n =
+    setting.master.outward_sign * geometry.a1.cross(geometry.a2).normalized();
+  const Eigen::Vector3d e_1 = geometry.a1.normalized();
+  const Eigen::Vector3d e_2 = n.cross(e_1);
+  setting.old_state.xi      = xi;
+  setting.x                 = geometry.y + g_n * n +
+              g_t * (std::cos(angle) * e_1 + std::sin(angle) * e_2);
+}
+
+
+
+/** Runs a setting over places, directions, masters and sides of them. */
+void
+check(const std::string         &name,
+      const std::vector<Master> &masters,
+      const Setting             &basic,
+      const double               g_n,
+      const double               g_t,
+      const PointStatus          expected)
+{
+  std::cout << name << std::endl;
+  Deviation deviation;
+  for (const Master &master : masters)
+    for (const double sign : {1., -1.})
+      for (const Eigen::Vector2d &xi : {Eigen::Vector2d(0.21, 0.3),
+                                        Eigen::Vector2d(0.5, 0.62),
+                                        Eigen::Vector2d(0.71, 0.36),
+                                        Eigen::Vector2d(0.33, 0.655)})
+        for (unsigned int direction = 0; direction < 5; ++direction)
+          {
+            Setting setting = basic;
+            setting.master  = {&master.surface, &master.positions, sign};
+            place(setting, xi, g_n, g_t, 0.2 + 2. * M_PI / 5. * direction);
+            compare(setting, expected, deviation);
+          }
+  report("  all in this state", deviation.n_other_status == 0);
+  report("  interacting point solves the equations, deviation",
+         deviation.xi,
+         1e-13);
+  report("  deviation of g_s [mm]", deviation.slip, 1e-13);
+  report("  relative deviation of the traction", deviation.traction, 1e-12);
+  report("  relative deviation of its derivatives", deviation.dt, 1e-9);
+  report("  relative deviation of those of the master's forces",
+         deviation.dforce,
+         1e-9);
+  if (expected == PointStatus::slip && !basic.mode.frictionless &&
+      basic.law.friction.kind == FrictionLawKind::modified_coulomb)
+    {
+      const FrictionParameters &friction = basic.law.friction;
+      const double              begin    = friction.sliding_threshold;
+      const double end = begin * (1. + 2. * friction.transition_factor);
+      std::cout << "  sliding distances "
+                << (deviation.slip_to < begin ? "before" :
+                    deviation.slip_from > end ? "after" :
+                    deviation.slip_from > begin && deviation.slip_to < end ?
+                                                "inside" :
+                                                "across")
+                << " the softening" << std::endl;
+    }
+  if (deviation.n_other_element > 0)
+    std::cout << "  some go to another element" << std::endl;
+  if (deviation.softening > 0.)
+    report("  it softens, and the solution is unique",
+           deviation.softening > 0.05 && deviation.softening < 1.);
+}
+
+
+
+/** Open points exert nothing, and nothing is learnt from them. */
+void
+check_open(const std::vector<Master> &masters, const Setting &basic)
+{
+  std::cout << "Opening" << std::endl;
+  bool all_open = true, all_zero = true, all_keep_slip = true;
+  for (const Master &master : masters)
+    for (const double sign : {1., -1.})
+      for (const double g_t : {0., 0.04})
+        for (unsigned int direction = 0; direction < 5; ++direction)
+          {
+            Setting setting = basic;
+            setting.master  = {&master.surface, &master.positions, sign};
+            place(setting, {0.45, 0.6}, 0.01, g_t, 0.1 + 1.2 * direction);
+            ContactPointResult result;
+            result.dt.setOnes(); // what an earlier update left behind
+            result.dxi.setOnes();
+            result.traction.setOnes();
+            update_contact_point(setting.law,
+                                 setting.old_state,
+                                 setting.phi_0,
+                                 setting.x,
+                                 setting.master,
+                                 setting.mode,
+                                 result);
+            all_open = all_open && !result.failed &&
+                       result.state.status == PointStatus::open &&
+                       result.normal_gap > 0.;
+            all_zero = all_zero && result.traction.isZero(0.) &&
+                       result.tangential_traction.isZero(0.) &&
+                       result.slip_increment.isZero(0.) &&
+                       result.pressure == 0. && result.dt.isZero(0.) &&
+                       result.dxi.isZero(0.);
+            all_keep_slip =
+              all_keep_slip && result.state.slip == setting.old_state.slip;
+          }
+  report("  all open", all_open);
+  report("  forces and tangent exactly zero", all_zero);
+  report("  damage does not heal", all_keep_slip);
+}
+
+
+
+/** Stick if and only if eps_t |g_t| <= mu(g_s^n) p at xi_hat^n, right up to the
+ *  limit; otherwise |t_t| = mu(g_s) p. */
+void
+check_honesty(const std::vector<Master> &masters, const Setting &basic)
+{
+  std::cout << "Stick or slip" << std::endl;
+  unsigned int n_stick = 0, n_slip = 0, n_wrong = 0, n_failed = 0;
+  double       excess = 0;
+  for (unsigned int trial = 0; trial < 2000; ++trial)
+    {
+      const Master &master   = masters[trial % masters.size()];
+      Setting       setting  = basic;
+      setting.master         = {&master.surface,
+                                &master.positions,
+                        trial % 3 ? 1. : -1.};
+      setting.old_state.slip = random_number(0., 0.07);
+      const Eigen::Vector2d xi(random_number(0.2, 0.8),
+                               random_number(0.2, 0.8));
+      const double          g_n   = random_number(-0.02, -0.001);
+      const double          p     = -setting.law.normal_penalty * g_n;
+      const double          limit = p *
+                           friction_coefficient_at(setting.law.friction,
+                                                   setting.phi_0,
+                                                   setting.old_state.slip) /
+                           setting.law.tangential_penalty;
+      // every other point very close to the limit
+      const double g_t = trial % 2 == 0 ? random_number(0., 2. * limit) :
+                         trial % 4 == 1 ? limit * (1. + 1e-9) :
+                                          limit * (1. - 1e-9);
+      place(setting, xi, g_n, g_t, random_number(0., 6.));
+      ContactPointResult result;
+      update_contact_point(setting.law,
+                           setting.old_state,
+                           setting.phi_0,
+                           setting.x,
+                           setting.master,
+                           setting.mode,
+                           result);
+      n_failed += result.failed;
+      const bool sticks = result.state.status == PointStatus::stick;
+      n_wrong += (sticks != (g_t <= limit));
+      n_stick += sticks;
+      if (sticks)
+        grow(excess,
+             result.tangential_traction.norm() /
+                 (limit * setting.law.tangential_penalty) -
+               1.);
+      else if (result.state.status == PointStatus::slip)
+        {
+          ++n_slip;
+          const double t =
+            result.pressure * friction_coefficient_at(setting.law.friction,
+                                                      setting.phi_0,
+                                                      result.state.slip);
+          grow(excess, std::abs(result.tangential_traction.norm() / t - 1.));
+        }
+    }
+  report("  more than 500 points stick and 500 slip",
+         n_stick > 500 && n_slip > 500);
+  report("  no update failed", n_failed == 0);
+  report("  all as the trial traction demands", n_wrong == 0);
+  report("  traction on or below the limit, deviation", excess, 1e-11);
+}
+
+
+
+int
+main()
+{
+  const std::vector<Master> masters = {
+    Master("rectangle", NurbsSurface::rectangle(1.2, 1., 3, 3)),
+    Master("disk", NurbsSurface::disk(0.6, 3))};
+
+  Setting basic;
+  basic.law.normal_penalty     = 600;
+  basic.law.tangential_penalty = 250;
+  basic.old_state.status       = PointStatus::stick;
+  basic.old_state.has_partner  = true;
+  const double      g_n        = -0.02;
+  const PointStatus slip = PointStatus::slip, stick = PointStatus::stick;
+
+  Setting setting        = basic;
+  setting.old_state.slip = 0.01;
+  check("Stick", masters, setting, g_n, 0.015, stick);
+  setting.mode.stick_first = true;
+  check("Stick whatever the traction", masters, setting, g_n, 0.06, stick);
+
+  setting = basic;
+  check("Slip, bonded", masters, setting, g_n, 0.04, slip);
+  setting.old_state.slip = 0.018;
+  check("Slip, softening", masters, setting, g_n, 0.045, slip);
+  setting.old_state.slip = 0.035;
+  check("Slip that just begins, softening", masters, setting, g_n, 0.025, slip);
+  setting.old_state.slip = 0.06;
+  check("Slip, broken", masters, setting, g_n, 0.05, slip);
+  check("Slip from element to element", masters, setting, g_n, 0.08, slip);
+
+  setting.old_state.slip   = 0.;
+  setting.old_state.broken = true;
+  check("Slip, bond broken by opening", masters, setting, g_n, 0.035, slip);
+
+  setting                  = basic;
+  setting.old_state.status = PointStatus::open;
+  setting.old_state.slip   = 0.018;
+  check("Closing in stick", masters, setting, g_n, 0.01, stick);
+  check("Closing in slip", masters, setting, g_n, 0.045, slip);
+  setting.old_state.has_partner = false;
+  check("Coming from beyond the edge", masters, setting, g_n, 0., stick);
+
+  setting                   = basic;
+  setting.law.friction.kind = FrictionLawKind::coulomb;
+  check("Slip, Coulomb", masters, setting, g_n, 0.045, slip);
+  setting.law.friction.kind = FrictionLawKind::frictionless;
+  check("Frictionless law", masters, setting, g_n, 0.05, slip);
+  setting                   = basic;
+  setting.old_state.slip    = 0.03;
+  setting.mode.frictionless = true;
+  check("Frictionless for now", masters, setting, g_n, 0.05, slip);
+
+  setting                        = basic;
+  setting.law.tangential_penalty = 1200;
+  setting.old_state.slip         = 0.03;
+  check("Slip, eps_t > eps_n", masters, setting, g_n, 0.015, slip);
+
+  setting                = basic;
+  setting.old_state.slip = 0.01;
+  check_open(masters, setting);
+  check_honesty(masters, basic);
+}

@@ -599,6 +599,9 @@ check_open(const std::vector<Master> &masters, const Setting &basic)
             result.dt.setOnes(); // what an earlier update left behind
             result.dxi.setOnes();
             result.traction.setOnes();
+            result.tangential_traction.setOnes();
+            result.slip_increment.setOnes();
+            result.pressure = result.softening = 1.;
             update_contact_point(setting.law,
                                  setting.old_state,
                                  setting.phi_0,
@@ -612,8 +615,8 @@ check_open(const std::vector<Master> &masters, const Setting &basic)
             all_zero = all_zero && result.traction.isZero(0.) &&
                        result.tangential_traction.isZero(0.) &&
                        result.slip_increment.isZero(0.) &&
-                       result.pressure == 0. && result.dt.isZero(0.) &&
-                       result.dxi.isZero(0.);
+                       result.pressure == 0. && result.softening == 0. &&
+                       result.dt.isZero(0.) && result.dxi.isZero(0.);
             all_keep_slip =
               all_keep_slip && result.state.slip == setting.old_state.slip;
           }

@@ -64,7 +64,7 @@ twist(const std::vector<std::string>                     &overrides,
 void
 check_torque()
 {
-  double before = 1;
+  double before = 0;
   for (const unsigned int n : {3, 4, 5, 6, 7, 8, 9, 10})
     {
       double worst = 0;
@@ -75,13 +75,16 @@ check_torque()
                                       closed_form.torque(theta) -
                                     1));
             });
-      report("error of the torque with order " + std::to_string(n) +
-               ", relative to that with a lower one",
-             worst / before,
-             1);
+      if (n == 3)
+        report("error of the torque with order 3", worst, 5e-3);
+      else
+        report("error of the torque with order " + std::to_string(n) +
+                 " over that with order " + std::to_string(n - 1),
+               worst / before,
+               1);
       before = worst;
     }
-  report("error in the end", before, 3e-4);
+  report("error of the torque with order 10", before, 3e-4);
 }
 
 
@@ -116,7 +119,7 @@ towed(const double r, const double theta)
                                r - slip * tau[1] - gap[0],
                                slip);
       };
-      constexpr unsigned int n = 200;
+      constexpr unsigned int n = 1000;
       const double           h = (theta - begin) / n;
       for (unsigned int i = 0; i < n; ++i)
         {
@@ -173,9 +176,10 @@ check_traction()
          1e-5);
   // Closer to the axis the closed form itself is that much off.
   look_at_points(10, [&](const double r, const double theta, const double t) {
-    keep_largest(by_towed, std::abs(t - towed(r, theta)));
+    if (r < 0.5)
+      keep_largest(by_towed, std::abs(t - towed(r, theta)));
   });
-  report("traction over pressure differs from that of a towed point",
+  report("traction over pressure near the axis differs from that of a towed point",
          by_towed,
          1e-5);
 }

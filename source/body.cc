@@ -328,6 +328,9 @@ namespace Debond
         const Eigen::VectorXd x = condensation.extend(contact_values(state));
         for (unsigned int i = 0; i < free_dofs.size(); ++i)
           full[free_dofs[i]] = x[i];
+        // these are known without the rounding of the solve
+        for (const int k : contact_unknowns)
+          full[free_dofs[k]] = state[free_dofs[k]];
       }
     body_mesh.distribute(full);
     return full;

@@ -105,6 +105,7 @@ namespace Debond
   {
     const dealii::QGauss<2>             gauss(n);
     std::vector<SurfaceQuadraturePoint> points;
+    points.reserve(surface.n_elements() * gauss.size());
     for (unsigned int element = 0; element < surface.n_elements(); ++element)
       {
         const auto            bounds = surface.element_bounds(element);

@@ -106,8 +106,10 @@ namespace Debond
     law.tangential_penalty  = parameters.tangential_penalty;
     law.friction            = parameters.friction;
     law.opening_breaks_bond = parameters.opening_breaks_bond;
-    for (const auto &quadrature_point :
-         surface_quadrature(mesh[slave]->surface(), parameters.quadrature_points))
+    const auto quadrature =
+      surface_quadrature(mesh[slave]->surface(), parameters.quadrature_points);
+    points.reserve(quadrature.size());
+    for (const auto &quadrature_point : quadrature)
       {
         Point point;
         point.element = quadrature_point.element;

@@ -344,8 +344,17 @@ namespace Debond
     JsonObject json;
     add_summary(summary, json);
     write_file(state->directory->file("summary.json"), json.text());
-    if (converged && !state->console.quiet())
-      state->timer.print_summary();
+    if (converged)
+      {
+        std::ostringstream text;
+        text << "Largest torque " << summary.measures.T_max_Nmm << " N mm at "
+             << summary.measures.theta_max_deg << " deg, at the end "
+             << summary.measures.T_inf_Nmm << " N mm. Results are in "
+             << state->directory->path();
+        state->console.headline(text.str());
+        if (!state->console.quiet())
+          state->timer.print_summary();
+      }
   }
 
 
@@ -389,8 +398,10 @@ namespace Debond
 
       const Chuck  chuck(scene.chuck, Eigen::Vector3d::Zero(), R);
       const auto   last = chuck.values(scene.load_steps.times.back());
-      const double p =
-        scene.chuck.component[2].loaded ? -last[2] / (M_PI * R * R) : -last[2] * k_n;
+      const double p = std::max(0.,
+                                scene.chuck.component[2].loaded ?
+                                  -last[2] / (M_PI * R * R) :
+                                  -last[2] * k_n);
       out << "Closed forms foretell (bodies as springs in series with the interface, "
              "to some 5 %):\n"
           << "  mean pressure at the end " << p << " MPa, force " << p * M_PI * R * R

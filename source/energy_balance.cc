@@ -50,6 +50,7 @@ namespace Debond
 
   bool EnergyBalance::dissipates_too_much() const
   {
-    return dissipated - first_dissipated > W + bound + 1e-9 * max_W;
+    // what was stored in the first row may be dissipated as well
+    return dissipated - first_dissipated > W + first_stored + bound + 1e-9 * max_W;
   }
 } // namespace Debond

@@ -114,8 +114,7 @@ private:
     options.stick_first        = stepping.begins_phase(step);
     options.touch_tolerance    = 1e-12 * system.R;
     options.frictionless =
-      step > 0 &&
-      stepping.time(step - 1) < scene.interface.friction.starts_at;
+      step > 0 && stepping.time(step - 1) < scene.interface.friction.starts_at;
     system.predict(stepping.time(step), !options.stick_first);
     const Debond::NewtonResult result = solve_newton(system, options);
     iterations                        = result.iterations;
@@ -138,10 +137,10 @@ run_scene(const std::string              &name,
           const std::string              &text,
           const std::vector<std::string> &overrides = {})
 {
-  Debond::Scene scene                  = Debond::Scene::from_text(text, overrides);
-  scene.output.directory               = "results/" + name;
-  scene.output.fields_every            = 0;
-  scene.output.console                 = Debond::ConsoleKind::quiet;
+  Debond::Scene scene       = Debond::Scene::from_text(text, overrides);
+  scene.output.directory    = "results/" + name;
+  scene.output.fields_every = 0;
+  scene.output.console      = Debond::ConsoleKind::quiet;
   scene.output.overwrite_other_results = true;
   Debond::DebondingProblem problem(scene);
   problem.run();

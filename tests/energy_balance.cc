@@ -37,14 +37,13 @@ check(const std::string &material)
           keep_largest(defect, std::abs(row.energy_defect));
           keep_largest(over_bound,
                        std::abs(row.energy_defect) / row.energy_defect_bound);
-          dissipates_less = dissipates_less && row.dissipation_Nmm <= row.work_Nmm;
+          dissipates_less =
+            dissipates_less && row.dissipation_Nmm <= row.work_Nmm;
           adhesion_is_part =
             adhesion_is_part && row.adhesive_work_Nmm <= row.dissipation_Nmm;
-          grows = grows &&
-                  row.dissipation_Nmm >= rows[i - 1].dissipation_Nmm &&
+          grows = grows && row.dissipation_Nmm >= rows[i - 1].dissipation_Nmm &&
                   row.adhesive_work_Nmm >= rows[i - 1].adhesive_work_Nmm;
         }
-      std::cerr << n << " " << defect << " " << over_bound << " "<<rows.back().energy_defect <<"\n";
       std::cout << n << " steps" << std::endl;
       if (before > 0)
         report("  energy defect relative to that of half the steps",
@@ -59,7 +58,7 @@ check(const std::string &material)
              rows.back().adhesive_work_Nmm > 0.01 * rows.back().work_Nmm &&
                rows.back().dissipation_Nmm > 0.5 * rows.back().work_Nmm);
     }
-  report("energy defect in the end", before, 1e-3);
+  report("energy defect with 400 steps", before, 1e-6);
 }
 
 
@@ -68,7 +67,6 @@ void
 test()
 {
   check("neo-hookean");
-  check("linear");
   check("rigid");
 }
 

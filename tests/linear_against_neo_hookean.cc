@@ -28,16 +28,17 @@ test()
         {"neo-hookean", "linear"},
         {"linear", "neo-hookean"}})
     {
-      const auto linear = run_scene(bone + "-" + implant,
-                                    scene_text,
-                                    {"Bone/Material=" + bone,
-                                     "Implant/Material=" + implant});
-      double     T_max = 0, torque = 0, force = 0;
+      const auto linear =
+        run_scene(bone + "-" + implant,
+                  scene_text,
+                  {"Bone/Material=" + bone, "Implant/Material=" + implant});
+      double T_max = 0, torque = 0, force = 0;
       for (std::size_t i = 0; i < nonlinear.size(); ++i)
         {
           keep_largest(T_max, std::abs(nonlinear[i].torque_Nmm));
           keep_largest(torque,
-                       std::abs(linear[i].torque_Nmm - nonlinear[i].torque_Nmm));
+                       std::abs(linear[i].torque_Nmm -
+                                nonlinear[i].torque_Nmm));
           keep_largest(force,
                        std::abs(linear[i].force_N - nonlinear[i].force_N) /
                          nonlinear[1].force_N);

@@ -1,9 +1,9 @@
 // A chuck that is loaded instead of moved, a compliant machine, and the balance
 // of all six reactions.
 
-#include "driven_scene.h"
-
 #include <Eigen/Geometry>
+
+#include "driven_scene.h"
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
@@ -54,14 +54,14 @@ check_force_instead_of_displacement(const std::string &material)
   for (bool is_first = true; prescribed.advance() && loaded.advance();
        is_first      = false)
     {
-      const double difference = std::abs(loaded.system.chuck_forces()[5] /
+           const double difference = std::abs(loaded.system.chuck_forces()[5] /
                                            prescribed.system.chuck_forces()[5] -
                                          1);
-      (is_first ? first : later) =
-        std::max(is_first ? first : later, difference);
-      keep_largest(drift,
+           (is_first ? first : later) =
+             std::max(is_first ? first : later, difference);
+           keep_largest(drift,
                    std::abs(prescribed.system.chuck_forces()[2] / -force - 1));
-      keep_largest(lost,
+           keep_largest(lost,
                    std::abs(loaded.system.chuck_forces()[2] / -force - 1));
     }
   report("  the load is not met by", lost, 1e-9);
@@ -100,9 +100,9 @@ check_reactions(const std::vector<std::string> &overrides)
   const Vector6 bone = system.bone.support_reaction(Eigen::Vector3d::Zero());
   Vector6       implant =
     system.implant.support_reaction(system.chuck.reference_centre());
-  implant.head<3>() = (system.chuck.rotation() * implant.head<3>()).eval();
-  implant.tail<3>() = (system.chuck.rotation() * implant.tail<3>()).eval();
-  implant           = move(implant, system.chuck.centre());
+  implant.head<3>()   = (system.chuck.rotation() * implant.head<3>()).eval();
+  implant.tail<3>()   = (system.chuck.rotation() * implant.tail<3>()).eval();
+  implant             = move(implant, system.chuck.centre());
   const Vector6 chuck = move(system.chuck_resultant(), system.chuck.centre());
 
   const double force  = chuck.head<3>().norm();
@@ -136,7 +136,8 @@ check_six_loads(const std::vector<std::string> &motion)
   DrivenScene moved(main_scene, overrides);
   while (moved.advance())
     ;
-  report("  everything sticks", moved.system.interface.summarise().share_stick == 1);
+  report("  everything sticks",
+         moved.system.interface.summarise().share_stick == 1);
 
   overrides = law;
   for (unsigned int k = 0; k < 6; ++k)
@@ -146,8 +147,8 @@ check_six_loads(const std::vector<std::string> &motion)
       value << moved.system.chuck_forces()[k] << " * min(t, 1)";
       const std::string component =
         std::string("Chuck/") + Debond::ChuckParameters::names[k];
-      overrides.push_back(component + (k < 3 ? "/Control = force" :
-                                               "/Control = moment"));
+      overrides.push_back(component +
+                          (k < 3 ? "/Control = force" : "/Control = moment"));
       overrides.push_back(component + "/Value = " + value.str());
     }
   DrivenScene loaded(main_scene, overrides);
@@ -172,18 +173,21 @@ check_machine_stiffness()
 {
   constexpr double k = 5e3;
   std::cout << "machine of " << k << " N mm/rad" << std::endl;
-  DrivenScene stiff(main_scene), soft(main_scene, {"Chuck/Rotation z/Stiffness=5000"});
+  DrivenScene stiff(main_scene),
+    soft(main_scene, {"Chuck/Rotation z/Stiffness=5000"});
   stiff.advance_to(1);
   soft.advance_to(1);
-  double       lag = 0, T_max = 0, excess = 0;
-  for (bool is_first = true; soft.advance() && stiff.advance(); is_first = false)
+  double lag = 0, T_max = 0, excess = 0;
+  for (bool is_first = true; soft.advance() && stiff.advance();
+       is_first      = false)
     {
-      const double T       = soft.system.chuck_forces()[5];
-      const double machine = soft.system.chuck.values(soft.time())[5];
-      keep_largest(lag,
-                   std::abs(T - k * (machine - soft.system.chuck.position()[5])));
-      keep_largest(T_max, T);
-      if (is_first)
+           const double T       = soft.system.chuck_forces()[5];
+           const double machine = soft.system.chuck.values(soft.time())[5];
+           keep_largest(lag,
+                   std::abs(T -
+                            k * (machine - soft.system.chuck.position()[5])));
+           keep_largest(T_max, T);
+           if (is_first)
         excess = T / stiff.system.chuck_forces()[5];
     }
   report("  torque differs from the spring's, relative to the largest",

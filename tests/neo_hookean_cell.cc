@@ -198,6 +198,28 @@ check(const std::string    &name,
   report("  relative deviation of the forces", deviation.force, 1e-9);
   report("  relative deviation of the tangent", deviation.tangent, 1e-9);
 
+  // strains of 1e-9, where the material is linear
+  Eigen::VectorXd linear_force = Eigen::VectorXd::Zero(v.size());
+  v *= 1e-9 / amplitude;
+  for (unsigned int c = 0; c < cells.n_cells(); ++c)
+    {
+      Eigen::MatrixXd K;
+      cells.tangent(c, Eigen::VectorXd::Zero(v.size()), K);
+      const std::vector<unsigned int> &nodes = mesh.cells()[c].nodes;
+      for (unsigned int i = 0; i < K.rows(); ++i)
+        for (unsigned int j = 0; j < K.cols(); ++j)
+          linear_force[3 * nodes[i / 3] + i % 3] +=
+            K(i, j) * v[3 * nodes[j / 3] + j % 3];
+    }
+  force.setZero();
+  cells.internal_forces(v, force, energy);
+  report("  strains of 1e-9: relative deviation of the forces",
+         relative_deviation(force, linear_force),
+         1e-6);
+  report("  strains of 1e-9: relative deviation of the energy",
+         std::abs(2. * energy / v.dot(linear_force) - 1.),
+         1e-6);
+
   // one node pulled through its cell
   v.setZero();
   v[3 * mesh.cells()[0].nodes.back() + 2] = 100. * parameters.thickness();

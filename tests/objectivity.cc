@@ -29,7 +29,8 @@ curve(const double turn_deg)
                      {"Chuck/Rotation z/Value = " + std::to_string(turn_deg) +
                       " * max(0, min(t - 1, 1)) + 2 * max(t - 3, 0)"});
   driven.advance_to(2);
-  report("  open after the turn", driven.system.interface.summarise().n_closed == 0);
+  report("  open after the turn",
+         driven.system.interface.summarise().n_closed == 0);
   driven.advance_to(3);
   Curve result;
   do

@@ -2,11 +2,11 @@
 // falls with the order of the quadrature, and the traction is that of the
 // closed form at each quadrature point.
 
-#include "driven_scene.h"
-
 #include <debond/closed_forms.h>
 
 #include <functional>
+
+#include "driven_scene.h"
 
 const char *const scene_text = R"(
 subsection Bone
@@ -48,7 +48,7 @@ const Debond::RigidBodiesTorsion closed_form(paper());
 
 /** Goes through all angles and calls @p look at each. */
 void
-twist(const std::vector<std::string>                     &overrides,
+twist(const std::vector<std::string>                   &overrides,
       const std::function<void(DrivenScene &, double)> &look)
 {
   DrivenScene driven(scene_text, overrides);
@@ -105,8 +105,8 @@ towed(const double r, const double theta)
     return Debond::friction_coefficient(parameters.friction, 1., slip);
   };
   const double longest = mu(0).mu * length; // gap of a sticking point
-  const double begin   = longest < 2 * r ? 2 * std::asin(longest / (2 * r)) : 7.;
-  const double turned  = std::min(begin, theta);
+  const double begin  = longest < 2 * r ? 2 * std::asin(longest / (2 * r)) : 7.;
+  const double turned = std::min(begin, theta);
   // gap and sliding distance; the slave point is at (r, 0)
   Eigen::Vector3d state(r - r * std::cos(turned), r * std::sin(turned), 0);
   if (theta > begin)
@@ -135,10 +135,11 @@ towed(const double r, const double theta)
 
 
 
-/** Calls @p look with radius, angle and traction over pressure of all points. */
+/** Calls @p look with radius, angle and traction over pressure of all points.
+ */
 void
 look_at_points(
-  const unsigned int                                        n,
+  const unsigned int                                           n,
   const std::function<void(double r, double theta, double t)> &look)
 {
   twist({"Interface/Quadrature points=" + std::to_string(n)},
@@ -179,9 +180,10 @@ check_traction()
     if (r < 0.5)
       keep_largest(by_towed, std::abs(t - towed(r, theta)));
   });
-  report("traction over pressure near the axis differs from that of a towed point",
-         by_towed,
-         1e-5);
+  report(
+    "traction over pressure near the axis differs from that of a towed point",
+    by_towed,
+    1e-5);
 }
 
 

@@ -78,8 +78,8 @@ pressure_of_bars(const std::string &material)
 {
   double p = 0;
   for (unsigned int i = 0; i < 10; ++i) // secant through zero, nearly straight
-    p += 0.02 / displacement(1, "linear") *
-         (1 - displacement(p, material) / 0.02);
+    p +=
+      0.02 / displacement(1, "linear") * (1 - displacement(p, material) / 0.02);
   return p;
 }
 
@@ -94,12 +94,15 @@ check_matching()
         {
           std::cout << "slave " << slave << ", " << material << ", " << surface
                     << std::endl;
-          const Pressure pressure = press({"Interface/Slave=" + slave,
-                                           "Bone/Material=" + material,
-                                           "Implant/Material=" + material,
-                                           "Bone/Contact surface=" + surface,
-                                           "Implant/Contact surface=" + surface});
-          report("  deviation from uniform pressure", pressure.deviation, 1e-10);
+          const Pressure pressure =
+            press({"Interface/Slave=" + slave,
+                   "Bone/Material=" + material,
+                   "Implant/Material=" + material,
+                   "Bone/Contact surface=" + surface,
+                   "Implant/Contact surface=" + surface});
+          report("  deviation from uniform pressure",
+                 pressure.deviation,
+                 1e-10);
           report("  deviation from the bars in series",
                  std::abs(pressure.mean / pressure_of_bars(material) - 1),
                  1e-10);

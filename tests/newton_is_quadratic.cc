@@ -1,0 +1,129 @@
+// Newton's method converges quadratically, and soon, in steps in which the
+// interface slips and softens. Bodies are linear, so everything nonlinear is
+// the interface, and the last iterations show whether its tangent is exact.
+
+#include <debond/newton.h>
+#include <debond/runtime.h>
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "checks.h"
+
+using namespace Debond;
+
+/** The order p in |r_k+1| ~ |r_k|^p that the last three residuals above the
+ *  level of rounding show; 0 if there are no three. */
+double
+order(const std::vector<double> &history)
+{
+  const double round_off = 1e-11;
+  for (unsigned int k = history.size() - 1; k >= 2; --k)
+    if (history[k] > round_off)
+      return std::log(history[k] / history[k - 1]) /
+             std::log(history[k - 1] / history[k - 2]);
+  return 0.;
+}
+
+
+
+/** Presses in, and turns by @p angle in one step that starts from where the
+ *  implant was. */
+void
+check(const std::string &name, const std::string &changes, const double angle)
+{
+  const Scene scene = Scene::from_text(R"(
+    subsection Bone
+      set Material = linear
+    end
+    subsection Implant
+      set Material = linear
+    end
+    subsection Chuck
+      subsection Translation z
+        set Value = -0.0049 * min(t, 1)
+      end
+      subsection Rotation z
+        set Value = max(t - 1, 0)
+      end
+    end)" + changes);
+
+  std::ostringstream  timings;
+  dealii::TimerOutput timer(timings,
+                            dealii::TimerOutput::never,
+                            dealii::TimerOutput::wall_times);
+  CoupledSystem       system(scene, timer);
+  NewtonOptions       options;
+  options.residual_tolerance = 1e-12;
+  options.touch_tolerance    = 1e-12 * system.R;
+  options.stick_first        = true;
+  system.start(0.);
+  std::cout << name << std::endl;
+  for (const double time : {0., 1.})
+    {
+      system.predict(time, false);
+      report("  push-in converges", solve_newton(system, options).converged);
+      system.commit(time);
+    }
+
+  system.predict(1. + angle, false);
+  const NewtonResult result  = solve_newton(system, options);
+  const auto         summary = system.interface.summarise();
+  report("  the step converges", result.converged);
+  report("  more than a third of the interface slips",
+         summary.share_slip > 0.33);
+  std::cout << "  the law softens: " << (summary.max_softening > 0.)
+            << std::endl;
+  const bool is_quadratic = order(result.history) >= 1.8;
+  report("  at most eight iterations", result.iterations <= 8);
+  report("  order of convergence at least 1.8", is_quadratic);
+  if (!is_quadratic)
+    for (const double error : result.history)
+      std::cout << "    " << error << std::endl;
+}
+
+
+
+int
+main()
+{
+  set_up_libraries();
+  const std::string stiff         = R"(
+    subsection Interface
+      set Penalty stiffness = 20000
+    end)";
+  const std::string rough         = R"(
+    subsection Interface
+      set Friction coefficient unbroken = 1.5
+    end)";
+  const std::string soft_in_shear = R"(
+    subsection Interface
+      set Penalty stiffness            = 6000
+      set Tangential penalty stiffness = 1000
+    end)";
+  const std::string bone_is_slave = R"(
+    subsection Interface
+      set Slave = bone
+    end)";
+  const std::string tilted        = R"(
+    subsection Chuck
+      subsection Translation x
+        set Value = 0.02 * max(t - 1, 0)
+      end
+      subsection Rotation x
+        set Value = 0.1 * max(t - 1, 0)
+      end
+      subsection Rotation y
+        set Value = -0.05 * max(t - 1, 0)
+      end
+    end)";
+
+  check("Main scene", "", 1.);
+  check("Stiff interface, before the law softens", stiff, 0.2);
+  check("Rough interface", stiff + rough, 1.);
+  check("Interface soft in shear", soft_in_shear, 1.);
+  check("The bone is the slave", stiff + bone_is_slave, 0.7);
+  check("Turned, tilted and shifted", stiff + tilted, 0.7);
+  check("The same, the bone is the slave", stiff + tilted + bone_is_slave, 0.7);
+}

@@ -1,0 +1,104 @@
+// With the bone as slave exactly those of its points bear that face the disk,
+// its edge included, and the torque is that of slave = implant, up to the area
+// that these points miss.
+
+#include "driven_scene.h"
+
+const char *const scene_text = R"(
+subsection Chuck
+  subsection Translation z
+    set Value = -0.0049 * min(t, 1)
+  end
+  subsection Rotation z
+    set Value = 10 * max(t - 1, 0)
+  end
+end
+subsection Load steps
+  set Times = 0, 1, 2
+  set Steps = 1, 20
+end
+)";
+
+// Number and area of the bone's points on the disk. With 15 cells four of them
+// are exactly on its edge, (+-2.5, 0) and (0, +-2.5): they make up 1.1 % of it.
+void
+count_points(const Debond::ContactInterface &interface,
+             const Debond::NurbsSurface     &bone,
+             unsigned int                   &number,
+             double                         &area)
+{
+  number = 0;
+  area   = 0;
+  for (const auto &point : interface.get_points())
+    if (bone.point(point.xi).head<2>().norm() <= 2.5 + 1e-12)
+      {
+        ++number;
+        area += point.JxW;
+      }
+}
+
+
+
+void
+compare(const std::vector<std::string> &mesh,
+        const double                    limit_area,
+        const double                    limit_force,
+        const double                    limit_torque)
+{
+  auto slave_is_bone = mesh;
+  slave_is_bone.push_back("Interface/Slave=bone");
+  DrivenScene  implant(scene_text, mesh), bone(scene_text, slave_is_bone);
+  const auto  &interface = bone.system.interface;
+  unsigned int expected;
+  double       expected_area;
+  count_points(interface, bone.system.bone.surface(), expected, expected_area);
+  std::cout << expected << " points on the disk" << std::endl;
+  report("  area missed",
+         std::abs(expected_area / (6.25 * M_PI) - 1),
+         limit_area);
+
+  bone.advance_to(1);
+  implant.advance_to(1);
+  report("  the closed points are those on the disk",
+         interface.summarise().n_closed == expected);
+  report("  force differs",
+         std::abs(bone.system.chuck_forces()[2] /
+                    implant.system.chuck_forces()[2] -
+                  1),
+         limit_force);
+  double torque = 0, defect = 0;
+  while (bone.advance() && implant.advance())
+    {
+      keep_largest(torque,
+                   std::abs(bone.system.chuck_forces()[5] /
+                              implant.system.chuck_forces()[5] -
+                            1));
+      keep_largest(defect, bone.system.reaction_defect());
+    }
+  report("  torque differs", torque, limit_torque);
+  report("  contact and reaction differ", defect, 1e-6);
+}
+
+
+
+void
+test()
+{
+  // The points miss 2.77 and 0.055 % of the area and 4.13 and 0.083 % of the
+  // integral of r, to which the torque is proportional if the pressure is
+  // uniform; the independent finite element code finds 4.8 and 0.085 % of the
+  // torque (4.8: if two of the four points on the edge are lost).
+  compare({}, 0.0278, 0.028, 0.042);
+  compare({"Bone/Cells=30, 30, 2", "Implant/Cells=6, 2"},
+          0.00055,
+          0.00055,
+          0.001);
+}
+
+
+
+int
+main()
+{
+  return run_test(test);
+}

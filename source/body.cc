@@ -130,11 +130,19 @@ namespace Debond
           if (unknown)
             contact_unknowns.push_back(number);
         }
-    // linear bodies: always the stiffness of the undeformed body
-    Eigen::VectorXd trial = v;
+    // The stiffness of the undeformed body, or of the accepted state: the trial
+    // state may be anything. The reference is always there to fall back on, for
+    // a Neo-Hookean body this matrix being an operator and not the solution.
+    const Eigen::VectorXd trial = v;
+    v                           = v_accepted;
     if (material() == Material::linear)
       v.setZero();
-    const bool positive_definite = condense();
+    bool positive_definite = condense();
+    if (!positive_definite)
+      {
+        v.setZero();
+        positive_definite = condense();
+      }
     v = trial;
     AssertThrow(positive_definite,
                 dealii::ExcMessage("The stiffness of a body is not positive definite."));

@@ -199,6 +199,18 @@ namespace Debond
 
 
 
+  void Chuck::place(const double time)
+  {
+    target = values(time);
+    for (unsigned int k = 0; k < 6; ++k)
+      if (!parameters.component[k].loaded)
+        q[k] = target[k];
+    q_accepted = q;
+    update_frame();
+  }
+
+
+
   void Chuck::correct(const unsigned int component, const double dq)
   {
     q[component] += dq;

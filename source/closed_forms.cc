@@ -42,15 +42,8 @@ namespace Debond
   bool
   RigidBodiesTorsion::has_unique_solution(const Parameters &parameters)
   {
-    const FrictionParameters &friction = parameters.friction;
-    if (friction.kind != FrictionLawKind::modified_coulomb)
-      return true;
-    // s falls fastest in the middle, by pi / (4 a_s b_s)
-    const double steepest =
-      dealii::numbers::PI * parameters.phi_0 *
-      (friction.mu_unbroken - friction.mu_broken) /
-      (4. * friction.sliding_threshold * friction.transition_factor);
-    return steepest * parameters.normal_penalty * parameters.push_in <
+    return steepest_fall(parameters.friction, parameters.phi_0) *
+             parameters.normal_penalty * parameters.push_in <
            parameters.tangential_penalty;
   }
 

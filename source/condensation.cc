@@ -157,7 +157,7 @@ namespace Debond
         cholmod->factor->minor != cholmod->factor->n)
       return false;
     extract_trailing_block();
-    return true;
+    return S.allFinite(); // a matrix with NaN passes all pivots
   }
 
 

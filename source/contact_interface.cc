@@ -120,37 +120,9 @@ namespace Debond
       }
     for (unsigned int side = 0; side < 2; ++side)
       forces[side].setZero(3, mesh[side]->surface().n_control_points());
-    assign_bonding();
-  }
-
-
-
-  // phi_0 belongs to the implant: with the bone as slave a point takes that of
-  // the implant point it faces at the start.
-  void ContactInterface::assign_bonding()
-  {
-    const BondingPattern pattern(parameters.bonding,
-                                 mesh[1]->surface(),
-                                 parameters.quadrature_points);
-    area_of_implant = pattern.area();
-    phi_0_mean      = pattern.mean();
-    for (unsigned int q = 0; q < points.size(); ++q)
-      if (slave == 1)
-        points[q].phi_0 = pattern.at(q);
-      else
-        {
-          Eigen::Vector3d X = Eigen::Vector3d::Zero();
-          for (unsigned int a = 0; a < points[q].basis.size; ++a)
-            X += points[q].basis.N[a] * mesh[0]->surface().control_points().col(
-                                          points[q].basis.control_point[a]);
-          const NurbsSurface &implant = mesh[1]->surface();
-          const ClosestPoint  faced =
-            project({&implant, &implant.control_points(), mesh[1]->outward_sign()},
-                    X,
-                    nullptr,
-                    points[q].faces_implant);
-          points[q].phi_0 = points[q].faces_implant ? pattern.at(faced.xi) : 0.;
-        }
+    for (const auto &quadrature_point :
+         surface_quadrature(implant.surface(), parameters.quadrature_points))
+      area_of_implant += quadrature_point.JxW;
   }
 
 
@@ -165,6 +137,28 @@ namespace Debond
       return sum;
     }
   } // namespace
+
+
+
+  // phi_0 belongs to the implant: with the bone as slave a point takes that of
+  // the implant point it faces at the start.
+  void ContactInterface::assign_bonding()
+  {
+    const BondingPattern pattern(parameters.bonding,
+                                 mesh[1]->surface(),
+                                 parameters.quadrature_points);
+    phi_0_mean = pattern.mean();
+    for (unsigned int q = 0; q < points.size(); ++q)
+      if (slave == 1)
+        points[q].phi_0 = pattern.at(q);
+      else
+        {
+          // the master is the implant
+          points[q].faces_implant = points[q].accepted.has_partner;
+          points[q].phi_0 =
+            points[q].faces_implant ? pattern.at(points[q].accepted.xi) : 0.;
+        }
+  }
 
 
 
@@ -183,13 +177,13 @@ namespace Debond
                                           const InterfaceConfiguration &configuration,
                                           const bool use_guess) const
   {
-    const ClosestPoint closest =
+    const Projection projection =
       project(master,
               interpolate(point.basis, configuration.side[slave].positions),
-              use_guess ? &point.accepted.xi : nullptr,
-              point.accepted.has_partner);
-    point.accepted.xi = closest.xi;
-    point.clearance   = closest.distance;
+              use_guess ? &point.accepted.xi : nullptr);
+    point.accepted.xi          = projection.xi;
+    point.accepted.has_partner = projection.faces;
+    point.clearance            = projection.clearance;
   }
 
 
@@ -214,6 +208,7 @@ namespace Debond
       accepted_positions[side] = configuration.side[side].positions;
     for (Point &point : points)
       project_accepted(point, master(configuration), configuration, false);
+    assign_bonding();
   }
 
 
@@ -505,7 +500,14 @@ namespace Debond
 
   FrictionCoefficient ContactInterface::friction(const Point &point) const
   {
-    const ContactPointState &state = point.trial.state;
+    return friction(point, point.trial.state);
+  }
+
+
+
+  FrictionCoefficient
+  ContactInterface::friction(const Point &point, const ContactPointState &state) const
+  {
     return friction_coefficient(parameters.friction,
                                 state.broken ? 0. : point.phi_0,
                                 state.slip);
@@ -517,8 +519,7 @@ namespace Debond
   {
     const MasterSurface    surface = master(configuration);
     const Eigen::Matrix3d &Q       = configuration.side[master_side()].frame;
-    const double           mu_broken = parameters.friction.mu_broken;
-    const double           moved     = motion(configuration);
+    const double           moved   = motion(configuration);
     for (unsigned int side = 0; side < 2; ++side)
       accepted_positions[side] = configuration.side[side].positions;
     for (Point &point : points)
@@ -529,19 +530,19 @@ namespace Debond
             continue;
           }
         const ContactPointResult &trial = point.trial;
-        const double strength =
-          frictionless_now ?
-            0. :
-            std::max(0., friction(point).mu - mu_broken) * trial.pressure;
         accepted_dissipation +=
           0.5 * point.JxW *
           (Q * point.accepted_traction + trial.tangential_traction).dot(trial.slip_increment);
-        accepted_adhesive_work += 0.5 * point.JxW *
-                                  (point.accepted_adhesive_strength + strength) *
-                                  trial.slip_increment.norm();
-        point.accepted                   = trial.state;
-        point.accepted_traction          = Q.transpose() * trial.tangential_traction;
-        point.accepted_adhesive_strength = strength;
+        if (!frictionless_now)
+          accepted_adhesive_work +=
+            point.JxW * 0.5 * (point.accepted_pressure + trial.pressure) *
+            adhesive_strength(parameters.friction,
+                              trial.state.broken ? 0. : point.phi_0,
+                              point.accepted.slip,
+                              trial.state.slip);
+        point.accepted          = trial.state;
+        point.accepted_traction = Q.transpose() * trial.tangential_traction;
+        point.accepted_pressure = trial.pressure;
         if (point.accepted.status == PointStatus::open)
           project_accepted(point, surface, configuration, true);
       }
@@ -622,7 +623,10 @@ namespace Debond
           }
         if (trial.state.status == PointStatus::open)
           {
-            if (point.accepted.status != PointStatus::open && friction(point).phi > 0.)
+            // whether it was bonded: opening itself may have broken it
+            if (parameters.friction.kind == FrictionLawKind::modified_coulomb &&
+                point.accepted.status != PointStatus::open &&
+                friction(point, point.accepted).phi > 0.)
               ++summary.bonded_opened;
             continue;
           }
@@ -632,6 +636,11 @@ namespace Debond
           (trial.pressure * trial.pressure / parameters.normal_penalty +
            trial.tangential_traction.squaredNorm() / parameters.tangential_penalty);
         summary.max_softening = std::max(summary.max_softening, trial.softening);
+        if (friction(point).phi > 0.)
+          summary.steepest_softening =
+            std::max(summary.steepest_softening,
+                     steepest_fall(parameters.friction, point.phi_0) * trial.pressure /
+                       parameters.tangential_penalty);
         summary.max_penetration = std::max(summary.max_penetration, -trial.normal_gap);
       }
     for (double *share : {&summary.phi_mean,

@@ -257,7 +257,7 @@ namespace Debond
               {
                 // no descent: fine at the level of rounding, else give up
                 if (error > 100. * round_off)
-                  return pushes > 0 ? SlipOutcome::left_patch : SlipOutcome::not_found;
+                  return SlipOutcome::not_found;
                 xi = old;
                 evaluate(xi, result.basis);
                 break;
@@ -395,32 +395,40 @@ namespace Debond
     {
       if (state.has_partner)
         return true;
-      state.xi = project(master, x, nullptr, state.has_partner).xi;
+      const Projection projection = project(master, x, nullptr);
+      state.xi                    = projection.xi;
+      state.has_partner           = projection.faces;
       return state.has_partner;
     }
   } // namespace
 
 
 
-  ClosestPoint project(const MasterSurface   &master,
-                       const Eigen::Vector3d &x,
-                       const Eigen::Vector2d *guess,
-                       bool                  &faces)
+  Projection project(const MasterSurface   &master,
+                     const Eigen::Vector3d &x,
+                     const Eigen::Vector2d *guess)
   {
     const ClosestPoint closest =
       closest_point(*master.surface, *master.positions, x, guess);
-    faces = closest.converged && closest.is_orthogonal;
-    if (faces)
-      {
-        SurfaceBasis    basis;
-        SurfaceGeometry geometry;
-        master.surface->evaluate(closest.xi, basis, false);
-        contract(basis, *master.positions, false, geometry);
-        constexpr double smallest_angle = 0.01; // between the tangents
-        faces = geometry.a1.cross(geometry.a2).norm() >
-                smallest_angle * geometry.a1.norm() * geometry.a2.norm();
-      }
-    return closest;
+    SurfaceBasis    basis;
+    SurfaceGeometry geometry;
+    master.surface->evaluate(closest.xi, basis, false);
+    contract(basis, *master.positions, false, geometry);
+    constexpr double smallest_angle = 0.01; // between the tangents
+    const bool       regular        = geometry.a1.cross(geometry.a2).norm() >
+                         smallest_angle * geometry.a1.norm() * geometry.a2.norm();
+
+    Projection result;
+    result.xi        = closest.xi;
+    result.converged = closest.converged;
+    result.faces     = closest.converged && closest.is_orthogonal && regular;
+    // a point below the surface's level may come under it by moving sideways
+    // less than its distance
+    const Vector3d gap = x - geometry.y;
+    const Vector3d n   = Normal(geometry, master.outward_sign).n;
+    if (regular)
+      result.clearance = n.dot(gap) >= 0. ? gap.norm() : (gap - n.dot(gap) * n).norm();
+    return result;
   }
 
 
@@ -449,7 +457,9 @@ namespace Debond
     const NormalGap normal_gap(normal, gap);
     result.normal_gap = normal_gap.value;
 
-    const bool          closed = normal_gap.value < mode.touch_tolerance;
+    const double        touch =
+      mode.stick_first ? mode.touch_tolerance : -mode.touch_tolerance;
+    const bool          closed = normal_gap.value < touch;
     const PointFriction friction{law.friction,
                                  start.broken ? 0. : phi_0,
                                  mode.frictionless};
@@ -477,12 +487,12 @@ namespace Debond
     SlipOutcome outcome = problem.solve(start.xi, result);
     if (outcome == SlipOutcome::not_found)
       {
-        bool               faces;
-        const ClosestPoint closest = project(master, x, &start.xi, faces);
-        if (closest.converged)
-          outcome = faces ? problem.solve(closest.xi, result) : SlipOutcome::left_patch;
+        const Projection projection = project(master, x, &start.xi);
+        if (projection.converged)
+          outcome = projection.faces ? problem.solve(projection.xi, result) :
+                                       SlipOutcome::left_patch;
       }
-    if (outcome == SlipOutcome::solved && problem.normal_gap() < 0.)
+    if (outcome == SlipOutcome::solved && problem.normal_gap() < touch)
       {
         const Vector2d xi        = result.state.xi;
         result.state             = start;

@@ -81,7 +81,7 @@ namespace Debond
 
   void CoupledSystem::start(const double time)
   {
-    chuck.prescribe(time);
+    chuck.place(time);
     update_configuration();
     {
       const dealii::TimerOutput::Scope t(timer, "contact");
@@ -155,15 +155,6 @@ namespace Debond
 
 
 
-  void CoupledSystem::forget_rate()
-  {
-    bone.forget_rate();
-    implant.forget_rate();
-    chuck.forget_rate();
-  }
-
-
-
   double CoupledSystem::scale_of(const unsigned int chuck_component) const
   {
     return chuck_component < 3 ? 1. : R;
@@ -208,8 +199,8 @@ namespace Debond
         ++side;
       }
 
-    result.reference =
-      std::max(force_floor, interface.force(interface.slave_side()).norm());
+    const double force = interface.force(interface.slave_side()).norm();
+    result.reference   = std::max(force_floor, force);
     const Chuck::Vector6 forces = chuck_forces();
     for (const auto &[component, number] : configuration.chuck_unknowns)
       {
@@ -220,7 +211,7 @@ namespace Debond
           std::max(result.reference, std::abs(load) / scale_of(component));
       }
     result.norm  = std::sqrt(norm_squared);
-    result.valid = std::isfinite(result.norm);
+    result.valid = std::isfinite(result.norm) && std::isfinite(force);
     if (!result.valid)
       result.why = "the residual is not finite";
     result.interior_share = norm_squared > 0. ? interior_squared / norm_squared : 0.;
@@ -314,7 +305,7 @@ namespace Debond
 
 
 
-  bool CoupledSystem::solve_and_correct(const double relative_tolerance)
+  std::string CoupledSystem::solve_and_correct(const double relative_tolerance)
   {
     Eigen::VectorXd correction;
     {
@@ -328,15 +319,23 @@ namespace Debond
     if (!correction.allFinite())
       {
         solver.forget();
-        return false;
+        return "the system of equations is singular";
       }
+    for (const auto &[component, number] : configuration.chuck_unknowns)
+      if (chuck.machine_stiffness(component) == 0. &&
+          std::abs(correction[number]) > (component < 3 ? 10. * R : 1.))
+        {
+          solver.forget();
+          return std::string("the loaded chuck component ") +
+                 ChuckParameters::names[component] + " meets no resistance";
+        }
     const dealii::TimerOutput::Scope t(timer, "bulk");
     const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
     bone.correct(-correction.head(n_b));
     implant.correct(-correction.segment(n_b, n_i));
     for (const auto &[component, number] : configuration.chuck_unknowns)
       chuck.correct(component, -correction[number]);
-    return true;
+    return "";
   }
 
 

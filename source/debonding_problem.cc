@@ -185,7 +185,11 @@ namespace Debond
     options.residual_tolerance = scene.load_steps.residual_tolerance;
     options.stick_first        = !extrapolate;
     options.touch_tolerance    = 1e-12 * system.R;
-    options.frictionless       = state->time < scene.interface.friction.starts_at;
+    // a planned time, up to rounding
+    options.frictionless =
+      state->time < scene.interface.friction.starts_at -
+                      1e-9 * (scene.load_steps.times.back() -
+                              scene.load_steps.times.front());
     system.predict(time, extrapolate);
     const NewtonResult result = solve_newton(system, options);
     state->newton_iterations += result.iterations;
@@ -212,7 +216,8 @@ namespace Debond
                       energy_interface,
                       system.interface.dissipation());
     state->time = time;
-    ++state->accepted_steps;
+    if (state->step > 0)
+      ++state->accepted_steps;
     if (state->energy.dissipates_too_much())
       state->console.warn("dissipation",
                           "more energy is dissipated than was put in: the steps "
@@ -227,12 +232,12 @@ namespace Debond
     CoupledSystem    &system  = *state->system;
     const auto        summary = system.interface.summarise();
     const std::string where   = "step " + std::to_string(state->step) + ": ";
-    if (summary.max_softening >= 1.)
+    if (summary.steepest_softening >= 1.)
       state->console.warn("uniqueness",
                           where +
                             "the friction law softens faster than the interface is "
-                            "stiff (|d mu/d g_s| p / eps_t >= 1): its local solution "
-                            "is not unique");
+                            "stiff (largest |d mu/d g_s| p / eps_t >= 1): its local "
+                            "solution is not unique, and the bond may break in a jump");
     if (summary.bonded_opened > 0)
       state->console.warn(
         "opening",

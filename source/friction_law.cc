@@ -63,6 +63,7 @@ namespace Debond
   }
 } // namespace Debond
 
+#include <algorithm>
 #include <cmath>
 
 namespace Debond
@@ -82,6 +83,49 @@ namespace Debond
     const double argument = 0.5 * M_PI / b_s * (s - b_s - 1.);
     derivative            = -0.25 * M_PI / (a_s * b_s) * std::cos(argument);
     return 0.5 * (1. - std::sin(argument));
+  }
+
+
+
+  namespace
+  {
+    // Integral of s(g/a_s) from 0 to g, Eq. (13).
+    double integrated_decay(const FrictionParameters &parameters, const double slip)
+    {
+      const double a_s = parameters.sliding_threshold;
+      const double b_s = parameters.transition_factor;
+      const double s   = slip / a_s;
+      if (s < 1.)
+        return slip;
+      if (s > 1. + 2. * b_s)
+        return a_s * (1. + b_s);
+      return a_s * (0.5 * (1. + s) +
+                    b_s / M_PI * std::cos(0.5 * M_PI / b_s * (s - b_s - 1.)));
+    }
+  } // namespace
+
+
+
+  double steepest_fall(const FrictionParameters &parameters, const double phi_0)
+  {
+    if (parameters.kind != FrictionLawKind::modified_coulomb)
+      return 0.;
+    return 0.25 * M_PI * phi_0 *
+           std::max(0., parameters.mu_unbroken - parameters.mu_broken) /
+           (parameters.sliding_threshold * parameters.transition_factor);
+  }
+
+
+
+  double adhesive_strength(const FrictionParameters &parameters,
+                           const double              phi_0,
+                           const double              from,
+                           const double              to)
+  {
+    if (parameters.kind != FrictionLawKind::modified_coulomb)
+      return 0.;
+    return phi_0 * (parameters.mu_unbroken - parameters.mu_broken) *
+           (integrated_decay(parameters, to) - integrated_decay(parameters, from));
   }
 
 

@@ -52,8 +52,7 @@ namespace Debond
         ContactPointMode mode;
         mode.frictionless = options.frictionless;
         mode.stick_first  = options.stick_first && iteration == 0;
-        if (mode.stick_first)
-          mode.touch_tolerance = options.touch_tolerance;
+        mode.touch_tolerance = options.touch_tolerance;
 
         const auto residual = system.evaluate(mode);
         if (!residual.valid)
@@ -93,12 +92,10 @@ namespace Debond
                          "not in contact";
             return result;
           }
-        if (!system.solve_and_correct(
-              linear_tolerance(error, options.residual_tolerance)))
-          {
-            result.why = "the system of equations is singular";
-            return result;
-          }
+        result.why = system.solve_and_correct(
+          linear_tolerance(error, options.residual_tolerance));
+        if (!result.why.empty())
+          return result;
         ++result.iterations;
       }
   }

@@ -87,6 +87,15 @@ namespace Debond
           name + " / Layer grading = " + to_text(body.layer_grading) +
           " makes the first of " + std::to_string(body.cells[2]) +
           " layers thinner than a millionth of the body");
+
+      // nine control points over one face: 2 x 2 Gauss points do not see all
+      // their motions, and the stiffness is singular
+      if (body.material != Material::rigid &&
+          body.contact_surface == SurfaceKind::nurbs &&
+          std::min(body.cells[0], body.cells[1]) < 2)
+        throw InputError(name +
+                         " / Cells: one cell across is too few for "
+                         "Contact surface = nurbs: expected at least 2");
     }
 
 
@@ -241,6 +250,19 @@ namespace Debond
           "Interface / Friction starts at = " + to_text(friction.starts_at) +
           " is after the last of Load steps / Times: use "
           "Friction law = frictionless if none is wanted");
+
+      // a step has friction or has none
+      if (friction.starts_at <= load_steps.times.front())
+        return;
+      const LoadStepping stepping(load_steps);
+      const double       duration = load_steps.times.back() - load_steps.times.front();
+      for (unsigned int step = 0; step <= stepping.n_steps(); ++step)
+        if (std::abs(stepping.time(step) - friction.starts_at) <= 1e-9 * duration)
+          return;
+      throw InputError("Interface / Friction starts at = " +
+                       to_text(friction.starts_at) +
+                       " is inside a planned step: expected the end of a step "
+                       "(Load steps / Times and Steps)");
     }
 
 

@@ -2,7 +2,7 @@
 #define debond_tests_driven_scene_h
 
 // What compiled tests of whole scenes share: scenes that are taken step by
-// step with the state at hand, scenes that the program runs, and verdicts.
+// step with the state at hand, and scenes that the program runs.
 
 #include <debond/debonding_problem.h>
 #include <debond/newton.h>
@@ -14,35 +14,7 @@
 #include <string>
 #include <vector>
 
-inline void
-report(const std::string &what, const double deviation, const double limit)
-{
-  std::cout << what << " below " << limit << ": ";
-  if (deviation < limit) // false for NaN as well
-    std::cout << "yes" << std::endl;
-  else
-    std::cout << "NO, " << deviation << std::endl;
-}
-
-
-
-inline void
-report(const std::string &what, const bool is_true)
-{
-  std::cout << what << ": " << (is_true ? "yes" : "NO") << std::endl;
-}
-
-
-
-/** Keeps a NaN once there is one, which std::max would not. */
-inline void
-keep_largest(double &largest, const double value)
-{
-  if (!std::isnan(largest) && !(value <= largest))
-    largest = value;
-}
-
-
+#include "checks.h"
 
 /** A scene taken step by step. Steps are not halved: one that does not converge
  *  ends the test. */

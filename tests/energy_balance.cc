@@ -34,9 +34,9 @@ check(const std::string &material)
       for (std::size_t i = 1; i < rows.size(); ++i)
         {
           const auto &row = rows[i];
-          keep_largest(defect, std::abs(row.energy_defect));
-          keep_largest(over_bound,
-                       std::abs(row.energy_defect) / row.energy_defect_bound);
+          grow(defect, std::abs(row.energy_defect));
+          grow(over_bound,
+               std::abs(row.energy_defect) / row.energy_defect_bound);
           dissipates_less =
             dissipates_less && row.dissipation_Nmm <= row.work_Nmm;
           adhesion_is_part =

@@ -35,13 +35,12 @@ test()
       double T_max = 0, torque = 0, force = 0;
       for (std::size_t i = 0; i < nonlinear.size(); ++i)
         {
-          keep_largest(T_max, std::abs(nonlinear[i].torque_Nmm));
-          keep_largest(torque,
-                       std::abs(linear[i].torque_Nmm -
-                                nonlinear[i].torque_Nmm));
-          keep_largest(force,
-                       std::abs(linear[i].force_N - nonlinear[i].force_N) /
-                         nonlinear[1].force_N);
+          grow(T_max, std::abs(nonlinear[i].torque_Nmm));
+          grow(torque,
+               std::abs(linear[i].torque_Nmm - nonlinear[i].torque_Nmm));
+          grow(force,
+               std::abs(linear[i].force_N - nonlinear[i].force_N) /
+                 nonlinear[1].force_N);
         }
       std::cout << "bone " << bone << ", implant " << implant << std::endl;
       report("  torque differs relative to the largest", torque / T_max, 1e-5);

@@ -30,7 +30,7 @@ check_main_scene()
   const auto fine  = steps(1000);
   double     T_max = 0;
   for (const auto &row : fine)
-    keep_largest(T_max, row.torque_Nmm);
+    grow(T_max, row.torque_Nmm);
   // independent finite element code: 3e-6, 2e-5, 2.5e-3
   for (const auto &[n, limit] :
        {std::pair<unsigned int, double>{100, 3e-6}, {10, 2e-5}, {1, 2.5e-3}})
@@ -38,9 +38,9 @@ check_main_scene()
       const auto coarse  = steps(n);
       double     largest = 0;
       for (unsigned int i = 1; i <= n; ++i)
-        keep_largest(largest,
-                     std::abs(coarse[1 + i].torque_Nmm -
-                              fine[1 + i * (1000 / n)].torque_Nmm));
+        grow(largest,
+             std::abs(coarse[1 + i].torque_Nmm -
+                      fine[1 + i * (1000 / n)].torque_Nmm));
       report(std::to_string(n) +
                " steps against 1000, difference relative to the largest torque",
              largest / T_max,

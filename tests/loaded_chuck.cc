@@ -59,10 +59,8 @@ check_force_instead_of_displacement(const std::string &material)
                                          1);
            (is_first ? first : later) =
              std::max(is_first ? first : later, difference);
-           keep_largest(drift,
-                   std::abs(prescribed.system.chuck_forces()[2] / -force - 1));
-           keep_largest(lost,
-                   std::abs(loaded.system.chuck_forces()[2] / -force - 1));
+           grow(drift, std::abs(prescribed.system.chuck_forces()[2] / -force - 1));
+           grow(lost, std::abs(loaded.system.chuck_forces()[2] / -force - 1));
     }
   report("  the load is not met by", lost, 1e-9);
   report("  first torque differs", first, 1e-6);
@@ -183,10 +181,8 @@ check_machine_stiffness()
     {
            const double T       = soft.system.chuck_forces()[5];
            const double machine = soft.system.chuck.values(soft.time())[5];
-           keep_largest(lag,
-                   std::abs(T -
-                            k * (machine - soft.system.chuck.position()[5])));
-           keep_largest(T_max, T);
+           grow(lag, std::abs(T - k * (machine - soft.system.chuck.position()[5])));
+           grow(T_max, T);
            if (is_first)
         excess = T / stiff.system.chuck_forces()[5];
     }

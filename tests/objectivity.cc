@@ -51,7 +51,7 @@ test()
   const Curve reference = curve(0);
   double      T_max     = 0;
   for (const auto &row : reference)
-    keep_largest(T_max, std::abs(row.first));
+    grow(T_max, std::abs(row.first));
   // the softening must be part of what is compared
   report("torque falls at the end",
          reference.back().first < 0.9 * T_max && reference.back().first > 0);
@@ -62,10 +62,8 @@ test()
       double      torque = 0, force = 0;
       for (std::size_t i = 0; i < reference.size(); ++i)
         {
-          keep_largest(torque,
-                       std::abs(turned[i].first - reference[i].first) / T_max);
-          keep_largest(force,
-                       std::abs(turned[i].second / reference[i].second - 1));
+          grow(torque, std::abs(turned[i].first - reference[i].first) / T_max);
+          grow(force, std::abs(turned[i].second / reference[i].second - 1));
         }
       report("  torque differs relative to the largest", torque, 1e-9);
       report("  axial force differs", force, 1e-9);

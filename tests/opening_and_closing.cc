@@ -62,8 +62,8 @@ difference_after_closing(DrivenScene &first, DrivenScene &second)
   do
     {
       const double T = second.system.chuck_forces()[5];
-      keep_largest(difference, std::abs(first.system.chuck_forces()[5] - T));
-      keep_largest(T_max, std::abs(T));
+      grow(difference, std::abs(first.system.chuck_forces()[5] - T));
+      grow(T_max, std::abs(T));
     }
   while (first.advance() && second.advance());
   return difference / T_max;

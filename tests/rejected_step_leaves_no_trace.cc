@@ -64,8 +64,6 @@ public:
   State
   state()
   {
-    system.predict(accepted_time, false);
-    system.evaluate(ContactPointMode());
     State result;
     result.points     = system.interface.get_points();
     unsigned int side = 0;
@@ -76,8 +74,9 @@ public:
         result.displacements[side]         = body->full_displacement();
         ++side;
       }
-    result.forces   = {{system.interface.force(0), system.interface.force(1)}};
-    result.position = system.chuck.position();
+    system.predict(accepted_time, false);
+    system.evaluate(ContactPointMode());
+    result.forces = {{system.interface.force(0), system.interface.force(1)}};
     result.chuck_forces  = system.chuck_forces();
     result.dissipation   = system.interface.dissipation();
     result.adhesive_work = system.interface.adhesive_work();

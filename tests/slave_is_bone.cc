@@ -69,11 +69,11 @@ compare(const std::vector<std::string> &mesh,
   double torque = 0, defect = 0;
   while (bone.advance() && implant.advance())
     {
-      keep_largest(torque,
-                   std::abs(bone.system.chuck_forces()[5] /
-                              implant.system.chuck_forces()[5] -
-                            1));
-      keep_largest(defect, bone.system.reaction_defect());
+      grow(torque,
+           std::abs(bone.system.chuck_forces()[5] /
+                      implant.system.chuck_forces()[5] -
+                    1));
+      grow(defect, bone.system.reaction_defect());
     }
   report("  torque differs", torque, limit_torque);
   report("  contact and reaction differ", defect, 1e-6);

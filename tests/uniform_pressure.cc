@@ -52,8 +52,7 @@ press(const std::vector<std::string> &overrides)
     }
   result.mean /= area;
   for (const auto &point : points)
-    keep_largest(result.deviation,
-                 std::abs(point.trial.pressure / result.mean - 1));
+    grow(result.deviation, std::abs(point.trial.pressure / result.mean - 1));
   return result;
 }
 

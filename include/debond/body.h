@@ -39,8 +39,7 @@ namespace Debond
     /** @name Contact unknowns */
     //@{
     /** Makes the given control points (by index) contact unknowns and condenses
-     *  everything else, at the reference configuration the first time and at
-     *  the trial state later. */
+     *  everything else, at the accepted state. */
     void set_contact_control_points(const std::vector<bool> &is_contact);
     const std::vector<bool> &contact_control_points() const { return is_contact; }
     /** Number of contact unknowns. */
@@ -80,8 +79,6 @@ namespace Debond
     /** Starts a step from the accepted state, extrapolated linearly to @p time
      *  if @p extrapolate and two states are known. */
     void predict(double time, bool extrapolate);
-    /** Forgets the older state: what comes is not its continuation. */
-    void forget_rate() { has_rate = false; }
     //@}
 
     /** Strain energy of the trial state [N mm]. */

@@ -59,6 +59,9 @@ namespace Debond
     /** Components that are unknowns, in ascending order. */
     const std::vector<unsigned int> &unknowns() const { return unknown_components; }
 
+    /** Places the implant where the scene wants it at @p time: all components
+     *  but the loaded ones, which start at zero. This is the accepted state. */
+    void place(double time);
     /** Sets the prescribed components of the trial state and the loads to
      *  their values at @p time. */
     void prescribe(double time);
@@ -72,7 +75,6 @@ namespace Debond
     /** Starts from the accepted state; unknown components are extrapolated
      *  linearly to @p time if asked and if two states are known. */
     void predict(double time, bool extrapolate);
-    void forget_rate() { has_rate = false; }
 
     /** Q of the trial state. */
     const Eigen::Matrix3d &rotation() const { return Q; }

@@ -116,7 +116,7 @@ namespace Debond
       double             clearance = 0;
       /** Tangential traction of the accepted state in the master's frame [MPa]. */
       Eigen::Vector3d    accepted_traction = Eigen::Vector3d::Zero();
-      double             accepted_adhesive_strength = 0; ///< (mu - mu_b) p [MPa]
+      double             accepted_pressure = 0; ///< [MPa]
       ContactPointResult trial;
       /** False for points of a bone that does not face the implant at the
        *  start: their area does not count. */
@@ -137,6 +137,9 @@ namespace Debond
       double share_stick = 0, share_slip = 0, share_open = 0; ///< of that area
       double energy       = 0;   ///< stored [N mm]
       double max_softening = 0;  ///< largest |d mu/d g_s| p / eps_t
+      /** The same where the law of a bonded point falls steepest, wherever on
+       *  it the point is: the local solution is unique while this is below 1. */
+      double steepest_softening = 0;
       double max_penetration = 0; ///< [mm]
       unsigned int bonded_opened = 0; ///< points with phi > 0 that opened in this step
       unsigned int n_closed = 0;
@@ -146,8 +149,9 @@ namespace Debond
     double implant_area() const { return area_of_implant; }
 
     /** Dissipated work and the part of it that the law spends on adhesion
-     *  (D_adh, integral of (mu - mu_b) p dg_s) up to the accepted state [N mm];
-     *  trapezoids in the traction. */
+     *  (D_adh, integral of (mu - mu_b) p dg_s) up to the accepted state [N mm]:
+     *  a trapezoid in the traction, and the mean pressure times the exact
+     *  integral over the sliding distance. */
     double dissipation() const { return accepted_dissipation; }
     double adhesive_work() const { return accepted_adhesive_work; }
 
@@ -157,6 +161,8 @@ namespace Debond
   private:
     void make_points();
     void assign_bonding();
+    FrictionCoefficient friction(const Point             &point,
+                                 const ContactPointState &state) const;
     void project_accepted(Point                        &point,
                           const MasterSurface          &master,
                           const InterfaceConfiguration &configuration,

@@ -35,14 +35,23 @@ namespace Debond
     double outward_sign = 1;
   };
 
-  /** The closest point of the master to @p x, and in @p faces whether it can be
-   *  an interacting point: found, x - y normal to the surface there, and the
-   *  surface regular. In the corners of a disk the tangents are parallel; once
-   *  it is deformed the normal close to them can point anywhere. */
-  ClosestPoint project(const MasterSurface   &master,
-                       const Eigen::Vector3d &x,
-                       const Eigen::Vector2d *guess,
-                       bool                  &faces);
+  /** Where a slave point projects on the master. */
+  struct Projection
+  {
+    Eigen::Vector2d xi = Eigen::Vector2d::Zero();
+    bool            converged = false;
+    /** Whether xi can be an interacting point: x - y is normal to the surface
+     *  there, and the surface regular. In the corners of a disk the tangents
+     *  are parallel; once it is deformed the normal close to them can point
+     *  anywhere. */
+    bool faces = false;
+    /** How far the surfaces can move before a point that does not face the
+     *  master can be in contact [mm]. */
+    double clearance = 0;
+  };
+  Projection project(const MasterSurface   &master,
+                     const Eigen::Vector3d &x,
+                     const Eigen::Vector2d *guess);
 
   /** What a point is governed by: penalties, friction, its phi_0. */
   struct ContactPointLaw
@@ -59,7 +68,9 @@ namespace Debond
     /** Closed points stick whatever their traction: a first Newton iteration
      *  with the stick tangent cannot cycle between stick and slip. */
     bool stick_first = false;
-    /** Gaps below this count as closed [mm]; 0 but in the very first iteration. */
+    /** Gaps of this size are rounding of positions [mm]. Such a point counts as
+     *  closed with stick_first (touching bodies under a loaded chuck would else
+     *  be singular), and as open without (rounding must not wear the bond). */
     double touch_tolerance = 0;
     /** The interface is frictionless for now and slip is not accumulated. */
     bool frictionless = false;

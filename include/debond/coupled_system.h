@@ -39,8 +39,6 @@ namespace Debond
     void predict(double time, bool extrapolate);
     void commit(double time);
     void rollback();
-    /** What comes is not the continuation of what was: no extrapolation. */
-    void forget_rate();
 
     struct Residual
     {
@@ -54,9 +52,19 @@ namespace Debond
      *  contact unknowns where contact has spread to new ones. */
     Residual evaluate(const ContactPointMode &mode);
 
+    /** @name Residual and tangent of the last evaluate()
+     *  in the contact unknowns of the bone, those of the implant and the unknown
+     *  chuck components, as the Newton iteration uses them [N, N mm; N/mm ...]. */
+    //@{
+    const Eigen::VectorXd &residual_vector() const { return residual; }
+    /** y = tangent * x. */
+    void apply(const Eigen::VectorXd &x, Eigen::VectorXd &y) const;
+    void assemble(Eigen::MatrixXd &tangent) const;
+    //@}
+
     /** Solves for the Newton correction to @p relative_tolerance and applies it.
-     *  False if the system is singular. */
-    bool solve_and_correct(double relative_tolerance);
+     *  Returns why that was impossible, or an empty text. */
+    std::string solve_and_correct(double relative_tolerance);
     /** True if a loaded chuck component has nothing to act against because no
      *  point is in contact. */
     bool is_unsupported() const;
@@ -91,8 +99,6 @@ namespace Debond
     void number_unknowns();
     bool extend_contact_unknowns();
     void add_geometric_part(const Eigen::VectorXd &x, Eigen::VectorXd &y) const;
-    void apply(const Eigen::VectorXd &x, Eigen::VectorXd &y) const;
-    void assemble(Eigen::MatrixXd &matrix) const;
     double scale_of(unsigned int chuck_component) const;
 
     dealii::TimerOutput &timer;

@@ -38,6 +38,17 @@ namespace Debond
                        double                    slip,
                        double                   &derivative);
 
+  /** Largest |d mu/d g_s| of the modified law [1/mm], half way down:
+   *  pi phi_0 (mu_ub - mu_b) / (4 a_s b_s), 0 for the other laws. */
+  double steepest_fall(const FrictionParameters &parameters, double phi_0);
+
+  /** Integral of mu - mu_b over the sliding distance from @p from to @p to [mm];
+   *  0 for the other laws. */
+  double adhesive_strength(const FrictionParameters &parameters,
+                           double                    phi_0,
+                           double                    from,
+                           double                    to);
+
   /** Eqs. (11) and (13) at the accumulated sliding distance @p slip [mm]. For
    *  `coulomb` mu = mu_b, for `frictionless` 0; phi is reported all the same. */
   FrictionCoefficient friction_coefficient(const FrictionParameters &parameters,

@@ -15,7 +15,9 @@ namespace Debond
     unsigned int max_iterations     = 25;
     /** The first iteration takes every closed point as sticking. */
     bool stick_first = false;
-    /** Gaps below this count as closed in that first iteration [mm]. */
+    /** Gaps of this size are rounding of positions [mm]: the bodies touch. That
+     *  counts as closed in the first iteration if it is one with stick_first,
+     *  and as open otherwise. */
     double touch_tolerance = 0;
     bool   frictionless    = false;
   };

@@ -119,7 +119,8 @@ namespace Debond
     // what was interior may become a contact unknown: its values must be there
     for (Eigen::VectorXd *state : {&v, &v_accepted, &v_before})
       *state = full_displacement(*state);
-    is_contact = contact;
+    is_contact           = contact;
+    surface_is_condensed = false;
     contact_unknowns.clear();
     for (unsigned int A = 0; A < is_contact.size(); ++A)
       for (unsigned int c = 0; c < 3; ++c)
@@ -129,6 +130,8 @@ namespace Debond
           unknown_numbers[3 * A + c] = unknown ? int(contact_unknowns.size()) : -1;
           if (unknown)
             contact_unknowns.push_back(number);
+          else if (number >= 0 && material() == Material::linear)
+            surface_is_condensed = true;
         }
     // The stiffness of the undeformed body, or of the accepted state: the trial
     // state may be anything. The reference is always there to fall back on, for
@@ -263,6 +266,8 @@ namespace Debond
 
   void Body::commit(const double time)
   {
+    if (surface_is_condensed)
+      v = full_displacement(v);
     has_rate      = has_accepted && time > time_accepted;
     v_before      = v_accepted;
     time_before   = time_accepted;

@@ -140,6 +140,7 @@ namespace Debond
     bone.commit(time);
     implant.commit(time);
     chuck.commit(time);
+    update_configuration();
     const dealii::TimerOutput::Scope t(timer, "contact");
     interface.commit(configuration);
   }

@@ -86,7 +86,8 @@ private:
     options.stick_first        = stepping.begins_phase(step);
     options.touch_tolerance    = 1e-12 * system.R;
     options.frictionless =
-      step > 0 && stepping.time(step - 1) < scene.interface.friction.starts_at;
+      step > 0 && stepping.time(step - 1) < scene.interface.friction.starts_at -
+                                              1e-9 * stepping.time(step);
     system.predict(stepping.time(step), !options.stick_first);
     const Debond::NewtonResult result = solve_newton(system, options);
     iterations                        = result.iterations;

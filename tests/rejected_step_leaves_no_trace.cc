@@ -127,7 +127,7 @@ identical(const State &before, const State &after)
       result = result && same_history(p.accepted, r.accepted) &&
                p.clearance == r.clearance &&
                p.accepted_traction == r.accepted_traction &&
-               p.accepted_adhesive_strength == r.accepted_adhesive_strength;
+               p.accepted_pressure == r.accepted_pressure;
     }
   return result;
 }
@@ -183,7 +183,7 @@ check(const std::string &name, const std::string &changes)
     end)" + changes);
   Run         failing(scene), clean(scene);
   for (Run *run : {&failing, &clean})
-    for (const double time : {0., 1., 1.1})
+    for (const double time : {1., 1.1})
       if (!run->step(time, false))
         std::cout << "  no convergence at " << time << std::endl;
 

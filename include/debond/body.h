@@ -72,7 +72,8 @@ namespace Debond
 
     /** @name State */
     //@{
-    /** Displacements of the control points of the contact surface, body frame. */
+    /** Displacements of the control points of the contact surface, body frame.
+     *  Those of a linear body that are no contact unknowns follow at commit(). */
     Eigen::Map<const ControlNet> contact_displacement() const;
     void commit(double time);
     void rollback();
@@ -110,6 +111,9 @@ namespace Debond
     std::vector<bool> is_contact;
     std::vector<int>  unknown_numbers;
     std::vector<int>  contact_unknowns; ///< free numbers, in order
+    /** Linear bodies: some of the contact surface's control points are no
+     *  contact unknowns. */
+    bool              surface_is_condensed = false;
     Condensation      condensation;
 
     Eigen::VectorXd v, v_accepted, v_before; ///< 3 n_nodes [mm]

@@ -88,7 +88,7 @@ namespace Debond
     Body                         bone, implant;
     Chuck                        chuck;
     ContactInterface             interface;
-    /** Surfaces in space as of the last evaluate(). */
+    /** Surfaces in space as of the last evaluate() or commit(). */
     InterfaceConfiguration       configuration;
     const double                 R; ///< characteristic radius of the implant [mm]
 

@@ -39,8 +39,7 @@ namespace Debond
     , is_contact(body_mesh.surface().n_control_points(), false)
     , unknown_numbers(3 * body_mesh.surface().n_control_points(), -1)
     , v(Eigen::VectorXd::Zero(3 * body_mesh.n_nodes()))
-    , v_accepted(v)
-    , v_before(v)
+    , accepted(v)
   {
     if (!deformable())
       return;
@@ -117,7 +116,7 @@ namespace Debond
     if (!deformable())
       return;
     // what was interior may become a contact unknown: its values must be there
-    for (Eigen::VectorXd *state : {&v, &v_accepted, &v_before})
+    for (Eigen::VectorXd *state : {&v, &accepted.value, &accepted.before})
       *state = full_displacement(*state);
     is_contact           = contact;
     surface_is_condensed = false;
@@ -137,7 +136,7 @@ namespace Debond
     // state may be anything. The reference is always there to fall back on, for
     // a Neo-Hookean body this matrix being an operator and not the solution.
     const Eigen::VectorXd trial = v;
-    v                           = v_accepted;
+    v                           = accepted.value;
     if (material() == Material::linear)
       v.setZero();
     bool positive_definite = condense();
@@ -268,29 +267,21 @@ namespace Debond
   {
     if (surface_is_condensed)
       v = full_displacement(v);
-    has_rate      = has_accepted && time > time_accepted;
-    v_before      = v_accepted;
-    time_before   = time_accepted;
-    v_accepted    = v;
-    time_accepted = time;
-    has_accepted  = true;
+    accepted.commit(v, time);
   }
 
 
 
   void Body::rollback()
   {
-    v = v_accepted;
+    v = accepted.value;
   }
 
 
 
   void Body::predict(const double time, const bool extrapolate)
   {
-    v = v_accepted;
-    if (extrapolate && has_rate)
-      v += (time - time_accepted) / (time_accepted - time_before) *
-           (v_accepted - v_before);
+    v = extrapolate ? accepted.extrapolated(time) : accepted.value;
   }
 
 

@@ -1,5 +1,6 @@
 #include <debond/allowed_values.h>
 #include <debond/chuck.h>
+#include <debond/skew.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -109,15 +110,6 @@ namespace Debond
     using Eigen::Matrix3d;
     using Eigen::Vector3d;
 
-    Matrix3d skew(const Vector3d &a)
-    {
-      Matrix3d S;
-      S << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
-      return S;
-    }
-
-
-
     // sin t / t, (1 - cos t)/t^2, (t - sin t)/t^3 and their derivatives divided
     // by t, all even functions of t.
     struct RotationCoefficients
@@ -205,7 +197,7 @@ namespace Debond
     for (unsigned int k = 0; k < 6; ++k)
       if (!parameters.component[k].loaded)
         q[k] = target[k];
-    q_accepted = q;
+    accepted = AcceptedState<Vector6>(q);
     update_frame();
   }
 
@@ -221,19 +213,14 @@ namespace Debond
 
   void Chuck::commit(const double time)
   {
-    has_rate      = has_accepted && time > time_accepted;
-    q_before      = q_accepted;
-    time_before   = time_accepted;
-    q_accepted    = q;
-    time_accepted = time;
-    has_accepted  = true;
+    accepted.commit(q, time);
   }
 
 
 
   void Chuck::rollback()
   {
-    q = q_accepted;
+    q = accepted.value;
     update_frame();
   }
 
@@ -241,11 +228,10 @@ namespace Debond
 
   void Chuck::predict(const double time, const bool extrapolate)
   {
-    q = q_accepted;
-    if (extrapolate && has_rate)
+    q = accepted.value;
+    if (extrapolate)
       for (const unsigned int k : unknown_components)
-        q[k] += (time - time_accepted) / (time_accepted - time_before) *
-                (q_accepted[k] - q_before[k]);
+        q[k] = accepted.extrapolated(time)[k];
     update_frame();
   }
 

@@ -181,6 +181,8 @@ namespace Debond
             L_cc(row[pi[s] + k] - n_i, column - n_i) = values[k];
         }
     S.setZero(n_c, n_c);
+    if (n_c == 0)
+      return; // BLAS refuses empty matrices
     S.selfadjointView<Eigen::Lower>().rankUpdate(L_cc);
     S.triangularView<Eigen::StrictlyUpper>() = S.transpose();
   }
@@ -220,6 +222,8 @@ namespace Debond
     for (unsigned int k = 0; k < n_total; ++k)
       permuted[k] = r[permutation[k]];
     forward_part = solve_triangular(false, permuted);
+    if (n_c == 0)
+      return Eigen::VectorXd();
     return L_cc.triangularView<Eigen::Lower>() * forward_part.tail(n_c);
   }
 
@@ -230,7 +234,8 @@ namespace Debond
     if (n_total == 0)
       return x_c;
     Eigen::VectorXd b = forward_part;
-    b.tail(n_c)       = L_cc.transpose().triangularView<Eigen::Upper>() * x_c;
+    if (n_c > 0)
+      b.tail(n_c) = L_cc.transpose().triangularView<Eigen::Upper>() * x_c;
     const Eigen::VectorXd permuted = solve_triangular(true, b);
     Eigen::VectorXd       x(n_total);
     for (unsigned int k = 0; k < n_total; ++k)

@@ -1,4 +1,5 @@
 #include <debond/contact_point.h>
+#include <debond/skew.h>
 
 #include <Eigen/Dense>
 
@@ -19,15 +20,6 @@ namespace Debond
 
     // Columns of w = (x, y, a_1, a_2, y_n).
     constexpr int at_x = 0, at_y = 3, at_a1 = 6, at_a2 = 9, at_y_old = 12;
-
-    Matrix3d skew(const Vector3d &a)
-    {
-      Matrix3d S;
-      S << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
-      return S;
-    }
-
-
 
     // The unit normal that points to the slave and its derivatives, Eq. (24).
     struct Normal

@@ -66,6 +66,7 @@ public:
   {
     State result;
     result.points     = system.interface.get_points();
+    result.position   = system.chuck.position();
     unsigned int side = 0;
     for (Body *body : {&system.bone, &system.implant})
       {

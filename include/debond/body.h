@@ -1,6 +1,7 @@
 #ifndef debond_body_h
 #define debond_body_h
 
+#include <debond/accepted_state.h>
 #include <debond/body_mesh.h>
 #include <debond/condensation.h>
 #include <debond/enriched_cells.h>
@@ -116,9 +117,8 @@ namespace Debond
     bool              surface_is_condensed = false;
     Condensation      condensation;
 
-    Eigen::VectorXd v, v_accepted, v_before; ///< 3 n_nodes [mm]
-    double          time_accepted = 0, time_before = 0;
-    bool            has_rate = false, has_accepted = false;
+    Eigen::VectorXd                v; ///< trial displacement, 3 n_nodes [mm]
+    AcceptedState<Eigen::VectorXd> accepted;
 
     Eigen::VectorXd internal_force;   ///< at the trial state
     double          strain_energy = 0;

@@ -1,6 +1,7 @@
 #ifndef debond_chuck_h
 #define debond_chuck_h
 
+#include <debond/accepted_state.h>
 #include <debond/time_function.h>
 
 #include <Eigen/Core>
@@ -112,9 +113,8 @@ namespace Debond
     std::vector<TimeFunction> value_functions;
     std::vector<unsigned int> unknown_components;
 
-    Vector6 q = Vector6::Zero(), q_accepted = Vector6::Zero(), q_before = Vector6::Zero();
-    double  time_accepted = 0, time_before = 0;
-    bool    has_rate = false, has_accepted = false;
+    Vector6                q = Vector6::Zero(); ///< trial position
+    AcceptedState<Vector6> accepted{q};
     Vector6 target = Vector6::Zero(); ///< values of the scene at the trial time
 
     Eigen::Matrix3d                             Q;

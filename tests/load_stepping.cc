@@ -1,0 +1,133 @@
+// Planned times are hit exactly, also after sub-steps; a step that fails is
+// halved, one that succeeds may grow again on its grid, and there is a smallest
+// step.
+
+#include <debond/load_stepping.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "checks.h"
+
+using namespace Debond;
+
+/** Takes a planned step; sub-steps larger than @p largest fail. Returns the
+ *  ends of those that succeed, or nothing if the step is given up. */
+std::vector<double>
+take(LoadStepping &stepping, const unsigned int step, const double largest)
+{
+  std::vector<double> times;
+  for (stepping.begin(step); !stepping.finished();)
+    if (stepping.fraction() <= largest)
+      {
+        times.push_back(stepping.target_time());
+        stepping.accept();
+      }
+    else if (!stepping.reject())
+      return {};
+  return times;
+}
+
+bool
+are(const std::vector<double> &times, const std::vector<double> &expected)
+{
+  bool result = (times.size() == expected.size());
+  for (unsigned int k = 0; result && k < times.size(); ++k)
+    result = std::abs(times[k] - expected[k]) < 1e-15;
+  return result;
+}
+
+
+
+int
+main()
+{
+  LoadSteppingParameters parameters;
+  parameters.times                  = {0.1, 1.3, 2.2, 2.9};
+  parameters.steps                  = {3, 1000, 7};
+  parameters.smallest_step_fraction = 1. / 64.;
+  const LoadStepping plan(parameters);
+
+  std::cout << "Planned steps: " << plan.n_steps() << std::endl;
+  report("Ends of phases are hit exactly",
+         plan.time(0) == 0.1 && plan.time(3) == 1.3 && plan.time(1003) == 2.2 &&
+           plan.time(1010) == 2.9);
+  double deviation  = 0;
+  bool   increasing = true;
+  for (unsigned int k = 1; k <= 1010; ++k)
+    {
+      increasing = increasing && plan.time(k) > plan.time(k - 1);
+      if (k >= 3 && k <= 1003)
+        grow(deviation,
+             std::abs(plan.time(k) - (1.3 + 0.9 * (k - 3.) / 1000.)));
+    }
+  report("Times increase", increasing);
+  report("Deviation from equal steps", deviation, 2e-15);
+  report("Phases and their first steps",
+         plan.phase(1) == 0 && plan.phase(3) == 0 && plan.phase(4) == 1 &&
+           plan.phase(1003) == 1 && plan.phase(1004) == 2 &&
+           plan.phase(1010) == 2 && plan.begins_phase(1) &&
+           !plan.begins_phase(3) && plan.begins_phase(4) &&
+           !plan.begins_phase(5) && plan.begins_phase(1004));
+
+  report("Ends of phases",
+         !plan.ends_phase(0) && !plan.ends_phase(2) && plan.ends_phase(3) &&
+           !plan.ends_phase(4) && plan.ends_phase(1003) &&
+           plan.ends_phase(1010));
+
+  LoadStepping stepping(parameters);
+  report("A step that succeeds is taken whole",
+         are(take(stepping, 2, 1.), {plan.time(2)}));
+  stepping.begin(3);
+  report("It says so", stepping.is_whole_step());
+
+  // from 0.1 to 0.5
+  LoadStepping halving(parameters);
+  report("Halved twice", are(take(halving, 1, 0.25), {0.2, 0.3, 0.4, 0.5}));
+  bool hit_exactly = true;
+  for (unsigned int k = 2; k <= 1010; ++k)
+    hit_exactly = hit_exactly && take(halving, k, 0.125).back() == plan.time(k);
+  report("Planned times are hit exactly by sub-steps", hit_exactly);
+
+  // ends a and b of which a + (b - a) is not b
+  for (const auto &[a, b] : {std::make_pair(0.3, 0.9),
+                             std::make_pair(0.7, 2.9),
+                             std::make_pair(1.3, 3.4)})
+    {
+      LoadSteppingParameters single;
+      single.times = {a, b};
+      single.steps = {1};
+      LoadStepping sub_steps(single);
+      hit_exactly = hit_exactly && sub_steps.time(1) == b &&
+                    take(sub_steps, 1, 0.25).back() == b;
+    }
+  report("Also where differences are rounded", hit_exactly);
+
+  // failures of the first quarter only: 1/4, then 1/4 + 1/2, no more than fits
+  LoadStepping growing(parameters);
+  growing.begin(1);
+  growing.reject();
+  growing.reject();
+  std::vector<double> fractions;
+  for (; !growing.finished(); growing.accept())
+    fractions.push_back(growing.fraction());
+  report("Grows again on its grid", are(fractions, {0.25, 0.25, 0.5}));
+  growing.begin(2);
+  report("The next step is whole", growing.is_whole_step());
+
+  LoadStepping keeping(parameters);
+  take(keeping, 1, 0.25);
+  keeping.begin(2);
+  report("The size is kept for the next step",
+         keeping.fraction() < 1. && !keeping.is_whole_step());
+
+  LoadStepping small(parameters);
+  small.begin(1);
+  unsigned int n = 0;
+  while (small.reject())
+    ++n;
+  std::cout << "Can be halved " << n << " times" << std::endl;
+  report("1/64 is allowed", !take(stepping, 1, 1. / 64.).empty());
+  report("1/128 is not", take(stepping, 1, 1. / 128.).empty());
+}

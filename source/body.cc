@@ -3,9 +3,9 @@
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/full_matrix.h>
 
-#include <cmath>
-
 #include <Eigen/Geometry>
+
+#include <cmath>
 
 namespace Debond
 {
@@ -13,7 +13,8 @@ namespace Debond
   {
     // Rigid body mode k (three translations, three rotations about the origin)
     // at X.
-    Eigen::Vector3d rigid_mode(const unsigned int k, const Eigen::Vector3d &X)
+    Eigen::Vector3d
+    rigid_mode(const unsigned int k, const Eigen::Vector3d &X)
     {
       return k < 3 ? Eigen::Vector3d::Unit(k) :
                      Eigen::Vector3d::Unit(k - 3).cross(X);
@@ -45,7 +46,8 @@ namespace Debond
       return;
     bulk = std::make_unique<EnrichedCells>(
       body_mesh,
-      NeoHookean::from_young(parameters.young_modulus, parameters.poisson_ratio));
+      NeoHookean::from_young(parameters.young_modulus,
+                             parameters.poisson_ratio));
 
     free_number.assign(3 * body_mesh.n_nodes(), -1);
     for (unsigned int dof = 0; dof < 3 * body_mesh.n_nodes(); ++dof)
@@ -65,7 +67,8 @@ namespace Debond
 
 
 
-  SymmetricSparseMatrix Body::assemble_free_tangent()
+  SymmetricSparseMatrix
+  Body::assemble_free_tangent()
   {
     tangent = 0.;
     Eigen::MatrixXd            K;
@@ -78,7 +81,9 @@ namespace Debond
         for (unsigned int i = 0; i < dofs.size(); ++i)
           for (unsigned int j = 0; j < dofs.size(); ++j)
             local(i, j) = K(i, j);
-        body_mesh.get_constraints().distribute_local_to_global(local, dofs, tangent);
+        body_mesh.get_constraints().distribute_local_to_global(local,
+                                                               dofs,
+                                                               tangent);
       }
 
     SymmetricSparseMatrix free;
@@ -87,7 +92,8 @@ namespace Debond
     for (const unsigned int dof : free_dofs)
       {
         // deal.II stores a row's diagonal entry first, then by column
-        for (auto entry = tangent.begin(dof); entry != tangent.end(dof); ++entry)
+        for (auto entry = tangent.begin(dof); entry != tangent.end(dof);
+             ++entry)
           if (free_number[entry->column()] >= free_number[dof])
             {
               free.row.push_back(free_number[entry->column()]);
@@ -100,7 +106,8 @@ namespace Debond
 
 
 
-  bool Body::condense()
+  bool
+  Body::condense()
   {
     Condensation attempt;
     if (!attempt.factorise(assemble_free_tangent(), contact_unknowns))
@@ -111,7 +118,8 @@ namespace Debond
 
 
 
-  void Body::set_contact_control_points(const std::vector<bool> &contact)
+  void
+  Body::set_contact_control_points(const std::vector<bool> &contact)
   {
     if (!deformable())
       return;
@@ -124,9 +132,11 @@ namespace Debond
     for (unsigned int A = 0; A < is_contact.size(); ++A)
       for (unsigned int c = 0; c < 3; ++c)
         {
-          const int number = free_number[3 * body_mesh.control_point_node(A) + c];
+          const int number =
+            free_number[3 * body_mesh.control_point_node(A) + c];
           const bool unknown = is_contact[A] && number >= 0;
-          unknown_numbers[3 * A + c] = unknown ? int(contact_unknowns.size()) : -1;
+          unknown_numbers[3 * A + c] =
+            unknown ? int(contact_unknowns.size()) : -1;
           if (unknown)
             contact_unknowns.push_back(number);
           else if (number >= 0 && material() == Material::linear)
@@ -147,30 +157,33 @@ namespace Debond
       }
     v = trial;
     AssertThrow(positive_definite,
-                dealii::ExcMessage("The stiffness of a body is not positive definite."));
+                dealii::ExcMessage(
+                  "The stiffness of a body is not positive definite."));
     if (material() == Material::linear)
       compute_reaction_operator();
   }
 
 
 
-  bool Body::refactor()
+  bool
+  Body::refactor()
   {
     return material() != Material::neo_hookean || condense();
   }
 
 
 
-  // Resultants of the supports are sums of m . (K v) over fixed nodes, m a rigid
-  // mode; condensing the row K m gives them per unit of v_c.
-  void Body::compute_reaction_operator()
+  // Resultants of the supports are sums of m . (K v) over fixed nodes, m a
+  // rigid mode; condensing the row K m gives them per unit of v_c.
+  void
+  Body::compute_reaction_operator()
   {
-    Eigen::MatrixXd K;
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(free_dofs.size(), 6);
+    Eigen::MatrixXd       K;
+    Eigen::MatrixXd       rows = Eigen::MatrixXd::Zero(free_dofs.size(), 6);
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(v.size());
     for (unsigned int cell = 0; cell < bulk->n_cells(); ++cell)
       {
-        const unsigned int n = bulk->n_nodes(cell);
+        const unsigned int n     = bulk->n_nodes(cell);
         Eigen::MatrixXd    modes = Eigen::MatrixXd::Zero(3 * n, 6);
         for (unsigned int a = 0; a < n; ++a)
           for (unsigned int c = 0; c < 3; ++c)
@@ -197,7 +210,8 @@ namespace Debond
 
 
 
-  Eigen::Map<const ControlNet> Body::contact_displacement() const
+  Eigen::Map<const ControlNet>
+  Body::contact_displacement() const
   {
     return Eigen::Map<const ControlNet>(&v[3 * body_mesh.n_vertices()],
                                         3,
@@ -206,18 +220,19 @@ namespace Debond
 
 
 
-  Body::Residual Body::residual(const ControlNet &contact_force,
-                                Eigen::VectorXd  &condensed)
+  Body::Residual
+  Body::residual(const ControlNet &contact_force, Eigen::VectorXd &condensed)
   {
-    Residual result;
-    const unsigned int first = 3 * body_mesh.n_vertices();
+    Residual                                result;
+    const unsigned int                      first = 3 * body_mesh.n_vertices();
     const Eigen::Map<const Eigen::VectorXd> force(contact_force.data(),
                                                   contact_force.size());
     if (material() == Material::linear)
       {
         const Eigen::VectorXd v_c = contact_values(v);
-        condensed.noalias() = schur_complement().selfadjointView<Eigen::Lower>() * v_c;
-        strain_energy       = 0.5 * v_c.dot(condensed);
+        condensed.noalias() =
+          schur_complement().selfadjointView<Eigen::Lower>() * v_c;
+        strain_energy = 0.5 * v_c.dot(condensed);
         for (unsigned int k = 0; k < n_unknowns(); ++k)
           condensed[k] += force[free_dofs[contact_unknowns[k]] - first];
         result.norm_squared = condensed.squaredNorm();
@@ -232,7 +247,8 @@ namespace Debond
         for (unsigned int i = 0; i < free_dofs.size(); ++i)
           {
             const unsigned int dof = free_dofs[i];
-            r[i] = internal_force[dof] + (dof >= first ? force[dof - first] : 0.);
+            r[i] =
+              internal_force[dof] + (dof >= first ? force[dof - first] : 0.);
           }
         result.norm_squared     = r.squaredNorm();
         result.interior_squared = result.norm_squared;
@@ -247,7 +263,8 @@ namespace Debond
 
 
 
-  void Body::correct(const Eigen::VectorXd &dv)
+  void
+  Body::correct(const Eigen::VectorXd &dv)
   {
     if (material() == Material::linear)
       for (unsigned int k = 0; k < n_unknowns(); ++k)
@@ -263,7 +280,8 @@ namespace Debond
 
 
 
-  void Body::commit(const double time)
+  void
+  Body::commit(const double time)
   {
     if (surface_is_condensed)
       v = full_displacement(v);
@@ -272,30 +290,35 @@ namespace Debond
 
 
 
-  void Body::rollback()
+  void
+  Body::rollback()
   {
     v = accepted.value;
   }
 
 
 
-  void Body::predict(const double time, const bool extrapolate)
+  void
+  Body::predict(const double time, const bool extrapolate)
   {
     v = extrapolate ? accepted.extrapolated(time) : accepted.value;
   }
 
 
 
-  double Body::energy() const
+  double
+  Body::energy() const
   {
     return strain_energy;
   }
 
 
 
-  Eigen::Matrix<double, 6, 1> Body::support_reaction(const Eigen::Vector3d &centre)
+  Eigen::Matrix<double, 6, 1>
+  Body::support_reaction(const Eigen::Vector3d &centre)
   {
-    Eigen::Matrix<double, 6, 1> about_origin = Eigen::Matrix<double, 6, 1>::Zero();
+    Eigen::Matrix<double, 6, 1> about_origin =
+      Eigen::Matrix<double, 6, 1>::Zero();
     if (material() == Material::linear)
       about_origin = reaction_operator * contact_values(v);
     else if (material() == Material::neo_hookean)
@@ -306,7 +329,8 @@ namespace Debond
               const Eigen::Vector3d x =
                 body_mesh.reference_position(node) + v.segment<3>(3 * node);
               for (unsigned int k = 0; k < 6; ++k)
-                about_origin[k] += internal_force[3 * node + c] * rigid_mode(k, x)[c];
+                about_origin[k] +=
+                  internal_force[3 * node + c] * rigid_mode(k, x)[c];
             }
     about_origin.tail<3>() -= centre.cross(about_origin.head<3>().eval());
     return about_origin;
@@ -314,7 +338,8 @@ namespace Debond
 
 
 
-  Eigen::VectorXd Body::contact_values(const Eigen::VectorXd &state) const
+  Eigen::VectorXd
+  Body::contact_values(const Eigen::VectorXd &state) const
   {
     Eigen::VectorXd values(n_unknowns());
     for (unsigned int k = 0; k < n_unknowns(); ++k)
@@ -324,7 +349,8 @@ namespace Debond
 
 
 
-  Eigen::VectorXd Body::full_displacement(const Eigen::VectorXd &state)
+  Eigen::VectorXd
+  Body::full_displacement(const Eigen::VectorXd &state)
   {
     Eigen::VectorXd full = state;
     if (material() == Material::linear && n_unknowns() > 0)

@@ -11,7 +11,8 @@ namespace Debond
 {
   namespace
   {
-    NurbsSurface make_contact_surface(const BodyParameters &parameters)
+    NurbsSurface
+    make_contact_surface(const BodyParameters &parameters)
     {
       const NurbsSurface exact =
         parameters.shape == BodyShape::coin ?
@@ -43,7 +44,8 @@ namespace Debond
 
 
 
-  double BodyMesh::layer_height(const unsigned int layer) const
+  double
+  BodyMesh::layer_height(const unsigned int layer) const
   {
     // z_k = -+ H (k/n)^g with k = 0 at the contact face
     const double fraction = std::pow(double(layer) / body_parameters.cells[2],
@@ -56,22 +58,24 @@ namespace Debond
   // The cells form a lattice. The triangulation is first made with lattice
   // indices as coordinates; then each vertex moves to its place: in the plane
   // where the knots of the contact surface are, along z by layers.
-  void BodyMesh::make_triangulation()
+  void
+  BodyMesh::make_triangulation()
   {
     const auto &n = body_parameters.cells;
-    dealii::GridGenerator::subdivided_hyper_rectangle(
-      triangulation,
-      {n[0], n[1], n[2]},
-      dealii::Point<3>(),
-      dealii::Point<3>(n[0], n[1], n[2]));
+    dealii::GridGenerator::subdivided_hyper_rectangle(triangulation,
+                                                      {n[0], n[1], n[2]},
+                                                      dealii::Point<3>(),
+                                                      dealii::Point<3>(n[0],
+                                                                       n[1],
+                                                                       n[2]));
     dof_handler.distribute_dofs(fe);
 
     lattice.resize(n_vertices());
     for (const auto &cell : dof_handler.active_cell_iterators())
       for (const unsigned int v : cell->vertex_indices())
         {
-          const dealii::Point<3> p    = cell->vertex(v);
-          auto                  &index = lattice[cell->vertex_dof_index(v, 0) / 3];
+          const dealii::Point<3> p = cell->vertex(v);
+          auto &index              = lattice[cell->vertex_dof_index(v, 0) / 3];
           for (unsigned int d = 0; d < 3; ++d)
             index[d] = std::lround(p[d]);
           // count layers from the contact face, which is the bone's top
@@ -82,7 +86,8 @@ namespace Debond
 
 
 
-  void BodyMesh::number_nodes()
+  void
+  BodyMesh::number_nodes()
   {
     const auto &breaks_1 = contact_surface.knots(0).breakpoints();
     const auto &breaks_2 = contact_surface.knots(1).breakpoints();
@@ -101,17 +106,18 @@ namespace Debond
 
 
 
-  void BodyMesh::collect_cells()
+  void
+  BodyMesh::collect_cells()
   {
     const unsigned int n_1 = body_parameters.cells[0];
     const unsigned int n_functions =
       (contact_surface.degree() + 1) * (contact_surface.degree() + 1);
     for (const auto &cell : dof_handler.active_cell_iterators())
       {
-        Cell         info;
-        unsigned int lowest_layer = -1;
-        std::array<unsigned int, 2> corner{{static_cast<unsigned int>(-1),
-                                            static_cast<unsigned int>(-1)}};
+        Cell                        info;
+        unsigned int                lowest_layer = -1;
+        std::array<unsigned int, 2> corner{
+          {static_cast<unsigned int>(-1), static_cast<unsigned int>(-1)}};
         for (const unsigned int v : cell->vertex_indices())
           {
             for (unsigned int c = 0; c < 3; ++c)
@@ -144,14 +150,15 @@ namespace Debond
 
 
 
-  void BodyMesh::make_constraints()
+  void
+  BodyMesh::make_constraints()
   {
-    const auto &n = body_parameters.cells;
+    const auto &n    = body_parameters.cells;
     const auto  n_cp = contact_surface.n_control_points_per_direction();
     fixed.assign(3 * n_nodes(), false);
     tied.assign(n_nodes(), false);
 
-    const auto fix_sides = [&](const unsigned int            node,
+    const auto fix_sides = [&](const unsigned int                node,
                                const std::array<unsigned int, 2> index,
                                const std::array<unsigned int, 2> last) {
       if (body_side == BodySide::bone)
@@ -190,10 +197,10 @@ namespace Debond
               constraints.add_line(3 * node + c);
               for (unsigned int a = 0; a < basis.size; ++a)
                 if (basis.N[a] != 0.)
-                  constraints.add_entry(3 * node + c,
-                                        3 * control_point_node(
-                                              basis.control_point[a]) + c,
-                                        basis.N[a]);
+                  constraints.add_entry(
+                    3 * node + c,
+                    3 * control_point_node(basis.control_point[a]) + c,
+                    basis.N[a]);
             }
           else if (is_fixed(node, c))
             constraints.add_line(3 * node + c);
@@ -203,7 +210,8 @@ namespace Debond
 
 
 
-  void BodyMesh::distribute(Eigen::VectorXd &v) const
+  void
+  BodyMesh::distribute(Eigen::VectorXd &v) const
   {
     for (const auto &line : constraints.get_lines())
       {
@@ -216,7 +224,8 @@ namespace Debond
 
 
 
-  unsigned int BodyMesh::n_dofs_as_published() const
+  unsigned int
+  BodyMesh::n_dofs_as_published() const
   {
     return body_parameters.contact_surface == SurfaceKind::nurbs ?
              3 * n_nodes() :
@@ -225,11 +234,12 @@ namespace Debond
 
 
 
-  unsigned int BodyMesh::n_unknowns() const
+  unsigned int
+  BodyMesh::n_unknowns() const
   {
     unsigned int n_tied = 0;
     for (const bool is_tied : tied)
       n_tied += is_tied;
     return 3 * (n_nodes() - n_tied);
   }
-}
+} // namespace Debond

@@ -80,9 +80,8 @@ namespace Debond
   BondingParameters::parse(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Bonding");
-    pattern         = prm.get("Pattern") == "disk" ?
-                        BondingPatternKind::disk :
-                        BondingPatternKind::homogeneous;
+    pattern         = prm.get("Pattern") == "disk" ? BondingPatternKind::disk :
+                                                     BondingPatternKind::homogeneous;
     initial_bonding = prm.get_double("Initial bonding");
     bonded_fraction = prm.get_double("Bonded fraction");
     resolution      = prm.get("Resolution") == "element" ?
@@ -139,7 +138,8 @@ namespace Debond
 
   namespace
   {
-    // A part of the surface that has one phi_0: an element or a quadrature point.
+    // A part of the surface that has one phi_0: an element or a quadrature
+    // point.
     struct Part
     {
       double          area   = 0;
@@ -152,13 +152,16 @@ namespace Debond
 
     // phi_0 = 1 for the parts nearest to the centre that make up the bonded
     // fraction of the area.
-    void bond_disk(std::vector<Part> &parts, const double bonded_fraction)
+    void
+    bond_disk(std::vector<Part> &parts, const double bonded_fraction)
     {
       std::vector<unsigned int> order(parts.size());
       std::iota(order.begin(), order.end(), 0);
-      std::stable_sort(order.begin(), order.end(), [&](unsigned int a, unsigned int b) {
-        return parts[a].radius < parts[b].radius;
-      });
+      std::stable_sort(order.begin(),
+                       order.end(),
+                       [&](unsigned int a, unsigned int b) {
+                         return parts[a].radius < parts[b].radius;
+                       });
       double remaining = 0., size = 0.;
       for (const Part &part : parts)
         {
@@ -170,7 +173,8 @@ namespace Debond
           unsigned int last = first;
           double       area = 0.;
           for (; last < order.size() &&
-                 parts[order[last]].radius - parts[order[first]].radius <= 1e-9 * size;
+                 parts[order[last]].radius - parts[order[first]].radius <=
+                   1e-9 * size;
                ++last)
             area += parts[order[last]].area;
           const double share = std::clamp(remaining / area, 0., 1.);
@@ -231,18 +235,21 @@ namespace Debond
 
 
 
-  double BondingPattern::at(const Eigen::Vector2d &xi) const
+  double
+  BondingPattern::at(const Eigen::Vector2d &xi) const
   {
-    const unsigned int element = surface.element_of(xi);
-    const auto         bounds  = surface.element_bounds(element);
+    const unsigned int          element = surface.element_of(xi);
+    const auto                  bounds  = surface.element_bounds(element);
     std::array<unsigned int, 2> index;
     for (unsigned int d = 0; d < 2; ++d)
       {
         const double local =
           (xi[d] - bounds[0][d]) / (bounds[1][d] - bounds[0][d]);
-        index[d] = std::min<unsigned int>(
-          n - 1,
-          std::lower_bound(shares.begin(), shares.end(), local) - shares.begin());
+        index[d] = std::min<unsigned int>(n - 1,
+                                          std::lower_bound(shares.begin(),
+                                                           shares.end(),
+                                                           local) -
+                                            shares.begin());
       }
     return phi_0[element * n * n + index[1] * n + index[0]];
   }

@@ -4,9 +4,9 @@
 
 #include <deal.II/base/parameter_handler.h>
 
-#include <cmath>
-
 #include <Eigen/Geometry>
+
+#include <cmath>
 
 namespace Debond
 {
@@ -49,9 +49,9 @@ namespace Debond
                      axis + ".");
       prm.declare_entry("Value",
                         "0",
-                        Allowed::text(std::string("an expression in t, in ") +
-                                      (rotation ? "degrees or N mm" :
-                                                  "mm or N")),
+                        Allowed::text(
+                          std::string("an expression in t, in ") +
+                          (rotation ? "degrees or N mm" : "mm or N")),
                         std::string("Expression in the time t (muParser; "
                                     "constants pi and R [mm]), in ") +
                           (rotation ? "degrees for angle, N mm for moment." :
@@ -167,31 +167,35 @@ namespace Debond
 
 
 
-  Chuck::Vector6 Chuck::values(const double time) const
+  Chuck::Vector6
+  Chuck::values(const double time) const
   {
     Vector6 result;
     for (unsigned int k = 0; k < 6; ++k)
       {
         const bool is_angle = k >= 3 && !parameters.component[k].loaded;
-        result[k]           = value_functions[k](time) * (is_angle ? M_PI / 180. : 1.);
+        result[k] = value_functions[k](time) * (is_angle ? M_PI / 180. : 1.);
       }
     return result;
   }
 
 
 
-  void Chuck::prescribe(const double time)
+  void
+  Chuck::prescribe(const double time)
   {
     target = values(time);
     for (unsigned int k = 0; k < 6; ++k)
-      if (!parameters.component[k].loaded && parameters.component[k].stiffness == 0.)
+      if (!parameters.component[k].loaded &&
+          parameters.component[k].stiffness == 0.)
         q[k] = target[k];
     update_frame();
   }
 
 
 
-  void Chuck::place(const double time)
+  void
+  Chuck::place(const double time)
   {
     target = values(time);
     for (unsigned int k = 0; k < 6; ++k)
@@ -203,7 +207,8 @@ namespace Debond
 
 
 
-  void Chuck::correct(const unsigned int component, const double dq)
+  void
+  Chuck::correct(const unsigned int component, const double dq)
   {
     q[component] += dq;
     update_frame();
@@ -211,14 +216,16 @@ namespace Debond
 
 
 
-  void Chuck::commit(const double time)
+  void
+  Chuck::commit(const double time)
   {
     accepted.commit(q, time);
   }
 
 
 
-  void Chuck::rollback()
+  void
+  Chuck::rollback()
   {
     q = accepted.value;
     update_frame();
@@ -226,7 +233,8 @@ namespace Debond
 
 
 
-  void Chuck::predict(const double time, const bool extrapolate)
+  void
+  Chuck::predict(const double time, const bool extrapolate)
   {
     q = accepted.value;
     if (extrapolate)
@@ -240,7 +248,8 @@ namespace Debond
   // Q = exp(skew(a)) R_z(gamma). A change of the rotation vector a turns space
   // about b = J(a) da with J = c_0 I + c_1 skew(a) + c_2 a a^T, a change of
   // gamma about the implant's own axis exp(skew(a)) e_z.
-  void Chuck::update_frame()
+  void
+  Chuck::update_frame()
   {
     const Vector3d             a(q[3], q[4], 0.);
     const RotationCoefficients r(a.norm());
@@ -256,11 +265,11 @@ namespace Debond
     b = {{J.col(0), J.col(1), tilt.col(2)}};
     for (unsigned int l = 0; l < 2; ++l)
       {
-        const Vector3d e  = Vector3d::Unit(l);
-        const Matrix3d dJ = a[l] * (r.dc[0] * Matrix3d::Identity() + r.dc[1] * A +
-                                    r.dc[2] * (a * a.transpose())) +
-                            r.c[1] * skew(e) +
-                            r.c[2] * (e * a.transpose() + a * e.transpose());
+        const Vector3d e = Vector3d::Unit(l);
+        const Matrix3d dJ =
+          a[l] * (r.dc[0] * Matrix3d::Identity() + r.dc[1] * A +
+                  r.dc[2] * (a * a.transpose())) +
+          r.c[1] * skew(e) + r.c[2] * (e * a.transpose() + a * e.transpose());
         db[0][l] = dJ.col(0);
         db[1][l] = dJ.col(1);
         db[2][l] = b[l].cross(b[2]);
@@ -270,14 +279,17 @@ namespace Debond
 
 
 
-  Vector3d Chuck::velocity(const unsigned int k, const Vector3d &x) const
+  Vector3d
+  Chuck::velocity(const unsigned int k, const Vector3d &x) const
   {
-    return k < 3 ? Vector3d(Vector3d::Unit(k)) : Vector3d(axis(k).cross(x - centre()));
+    return k < 3 ? Vector3d(Vector3d::Unit(k)) :
+                   Vector3d(axis(k).cross(x - centre()));
   }
 
 
 
-  Vector3d Chuck::velocity_of_direction(const unsigned int k, const Vector3d &d) const
+  Vector3d
+  Chuck::velocity_of_direction(const unsigned int k, const Vector3d &d) const
   {
     return k < 3 ? Vector3d(Vector3d::Zero()) : Vector3d(axis(k).cross(d));
   }
@@ -285,9 +297,10 @@ namespace Debond
 
 
   // x - C - u = Q(q) * const and dQ/dq_l = skew(b_l) Q.
-  Vector3d Chuck::second_derivative(const unsigned int k,
-                                    const unsigned int l,
-                                    const Vector3d    &x) const
+  Vector3d
+  Chuck::second_derivative(const unsigned int k,
+                           const unsigned int l,
+                           const Vector3d    &x) const
   {
     if (k < 3 || l < 3)
       return Vector3d::Zero();
@@ -297,7 +310,8 @@ namespace Debond
 
 
 
-  double Chuck::machine_load(const unsigned int k) const
+  double
+  Chuck::machine_load(const unsigned int k) const
   {
     return parameters.component[k].loaded ?
              target[k] :
@@ -306,8 +320,10 @@ namespace Debond
 
 
 
-  double Chuck::machine_stiffness(const unsigned int k) const
+  double
+  Chuck::machine_stiffness(const unsigned int k) const
   {
-    return parameters.component[k].loaded ? 0. : -parameters.component[k].stiffness;
+    return parameters.component[k].loaded ? 0. :
+                                            -parameters.component[k].stiffness;
   }
 } // namespace Debond

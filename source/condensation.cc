@@ -13,7 +13,7 @@ namespace Debond
   struct Condensation::Cholmod
   {
     cholmod_common  common;
-    cholmod_factor *factor = nullptr;
+    cholmod_factor *factor   = nullptr;
     cholmod_dense  *solution = nullptr, *work_1 = nullptr, *work_2 = nullptr;
 
     Cholmod()
@@ -22,15 +22,16 @@ namespace Debond
       common.supernodal = CHOLMOD_SUPERNODAL;
       // The given ordering must stay as it is: the condensed unknowns are last
       // and the others are already postordered.
-      common.postorder                    = 0;
-      common.nmethods                     = 1;
-      common.method[0].ordering           = CHOLMOD_GIVEN;
-      common.quick_return_if_not_posdef   = 1;
-      common.print                        = 0;
-      common.error_handler                = nullptr;
+      common.postorder                  = 0;
+      common.nmethods                   = 1;
+      common.method[0].ordering         = CHOLMOD_GIVEN;
+      common.quick_return_if_not_posdef = 1;
+      common.print                      = 0;
+      common.error_handler              = nullptr;
     }
     Cholmod(const Cholmod &) = delete;
-    Cholmod &operator=(const Cholmod &) = delete;
+    Cholmod &
+    operator=(const Cholmod &) = delete;
     ~Cholmod()
     {
       cholmod_free_dense(&solution, &common);
@@ -41,15 +42,17 @@ namespace Debond
     }
   };
 
-  Condensation::Condensation()                                = default;
-  Condensation::~Condensation()                               = default;
-  Condensation::Condensation(Condensation &&)                 = default;
-  Condensation &Condensation::operator=(Condensation &&)      = default;
+  Condensation::Condensation()                = default;
+  Condensation::~Condensation()               = default;
+  Condensation::Condensation(Condensation &&) = default;
+  Condensation &
+  Condensation::operator=(Condensation &&) = default;
 
   namespace
   {
     // CHOLMOD's view on a matrix that is stored elsewhere.
-    cholmod_sparse view(const SymmetricSparseMatrix &K)
+    cholmod_sparse
+    view(const SymmetricSparseMatrix &K)
     {
       cholmod_sparse A{};
       A.nrow = A.ncol = K.n;
@@ -69,16 +72,18 @@ namespace Debond
 
 
     // The rows and columns of K that are not condensed.
-    SymmetricSparseMatrix interior_block(const SymmetricSparseMatrix &K,
-                                         const std::vector<int>      &interior_index,
-                                         const std::vector<int>      &interior)
+    SymmetricSparseMatrix
+    interior_block(const SymmetricSparseMatrix &K,
+                   const std::vector<int>      &interior_index,
+                   const std::vector<int>      &interior)
     {
       SymmetricSparseMatrix B;
       B.n = interior.size();
       B.column_start.push_back(0);
       for (const int column : interior)
         {
-          for (int k = K.column_start[column]; k < K.column_start[column + 1]; ++k)
+          for (int k = K.column_start[column]; k < K.column_start[column + 1];
+               ++k)
             if (interior_index[K.row[k]] >= 0)
               {
                 B.row.push_back(interior_index[K.row[k]]);
@@ -92,7 +97,8 @@ namespace Debond
 
 
     // A fill-reducing, postordered permutation (new -> old).
-    std::vector<int> fill_reducing_order(const SymmetricSparseMatrix &B)
+    std::vector<int>
+    fill_reducing_order(const SymmetricSparseMatrix &B)
     {
       std::vector<int> order(B.n);
       if (B.n == 0)
@@ -116,8 +122,9 @@ namespace Debond
 
 
 
-  bool Condensation::factorise(const SymmetricSparseMatrix &K,
-                               const std::vector<int>      &condensed)
+  bool
+  Condensation::factorise(const SymmetricSparseMatrix &K,
+                          const std::vector<int>      &condensed)
   {
     n_total = K.n;
     n_c     = condensed.size();
@@ -162,21 +169,25 @@ namespace Debond
 
 
 
-  void Condensation::extract_trailing_block()
+  void
+  Condensation::extract_trailing_block()
   {
     const cholmod_factor &L = *cholmod->factor;
     AssertThrow(L.is_super && L.is_ll, dealii::ExcInternalError());
-    const int    *super = static_cast<int *>(L.super), *row = static_cast<int *>(L.s);
+    const int *super = static_cast<int *>(L.super),
+              *row   = static_cast<int *>(L.s);
     const int    *pi = static_cast<int *>(L.pi), *px = static_cast<int *>(L.px);
     const double *x   = static_cast<double *>(L.x);
     const int     n_i = n_total - n_c;
 
     L_cc.setZero(n_c, n_c);
     for (std::size_t s = 0; s < L.nsuper; ++s)
-      for (int column = std::max(super[s], n_i); column < super[s + 1]; ++column)
+      for (int column = std::max(super[s], n_i); column < super[s + 1];
+           ++column)
         {
           const int     n_rows = pi[s + 1] - pi[s];
-          const double *values = x + px[s] + std::size_t(column - super[s]) * n_rows;
+          const double *values =
+            x + px[s] + std::size_t(column - super[s]) * n_rows;
           for (int k = column - super[s]; k < n_rows; ++k)
             L_cc(row[pi[s] + k] - n_i, column - n_i) = values[k];
         }
@@ -189,8 +200,9 @@ namespace Debond
 
 
 
-  Eigen::VectorXd Condensation::solve_triangular(const bool             transposed,
-                                                 const Eigen::VectorXd &b)
+  Eigen::VectorXd
+  Condensation::solve_triangular(const bool             transposed,
+                                 const Eigen::VectorXd &b)
   {
     cholmod_dense right_hand_side{};
     right_hand_side.nrow = right_hand_side.d = right_hand_side.nzmax = n_total;
@@ -198,7 +210,7 @@ namespace Debond
     right_hand_side.x     = const_cast<double *>(b.data());
     right_hand_side.xtype = CHOLMOD_REAL;
     right_hand_side.dtype = CHOLMOD_DOUBLE;
-    const int ok = cholmod_solve2(transposed ? CHOLMOD_Lt : CHOLMOD_L,
+    const int ok          = cholmod_solve2(transposed ? CHOLMOD_Lt : CHOLMOD_L,
                                   cholmod->factor,
                                   &right_hand_side,
                                   nullptr,
@@ -208,13 +220,14 @@ namespace Debond
                                   &cholmod->work_2,
                                   &cholmod->common);
     AssertThrow(ok, dealii::ExcMessage("CHOLMOD's triangular solve failed"));
-    return Eigen::Map<Eigen::VectorXd>(static_cast<double *>(cholmod->solution->x),
-                                       n_total);
+    return Eigen::Map<Eigen::VectorXd>(
+      static_cast<double *>(cholmod->solution->x), n_total);
   }
 
 
 
-  Eigen::VectorXd Condensation::forward(const Eigen::VectorXd &r)
+  Eigen::VectorXd
+  Condensation::forward(const Eigen::VectorXd &r)
   {
     if (n_total == 0)
       return r;
@@ -229,7 +242,8 @@ namespace Debond
 
 
 
-  Eigen::VectorXd Condensation::backward(const Eigen::VectorXd &x_c)
+  Eigen::VectorXd
+  Condensation::backward(const Eigen::VectorXd &x_c)
   {
     if (n_total == 0)
       return x_c;
@@ -245,9 +259,10 @@ namespace Debond
 
 
 
-  Eigen::VectorXd Condensation::extend(const Eigen::VectorXd &x_c)
+  Eigen::VectorXd
+  Condensation::extend(const Eigen::VectorXd &x_c)
   {
     forward_part.setZero(n_total);
     return backward(x_c);
   }
-}
+} // namespace Debond

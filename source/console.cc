@@ -18,7 +18,8 @@ namespace Debond
 
 
 
-  void Console::erase_progress()
+  void
+  Console::erase_progress()
   {
     if (progress_shown)
       out << "\r\033[K";
@@ -27,7 +28,8 @@ namespace Debond
 
 
 
-  void Console::headline(const std::string &text)
+  void
+  Console::headline(const std::string &text)
   {
     if (!quiet())
       out << text << std::endl;
@@ -35,13 +37,15 @@ namespace Debond
 
 
 
-  void Console::row(const TorqueRow &row, const unsigned int n_steps)
+  void
+  Console::row(const TorqueRow &row, const unsigned int n_steps)
   {
     if (quiet())
       return;
     erase_progress();
     if (!columns_named)
-      out << "   step  angle/deg  torque/Nmm  pressure/MPa  slipping/%  iterations\n";
+      out
+        << "   step  angle/deg  torque/Nmm  pressure/MPa  slipping/%  iterations\n";
     columns_named = true;
     char line[120];
     // no negative zeros
@@ -64,10 +68,12 @@ namespace Debond
 
 
 
-  void Console::show_progress(const unsigned int step, const unsigned int n_steps)
+  void
+  Console::show_progress(const unsigned int step, const unsigned int n_steps)
   {
     const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
+        .count();
     if (step == 0 || step == n_steps)
       return;
     const double left = seconds * (n_steps - step) / step;
@@ -84,9 +90,11 @@ namespace Debond
 
 
 
-  void Console::warn(const std::string &key, const std::string &text)
+  void
+  Console::warn(const std::string &key, const std::string &text)
   {
-    if (std::find(warning_keys.begin(), warning_keys.end(), key) != warning_keys.end())
+    if (std::find(warning_keys.begin(), warning_keys.end(), key) !=
+        warning_keys.end())
       return;
     warning_keys.push_back(key);
     warning_texts.push_back(text);

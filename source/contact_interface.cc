@@ -1,15 +1,15 @@
 #include <debond/allowed_values.h>
+#include <debond/body_mesh.h>
+#include <debond/chuck.h>
+#include <debond/closest_point.h>
 #include <debond/contact_interface.h>
 
 #include <deal.II/base/parameter_handler.h>
 
-#include <debond/body_mesh.h>
-#include <debond/chuck.h>
-#include <debond/closest_point.h>
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <sstream>
-
-#include <Eigen/Geometry>
 
 namespace Debond
 {
@@ -129,7 +129,8 @@ namespace Debond
 
   namespace
   {
-    Eigen::Vector3d interpolate(const SurfaceBasis &basis, const ControlNet &nodes)
+    Eigen::Vector3d
+    interpolate(const SurfaceBasis &basis, const ControlNet &nodes)
     {
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
       for (unsigned int a = 0; a < basis.size; ++a)
@@ -142,7 +143,8 @@ namespace Debond
 
   // phi_0 belongs to the implant: with the bone as slave a point takes that of
   // the implant point it faces at the start.
-  void ContactInterface::assign_bonding()
+  void
+  ContactInterface::assign_bonding()
   {
     const BondingPattern pattern(parameters.bonding,
                                  mesh[1]->surface(),
@@ -172,10 +174,12 @@ namespace Debond
 
 
 
-  void ContactInterface::project_accepted(Point                        &point,
-                                          const MasterSurface          &master,
-                                          const InterfaceConfiguration &configuration,
-                                          const bool use_guess) const
+  void
+  ContactInterface::project_accepted(
+    Point                        &point,
+    const MasterSurface          &master,
+    const InterfaceConfiguration &configuration,
+    const bool                    use_guess) const
   {
     const Projection projection =
       project(master,
@@ -189,7 +193,8 @@ namespace Debond
 
 
   // Every point of a surface is a convex combination of control points.
-  double ContactInterface::motion(const InterfaceConfiguration &configuration) const
+  double
+  ContactInterface::motion(const InterfaceConfiguration &configuration) const
   {
     double sum = 0.;
     for (unsigned int side = 0; side < 2; ++side)
@@ -202,7 +207,8 @@ namespace Debond
 
 
 
-  void ContactInterface::initialise(const InterfaceConfiguration &configuration)
+  void
+  ContactInterface::initialise(const InterfaceConfiguration &configuration)
   {
     for (unsigned int side = 0; side < 2; ++side)
       accepted_positions[side] = configuration.side[side].positions;
@@ -213,8 +219,9 @@ namespace Debond
 
 
 
-  bool ContactInterface::evaluate(const InterfaceConfiguration &configuration,
-                                  const ContactPointMode       &mode)
+  bool
+  ContactInterface::evaluate(const InterfaceConfiguration &configuration,
+                             const ContactPointMode       &mode)
   {
     const MasterSurface surface = master(configuration);
     const double        moved   = motion(configuration);
@@ -228,9 +235,10 @@ namespace Debond
         if (!point.accepted.has_partner && point.clearance > moved)
           {
             // still beyond the edge: open
-            point.trial.state    = point.accepted;
-            point.trial.pressure = point.trial.normal_gap = point.trial.softening = 0.;
-            point.trial.traction = point.trial.tangential_traction =
+            point.trial.state            = point.accepted;
+            point.trial.pressure         = point.trial.normal_gap =
+              point.trial.softening      = 0.;
+            point.trial.traction         = point.trial.tangential_traction =
               point.trial.slip_increment = Eigen::Vector3d::Zero();
             continue;
           }
@@ -244,7 +252,8 @@ namespace Debond
           continue;
         const Eigen::Vector3d f = point.JxW * point.trial.traction;
         for (unsigned int a = 0; a < point.basis.size; ++a)
-          forces[slave].col(point.basis.control_point[a]) += point.basis.N[a] * f;
+          forces[slave].col(point.basis.control_point[a]) +=
+            point.basis.N[a] * f;
         const SurfaceBasis &basis = point.trial.basis;
         for (unsigned int b = 0; b < basis.size; ++b)
           forces[master_side()].col(basis.control_point[b]) -= basis.N[b] * f;
@@ -262,7 +271,8 @@ namespace Debond
     class PointTangent
     {
     public:
-      using Columns = Eigen::Matrix<double, 5, Eigen::Dynamic, 0, 5, 3 * 27 + 6>;
+      using Columns =
+        Eigen::Matrix<double, 5, Eigen::Dynamic, 0, 5, 3 * 27 + 6>;
 
       PointTangent(const ContactInterface::Point &point,
                    const InterfaceConfiguration  &configuration,
@@ -271,33 +281,36 @@ namespace Debond
         , configuration(configuration)
         , slave(slave)
       {
-        D.topRows<3>()    = point.trial.dt;
-        D.bottomRows<2>() = point.trial.dxi;
+        D.topRows<3>()             = point.trial.dt;
+        D.bottomRows<2>()          = point.trial.dxi;
         const Eigen::Matrix3d &Q_s = configuration.side[slave].frame;
         const Eigen::Matrix3d &Q_m = configuration.side[1 - slave].frame;
         D_body.leftCols<3>()       = D.leftCols<3>() * Q_s;
         for (unsigned int block = 1; block < 5; ++block)
           D_body.middleCols<3>(3 * block) = D.middleCols<3>(3 * block) * Q_m;
-        const bool slips     = point.trial.state.status == PointStatus::slip;
-        const bool same      = slips && point.trial.old_basis.element ==
-                                     point.trial.basis.element;
+        const bool slips = point.trial.state.status == PointStatus::slip;
+        const bool same =
+          slips && point.trial.old_basis.element == point.trial.basis.element;
         const unsigned int n_s = point.basis.size, n_m = point.trial.basis.size;
-        const unsigned int n_o = slips && !same ? point.trial.old_basis.size : 0;
+        const unsigned int n_o =
+          slips && !same ? point.trial.old_basis.size : 0;
         const unsigned int n_k = configuration.chuck_unknowns.size();
         columns.resize(5, 3 * (n_s + n_m + n_o) + n_k);
         add_slave_columns(point.basis);
-        add_master_columns(point.trial.basis, slips && same ? &point.trial.old_basis : nullptr);
+        add_master_columns(point.trial.basis,
+                           slips && same ? &point.trial.old_basis : nullptr);
         if (n_o > 0)
           add_old_master_columns(point.trial.old_basis);
         for (const auto &[component, number] : configuration.chuck_unknowns)
           {
-            columns.col(n_columns) = D * chuck_direction(component);
+            columns.col(n_columns)        = D * chuck_direction(component);
             number_of_column[n_columns++] = number;
           }
       }
 
       // dw/dq_k: the implant's side of w moves with the chuck.
-      Eigen::Matrix<double, 15, 1> chuck_direction(const unsigned int k) const
+      Eigen::Matrix<double, 15, 1>
+      chuck_direction(const unsigned int k) const
       {
         Eigen::Matrix<double, 15, 1> dw = Eigen::Matrix<double, 15, 1>::Zero();
         const Chuck                 &chuck = *configuration.chuck;
@@ -307,27 +320,34 @@ namespace Debond
         else
           {
             SurfaceGeometry geometry;
-            contract(point.trial.basis, configuration.side[1].positions, false, geometry);
+            contract(point.trial.basis,
+                     configuration.side[1].positions,
+                     false,
+                     geometry);
             dw.segment<3>(3) = chuck.velocity(k, geometry.y);
             dw.segment<3>(6) = chuck.velocity_of_direction(k, geometry.a1);
             dw.segment<3>(9) = chuck.velocity_of_direction(k, geometry.a2);
             if (point.trial.state.status == PointStatus::slip)
-              dw.segment<3>(12) = chuck.velocity(
-                k, interpolate(point.trial.old_basis, configuration.side[1].positions));
+              dw.segment<3>(12) =
+                chuck.velocity(k,
+                               interpolate(point.trial.old_basis,
+                                           configuration.side[1].positions));
           }
         return dw;
       }
 
-      void add_to(Eigen::MatrixXd &matrix) const
+      void
+      add_to(Eigen::MatrixXd &matrix) const
       {
         const Eigen::Matrix3d &Q_s = configuration.side[slave].frame;
         const Eigen::Matrix3d &Q_m = configuration.side[1 - slave].frame;
         const auto             dt  = columns.topRows<3>().leftCols(n_columns);
-        const auto             dxi = columns.bottomRows<2>().leftCols(n_columns);
+        const auto dxi = columns.bottomRows<2>().leftCols(n_columns);
         using Rows = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3 * 27 + 6>;
-        const Rows slave_rows  = point.JxW * Q_s.transpose() * dt;
-        const Rows master_rows = -point.JxW * Q_m.transpose() * dt;
-        const Eigen::Vector3d t_m = -point.JxW * Q_m.transpose() * point.trial.traction;
+        const Rows            slave_rows  = point.JxW * Q_s.transpose() * dt;
+        const Rows            master_rows = -point.JxW * Q_m.transpose() * dt;
+        const Eigen::Vector3d t_m =
+          -point.JxW * Q_m.transpose() * point.trial.traction;
 
         const auto &slave_unknown  = configuration.side[slave].unknown_of;
         const auto &master_unknown = configuration.side[1 - slave].unknown_of;
@@ -340,18 +360,22 @@ namespace Debond
             for (unsigned int a = 0; a < point.basis.size; ++a)
               for (unsigned int c = 0; c < 3; ++c)
                 {
-                  const int row = slave_unknown[3 * point.basis.control_point[a] + c];
+                  const int row =
+                    slave_unknown[3 * point.basis.control_point[a] + c];
                   if (row >= 0)
                     column[row] += point.basis.N[a] * slave_rows(c, j);
                 }
             for (unsigned int b = 0; b < basis.size; ++b)
               {
-                const double along = basis.N_1[b] * dxi(0, j) + basis.N_2[b] * dxi(1, j);
+                const double along =
+                  basis.N_1[b] * dxi(0, j) + basis.N_2[b] * dxi(1, j);
                 for (unsigned int c = 0; c < 3; ++c)
                   {
-                    const int row = master_unknown[3 * basis.control_point[b] + c];
+                    const int row =
+                      master_unknown[3 * basis.control_point[b] + c];
                     if (row >= 0)
-                      column[row] += basis.N[b] * master_rows(c, j) + along * t_m[c];
+                      column[row] +=
+                        basis.N[b] * master_rows(c, j) + along * t_m[c];
                   }
               }
             add_chuck_rows(j, column);
@@ -359,9 +383,10 @@ namespace Debond
       }
 
     private:
-      void add_columns(const Eigen::Matrix<double, 5, 3> &block,
-                       const unsigned int                 side,
-                       const unsigned int                 control_point)
+      void
+      add_columns(const Eigen::Matrix<double, 5, 3> &block,
+                  const unsigned int                 side,
+                  const unsigned int                 control_point)
       {
         for (unsigned int c = 0; c < 3; ++c)
           {
@@ -371,26 +396,32 @@ namespace Debond
           }
       }
 
-      void add_slave_columns(const SurfaceBasis &basis)
+      void
+      add_slave_columns(const SurfaceBasis &basis)
       {
         for (unsigned int a = 0; a < basis.size; ++a)
-          add_columns(basis.N[a] * D_body.leftCols<3>(), slave, basis.control_point[a]);
+          add_columns(basis.N[a] * D_body.leftCols<3>(),
+                      slave,
+                      basis.control_point[a]);
       }
 
-      void add_master_columns(const SurfaceBasis &basis, const SurfaceBasis *old)
+      void
+      add_master_columns(const SurfaceBasis &basis, const SurfaceBasis *old)
       {
         for (unsigned int b = 0; b < basis.size; ++b)
           {
-            Eigen::Matrix<double, 5, 3> block = basis.N[b] * D_body.middleCols<3>(3) +
-                                                basis.N_1[b] * D_body.middleCols<3>(6) +
-                                                basis.N_2[b] * D_body.middleCols<3>(9);
+            Eigen::Matrix<double, 5, 3> block =
+              basis.N[b] * D_body.middleCols<3>(3) +
+              basis.N_1[b] * D_body.middleCols<3>(6) +
+              basis.N_2[b] * D_body.middleCols<3>(9);
             if (old != nullptr)
               block += old->N[b] * D_body.middleCols<3>(12);
             add_columns(block, 1 - slave, basis.control_point[b]);
           }
       }
 
-      void add_old_master_columns(const SurfaceBasis &basis)
+      void
+      add_old_master_columns(const SurfaceBasis &basis)
       {
         for (unsigned int b = 0; b < basis.size; ++b)
           add_columns(basis.N[b] * D_body.middleCols<3>(12),
@@ -399,11 +430,13 @@ namespace Debond
       }
 
       // r_k = sum over points of f . dx/dq_k, f acting on the implant
-      void add_chuck_rows(const unsigned int j, double *column) const
+      void
+      add_chuck_rows(const unsigned int j, double *column) const
       {
         for (const auto &[component, number] : configuration.chuck_unknowns)
           {
-            const Eigen::Matrix<double, 15, 1> velocity = chuck_direction(component);
+            const Eigen::Matrix<double, 15, 1> velocity =
+              chuck_direction(component);
             if (slave == 1)
               column[number] +=
                 point.JxW * velocity.head<3>().dot(columns.col(j).head<3>());
@@ -411,8 +444,9 @@ namespace Debond
               column[number] -=
                 point.JxW *
                 (velocity.segment<3>(3).dot(columns.col(j).head<3>()) +
-                 point.trial.traction.dot(velocity.segment<3>(6) * columns(3, j) +
-                                          velocity.segment<3>(9) * columns(4, j)));
+                 point.trial.traction.dot(
+                   velocity.segment<3>(6) * columns(3, j) +
+                   velocity.segment<3>(9) * columns(4, j)));
           }
       }
 
@@ -428,8 +462,9 @@ namespace Debond
 
 
 
-  void ContactInterface::add_tangent(const InterfaceConfiguration &configuration,
-                                     Eigen::MatrixXd              &matrix) const
+  void
+  ContactInterface::add_tangent(const InterfaceConfiguration &configuration,
+                                Eigen::MatrixXd              &matrix) const
   {
     for (const Point &point : points)
       if (point.trial.state.status != PointStatus::open)
@@ -438,9 +473,10 @@ namespace Debond
 
 
 
-  void ContactInterface::apply_tangent(const InterfaceConfiguration &configuration,
-                                       const Eigen::VectorXd        &direction,
-                                       Eigen::VectorXd              &result) const
+  void
+  ContactInterface::apply_tangent(const InterfaceConfiguration &configuration,
+                                  const Eigen::VectorXd        &direction,
+                                  Eigen::VectorXd              &result) const
   {
     const Chuck              &chuck = *configuration.chuck;
     std::array<ControlNet, 2> moved, change;
@@ -457,7 +493,8 @@ namespace Debond
           for (const auto &[component, number] : configuration.chuck_unknowns)
             for (unsigned int A = 0; A < side.positions.cols(); ++A)
               moved[s].col(A) +=
-                direction[number] * chuck.velocity(component, side.positions.col(A));
+                direction[number] *
+                chuck.velocity(component, side.positions.col(A));
       }
 
     for (const Point &point : points)
@@ -470,22 +507,24 @@ namespace Debond
           dw << interpolate(point.basis, moved[slave]), master_change.y,
             master_change.a1, master_change.a2, Eigen::Vector3d::Zero();
           if (point.trial.state.status == PointStatus::slip)
-            dw.tail<3>() = interpolate(point.trial.old_basis, moved[master_side()]);
+            dw.tail<3>() =
+              interpolate(point.trial.old_basis, moved[master_side()]);
           const Eigen::Vector3d dt  = point.JxW * (point.trial.dt * dw);
           const Eigen::Vector2d dxi = point.trial.dxi * dw;
           const Eigen::Vector3d t   = point.JxW * point.trial.traction;
           for (unsigned int a = 0; a < point.basis.size; ++a)
-            change[slave].col(point.basis.control_point[a]) += point.basis.N[a] * dt;
+            change[slave].col(point.basis.control_point[a]) +=
+              point.basis.N[a] * dt;
           for (unsigned int b = 0; b < basis.size; ++b)
             change[master_side()].col(basis.control_point[b]) -=
-              basis.N[b] * dt + (basis.N_1[b] * dxi[0] + basis.N_2[b] * dxi[1]) * t;
+              basis.N[b] * dt +
+              (basis.N_1[b] * dxi[0] + basis.N_2[b] * dxi[1]) * t;
         }
 
     for (const auto &[component, number] : configuration.chuck_unknowns)
       for (unsigned int A = 0; A < change[1].cols(); ++A)
-        result[number] +=
-          change[1].col(A).dot(
-            chuck.velocity(component, configuration.side[1].positions.col(A)));
+        result[number] += change[1].col(A).dot(
+          chuck.velocity(component, configuration.side[1].positions.col(A)));
     for (unsigned int s = 0; s < 2; ++s)
       {
         const auto &side = configuration.side[s];
@@ -498,7 +537,8 @@ namespace Debond
 
 
 
-  FrictionCoefficient ContactInterface::friction(const Point &point) const
+  FrictionCoefficient
+  ContactInterface::friction(const Point &point) const
   {
     return friction(point, point.trial.state);
   }
@@ -506,7 +546,8 @@ namespace Debond
 
 
   FrictionCoefficient
-  ContactInterface::friction(const Point &point, const ContactPointState &state) const
+  ContactInterface::friction(const Point             &point,
+                             const ContactPointState &state) const
   {
     return friction_coefficient(parameters.friction,
                                 state.broken ? 0. : point.phi_0,
@@ -515,7 +556,8 @@ namespace Debond
 
 
 
-  void ContactInterface::commit(const InterfaceConfiguration &configuration)
+  void
+  ContactInterface::commit(const InterfaceConfiguration &configuration)
   {
     const MasterSurface    surface = master(configuration);
     const Eigen::Matrix3d &Q       = configuration.side[master_side()].frame;
@@ -532,7 +574,8 @@ namespace Debond
         const ContactPointResult &trial = point.trial;
         accepted_dissipation +=
           0.5 * point.JxW *
-          (Q * point.accepted_traction + trial.tangential_traction).dot(trial.slip_increment);
+          (Q * point.accepted_traction + trial.tangential_traction)
+            .dot(trial.slip_increment);
         if (!frictionless_now)
           accepted_adhesive_work +=
             point.JxW * 0.5 * (point.accepted_pressure + trial.pressure) *
@@ -550,13 +593,15 @@ namespace Debond
 
 
 
-  std::vector<bool> ContactInterface::touched_bone_elements() const
+  std::vector<bool>
+  ContactInterface::touched_bone_elements() const
   {
     std::vector<bool> touched(mesh[0]->surface().n_elements(), false);
     for (const Point &point : points)
       if (point.trial.state.status != PointStatus::open)
         {
-          touched[slave == 0 ? point.element : point.trial.basis.element] = true;
+          touched[slave == 0 ? point.element : point.trial.basis.element] =
+            true;
           if (slave == 1 && point.trial.state.status == PointStatus::slip)
             touched[point.trial.old_basis.element] = true;
         }
@@ -565,24 +610,28 @@ namespace Debond
 
 
 
-  std::vector<bool> ContactInterface::bone_elements_under_implant(
+  std::vector<bool>
+  ContactInterface::bone_elements_under_implant(
     const InterfaceConfiguration &configuration) const
   {
-    const NurbsSurface &bone = mesh[0]->surface(), &implant = mesh[1]->surface();
-    std::vector<bool>   under(bone.n_elements(), false);
-    const auto          n = implant.n_elements_per_direction();
+    const NurbsSurface &bone    = mesh[0]->surface(),
+                       &implant = mesh[1]->surface();
+    std::vector<bool> under(bone.n_elements(), false);
+    const auto        n = implant.n_elements_per_direction();
     // dense enough to meet every element of the bone that the edge crosses
-    const unsigned int finest = std::max({n[0],
-                                          n[1],
-                                          bone.n_elements_per_direction()[0],
-                                          bone.n_elements_per_direction()[1]});
+    const unsigned int finest  = std::max({n[0],
+                                           n[1],
+                                           bone.n_elements_per_direction()[0],
+                                           bone.n_elements_per_direction()[1]});
     const unsigned int samples = 4 * finest;
     SurfaceBasis       basis;
     Eigen::Vector2d    guess(0.5, 0.5);
     for (unsigned int j = 0; j <= samples; ++j)
       for (unsigned int i = 0; i <= samples; ++i)
         {
-          implant.evaluate({double(i) / samples, double(j) / samples}, basis, false);
+          implant.evaluate({double(i) / samples, double(j) / samples},
+                           basis,
+                           false);
           const ClosestPoint closest =
             closest_point(bone,
                           configuration.side[0].positions,
@@ -596,7 +645,8 @@ namespace Debond
 
 
 
-  ContactInterface::Summary ContactInterface::summarise() const
+  ContactInterface::Summary
+  ContactInterface::summarise() const
   {
     Summary summary;
     double  area = 0.;
@@ -634,14 +684,17 @@ namespace Debond
         summary.energy +=
           0.5 * point.JxW *
           (trial.pressure * trial.pressure / parameters.normal_penalty +
-           trial.tangential_traction.squaredNorm() / parameters.tangential_penalty);
-        summary.max_softening = std::max(summary.max_softening, trial.softening);
+           trial.tangential_traction.squaredNorm() /
+             parameters.tangential_penalty);
+        summary.max_softening =
+          std::max(summary.max_softening, trial.softening);
         if (friction(point).phi > 0.)
           summary.steepest_softening =
             std::max(summary.steepest_softening,
-                     steepest_fall(parameters.friction, point.phi_0) * trial.pressure /
-                       parameters.tangential_penalty);
-        summary.max_penetration = std::max(summary.max_penetration, -trial.normal_gap);
+                     steepest_fall(parameters.friction, point.phi_0) *
+                       trial.pressure / parameters.tangential_penalty);
+        summary.max_penetration =
+          std::max(summary.max_penetration, -trial.normal_gap);
       }
     for (double *share : {&summary.phi_mean,
                           &summary.share_stick,
@@ -653,16 +706,17 @@ namespace Debond
 
 
 
-  std::string ContactInterface::describe_failure() const
+  std::string
+  ContactInterface::describe_failure() const
   {
     if (failed_point < 0)
       return "";
-    const Point      &point = points[failed_point];
+    const Point       &point = points[failed_point];
     std::ostringstream text;
     text << "no solution of the friction law at the "
-         << (slave == 1 ? "implant" : "bone") << "'s quadrature point at parameters ("
-         << point.xi[0] << ", " << point.xi[1] << "), g_s = " << point.accepted.slip
-         << " mm";
+         << (slave == 1 ? "implant" : "bone")
+         << "'s quadrature point at parameters (" << point.xi[0] << ", "
+         << point.xi[1] << "), g_s = " << point.accepted.slip << " mm";
     return text.str();
   }
 } // namespace Debond

@@ -61,10 +61,11 @@ namespace Debond
 
 
     // d(eps g_n n) for a factor eps.
-    void add_normal_part(const double     factor,
-                         const Normal    &normal,
-                         const NormalGap &gap,
-                         Jacobian        &dt)
+    void
+    add_normal_part(const double     factor,
+                    const Normal    &normal,
+                    const NormalGap &gap,
+                    Jacobian        &dt)
     {
       dt += factor * normal.n * gap.gradient;
       dt.middleCols<3>(at_a1) += factor * gap.value * normal.dn_da1;
@@ -80,9 +81,11 @@ namespace Debond
       const double              phi_0;
       const bool                frictionless;
 
-      FrictionCoefficient operator()(const double slip) const
+      FrictionCoefficient
+      operator()(const double slip) const
       {
-        FrictionCoefficient result = friction_coefficient(parameters, phi_0, slip);
+        FrictionCoefficient result =
+          friction_coefficient(parameters, phi_0, slip);
         if (frictionless)
           result.mu = result.dmu = 0.;
         return result;
@@ -109,7 +112,7 @@ namespace Debond
                     const SurfaceGeometry &geometry,
                     const double           outward_sign)
       {
-        const double    eps_n = law.normal_penalty, eps_t = law.tangential_penalty;
+        const double eps_n = law.normal_penalty, eps_t = law.tangential_penalty;
         const Vector3d  gap = x - geometry.y;
         const Normal    normal(geometry, outward_sign);
         const NormalGap normal_gap(normal, gap);
@@ -130,13 +133,16 @@ namespace Debond
             tau = u / u_norm;
             const Matrix3d across =
               (Matrix3d::Identity() - tau * tau.transpose()) / u_norm;
-            const Matrix3d across_n = across * (Matrix3d::Identity() - n * n.transpose());
+            const Matrix3d across_n =
+              across * (Matrix3d::Identity() - n * n.transpose());
             dtau.middleCols<3>(at_x)     = across_n;
             dtau.middleCols<3>(at_y_old) = -across_n;
             dtau.middleCols<3>(at_a1) =
-              across * (-n_part * normal.dn_da1 - n * (trial.transpose() * normal.dn_da1));
+              across * (-n_part * normal.dn_da1 -
+                        n * (trial.transpose() * normal.dn_da1));
             dtau.middleCols<3>(at_a2) =
-              across * (-n_part * normal.dn_da2 - n * (trial.transpose() * normal.dn_da2));
+              across * (-n_part * normal.dn_da2 -
+                        n * (trial.transpose() * normal.dn_da2));
           }
 
         // limit mu(g_s) p with g_s = g_s^n + |y - y_n|, Eq. (32); where slip
@@ -146,21 +152,21 @@ namespace Debond
         const Vector3d forward =
           distance > 1e-14 * u_norm ? Vector3d(slip / distance) : tau;
         const FrictionCoefficient coefficient = friction(old_slip + distance);
-        softening            = std::max(0., -coefficient.dmu) * pressure / eps_t;
-        const double limit   = coefficient.mu * pressure;
-        Gradient     dlimit  = Gradient::Zero();
+        softening           = std::max(0., -coefficient.dmu) * pressure / eps_t;
+        const double limit  = coefficient.mu * pressure;
+        Gradient     dlimit = Gradient::Zero();
         dlimit.segment<3>(at_y)     = coefficient.dmu * pressure * forward;
         dlimit.segment<3>(at_y_old) = -coefficient.dmu * pressure * forward;
         if (pressing)
           dlimit -= coefficient.mu * eps_n * normal_gap.gradient;
 
-        t_t      = limit * tau;
-        traction = eps_n * g_n * n + t_t;
+        t_t                 = limit * tau;
+        traction            = eps_n * g_n * n + t_t;
         const Jacobian dt_t = tau * dlimit + limit * dtau;
         dt                  = dt_t;
         add_normal_part(eps_n, normal, normal_gap, dt);
 
-        const Vector3d excess = gap - t_t / eps_t;
+        const Vector3d excess  = gap - t_t / eps_t;
         Jacobian       dexcess = -dt_t / eps_t;
         dexcess.middleCols<3>(at_x) += Matrix3d::Identity();
         dexcess.middleCols<3>(at_y) -= Matrix3d::Identity();
@@ -190,7 +196,12 @@ namespace Debond
 
 
 
-    enum class SlipOutcome { solved, left_patch, not_found };
+    enum class SlipOutcome
+    {
+      solved,
+      left_patch,
+      not_found
+    };
 
     // The local problem of one point: Newton iteration for xi_hat, with line
     // search on |h|. The parameters stay in the patch; an iteration that keeps
@@ -212,7 +223,8 @@ namespace Debond
         , master(master)
       {}
 
-      SlipOutcome solve(const Vector2d &start, ContactPointResult &result)
+      SlipOutcome
+      solve(const Vector2d &start, ContactPointResult &result)
       {
         constexpr unsigned int max_iterations = 30;
         Vector2d               xi             = start;
@@ -222,20 +234,22 @@ namespace Debond
         const double round_off =
           1e-16 * (x.norm() + geometry.a1.norm() + geometry.a2.norm());
         unsigned int pushes = 0;
-        for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
+        for (unsigned int iteration = 0; iteration < max_iterations;
+             ++iteration)
           {
             const double   error = distance_error();
             const Vector2d step  = newton_step();
             if (!step.allFinite())
               return SlipOutcome::not_found;
-            const bool last = step.cwiseAbs().maxCoeff() < 1e-15 || error <= round_off;
+            const bool last =
+              step.cwiseAbs().maxCoeff() < 1e-15 || error <= round_off;
             if (last)
               break;
             const Vector2d target = (xi + step).cwiseMax(0.).cwiseMin(1.);
             if (target != xi + step && ++pushes > 5)
               return SlipOutcome::left_patch;
-            const Vector2d full = target - xi;
-            const Vector2d old  = xi;
+            const Vector2d full       = target - xi;
+            const Vector2d old        = xi;
             double         best_error = std::numeric_limits<double>::max();
             for (double fraction = 1.; fraction > 0.01; fraction *= 0.5)
               {
@@ -263,9 +277,10 @@ namespace Debond
 
       // Writes the slipping state; the motion of xi_hat is eliminated:
       // dxi = -(dh/dxi)^-1 dh/dw.
-      void report(ContactPointResult &result) const
+      void
+      report(ContactPointResult &result) const
       {
-        const SlipEquations &e = *equations;
+        const SlipEquations &e     = *equations;
         result.normal_gap          = e.g_n;
         result.pressure            = e.pressure;
         result.softening           = e.softening;
@@ -275,13 +290,19 @@ namespace Debond
         if (!friction.frictionless)
           result.state.slip = old_slip + result.slip_increment.norm();
         result.dxi = -jacobian().inverse() * e.dh;
-        result.dt  = e.dt + SlipEquations::along_surface<3>(e.dt, geometry) * result.dxi;
+        result.dt =
+          e.dt + SlipEquations::along_surface<3>(e.dt, geometry) * result.dxi;
       }
 
-      double normal_gap() const { return equations->g_n; }
+      double
+      normal_gap() const
+      {
+        return equations->g_n;
+      }
 
     private:
-      void evaluate(const Vector2d &xi, SurfaceBasis &basis)
+      void
+      evaluate(const Vector2d &xi, SurfaceBasis &basis)
       {
         master.surface->evaluate(xi, basis, true);
         contract(basis, *master.positions, true, geometry);
@@ -289,14 +310,20 @@ namespace Debond
           law, friction, old_slip, x, y_old, geometry, master.outward_sign);
       }
 
-      Eigen::Matrix2d jacobian() const
+      Eigen::Matrix2d
+      jacobian() const
       {
         return SlipEquations::along_surface<2>(equations->dh, geometry);
       }
 
-      Vector2d newton_step() const { return -jacobian().inverse() * equations->h; }
+      Vector2d
+      newton_step() const
+      {
+        return -jacobian().inverse() * equations->h;
+      }
 
-      double distance_error() const
+      double
+      distance_error() const
       {
         return std::hypot(equations->h[0] / geometry.a1.norm(),
                           equations->h[1] / geometry.a2.norm());
@@ -314,9 +341,10 @@ namespace Debond
 
 
 
-    void set_open(const ContactPointLaw   &law,
-                  const ContactPointState &old_state,
-                  ContactPointResult      &result)
+    void
+    set_open(const ContactPointLaw   &law,
+             const ContactPointState &old_state,
+             ContactPointResult      &result)
     {
       result.state        = old_state; // damage does not heal
       result.state.status = PointStatus::open;
@@ -332,21 +360,23 @@ namespace Debond
 
 
     // Everything at xi_hat^n: t = eps_n g_n n + eps_t g_t.
-    void set_stick(const ContactPointLaw   &law,
-                   const ContactPointState &old_state,
-                   const Vector3d          &gap,
-                   const Normal            &normal,
-                   const NormalGap         &normal_gap,
-                   ContactPointResult      &result)
+    void
+    set_stick(const ContactPointLaw   &law,
+              const ContactPointState &old_state,
+              const Vector3d          &gap,
+              const Normal            &normal,
+              const NormalGap         &normal_gap,
+              ContactPointResult      &result)
     {
       const double eps_n = law.normal_penalty, eps_t = law.tangential_penalty;
-      result.state        = old_state;
-      result.state.status = PointStatus::stick;
-      result.normal_gap   = normal_gap.value;
-      result.pressure     = std::max(0., -eps_n * normal_gap.value);
-      result.softening    = 0.;
+      result.state               = old_state;
+      result.state.status        = PointStatus::stick;
+      result.normal_gap          = normal_gap.value;
+      result.pressure            = std::max(0., -eps_n * normal_gap.value);
+      result.softening           = 0.;
       result.tangential_traction = eps_t * (gap - normal_gap.value * normal.n);
-      result.traction = eps_n * normal_gap.value * normal.n + result.tangential_traction;
+      result.traction =
+        eps_n * normal_gap.value * normal.n + result.tangential_traction;
       result.slip_increment = Vector3d::Zero();
       result.dxi.setZero();
       result.dt.setZero();
@@ -360,12 +390,13 @@ namespace Debond
     // A point that closes without an xi_hat^n of its own sticks where it is: it
     // has no tangential gap, and xi_hat, its projection, moves with it as on a
     // frictionless interface.
-    void follow_projection(const ContactPointLaw   &law,
-                           const ContactPointState &start,
-                           const Vector3d          &x,
-                           const Vector3d          &y,
-                           const MasterSurface     &master,
-                           ContactPointResult      &result)
+    void
+    follow_projection(const ContactPointLaw   &law,
+                      const ContactPointState &start,
+                      const Vector3d          &x,
+                      const Vector3d          &y,
+                      const MasterSurface     &master,
+                      ContactPointResult      &result)
     {
       const PointFriction none{law.friction, 0., true};
       ContactPointResult  projected;
@@ -381,9 +412,10 @@ namespace Debond
 
     // An open point beyond the edge of the master has no xi_hat^n: it starts
     // where it is now, if it faces the master at all.
-    bool find_partner(const Vector3d      &x,
-                      const MasterSurface &master,
-                      ContactPointState   &state)
+    bool
+    find_partner(const Vector3d      &x,
+                 const MasterSurface &master,
+                 ContactPointState   &state)
     {
       if (state.has_partner)
         return true;
@@ -396,9 +428,10 @@ namespace Debond
 
 
 
-  Projection project(const MasterSurface   &master,
-                     const Eigen::Vector3d &x,
-                     const Eigen::Vector2d *guess)
+  Projection
+  project(const MasterSurface   &master,
+          const Eigen::Vector3d &x,
+          const Eigen::Vector2d *guess)
   {
     const ClosestPoint closest =
       closest_point(*master.surface, *master.positions, x, guess);
@@ -407,8 +440,9 @@ namespace Debond
     master.surface->evaluate(closest.xi, basis, false);
     contract(basis, *master.positions, false, geometry);
     constexpr double smallest_angle = 0.01; // between the tangents
-    const bool       regular        = geometry.a1.cross(geometry.a2).norm() >
-                         smallest_angle * geometry.a1.norm() * geometry.a2.norm();
+    const bool       regular =
+      geometry.a1.cross(geometry.a2).norm() >
+      smallest_angle * geometry.a1.norm() * geometry.a2.norm();
 
     Projection result;
     result.xi        = closest.xi;
@@ -419,19 +453,21 @@ namespace Debond
     const Vector3d gap = x - geometry.y;
     const Vector3d n   = Normal(geometry, master.outward_sign).n;
     if (regular)
-      result.clearance = n.dot(gap) >= 0. ? gap.norm() : (gap - n.dot(gap) * n).norm();
+      result.clearance =
+        n.dot(gap) >= 0. ? gap.norm() : (gap - n.dot(gap) * n).norm();
     return result;
   }
 
 
 
-  void update_contact_point(const ContactPointLaw   &law,
-                            const ContactPointState &old_state,
-                            const double             phi_0,
-                            const Vector3d          &x,
-                            const MasterSurface     &master,
-                            const ContactPointMode  &mode,
-                            ContactPointResult      &result)
+  void
+  update_contact_point(const ContactPointLaw   &law,
+                       const ContactPointState &old_state,
+                       const double             phi_0,
+                       const Vector3d          &x,
+                       const MasterSurface     &master,
+                       const ContactPointMode  &mode,
+                       ContactPointResult      &result)
   {
     result.failed           = false;
     ContactPointState start = old_state;
@@ -449,14 +485,14 @@ namespace Debond
     const NormalGap normal_gap(normal, gap);
     result.normal_gap = normal_gap.value;
 
-    const double        touch =
+    const double touch =
       mode.stick_first ? mode.touch_tolerance : -mode.touch_tolerance;
     const bool          closed = normal_gap.value < touch;
     const PointFriction friction{law.friction,
                                  start.broken ? 0. : phi_0,
                                  mode.frictionless};
-    const double        limit =
-      friction(start.slip).mu * std::max(0., -law.normal_penalty * normal_gap.value);
+    const double        limit = friction(start.slip).mu *
+                         std::max(0., -law.normal_penalty * normal_gap.value);
     const double trial_traction =
       law.tangential_penalty * (gap - normal_gap.value * normal.n).norm();
     if (closed && (mode.stick_first || trial_traction <= limit))
@@ -486,10 +522,10 @@ namespace Debond
       }
     if (outcome == SlipOutcome::solved && problem.normal_gap() < touch)
       {
-        const Vector2d xi        = result.state.xi;
-        result.state             = start;
-        result.state.xi          = xi;
-        result.state.status      = PointStatus::slip;
+        const Vector2d xi   = result.state.xi;
+        result.state        = start;
+        result.state.xi     = xi;
+        result.state.status = PointStatus::slip;
         problem.report(result);
       }
     else if (outcome == SlipOutcome::not_found)

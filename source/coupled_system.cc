@@ -1,10 +1,10 @@
 #include <debond/coupled_system.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-
-#include <Eigen/Geometry>
 
 namespace Debond
 {
@@ -17,14 +17,16 @@ namespace Debond
     , interface(scene.interface, bone.mesh(), implant.mesh())
     , R(scene.implant.characteristic_radius())
     , timer(timer)
-    , force_floor(scene.interface.normal_penalty * interface.implant_area() * 1e-6 * R)
+    , force_floor(scene.interface.normal_penalty * interface.implant_area() *
+                  1e-6 * R)
   {
     configuration.chuck = &chuck;
   }
 
 
 
-  void CoupledSystem::update_configuration()
+  void
+  CoupledSystem::update_configuration()
   {
     configuration.side[0].positions =
       bone.surface().control_points() + bone.contact_displacement();
@@ -39,7 +41,8 @@ namespace Debond
 
 
 
-  void CoupledSystem::number_unknowns()
+  void
+  CoupledSystem::number_unknowns()
   {
     const std::array<const Body *, 2> body{{&bone, &implant}};
     unsigned int                      first = 0;
@@ -64,8 +67,9 @@ namespace Debond
   namespace
   {
     // The control points that belong to the marked elements.
-    std::vector<bool> control_points_of(const NurbsSurface      &surface,
-                                        const std::vector<bool> &elements)
+    std::vector<bool>
+    control_points_of(const NurbsSurface      &surface,
+                      const std::vector<bool> &elements)
     {
       std::vector<bool>  result(surface.n_control_points(), false);
       const unsigned int n = (surface.degree() + 1) * (surface.degree() + 1);
@@ -79,7 +83,8 @@ namespace Debond
 
 
 
-  void CoupledSystem::start(const double time)
+  void
+  CoupledSystem::start(const double time)
   {
     chuck.place(time);
     update_configuration();
@@ -98,14 +103,15 @@ namespace Debond
 
 
 
-  bool CoupledSystem::extend_contact_unknowns()
+  bool
+  CoupledSystem::extend_contact_unknowns()
   {
     if (!bone.deformable())
       return false;
-    std::vector<bool>       wanted  = bone.contact_control_points();
-    const std::vector<bool> touched = control_points_of(bone.surface(),
-                                                        interface.touched_bone_elements());
-    bool                    grown   = false;
+    std::vector<bool>       wanted = bone.contact_control_points();
+    const std::vector<bool> touched =
+      control_points_of(bone.surface(), interface.touched_bone_elements());
+    bool grown = false;
     for (unsigned int A = 0; A < wanted.size(); ++A)
       if (touched[A] && !wanted[A])
         grown = wanted[A] = true;
@@ -125,7 +131,8 @@ namespace Debond
 
 
 
-  void CoupledSystem::predict(const double time, const bool extrapolate)
+  void
+  CoupledSystem::predict(const double time, const bool extrapolate)
   {
     bone.predict(time, extrapolate);
     implant.predict(time, extrapolate);
@@ -135,7 +142,8 @@ namespace Debond
 
 
 
-  void CoupledSystem::commit(const double time)
+  void
+  CoupledSystem::commit(const double time)
   {
     bone.commit(time);
     implant.commit(time);
@@ -147,7 +155,8 @@ namespace Debond
 
 
 
-  void CoupledSystem::rollback()
+  void
+  CoupledSystem::rollback()
   {
     bone.rollback();
     implant.rollback();
@@ -156,14 +165,16 @@ namespace Debond
 
 
 
-  double CoupledSystem::scale_of(const unsigned int chuck_component) const
+  double
+  CoupledSystem::scale_of(const unsigned int chuck_component) const
   {
     return chuck_component < 3 ? 1. : R;
   }
 
 
 
-  CoupledSystem::Residual CoupledSystem::evaluate(const ContactPointMode &mode)
+  CoupledSystem::Residual
+  CoupledSystem::evaluate(const ContactPointMode &mode)
   {
     Residual result;
     do
@@ -179,17 +190,20 @@ namespace Debond
     while (extend_contact_unknowns());
 
     const dealii::TimerOutput::Scope t(timer, "bulk");
-    double           norm_squared = 0., interior_squared = 0.;
-    unsigned int     first = 0;
-    unsigned int     side  = 0;
+    double                           norm_squared = 0., interior_squared = 0.;
+    unsigned int                     first = 0;
+    unsigned int                     side  = 0;
     for (Body *body : {&bone, &implant})
       {
         Eigen::VectorXd condensed;
-        const auto      part = body->residual(
-          configuration.side[side].frame.transpose() * interface.force(side), condensed);
+        const auto      part =
+          body->residual(configuration.side[side].frame.transpose() *
+                           interface.force(side),
+                         condensed);
         if (!part.valid)
           {
-            result.why = std::string("a cell of the ") + (side == 0 ? "bone" : "implant") +
+            result.why = std::string("a cell of the ") +
+                         (side == 0 ? "bone" : "implant") +
                          " is turned inside out";
             return result;
           }
@@ -215,7 +229,8 @@ namespace Debond
     result.valid = std::isfinite(result.norm) && std::isfinite(force);
     if (!result.valid)
       result.why = "the residual is not finite";
-    result.interior_share = norm_squared > 0. ? interior_squared / norm_squared : 0.;
+    result.interior_share =
+      norm_squared > 0. ? interior_squared / norm_squared : 0.;
     return result;
   }
 
@@ -224,8 +239,9 @@ namespace Debond
   // Terms of the tangent that come from the rotation of the implant's frame and
   // of lever arms with the unknown rotations of the chuck:
   // (dQ^T/dq_k) f, f . (b_k x dx) and f . d^2x/dq_k dq_l.
-  void CoupledSystem::add_geometric_part(const Eigen::VectorXd &x,
-                                         Eigen::VectorXd       &y) const
+  void
+  CoupledSystem::add_geometric_part(const Eigen::VectorXd &x,
+                                    Eigen::VectorXd       &y) const
   {
     const auto &side = configuration.side[1];
     for (const auto &[k, row] : configuration.chuck_unknowns)
@@ -249,14 +265,16 @@ namespace Debond
               }
             for (const auto &[l, column] : configuration.chuck_unknowns)
               y[row] +=
-                f.dot(chuck.second_derivative(k, l, side.positions.col(A))) * x[column];
+                f.dot(chuck.second_derivative(k, l, side.positions.col(A))) *
+                x[column];
           }
       }
   }
 
 
 
-  void CoupledSystem::apply(const Eigen::VectorXd &x, Eigen::VectorXd &y) const
+  void
+  CoupledSystem::apply(const Eigen::VectorXd &x, Eigen::VectorXd &y) const
   {
     const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
     y.setZero(unknowns);
@@ -265,14 +283,16 @@ namespace Debond
         bone.schur_complement().selfadjointView<Eigen::Lower>() * x.head(n_b);
     if (n_i > 0)
       y.segment(n_b, n_i).noalias() =
-        implant.schur_complement().selfadjointView<Eigen::Lower>() * x.segment(n_b, n_i);
+        implant.schur_complement().selfadjointView<Eigen::Lower>() *
+        x.segment(n_b, n_i);
     interface.apply_tangent(configuration, x, y);
     add_geometric_part(x, y);
   }
 
 
 
-  void CoupledSystem::assemble(Eigen::MatrixXd &matrix) const
+  void
+  CoupledSystem::assemble(Eigen::MatrixXd &matrix) const
   {
     const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
     matrix.setZero(unknowns, unknowns);
@@ -289,14 +309,16 @@ namespace Debond
         add_geometric_part(unit, column);
         matrix.col(number) += column;
         // the v-part of the border is symmetric
-        matrix.row(number).head(n_b + n_i) += column.head(n_b + n_i).transpose();
+        matrix.row(number).head(n_b + n_i) +=
+          column.head(n_b + n_i).transpose();
         unit[number] = 0.;
       }
   }
 
 
 
-  bool CoupledSystem::is_unsupported() const
+  bool
+  CoupledSystem::is_unsupported() const
   {
     bool free_chuck = false;
     for (const unsigned int k : chuck.unknowns())
@@ -306,7 +328,8 @@ namespace Debond
 
 
 
-  std::string CoupledSystem::solve_and_correct(const double relative_tolerance)
+  std::string
+  CoupledSystem::solve_and_correct(const double relative_tolerance)
   {
     Eigen::VectorXd correction;
     {
@@ -341,7 +364,8 @@ namespace Debond
 
 
 
-  bool CoupledSystem::refactor_bulk()
+  bool
+  CoupledSystem::refactor_bulk()
   {
     const dealii::TimerOutput::Scope t(timer, "condensation");
     solver.forget();
@@ -350,7 +374,8 @@ namespace Debond
 
 
 
-  std::string CoupledSystem::describe_worst_point() const
+  std::string
+  CoupledSystem::describe_worst_point() const
   {
     int          worst = 0;
     const double value =
@@ -363,10 +388,11 @@ namespace Debond
         if (residual.size() > 0 && found != numbers.end())
           {
             const unsigned int index = found - numbers.begin();
-            const auto         x = configuration.side[side].positions.col(index / 3);
-            text << "residual " << value << " N in " << "xyz"[index % 3] << " at the "
-                 << (side == 0 ? "bone" : "implant") << "'s control point at (" << x[0]
-                 << ", " << x[1] << ", " << x[2] << ") mm";
+            const auto x = configuration.side[side].positions.col(index / 3);
+            text << "residual " << value << " N in "
+                 << "xyz"[index % 3] << " at the "
+                 << (side == 0 ? "bone" : "implant") << "'s control point at ("
+                 << x[0] << ", " << x[1] << ", " << x[2] << ") mm";
           }
       }
     for (const auto &[component, number] : configuration.chuck_unknowns)
@@ -378,7 +404,8 @@ namespace Debond
 
 
 
-  Chuck::Vector6 CoupledSystem::chuck_forces() const
+  Chuck::Vector6
+  CoupledSystem::chuck_forces() const
   {
     Chuck::Vector6 result = Chuck::Vector6::Zero();
     const auto    &x      = configuration.side[1].positions;
@@ -390,7 +417,8 @@ namespace Debond
 
 
 
-  Chuck::Vector6 CoupledSystem::chuck_resultant() const
+  Chuck::Vector6
+  CoupledSystem::chuck_resultant() const
   {
     Chuck::Vector6 result = Chuck::Vector6::Zero();
     const auto    &x      = configuration.side[1].positions;
@@ -406,7 +434,8 @@ namespace Debond
 
 
 
-  double CoupledSystem::reaction_defect()
+  double
+  CoupledSystem::reaction_defect()
   {
     if (!implant.deformable())
       return 0.;

@@ -55,14 +55,16 @@ namespace Debond
 
   DebondingProblem::~DebondingProblem() = default;
 
-  const std::vector<TorqueRow> &DebondingProblem::rows() const
+  const std::vector<TorqueRow> &
+  DebondingProblem::rows() const
   {
     return state->rows;
   }
 
 
 
-  void DebondingProblem::run()
+  void
+  DebondingProblem::run()
   {
     set_up();
     try
@@ -83,13 +85,15 @@ namespace Debond
 
   namespace
   {
-    std::string unknowns_of(const CoupledSystem &system)
+    std::string
+    unknowns_of(const CoupledSystem &system)
     {
       std::ostringstream text;
       text << system.bone.mesh().n_dofs_as_published() +
                 system.implant.mesh().n_dofs_as_published()
            << " degrees of freedom, "
-           << system.bone.mesh().n_unknowns() + system.implant.mesh().n_unknowns()
+           << system.bone.mesh().n_unknowns() +
+                system.implant.mesh().n_unknowns()
            << " of them unknowns, " << system.n_unknowns()
            << " after condensation on the contact surfaces";
       return text.str();
@@ -98,23 +102,27 @@ namespace Debond
 
 
 
-  void DebondingProblem::set_up()
+  void
+  DebondingProblem::set_up()
   {
     state->directory =
-      std::make_unique<ResultDirectory>(scene.output, scene.completed_parameters);
+      std::make_unique<ResultDirectory>(scene.output,
+                                        scene.completed_parameters);
     state->reference = read_reference_curve(scene.output.reference_curve);
-    state->torque_writer = std::make_unique<TorqueCurveWriter>(*state->directory);
+    state->torque_writer =
+      std::make_unique<TorqueCurveWriter>(*state->directory);
     {
       const dealii::TimerOutput::Scope t(state->timer, "set-up");
       state->system = std::make_unique<CoupledSystem>(scene, state->timer);
     }
     state->system->start(state->stepping.time(0));
     if (scene.output.fields_every > 0)
-      state->field_output = std::make_unique<FieldOutput>(*state->directory,
-                                                          state->system->bone,
-                                                          state->system->implant,
-                                                          state->system->interface,
-                                                          state->system->chuck);
+      state->field_output =
+        std::make_unique<FieldOutput>(*state->directory,
+                                      state->system->bone,
+                                      state->system->implant,
+                                      state->system->interface,
+                                      state->system->chuck);
     if (!scene.title.empty())
       state->console.headline(scene.title);
     state->console.headline(unknowns_of(*state->system));
@@ -123,10 +131,11 @@ namespace Debond
 
 
   // Row 0: the state at the first time, solved like a step.
-  void DebondingProblem::solve_first_row()
+  void
+  DebondingProblem::solve_first_row()
   {
-    bool               accepted   = false;
-    const double       time       = state->stepping.time(0);
+    bool         accepted         = false;
+    const double time             = state->stepping.time(0);
     state->time                   = time;
     const unsigned int iterations = try_sub_step(time, false, accepted);
     if (!accepted)
@@ -139,7 +148,8 @@ namespace Debond
 
 
 
-  void DebondingProblem::solve_planned_step(const unsigned int step)
+  void
+  DebondingProblem::solve_planned_step(const unsigned int step)
   {
     LoadStepping &stepping   = state->stepping;
     unsigned int  iterations = 0;
@@ -176,9 +186,10 @@ namespace Debond
 
 
 
-  unsigned int DebondingProblem::try_sub_step(const double time,
-                                              const bool   extrapolate,
-                                              bool        &accepted)
+  unsigned int
+  DebondingProblem::try_sub_step(const double time,
+                                 const bool   extrapolate,
+                                 bool        &accepted)
   {
     CoupledSystem &system = *state->system;
     NewtonOptions  options;
@@ -187,9 +198,9 @@ namespace Debond
     options.touch_tolerance    = 1e-12 * system.R;
     // a planned time, up to rounding
     options.frictionless =
-      state->time < scene.interface.friction.starts_at -
-                      1e-9 * (scene.load_steps.times.back() -
-                              scene.load_steps.times.front());
+      state->time <
+      scene.interface.friction.starts_at -
+        1e-9 * (scene.load_steps.times.back() - scene.load_steps.times.front());
     system.predict(time, extrapolate);
     const NewtonResult result = solve_newton(system, options);
     state->newton_iterations += result.iterations;
@@ -204,7 +215,8 @@ namespace Debond
 
 
 
-  void DebondingProblem::accept(const double time)
+  void
+  DebondingProblem::accept(const double time)
   {
     check_accepted_state();
     CoupledSystem &system           = *state->system;
@@ -219,46 +231,52 @@ namespace Debond
     if (state->step > 0)
       ++state->accepted_steps;
     if (state->energy.dissipates_too_much())
-      state->console.warn("dissipation",
-                          "more energy is dissipated than was put in: the steps "
-                          "are too large for the energy balance to be trusted");
+      state->console.warn(
+        "dissipation",
+        "more energy is dissipated than was put in: the steps "
+        "are too large for the energy balance to be trusted");
   }
 
 
 
   // What a user has to know about a state that is about to be accepted.
-  void DebondingProblem::check_accepted_state()
+  void
+  DebondingProblem::check_accepted_state()
   {
     CoupledSystem    &system  = *state->system;
     const auto        summary = system.interface.summarise();
     const std::string where   = "step " + std::to_string(state->step) + ": ";
     if (summary.steepest_softening >= 1.)
-      state->console.warn("uniqueness",
-                          where +
-                            "the friction law softens faster than the interface is "
-                            "stiff (largest |d mu/d g_s| p / eps_t >= 1): its local "
-                            "solution is not unique, and the bond may break in a jump");
+      state->console.warn(
+        "uniqueness",
+        where + "the friction law softens faster than the interface is "
+                "stiff (largest |d mu/d g_s| p / eps_t >= 1): its local "
+                "solution is not unique, and the bond may break in a jump");
     if (summary.bonded_opened > 0)
       state->console.warn(
         "opening",
         where + "bonded points open (" + std::to_string(summary.bonded_opened) +
           "): the law has no strength in tension, so that pulling costs nothing" +
-          (scene.interface.opening_breaks_bond ? "" :
-                                                 ", and points that close again are "
-                                                 "bonded as before"));
+          (scene.interface.opening_breaks_bond ?
+             "" :
+             ", and points that close again are "
+             "bonded as before"));
     if (system.reaction_defect() > 1e-6)
       {
         std::ostringstream text;
-        text << where << "contact forces and the reaction of the implant's top differ by "
-             << system.reaction_defect() << " of the larger";
+        text
+          << where
+          << "contact forces and the reaction of the implant's top differ by "
+          << system.reaction_defect() << " of the larger";
         state->console.warn("reaction", text.str());
       }
   }
 
 
 
-  void DebondingProblem::write_row(const unsigned int step,
-                                   const unsigned int iterations)
+  void
+  DebondingProblem::write_row(const unsigned int step,
+                              const unsigned int iterations)
   {
     CoupledSystem        &system   = *state->system;
     const auto            summary  = system.interface.summarise();
@@ -266,16 +284,16 @@ namespace Debond
     const Chuck::Vector6  reaction = system.chuck_resultant();
 
     TorqueRow row;
-    row.step         = step;
-    row.time         = state->time;
-    row.angle_deg    = q[5] * 180. / M_PI;
-    row.torque_Nmm   = system.chuck_forces()[5];
-    row.force_N      = -reaction[2];
-    row.pressure_MPa = row.force_N / system.interface.implant_area();
-    row.phi_mean     = summary.phi_mean;
-    row.share_stick  = summary.share_stick;
-    row.share_slip   = summary.share_slip;
-    row.share_open   = summary.share_open;
+    row.step                 = step;
+    row.time                 = state->time;
+    row.angle_deg            = q[5] * 180. / M_PI;
+    row.torque_Nmm           = system.chuck_forces()[5];
+    row.force_N              = -reaction[2];
+    row.pressure_MPa         = row.force_N / system.interface.implant_area();
+    row.phi_mean             = summary.phi_mean;
+    row.share_stick          = summary.share_stick;
+    row.share_slip           = summary.share_slip;
+    row.share_open           = summary.share_open;
     row.newton_iterations    = iterations;
     row.energy_defect        = state->energy.defect();
     row.work_Nmm             = state->energy.work();
@@ -299,7 +317,8 @@ namespace Debond
 
 
 
-  void DebondingProblem::write_fields(const unsigned int step)
+  void
+  DebondingProblem::write_fields(const unsigned int step)
   {
     if (!state->field_output)
       return;
@@ -314,13 +333,15 @@ namespace Debond
 
 
 
-  void DebondingProblem::finish(const bool converged, const std::string &reason)
+  void
+  DebondingProblem::finish(const bool converged, const std::string &reason)
   {
     const CoupledSystem &system = *state->system;
     CurveSettings        settings;
-    settings.contact_area_mm2       = scene.implant.shape == BodyShape::coin ?
-                                        M_PI * scene.implant.radius * scene.implant.radius :
-                                        system.interface.implant_area();
+    settings.contact_area_mm2 =
+      scene.implant.shape == BodyShape::coin ?
+        M_PI * scene.implant.radius * scene.implant.radius :
+        system.interface.implant_area();
     settings.mean_phi_0             = system.interface.mean_initial_bonding();
     settings.full_sliding_angle_deg = scene.output.full_sliding_angle;
     settings.phase_times            = scene.load_steps.times;
@@ -369,12 +390,14 @@ namespace Debond
     // Stiffness of the two half spaces' disk-shaped parts of the surface per
     // area, [MPa/mm]: pressed (rigid punch) and twisted (Reissner-Sagoci), the
     // implant as a bar of its height.
-    double in_series(const double a, const double b, const double c)
+    double
+    in_series(const double a, const double b, const double c)
     {
       return 1. / (1. / a + 1. / b + 1. / c);
     }
 
-    double compliance_free(const BodyParameters &body, const double stiffness)
+    double
+    compliance_free(const BodyParameters &body, const double stiffness)
     {
       return body.material == Material::rigid ?
                std::numeric_limits<double>::infinity() :
@@ -383,13 +406,15 @@ namespace Debond
 
 
 
-    void print_forecast(const Scene &scene, std::ostream &out)
+    void
+    print_forecast(const Scene &scene, std::ostream &out)
     {
       const double          R       = scene.implant.radius;
       const BodyParameters &bone    = scene.bone;
       const BodyParameters &implant = scene.implant;
       const double G_b = bone.young_modulus / (2. * (1. + bone.poisson_ratio));
-      const double G_i = implant.young_modulus / (2. * (1. + implant.poisson_ratio));
+      const double G_i =
+        implant.young_modulus / (2. * (1. + implant.poisson_ratio));
       const double k_n = in_series(
         scene.interface.normal_penalty,
         compliance_free(bone,
@@ -403,16 +428,17 @@ namespace Debond
 
       const Chuck  chuck(scene.chuck, Eigen::Vector3d::Zero(), R);
       const auto   last = chuck.values(scene.load_steps.times.back());
-      const double p = std::max(0.,
-                                scene.chuck.component[2].loaded ?
-                                  -last[2] / (M_PI * R * R) :
-                                  -last[2] * k_n);
-      out << "Closed forms foretell (bodies as springs in series with the interface, "
-             "to some 5 %):\n"
-          << "  mean pressure at the end " << p << " MPa, force " << p * M_PI * R * R
-          << " N\n"
-          << "  torsional stiffness while everything sticks "
-          << 0.5 * M_PI * std::pow(R, 4) * k_t << " N mm/rad\n";
+      const double p =
+        std::max(0.,
+                 scene.chuck.component[2].loaded ? -last[2] / (M_PI * R * R) :
+                                                   -last[2] * k_n);
+      out
+        << "Closed forms foretell (bodies as springs in series with the interface, "
+           "to some 5 %):\n"
+        << "  mean pressure at the end " << p << " MPa, force "
+        << p * M_PI * R * R << " N\n"
+        << "  torsional stiffness while everything sticks "
+        << 0.5 * M_PI * std::pow(R, 4) * k_t << " N mm/rad\n";
       RigidBodiesTorsion::Parameters parameters;
       parameters.radius             = R;
       parameters.push_in            = p / k_n;
@@ -439,7 +465,8 @@ namespace Debond
 
 
 
-  void DebondingProblem::check(std::ostream &out)
+  void
+  DebondingProblem::check(std::ostream &out)
   {
     CoupledSystem system(scene, state->timer);
     system.start(state->stepping.time(0));
@@ -448,8 +475,8 @@ namespace Debond
         << (system.interface.slave_side() == 1 ? "implant" : "bone")
         << ", mean phi_0 " << system.interface.mean_initial_bonding() << '\n'
         << state->stepping.n_steps() << " planned steps from time "
-        << scene.load_steps.times.front() << " to " << scene.load_steps.times.back()
-        << '\n';
+        << scene.load_steps.times.front() << " to "
+        << scene.load_steps.times.back() << '\n';
     if (scene.implant.shape == BodyShape::coin)
       print_forecast(scene, out);
   }

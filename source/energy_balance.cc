@@ -5,11 +5,12 @@
 
 namespace Debond
 {
-  void EnergyBalance::add(const Chuck::Vector6 &forces,
-                          const Chuck::Vector6 &position,
-                          const double          energy_bulk,
-                          const double          energy_interface,
-                          const double          dissipation)
+  void
+  EnergyBalance::add(const Chuck::Vector6 &forces,
+                     const Chuck::Vector6 &position,
+                     const double          energy_bulk,
+                     const double          energy_interface,
+                     const double          dissipation)
   {
     stored     = energy_bulk + energy_interface;
     dissipated = dissipation;
@@ -32,25 +33,30 @@ namespace Debond
 
 
 
-  double EnergyBalance::defect() const
+  double
+  EnergyBalance::defect() const
   {
     return max_W > 0. ?
-             (W - (stored - first_stored) - (dissipated - first_dissipated)) / max_W :
+             (W - (stored - first_stored) - (dissipated - first_dissipated)) /
+               max_W :
              0.;
   }
 
 
 
-  double EnergyBalance::defect_bound() const
+  double
+  EnergyBalance::defect_bound() const
   {
     return max_W > 0. ? bound / max_W : 0.;
   }
 
 
 
-  bool EnergyBalance::dissipates_too_much() const
+  bool
+  EnergyBalance::dissipates_too_much() const
   {
     // what was stored in the first row may be dissipated as well
-    return dissipated - first_dissipated > W + first_stored + bound + 1e-9 * max_W;
+    return dissipated - first_dissipated >
+           W + first_stored + bound + 1e-9 * max_W;
   }
 } // namespace Debond

@@ -10,11 +10,12 @@ namespace Debond
   {
     // Values and derivatives of the four bilinear functions on [-1,1]^2 in
     // lexicographic order.
-    void bilinear(const double xi,
-                  const double eta,
-                  double (&L)[4],
-                  double (&L_xi)[4],
-                  double (&L_eta)[4])
+    void
+    bilinear(const double xi,
+             const double eta,
+             double (&L)[4],
+             double (&L_xi)[4],
+             double (&L_eta)[4])
     {
       for (unsigned int a = 0; a < 4; ++a)
         {
@@ -28,11 +29,12 @@ namespace Debond
 
 
     // Values and derivatives with respect to (xi, eta, zeta).
-    void reference_shape(const BodyMesh              &mesh,
-                         const BodyMesh::Cell        &cell,
-                         const Eigen::Vector3d       &point,
-                         std::vector<double>          &N,
-                         std::vector<Eigen::Vector3d> &dN)
+    void
+    reference_shape(const BodyMesh               &mesh,
+                    const BodyMesh::Cell         &cell,
+                    const Eigen::Vector3d        &point,
+                    std::vector<double>          &N,
+                    std::vector<Eigen::Vector3d> &dN)
     {
       double L[4], L_xi[4], L_eta[4];
       bilinear(point[0], point[1], L, L_xi, L_eta);
@@ -41,7 +43,8 @@ namespace Debond
       dN.clear();
       if (cell.enriched)
         {
-          const auto bounds = mesh.surface().element_bounds(cell.surface_element);
+          const auto bounds =
+            mesh.surface().element_bounds(cell.surface_element);
           const Eigen::Vector2d half = 0.5 * (bounds[1] - bounds[0]);
           const Eigen::Vector2d parameter =
             bounds[0] +
@@ -79,9 +82,10 @@ namespace Debond
 
 
 
-  CellShape shape_functions(const BodyMesh        &mesh,
-                            const BodyMesh::Cell  &cell,
-                            const Eigen::Vector3d &point)
+  CellShape
+  shape_functions(const BodyMesh        &mesh,
+                  const BodyMesh::Cell  &cell,
+                  const Eigen::Vector3d &point)
   {
     CellShape                    shape;
     std::vector<Eigen::Vector3d> dN;
@@ -138,9 +142,10 @@ namespace Debond
 
 
 
-  void EnrichedCells::gradient_at_points(const unsigned int     cell,
-                                         const Eigen::VectorXd &v,
-                                         PointValues (&H)[3][3]) const
+  void
+  EnrichedCells::gradient_at_points(const unsigned int     cell,
+                                    const Eigen::VectorXd &v,
+                                    PointValues (&H)[3][3]) const
   {
     for (auto &row : H)
       for (PointValues &entry : row)
@@ -160,9 +165,10 @@ namespace Debond
 
 
 
-  bool EnrichedCells::internal_forces(const Eigen::VectorXd &v,
-                                      Eigen::VectorXd       &force,
-                                      double                &energy) const
+  bool
+  EnrichedCells::internal_forces(const Eigen::VectorXd &v,
+                                 Eigen::VectorXd       &force,
+                                 double                &energy) const
   {
     energy            = 0.;
     double smallest_j = 0.;
@@ -182,7 +188,8 @@ namespace Debond
         const double *G = gradients(cell);
         for (unsigned int a = 0; a < n_cell_nodes[cell]; ++a, G += 3 * n_q)
           {
-            const Eigen::Map<const PointValues> G_0(G), G_1(G + n_q), G_2(G + 2 * n_q);
+            const Eigen::Map<const PointValues> G_0(G), G_1(G + n_q),
+              G_2(G + 2 * n_q);
             for (unsigned int i = 0; i < 3; ++i)
               force[3 * nodes(cell)[a] + i] +=
                 (P[i][0] * G_0 + P[i][1] * G_1 + P[i][2] * G_2).sum();
@@ -193,9 +200,10 @@ namespace Debond
 
 
 
-  void EnrichedCells::displacement_gradients(const unsigned int     cell,
-                                             const Eigen::VectorXd &v,
-                                             double (&H)[n_q][3][3]) const
+  void
+  EnrichedCells::displacement_gradients(const unsigned int     cell,
+                                        const Eigen::VectorXd &v,
+                                        double (&H)[n_q][3][3]) const
   {
     PointValues side_by_side[3][3];
     gradient_at_points(cell, v, side_by_side);
@@ -207,9 +215,10 @@ namespace Debond
 
 
 
-  void EnrichedCells::tangent(const unsigned int     cell,
-                              const Eigen::VectorXd &v,
-                              Eigen::MatrixXd       &K) const
+  void
+  EnrichedCells::tangent(const unsigned int     cell,
+                         const Eigen::VectorXd &v,
+                         Eigen::MatrixXd       &K) const
   {
     const unsigned int n = n_cell_nodes[cell];
     K.setZero(3 * n, 3 * n);
@@ -226,18 +235,20 @@ namespace Debond
           for (unsigned int d = 0; d < 3; ++d)
             for (unsigned int i = 0; i < 3; ++i)
               B(3 * i + d, 3 * a + i) = gradients(cell)[(3 * a + d) * n_q + q];
-        const Eigen::Map<Eigen::Matrix<double, 9, 9, Eigen::RowMajor>> C_map(&C[0][0]);
+        const Eigen::Map<Eigen::Matrix<double, 9, 9, Eigen::RowMajor>> C_map(
+          &C[0][0]);
         K.noalias() += B.transpose() * (JxW[n_q * cell + q] * (C_map * B));
       }
   }
 
 
 
-  double EnrichedCells::volume() const
+  double
+  EnrichedCells::volume() const
   {
     double sum = 0.;
     for (const double weight : JxW)
       sum += weight;
     return sum;
   }
-}
+} // namespace Debond

@@ -52,14 +52,14 @@ namespace Debond
   FrictionParameters::parse(dealii::ParameterHandler &prm)
   {
     const std::string law = prm.get("Friction law");
-    kind                  = law == "frictionless" ? FrictionLawKind::frictionless :
-                            law == "coulomb"      ? FrictionLawKind::coulomb :
-                                                    FrictionLawKind::modified_coulomb;
-    mu_broken             = prm.get_double("Friction coefficient broken");
-    mu_unbroken           = prm.get_double("Friction coefficient unbroken");
-    sliding_threshold     = prm.get_double("Sliding threshold");
-    transition_factor     = prm.get_double("Transition factor");
-    starts_at             = prm.get_double("Friction starts at");
+    kind              = law == "frictionless" ? FrictionLawKind::frictionless :
+                        law == "coulomb"      ? FrictionLawKind::coulomb :
+                                                FrictionLawKind::modified_coulomb;
+    mu_broken         = prm.get_double("Friction coefficient broken");
+    mu_unbroken       = prm.get_double("Friction coefficient unbroken");
+    sliding_threshold = prm.get_double("Sliding threshold");
+    transition_factor = prm.get_double("Transition factor");
+    starts_at         = prm.get_double("Friction starts at");
   }
 } // namespace Debond
 
@@ -68,9 +68,10 @@ namespace Debond
 
 namespace Debond
 {
-  double bonding_decay(const FrictionParameters &parameters,
-                       const double              slip,
-                       double                   &derivative)
+  double
+  bonding_decay(const FrictionParameters &parameters,
+                const double              slip,
+                double                   &derivative)
   {
     const double a_s = parameters.sliding_threshold;
     const double b_s = parameters.transition_factor;
@@ -90,7 +91,8 @@ namespace Debond
   namespace
   {
     // Integral of s(g/a_s) from 0 to g, Eq. (13).
-    double integrated_decay(const FrictionParameters &parameters, const double slip)
+    double
+    integrated_decay(const FrictionParameters &parameters, const double slip)
     {
       const double a_s = parameters.sliding_threshold;
       const double b_s = parameters.transition_factor;
@@ -106,7 +108,8 @@ namespace Debond
 
 
 
-  double steepest_fall(const FrictionParameters &parameters, const double phi_0)
+  double
+  steepest_fall(const FrictionParameters &parameters, const double phi_0)
   {
     if (parameters.kind != FrictionLawKind::modified_coulomb)
       return 0.;
@@ -117,22 +120,25 @@ namespace Debond
 
 
 
-  double adhesive_strength(const FrictionParameters &parameters,
-                           const double              phi_0,
-                           const double              from,
-                           const double              to)
+  double
+  adhesive_strength(const FrictionParameters &parameters,
+                    const double              phi_0,
+                    const double              from,
+                    const double              to)
   {
     if (parameters.kind != FrictionLawKind::modified_coulomb)
       return 0.;
     return phi_0 * (parameters.mu_unbroken - parameters.mu_broken) *
-           (integrated_decay(parameters, to) - integrated_decay(parameters, from));
+           (integrated_decay(parameters, to) -
+            integrated_decay(parameters, from));
   }
 
 
 
-  FrictionCoefficient friction_coefficient(const FrictionParameters &parameters,
-                                           const double              phi_0,
-                                           const double              slip)
+  FrictionCoefficient
+  friction_coefficient(const FrictionParameters &parameters,
+                       const double              phi_0,
+                       const double              slip)
   {
     FrictionCoefficient result;
     double              decay_derivative;

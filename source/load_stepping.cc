@@ -69,7 +69,8 @@ namespace Debond
 
 
 
-  unsigned int LoadStepping::phase(const unsigned int step) const
+  unsigned int
+  LoadStepping::phase(const unsigned int step) const
   {
     unsigned int phase = 0;
     for (unsigned int end = parameters.steps[0];
@@ -81,20 +82,23 @@ namespace Debond
 
 
 
-  double LoadStepping::time(const unsigned int step) const
+  double
+  LoadStepping::time(const unsigned int step) const
   {
     if (step == 0)
       return parameters.times[0];
     const unsigned int p = phase(step);
     if (ends_phase(step))
       return parameters.times[p + 1];
-    return parameters.times[p] + (parameters.times[p + 1] - parameters.times[p]) *
-                                   step_in_phase(step) / parameters.steps[p];
+    return parameters.times[p] +
+           (parameters.times[p + 1] - parameters.times[p]) *
+             step_in_phase(step) / parameters.steps[p];
   }
 
 
 
-  unsigned int LoadStepping::step_in_phase(const unsigned int step) const
+  unsigned int
+  LoadStepping::step_in_phase(const unsigned int step) const
   {
     if (step == 0)
       return 0;
@@ -105,21 +109,24 @@ namespace Debond
 
 
 
-  bool LoadStepping::ends_phase(const unsigned int step) const
+  bool
+  LoadStepping::ends_phase(const unsigned int step) const
   {
     return step > 0 && step_in_phase(step) == parameters.steps[phase(step)];
   }
 
 
 
-  bool LoadStepping::begins_phase(const unsigned int step) const
+  bool
+  LoadStepping::begins_phase(const unsigned int step) const
   {
     return step <= 1 || phase(step) != phase(step - 1);
   }
 
 
 
-  void LoadStepping::begin(const unsigned int step)
+  void
+  LoadStepping::begin(const unsigned int step)
   {
     current = step;
     done    = 0.;
@@ -127,7 +134,8 @@ namespace Debond
 
 
 
-  double LoadStepping::target_time() const
+  double
+  LoadStepping::target_time() const
   {
     if (done + size == 1.)
       return time(current);
@@ -137,7 +145,8 @@ namespace Debond
 
 
 
-  void LoadStepping::accept()
+  void
+  LoadStepping::accept()
   {
     done += size;
     // twice as large if the step then still ends on its grid
@@ -147,7 +156,8 @@ namespace Debond
 
 
 
-  bool LoadStepping::reject()
+  bool
+  LoadStepping::reject()
   {
     size *= 0.5;
     return size >= parameters.smallest_step_fraction;

@@ -2,7 +2,8 @@
 
 namespace Debond
 {
-  void NeoHookean::tangent(const double (&H)[3][3], double (&C)[9][9]) const
+  void
+  NeoHookean::tangent(const double (&H)[3][3], double (&C)[9][9]) const
   {
     const double j = volume_change(H);
     double       A[3][3];
@@ -19,8 +20,9 @@ namespace Debond
 
 
 
-  void NeoHookean::cauchy_stress(const double (&H)[3][3],
-                                 double (&sigma)[3][3]) const
+  void
+  NeoHookean::cauchy_stress(const double (&H)[3][3],
+                            double (&sigma)[3][3]) const
   {
     // b - I = H + H^T + H H^T
     const double j = volume_change(H);
@@ -37,12 +39,13 @@ namespace Debond
 
 
 
-  void NeoHookean::linear_stress(const double (&H)[3][3],
-                                 double (&sigma)[3][3]) const
+  void
+  NeoHookean::linear_stress(const double (&H)[3][3],
+                            double (&sigma)[3][3]) const
   {
     const double trace = H[0][0] + H[1][1] + H[2][2];
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int k = 0; k < 3; ++k)
         sigma[i][k] = G * (H[i][k] + H[k][i]) + (i == k ? Lambda * trace : 0.);
   }
-}
+} // namespace Debond

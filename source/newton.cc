@@ -10,7 +10,8 @@ namespace Debond
   {
     // Linear systems need no more digits than the step to the tolerance asks
     // for, and no fewer than quadratic convergence shows.
-    double linear_tolerance(const double error, const double tolerance)
+    double
+    linear_tolerance(const double error, const double tolerance)
     {
       return std::clamp(0.1 * tolerance / error, 1e-9, 1e-3);
     }
@@ -20,38 +21,43 @@ namespace Debond
     // The bulk's tangent is stale if the interior's residual, which an exact
     // tangent would reduce quadratically, is what is left of the residual and
     // has not become a tenth of what it was.
-    bool bulk_contracts_poorly(const std::vector<double> &history,
-                               const double               interior_share)
+    bool
+    bulk_contracts_poorly(const std::vector<double> &history,
+                          const double               interior_share)
     {
       const std::size_t n = history.size();
-      return n >= 2 && interior_share > 0.25 && history[n - 1] > 0.1 * history[n - 2];
+      return n >= 2 && interior_share > 0.25 &&
+             history[n - 1] > 0.1 * history[n - 2];
     }
 
 
 
-    // Neither converging nor about to: no new minimum worth the name in the last
-    // eight iterations, or a residual that explodes.
-    bool hopeless(const std::vector<double> &history)
+    // Neither converging nor about to: no new minimum worth the name in the
+    // last eight iterations, or a residual that explodes.
+    bool
+    hopeless(const std::vector<double> &history)
     {
       const std::size_t n = history.size();
       if (n < 10)
         return false;
       const double recent = *std::min_element(history.end() - 8, history.end());
-      const double before = *std::min_element(history.begin(), history.end() - 8);
+      const double before =
+        *std::min_element(history.begin(), history.end() - 8);
       return recent > 0.5 * before;
     }
   } // namespace
 
 
 
-  NewtonResult solve_newton(CoupledSystem &system, const NewtonOptions &options)
+  NewtonResult
+  solve_newton(CoupledSystem &system, const NewtonOptions &options)
   {
     NewtonResult result;
     for (unsigned int iteration = 0; true; ++iteration)
       {
         ContactPointMode mode;
-        mode.frictionless = options.frictionless;
-        mode.stick_first  = options.stick_first && iteration == 0;
+        mode.frictionless    = options.frictionless;
+        mode.stick_first     = options.stick_first && iteration == 0;
         mode.touch_tolerance = options.touch_tolerance;
 
         const auto residual = system.evaluate(mode);
@@ -72,8 +78,9 @@ namespace Debond
         if (iteration == options.max_iterations || hopeless(result.history))
           {
             std::ostringstream why;
-            why << "no convergence in " << iteration << " iterations, relative residual "
-                << error << ", largest " << system.describe_worst_point();
+            why << "no convergence in " << iteration
+                << " iterations, relative residual " << error << ", largest "
+                << system.describe_worst_point();
             result.why = why.str();
             return result;
           }
@@ -88,8 +95,9 @@ namespace Debond
           }
         if (system.is_unsupported())
           {
-            result.why = "a loaded chuck has nothing to act against: the bodies are "
-                         "not in contact";
+            result.why =
+              "a loaded chuck has nothing to act against: the bodies are "
+              "not in contact";
             return result;
           }
         result.why = system.solve_and_correct(

@@ -93,9 +93,8 @@ namespace Debond
       if (body.material != Material::rigid &&
           body.contact_surface == SurfaceKind::nurbs &&
           std::min(body.cells[0], body.cells[1]) < 2)
-        throw InputError(name +
-                         " / Cells: one cell across is too few for "
-                         "Contact surface = nurbs: expected at least 2");
+        throw InputError(name + " / Cells: one cell across is too few for "
+                                "Contact surface = nurbs: expected at least 2");
     }
 
 
@@ -255,14 +254,16 @@ namespace Debond
       if (friction.starts_at <= load_steps.times.front())
         return;
       const LoadStepping stepping(load_steps);
-      const double       duration = load_steps.times.back() - load_steps.times.front();
+      const double       duration =
+        load_steps.times.back() - load_steps.times.front();
       for (unsigned int step = 0; step <= stepping.n_steps(); ++step)
-        if (std::abs(stepping.time(step) - friction.starts_at) <= 1e-9 * duration)
+        if (std::abs(stepping.time(step) - friction.starts_at) <=
+            1e-9 * duration)
           return;
-      throw InputError("Interface / Friction starts at = " +
-                       to_text(friction.starts_at) +
-                       " is inside a planned step: expected the end of a step "
-                       "(Load steps / Times and Steps)");
+      throw InputError(
+        "Interface / Friction starts at = " + to_text(friction.starts_at) +
+        " is inside a planned step: expected the end of a step "
+        "(Load steps / Times and Steps)");
     }
 
 

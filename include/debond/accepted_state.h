@@ -14,7 +14,8 @@ namespace Debond
       , before(start)
     {}
 
-    void commit(const Vector &new_value, const double new_time)
+    void
+    commit(const Vector &new_value, const double new_time)
     {
       has_rate    = has_value && new_time > time;
       before      = value;
@@ -26,11 +27,13 @@ namespace Debond
 
     /** The line through both at @p new_time; the last value if there is only
      *  one. */
-    Vector extrapolated(const double new_time) const
+    Vector
+    extrapolated(const double new_time) const
     {
       if (!has_rate)
         return value;
-      return value + (new_time - time) / (time - time_before) * (value - before);
+      return value +
+             (new_time - time) / (time - time_before) * (value - before);
     }
 
     Vector value, before;

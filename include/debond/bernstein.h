@@ -17,7 +17,8 @@ namespace Debond
   {
     std::array<double, max_degree + 1> B, dB, ddB;
   };
-  BernsteinValues bernstein(unsigned int degree, double u);
+  BernsteinValues
+  bernstein(unsigned int degree, double u);
 
   /**
    * An open knot vector over [0,1] and the Bezier extraction operators of its
@@ -29,31 +30,42 @@ namespace Debond
     KnotVector() = default;
     /** @p knots: non-decreasing, first and last repeated degree+1 times. */
     KnotVector(unsigned int degree, const std::vector<double> &knots);
-    static KnotVector uniform(unsigned int degree, unsigned int n_spans);
+    static KnotVector
+    uniform(unsigned int degree, unsigned int n_spans);
 
-    unsigned int               degree() const;
-    const std::vector<double> &knots() const;
-    unsigned int               n_basis_functions() const;
+    unsigned int
+    degree() const;
+    const std::vector<double> &
+    knots() const;
+    unsigned int
+    n_basis_functions() const;
     /** Number of spans of positive length. */
-    unsigned int               n_spans() const;
+    unsigned int
+    n_spans() const;
     /** The n_spans()+1 distinct knots. */
-    const std::vector<double> &breakpoints() const;
+    const std::vector<double> &
+    breakpoints() const;
     /** Span (numbering only those of positive length) that contains u. */
-    unsigned int span_of(double u) const;
+    unsigned int
+    span_of(double u) const;
     /** Index of the first basis function that lives on a span. */
-    unsigned int first_basis_function(unsigned int span) const;
+    unsigned int
+    first_basis_function(unsigned int span) const;
     /** C of Eq. (35): B-splines on the span = C * Bernstein, (p+1) x (p+1). */
-    const Eigen::Matrix3d &extraction_operator(unsigned int span) const;
+    const Eigen::Matrix3d &
+    extraction_operator(unsigned int span) const;
 
     /** B-spline values and derivatives (with respect to the knot parameter) on
      *  a span; u need not lie inside the span. */
-    BernsteinValues evaluate(unsigned int span, double u) const;
+    BernsteinValues
+    evaluate(unsigned int span, double u) const;
 
   private:
-    unsigned int                 p = 0;
-    std::vector<double>          knot_values, breaks;
-    std::vector<unsigned int>    first_function;
-    std::vector<Eigen::Matrix3d> extraction; // upper left (p+1)x(p+1) block used
+    unsigned int              p = 0;
+    std::vector<double>       knot_values, breaks;
+    std::vector<unsigned int> first_function;
+    std::vector<Eigen::Matrix3d>
+      extraction; // upper left (p+1)x(p+1) block used
   };
-}
+} // namespace Debond
 #endif

@@ -31,25 +31,62 @@ namespace Debond
   public:
     Body(const BodyParameters &parameters, BodySide side);
 
-    const BodyMesh     &mesh() const { return body_mesh; }
-    const NurbsSurface &surface() const { return body_mesh.surface(); }
-    Material            material() const { return body_mesh.parameters().material; }
-    bool                deformable() const { return material() != Material::rigid; }
-    const EnrichedCells *cells() const { return bulk.get(); }
+    const BodyMesh &
+    mesh() const
+    {
+      return body_mesh;
+    }
+    const NurbsSurface &
+    surface() const
+    {
+      return body_mesh.surface();
+    }
+    Material
+    material() const
+    {
+      return body_mesh.parameters().material;
+    }
+    bool
+    deformable() const
+    {
+      return material() != Material::rigid;
+    }
+    const EnrichedCells *
+    cells() const
+    {
+      return bulk.get();
+    }
 
     /** @name Contact unknowns */
     //@{
     /** Makes the given control points (by index) contact unknowns and condenses
      *  everything else, at the accepted state. */
-    void set_contact_control_points(const std::vector<bool> &is_contact);
-    const std::vector<bool> &contact_control_points() const { return is_contact; }
+    void
+    set_contact_control_points(const std::vector<bool> &is_contact);
+    const std::vector<bool> &
+    contact_control_points() const
+    {
+      return is_contact;
+    }
     /** Number of contact unknowns. */
-    unsigned int n_unknowns() const { return contact_unknowns.size(); }
+    unsigned int
+    n_unknowns() const
+    {
+      return contact_unknowns.size();
+    }
     /** For 3 (control point) + component: the number of the contact unknown, or
      *  -1 if the component is fixed or its control point is not in contact. */
-    const std::vector<int> &unknown_of() const { return unknown_numbers; }
+    const std::vector<int> &
+    unknown_of() const
+    {
+      return unknown_numbers;
+    }
     /** Stiffness condensed on the contact unknowns [N/mm]. */
-    const Eigen::MatrixXd &schur_complement() const { return condensation.schur_complement(); }
+    const Eigen::MatrixXd &
+    schur_complement() const
+    {
+      return condensation.schur_complement();
+    }
     //@}
 
     /** @name Residual and correction */
@@ -57,49 +94,69 @@ namespace Debond
     struct Residual
     {
       bool   valid = true; ///< false if a cell is turned inside out
-      double norm_squared = 0;     ///< of the whole residual, interior included [N^2]
+      double norm_squared =
+        0; ///< of the whole residual, interior included [N^2]
       double interior_squared = 0; ///< of its interior part [N^2]
     };
     /** Residual under the nodal contact forces @p contact_force (3 x control
      *  points, in the body's frame, [N]), condensed on the contact unknowns:
      *  r_c - K_ci K_ii^-1 r_i. Keeps what correct() needs. */
-    Residual residual(const ControlNet &contact_force, Eigen::VectorXd &condensed);
+    Residual
+    residual(const ControlNet &contact_force, Eigen::VectorXd &condensed);
     /** Moves the contact unknowns by @p dv and the interior with them. */
-    void correct(const Eigen::VectorXd &dv);
+    void
+    correct(const Eigen::VectorXd &dv);
     /** Forms the tangent at the trial state anew and condenses it. Returns
      *  false if it is not positive definite; the old one is then kept. */
-    bool refactor();
+    bool
+    refactor();
     //@}
 
     /** @name State */
     //@{
     /** Displacements of the control points of the contact surface, body frame.
-     *  Those of a linear body that are no contact unknowns follow at commit(). */
-    Eigen::Map<const ControlNet> contact_displacement() const;
-    void commit(double time);
-    void rollback();
+     *  Those of a linear body that are no contact unknowns follow at commit().
+     */
+    Eigen::Map<const ControlNet>
+    contact_displacement() const;
+    void
+    commit(double time);
+    void
+    rollback();
     /** Starts a step from the accepted state, extrapolated linearly to @p time
      *  if @p extrapolate and two states are known. */
-    void predict(double time, bool extrapolate);
+    void
+    predict(double time, bool extrapolate);
     //@}
 
     /** Strain energy of the trial state [N mm]. */
-    double energy() const;
+    double
+    energy() const;
     /** What the supports exert on the body in its frame: force [N] and moment
      *  about @p centre [N mm]. Lever arms are the current ones for a
      *  Neo-Hookean body, those of the reference configuration for a linear one,
      *  which balances moments only with them. Zero for a rigid body. */
-    Eigen::Matrix<double, 6, 1> support_reaction(const Eigen::Vector3d &centre);
+    Eigen::Matrix<double, 6, 1>
+    support_reaction(const Eigen::Vector3d &centre);
     /** Trial displacement of all nodes, tied vertices and, for a linear body,
      *  the interior included: for output. */
-    Eigen::VectorXd full_displacement() { return full_displacement(v); }
+    Eigen::VectorXd
+    full_displacement()
+    {
+      return full_displacement(v);
+    }
 
   private:
-    Eigen::VectorXd       contact_values(const Eigen::VectorXd &state) const;
-    Eigen::VectorXd       full_displacement(const Eigen::VectorXd &state);
-    SymmetricSparseMatrix assemble_free_tangent();
-    bool                  condense();
-    void                  compute_reaction_operator();
+    Eigen::VectorXd
+    contact_values(const Eigen::VectorXd &state) const;
+    Eigen::VectorXd
+    full_displacement(const Eigen::VectorXd &state);
+    SymmetricSparseMatrix
+    assemble_free_tangent();
+    bool
+    condense();
+    void
+    compute_reaction_operator();
 
     BodyMesh                       body_mesh;
     std::unique_ptr<EnrichedCells> bulk; ///< none for a rigid body
@@ -107,23 +164,23 @@ namespace Debond
     dealii::SparsityPattern      sparsity;
     dealii::SparseMatrix<double> tangent;
 
-    std::vector<int>  free_number; ///< per degree of freedom, -1: fixed or tied
+    std::vector<int> free_number; ///< per degree of freedom, -1: fixed or tied
     std::vector<unsigned int> free_dofs;
-    std::vector<bool> is_contact;
-    std::vector<int>  unknown_numbers;
-    std::vector<int>  contact_unknowns; ///< free numbers, in order
+    std::vector<bool>         is_contact;
+    std::vector<int>          unknown_numbers;
+    std::vector<int>          contact_unknowns; ///< free numbers, in order
     /** Linear bodies: some of the contact surface's control points are no
      *  contact unknowns. */
-    bool              surface_is_condensed = false;
-    Condensation      condensation;
+    bool         surface_is_condensed = false;
+    Condensation condensation;
 
     Eigen::VectorXd                v; ///< trial displacement, 3 n_nodes [mm]
     AcceptedState<Eigen::VectorXd> accepted;
 
-    Eigen::VectorXd internal_force;   ///< at the trial state
+    Eigen::VectorXd internal_force; ///< at the trial state
     double          strain_energy = 0;
     /** Linear bodies: supports' resultants about the origin per unit of v_c. */
     Eigen::Matrix<double, 6, Eigen::Dynamic> reaction_operator;
   };
-}
+} // namespace Debond
 #endif

@@ -11,36 +11,55 @@ namespace dealii
 
 namespace Debond
 {
-  enum class BodyShape { block, coin };
-  enum class Material { rigid, linear, neo_hookean };
-  enum class SurfaceKind { nurbs, bilinear };
+  enum class BodyShape
+  {
+    block,
+    coin
+  };
+  enum class Material
+  {
+    rigid,
+    linear,
+    neo_hookean
+  };
+  enum class SurfaceKind
+  {
+    nurbs,
+    bilinear
+  };
 
   /** The subsections `Bone` and `Implant` of a scene. */
   struct BodyParameters
   {
     BodyShape             shape = BodyShape::block;
-    std::array<double, 3> size{{12.5, 12.5, 5}};   ///< block [mm]
-    double                radius = 2.5;            ///< coin [mm]
-    double                height = 3;              ///< coin [mm]
+    std::array<double, 3> size{{12.5, 12.5, 5}}; ///< block [mm]
+    double                radius = 2.5;          ///< coin [mm]
+    double                height = 3;            ///< coin [mm]
     /** Number of cells in x, y, z; z along the axis (a coin's `Cells = n, m`
      *  becomes n, n, m). */
     std::array<unsigned int, 3> cells{{15, 15, 2}};
-    double      layer_grading   = 1;
-    Material    material        = Material::neo_hookean;
-    double      young_modulus   = 18000; ///< [MPa]
-    double      poisson_ratio   = 0.3;
-    SurfaceKind contact_surface = SurfaceKind::nurbs;
+    double                      layer_grading   = 1;
+    Material                    material        = Material::neo_hookean;
+    double                      young_modulus   = 18000; ///< [MPa]
+    double                      poisson_ratio   = 0.3;
+    SurfaceKind                 contact_surface = SurfaceKind::nurbs;
 
     /** Height of the body [mm]. */
-    double thickness() const;
+    double
+    thickness() const;
     /** Radius of a coin, half the shorter side of a block [mm]: the `R` of
      *  expressions and of length tolerances. */
-    double characteristic_radius() const;
+    double
+    characteristic_radius() const;
 
-    static void declare_bone(dealii::ParameterHandler &prm);
-    static void declare_implant(dealii::ParameterHandler &prm);
-    void        parse_bone(dealii::ParameterHandler &prm);
-    void        parse_implant(dealii::ParameterHandler &prm);
+    static void
+    declare_bone(dealii::ParameterHandler &prm);
+    static void
+    declare_implant(dealii::ParameterHandler &prm);
+    void
+    parse_bone(dealii::ParameterHandler &prm);
+    void
+    parse_implant(dealii::ParameterHandler &prm);
   };
-}
+} // namespace Debond
 #endif

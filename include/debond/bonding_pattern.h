@@ -12,8 +12,16 @@ namespace dealii
 
 namespace Debond
 {
-  enum class BondingPatternKind { homogeneous, disk };
-  enum class BondingResolution { element, quadrature_point };
+  enum class BondingPatternKind
+  {
+    homogeneous,
+    disk
+  };
+  enum class BondingResolution
+  {
+    element,
+    quadrature_point
+  };
 
   /** The subsection `Interface / Bonding` of a scene. */
   struct BondingParameters
@@ -23,15 +31,17 @@ namespace Debond
     double             bonded_fraction = 1; ///< of the contact area
     BondingResolution  resolution      = BondingResolution::element;
 
-    static void declare(dealii::ParameterHandler &prm);
-    void        parse(dealii::ParameterHandler &prm);
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
   };
 
   /** A Gauss point of a surface in its reference configuration. */
   struct SurfaceQuadraturePoint
   {
     unsigned int    element = 0;
-    Eigen::Vector2d xi;      ///< parameters in the patch
+    Eigen::Vector2d xi; ///< parameters in the patch
     SurfaceBasis    basis;
     Eigen::Vector3d X;       ///< reference position [mm]
     double          JxW = 0; ///< reference area [mm^2]
@@ -58,12 +68,25 @@ namespace Debond
                    unsigned int             n);
 
     /** phi_0 at a quadrature point, numbered as surface_quadrature() does. */
-    double at(unsigned int quadrature_point) const { return phi_0[quadrature_point]; }
+    double
+    at(unsigned int quadrature_point) const
+    {
+      return phi_0[quadrature_point];
+    }
     /** phi_0 at any point of the surface: that of the quadrature point whose
      *  share of the element contains it. */
-    double at(const Eigen::Vector2d &xi) const;
-    double area() const { return total_area; } ///< [mm^2]
-    double mean() const { return area_mean; }
+    double
+    at(const Eigen::Vector2d &xi) const;
+    double
+    area() const
+    {
+      return total_area;
+    } ///< [mm^2]
+    double
+    mean() const
+    {
+      return area_mean;
+    }
 
   private:
     const NurbsSurface &surface;
@@ -72,5 +95,5 @@ namespace Debond
     std::vector<double> shares; ///< ends of the points' shares of [0,1]
     double              total_area = 0, area_mean = 0;
   };
-}
+} // namespace Debond
 #endif

@@ -8,16 +8,17 @@ namespace Debond
   /** Position, tangents and second derivatives of a surface at a point. */
   struct SurfaceGeometry
   {
-    Eigen::Vector3d y, a1, a2;      ///< position [mm], a_alpha, Eq. (23)
-    Eigen::Vector3d a11, a12, a22;  ///< second derivatives
+    Eigen::Vector3d y, a1, a2;     ///< position [mm], a_alpha, Eq. (23)
+    Eigen::Vector3d a11, a12, a22; ///< second derivatives
   };
 
   /** Contracts a basis with a control net (any: positions, velocities...).
    *  Second derivatives only if @p second_derivatives. */
-  void contract(const SurfaceBasis &basis,
-                const ControlNet   &control_points,
-                bool                second_derivatives,
-                SurfaceGeometry    &geometry);
+  void
+  contract(const SurfaceBasis &basis,
+           const ControlNet   &control_points,
+           bool                second_derivatives,
+           SurfaceGeometry    &geometry);
 
   struct ClosestPoint
   {
@@ -40,9 +41,10 @@ namespace Debond
    * The singular corners of the disk are met only as a border result; there the
    * iteration may converge linearly but must end.
    */
-  ClosestPoint closest_point(const NurbsSurface    &surface,
-                             const ControlNet      &control_points,
-                             const Eigen::Vector3d &x,
-                             const Eigen::Vector2d *guess = nullptr);
-}
+  ClosestPoint
+  closest_point(const NurbsSurface    &surface,
+                const ControlNet      &control_points,
+                const Eigen::Vector3d &x,
+                const Eigen::Vector2d *guess = nullptr);
+} // namespace Debond
 #endif

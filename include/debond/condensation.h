@@ -24,9 +24,9 @@ namespace Debond
    *   S = K_cc - K_ci K_ii^-1 K_ic.
    *
    * The unknowns c are ordered last in a sparse Cholesky factorisation
-   * P K P^T = L L^T (CHOLMOD, nested dissection of the rest), so S = L_cc L_cc^T
-   * falls out of the factor, and solves with K_ii are the two halves of a solve
-   * with L.
+   * P K P^T = L L^T (CHOLMOD, nested dissection of the rest), so S = L_cc
+   * L_cc^T falls out of the factor, and solves with K_ii are the two halves of
+   * a solve with L.
    */
   class Condensation
   {
@@ -34,33 +34,49 @@ namespace Debond
     Condensation();
     ~Condensation();
     Condensation(Condensation &&);
-    Condensation &operator=(Condensation &&);
+    Condensation &
+    operator=(Condensation &&);
 
     /** Factorises @p K. @p condensed lists the unknowns c; their order is the
      *  order of the rows of S. Returns false if K is not positive definite
      *  (this object is then unusable until the next successful call). */
-    bool factorise(const SymmetricSparseMatrix &K, const std::vector<int> &condensed);
+    bool
+    factorise(const SymmetricSparseMatrix &K,
+              const std::vector<int>      &condensed);
 
-    unsigned int n_condensed() const { return n_c; }
+    unsigned int
+    n_condensed() const
+    {
+      return n_c;
+    }
 
     /** S, n_c x n_c. */
-    const Eigen::MatrixXd &schur_complement() const { return S; }
+    const Eigen::MatrixXd &
+    schur_complement() const
+    {
+      return S;
+    }
 
     /** Forward half: returns r_c - K_ci K_ii^-1 r_i for a vector r over all
      *  unknowns and keeps what backward() needs. */
-    Eigen::VectorXd forward(const Eigen::VectorXd &r);
+    Eigen::VectorXd
+    forward(const Eigen::VectorXd &r);
     /** Backward half: given x_c, returns x over all unknowns with
      *  x_i = K_ii^-1 (r_i - K_ic x_c), r the vector of the last forward(). */
-    Eigen::VectorXd backward(const Eigen::VectorXd &x_c);
+    Eigen::VectorXd
+    backward(const Eigen::VectorXd &x_c);
     /** The same with r_i = 0: the equilibrium shape that belongs to x_c. */
-    Eigen::VectorXd extend(const Eigen::VectorXd &x_c);
+    Eigen::VectorXd
+    extend(const Eigen::VectorXd &x_c);
 
   private:
     struct Cholmod;
     std::unique_ptr<Cholmod> cholmod;
 
-    Eigen::VectorXd solve_triangular(bool transposed, const Eigen::VectorXd &b);
-    void            extract_trailing_block();
+    Eigen::VectorXd
+    solve_triangular(bool transposed, const Eigen::VectorXd &b);
+    void
+    extract_trailing_block();
 
     unsigned int     n_total = 0, n_c = 0;
     std::vector<int> permutation; ///< new -> old
@@ -68,5 +84,5 @@ namespace Debond
     Eigen::MatrixXd  S;
     Eigen::VectorXd  forward_part; ///< L^-1 P r of the last forward()
   };
-}
+} // namespace Debond
 #endif

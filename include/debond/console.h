@@ -18,18 +18,35 @@ namespace Debond
   public:
     Console(ConsoleKind kind, std::ostream &out);
 
-    void headline(const std::string &text);
+    void
+    headline(const std::string &text);
     /** The row of @p n_steps planned ones that was just accepted. */
-    void row(const TorqueRow &row, unsigned int n_steps);
+    void
+    row(const TorqueRow &row, unsigned int n_steps);
     /** Printed, with the step, the first time only; kept for the summary. */
-    void warn(const std::string &key, const std::string &text);
-    const std::vector<std::string> &warnings() const { return warning_texts; }
-    std::ostream &stream() { return out; }
-    bool          quiet() const { return kind == ConsoleKind::quiet; }
+    void
+    warn(const std::string &key, const std::string &text);
+    const std::vector<std::string> &
+    warnings() const
+    {
+      return warning_texts;
+    }
+    std::ostream &
+    stream()
+    {
+      return out;
+    }
+    bool
+    quiet() const
+    {
+      return kind == ConsoleKind::quiet;
+    }
 
   private:
-    void erase_progress();
-    void show_progress(unsigned int step, unsigned int n_steps);
+    void
+    erase_progress();
+    void
+    show_progress(unsigned int step, unsigned int n_steps);
 
     const ConsoleKind        kind;
     std::ostream            &out;
@@ -38,5 +55,5 @@ namespace Debond
     std::vector<std::string> warning_keys, warning_texts;
     const std::chrono::steady_clock::time_point start;
   };
-}
+} // namespace Debond
 #endif

@@ -15,21 +15,27 @@ namespace Debond
   class BodyMesh;
   class Chuck;
 
-  enum class SlaveSide { implant, bone };
+  enum class SlaveSide
+  {
+    implant,
+    bone
+  };
 
   /** The subsection `Interface` of a scene. */
   struct InterfaceParameters
   {
-    SlaveSide    slave              = SlaveSide::implant;
-    unsigned int quadrature_points  = 5;   ///< per direction and element
-    double       normal_penalty     = 585; ///< eps_n [MPa/mm]
-    double       tangential_penalty = 585; ///< eps_t [MPa/mm], resolved: never 0
-    bool         opening_breaks_bond = false;
+    SlaveSide    slave             = SlaveSide::implant;
+    unsigned int quadrature_points = 5;   ///< per direction and element
+    double       normal_penalty    = 585; ///< eps_n [MPa/mm]
+    double tangential_penalty      = 585; ///< eps_t [MPa/mm], resolved: never 0
+    bool   opening_breaks_bond     = false;
     FrictionParameters friction;
     BondingParameters  bonding;
 
-    static void declare(dealii::ParameterHandler &prm);
-    void        parse(dealii::ParameterHandler &prm);
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
   };
 
   /** The two contact surfaces in space and how their control points are
@@ -38,8 +44,8 @@ namespace Debond
   {
     struct Side
     {
-      ControlNet       positions; ///< spatial positions of the control points [mm]
-      Eigen::Matrix3d  frame = Eigen::Matrix3d::Identity(); ///< Q of the body
+      ControlNet positions; ///< spatial positions of the control points [mm]
+      Eigen::Matrix3d frame = Eigen::Matrix3d::Identity(); ///< Q of the body
       /** For 3 (control point) + component (body frame): number in the coupled
        *  system, -1: none. */
       std::vector<int> unknown_of;
@@ -47,7 +53,7 @@ namespace Debond
     std::array<Side, 2> side;
     /** Numbers of the chuck components that are unknowns. */
     std::vector<std::pair<unsigned int, unsigned int>> chuck_unknowns;
-    const Chuck *chuck = nullptr;
+    const Chuck                                       *chuck = nullptr;
   };
 
   /**
@@ -65,56 +71,81 @@ namespace Debond
                      const BodyMesh            &bone,
                      const BodyMesh            &implant);
 
-    unsigned int n_points() const { return points.size(); }
-    unsigned int slave_side() const { return slave; }
-    unsigned int master_side() const { return 1 - slave; }
+    unsigned int
+    n_points() const
+    {
+      return points.size();
+    }
+    unsigned int
+    slave_side() const
+    {
+      return slave;
+    }
+    unsigned int
+    master_side() const
+    {
+      return 1 - slave;
+    }
 
     /** Faces every point with its closest point on the master. */
-    void initialise(const InterfaceConfiguration &configuration);
+    void
+    initialise(const InterfaceConfiguration &configuration);
 
     /** Updates all points. Returns false if a point found no solution. */
-    bool evaluate(const InterfaceConfiguration &configuration,
-                  const ContactPointMode       &mode);
+    bool
+    evaluate(const InterfaceConfiguration &configuration,
+             const ContactPointMode       &mode);
 
     /** Nodal forces of the last evaluate() on the control points of a side, in
      *  space, as they enter the residual [N]. */
-    const ControlNet &force(const unsigned int side) const { return forces[side]; }
+    const ControlNet &
+    force(const unsigned int side) const
+    {
+      return forces[side];
+    }
 
     /** Adds the tangent of the last evaluate() to a dense matrix: rows are
      *  equations of control points in their bodies' frames and of chuck
      *  components, d(force)/d(unknowns), without the terms that come from the
      *  rotation of frames and lever arms (see CoupledSystem). */
-    void add_tangent(const InterfaceConfiguration &configuration,
-                     Eigen::MatrixXd              &matrix) const;
-    /** The product of that tangent with a vector of unknowns, added to @p result. */
-    void apply_tangent(const InterfaceConfiguration &configuration,
-                       const Eigen::VectorXd        &direction,
-                       Eigen::VectorXd              &result) const;
+    void
+    add_tangent(const InterfaceConfiguration &configuration,
+                Eigen::MatrixXd              &matrix) const;
+    /** The product of that tangent with a vector of unknowns, added to @p
+     * result. */
+    void
+    apply_tangent(const InterfaceConfiguration &configuration,
+                  const Eigen::VectorXd        &direction,
+                  Eigen::VectorXd              &result) const;
 
     /** Accepts the last evaluate(): history, and the works it sums up. Open
      *  points are projected anew in the accepted configuration. */
-    void commit(const InterfaceConfiguration &configuration);
+    void
+    commit(const InterfaceConfiguration &configuration);
 
     /** Elements of the bone's surface that closed points of the last
      *  evaluate() lie on. */
-    std::vector<bool> touched_bone_elements() const;
+    std::vector<bool>
+    touched_bone_elements() const;
     /** Elements of the bone's surface under the implant's contact face, its
      *  edge included, in this configuration. */
     std::vector<bool>
-    bone_elements_under_implant(const InterfaceConfiguration &configuration) const;
+    bone_elements_under_implant(
+      const InterfaceConfiguration &configuration) const;
 
     struct Point
     {
-      unsigned int    element = 0;
-      Eigen::Vector2d xi; ///< on the slave
-      SurfaceBasis    basis;
-      double          JxW   = 0; ///< reference area [mm^2]
-      double          phi_0 = 0;
-      ContactPointState  accepted;
+      unsigned int      element = 0;
+      Eigen::Vector2d   xi; ///< on the slave
+      SurfaceBasis      basis;
+      double            JxW   = 0; ///< reference area [mm^2]
+      double            phi_0 = 0;
+      ContactPointState accepted;
       /** For points beyond the master's edge: how far the surfaces may still
        *  move before such a point has to be projected again [mm]. */
-      double             clearance = 0;
-      /** Tangential traction of the accepted state in the master's frame [MPa]. */
+      double clearance = 0;
+      /** Tangential traction of the accepted state in the master's frame [MPa].
+       */
       Eigen::Vector3d    accepted_traction = Eigen::Vector3d::Zero();
       double             accepted_pressure = 0; ///< [MPa]
       ContactPointResult trial;
@@ -122,67 +153,102 @@ namespace Debond
        *  start: their area does not count. */
       bool faces_implant = true;
     };
-    const std::vector<Point> &get_points() const { return points; }
+    const std::vector<Point> &
+    get_points() const
+    {
+      return points;
+    }
     /** phi and mu of a point in its trial state. */
-    FrictionCoefficient friction(const Point &point) const;
+    FrictionCoefficient
+    friction(const Point &point) const;
     /** Area mean of phi_0 over the implant's contact face. */
-    double mean_initial_bonding() const { return phi_0_mean; }
-    const InterfaceParameters &get_parameters() const { return parameters; }
+    double
+    mean_initial_bonding() const
+    {
+      return phi_0_mean;
+    }
+    const InterfaceParameters &
+    get_parameters() const
+    {
+      return parameters;
+    }
 
     /** Sums over all points of the last evaluate(). */
     struct Summary
     {
-      double normal_force = 0;   ///< int p dA [N]
-      double phi_mean     = 0;   ///< area mean over the implant's contact face
+      double normal_force = 0; ///< int p dA [N]
+      double phi_mean     = 0; ///< area mean over the implant's contact face
       double share_stick = 0, share_slip = 0, share_open = 0; ///< of that area
-      double energy       = 0;   ///< stored [N mm]
-      double max_softening = 0;  ///< largest |d mu/d g_s| p / eps_t
+      double energy        = 0;                               ///< stored [N mm]
+      double max_softening = 0; ///< largest |d mu/d g_s| p / eps_t
       /** The same where the law of a bonded point falls steepest, wherever on
-       *  it the point is: the local solution is unique while this is below 1. */
-      double steepest_softening = 0;
-      double max_penetration = 0; ///< [mm]
-      unsigned int bonded_opened = 0; ///< points with phi > 0 that opened in this step
+       *  it the point is: the local solution is unique while this is below 1.
+       */
+      double       steepest_softening = 0;
+      double       max_penetration    = 0; ///< [mm]
+      unsigned int bonded_opened =
+        0; ///< points with phi > 0 that opened in this step
       unsigned int n_closed = 0;
     };
-    Summary summarise() const;
-    /** Reference area of the implant's contact face by quadrature weights [mm^2]. */
-    double implant_area() const { return area_of_implant; }
+    Summary
+    summarise() const;
+    /** Reference area of the implant's contact face by quadrature weights
+     * [mm^2]. */
+    double
+    implant_area() const
+    {
+      return area_of_implant;
+    }
 
     /** Dissipated work and the part of it that the law spends on adhesion
      *  (D_adh, integral of (mu - mu_b) p dg_s) up to the accepted state [N mm]:
      *  a trapezoid in the traction, and the mean pressure times the exact
      *  integral over the sliding distance. */
-    double dissipation() const { return accepted_dissipation; }
-    double adhesive_work() const { return accepted_adhesive_work; }
+    double
+    dissipation() const
+    {
+      return accepted_dissipation;
+    }
+    double
+    adhesive_work() const
+    {
+      return accepted_adhesive_work;
+    }
 
     /** Where the last evaluate() failed, for messages; empty if it did not. */
-    std::string describe_failure() const;
+    std::string
+    describe_failure() const;
 
   private:
-    void make_points();
-    void assign_bonding();
-    FrictionCoefficient friction(const Point             &point,
-                                 const ContactPointState &state) const;
-    void project_accepted(Point                        &point,
-                          const MasterSurface          &master,
-                          const InterfaceConfiguration &configuration,
-                          bool                          use_guess) const;
+    void
+    make_points();
+    void
+    assign_bonding();
+    FrictionCoefficient
+    friction(const Point &point, const ContactPointState &state) const;
+    void
+    project_accepted(Point                        &point,
+                     const MasterSurface          &master,
+                     const InterfaceConfiguration &configuration,
+                     bool                          use_guess) const;
     /** Bound of how far points of the two surfaces have moved towards each
      *  other since the accepted configuration [mm]. */
-    double motion(const InterfaceConfiguration &configuration) const;
-    MasterSurface master(const InterfaceConfiguration &configuration) const;
+    double
+    motion(const InterfaceConfiguration &configuration) const;
+    MasterSurface
+    master(const InterfaceConfiguration &configuration) const;
 
-    const InterfaceParameters parameters;
-    const unsigned int        slave; ///< 0: bone, 1: implant
+    const InterfaceParameters       parameters;
+    const unsigned int              slave; ///< 0: bone, 1: implant
     std::array<const BodyMesh *, 2> mesh;
-    ContactPointLaw           law;
-    std::vector<Point>        points;
-    double                    area_of_implant = 0, phi_0_mean = 0;
-    std::array<ControlNet, 2> forces;
-    std::array<ControlNet, 2> accepted_positions;
+    ContactPointLaw                 law;
+    std::vector<Point>              points;
+    double                          area_of_implant = 0, phi_0_mean = 0;
+    std::array<ControlNet, 2>       forces;
+    std::array<ControlNet, 2>       accepted_positions;
     double accepted_dissipation = 0, accepted_adhesive_work = 0;
-    int    failed_point = -1;
+    int    failed_point     = -1;
     bool   frictionless_now = false;
   };
-}
+} // namespace Debond
 #endif

@@ -10,13 +10,19 @@
 namespace Debond
 {
   /** Numbers as they appear in the VTU array `state`. */
-  enum class PointStatus : unsigned char { open = 0, stick = 1, slip = 2 };
+  enum class PointStatus : unsigned char
+  {
+    open  = 0,
+    stick = 1,
+    slip  = 2
+  };
 
   /** The history of one slave quadrature point. */
   struct ContactPointState
   {
     PointStatus status = PointStatus::open;
-    /** True if @p xi faces the point; false for points beyond the master's edge. */
+    /** True if @p xi faces the point; false for points beyond the master's
+     * edge. */
     bool has_partner = false;
     /** The bond is gone for good (only with `Opening breaks bond`). */
     bool broken = false;
@@ -38,7 +44,7 @@ namespace Debond
   /** Where a slave point projects on the master. */
   struct Projection
   {
-    Eigen::Vector2d xi = Eigen::Vector2d::Zero();
+    Eigen::Vector2d xi        = Eigen::Vector2d::Zero();
     bool            converged = false;
     /** Whether xi can be an interacting point: x - y is normal to the surface
      *  there, and the surface regular. In the corners of a disk the tangents
@@ -49,9 +55,10 @@ namespace Debond
      *  master can be in contact [mm]. */
     double clearance = 0;
   };
-  Projection project(const MasterSurface   &master,
-                     const Eigen::Vector3d &x,
-                     const Eigen::Vector2d *guess);
+  Projection
+  project(const MasterSurface   &master,
+          const Eigen::Vector3d &x,
+          const Eigen::Vector2d *guess);
 
   /** What a point is governed by: penalties, friction, its phi_0. */
   struct ContactPointLaw
@@ -120,12 +127,13 @@ namespace Debond
    * with tau the direction of the trial gap x - y(xi_hat^n) projected on the
    * tangent plane at xi_hat, and mu taken at the updated g_s.
    */
-  void update_contact_point(const ContactPointLaw   &law,
-                            const ContactPointState &old_state,
-                            double                   phi_0,
-                            const Eigen::Vector3d   &x,
-                            const MasterSurface     &master,
-                            const ContactPointMode  &mode,
-                            ContactPointResult      &result);
-}
+  void
+  update_contact_point(const ContactPointLaw   &law,
+                       const ContactPointState &old_state,
+                       double                   phi_0,
+                       const Eigen::Vector3d   &x,
+                       const MasterSurface     &master,
+                       const ContactPointMode  &mode,
+                       ContactPointResult      &result);
+} // namespace Debond
 #endif

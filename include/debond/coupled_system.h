@@ -31,81 +31,116 @@ namespace Debond
 
     /** Places the implant as the scene says at @p time, undeformed, faces the
      *  slave points with the master and chooses the contact unknowns. */
-    void start(double time);
+    void
+    start(double time);
 
-    unsigned int n_unknowns() const { return unknowns; }
+    unsigned int
+    n_unknowns() const
+    {
+      return unknowns;
+    }
 
     /** Starts a step to @p time from the accepted state. */
-    void predict(double time, bool extrapolate);
-    void commit(double time);
-    void rollback();
+    void
+    predict(double time, bool extrapolate);
+    void
+    commit(double time);
+    void
+    rollback();
 
     struct Residual
     {
-      bool        valid = false; ///< false: no residual could be formed, see why
+      bool valid = false; ///< false: no residual could be formed, see why
       std::string why;
-      double norm           = 0; ///< Euclidean norm of the whole residual [N]
-      double reference      = 0; ///< norm of the contact forces [N]
-      double interior_share = 0; ///< part of norm^2 that the bulk's interior makes up
+      double      norm      = 0; ///< Euclidean norm of the whole residual [N]
+      double      reference = 0; ///< norm of the contact forces [N]
+      double      interior_share =
+        0; ///< part of norm^2 that the bulk's interior makes up
     };
     /** Contact forces and residual of the trial state. Makes control points
      *  contact unknowns where contact has spread to new ones. */
-    Residual evaluate(const ContactPointMode &mode);
+    Residual
+    evaluate(const ContactPointMode &mode);
 
     /** @name Residual and tangent of the last evaluate()
-     *  in the contact unknowns of the bone, those of the implant and the unknown
-     *  chuck components, as the Newton iteration uses them [N, N mm; N/mm ...]. */
+     *  in the contact unknowns of the bone, those of the implant and the
+     * unknown chuck components, as the Newton iteration uses them [N, N mm;
+     * N/mm ...]. */
     //@{
-    const Eigen::VectorXd &residual_vector() const { return residual; }
+    const Eigen::VectorXd &
+    residual_vector() const
+    {
+      return residual;
+    }
     /** y = tangent * x. */
-    void apply(const Eigen::VectorXd &x, Eigen::VectorXd &y) const;
-    void assemble(Eigen::MatrixXd &tangent) const;
+    void
+    apply(const Eigen::VectorXd &x, Eigen::VectorXd &y) const;
+    void
+    assemble(Eigen::MatrixXd &tangent) const;
     //@}
 
-    /** Solves for the Newton correction to @p relative_tolerance and applies it.
-     *  Returns why that was impossible, or an empty text. */
-    std::string solve_and_correct(double relative_tolerance);
+    /** Solves for the Newton correction to @p relative_tolerance and applies
+     * it. Returns why that was impossible, or an empty text. */
+    std::string
+    solve_and_correct(double relative_tolerance);
     /** True if a loaded chuck component has nothing to act against because no
      *  point is in contact. */
-    bool is_unsupported() const;
+    bool
+    is_unsupported() const;
     /** Forms and condenses the bulk tangents at the trial state. False if one
      *  is not positive definite. */
-    bool refactor_bulk();
+    bool
+    refactor_bulk();
 
     /** Where the residual of the last evaluate() is largest, for messages. */
-    std::string describe_worst_point() const;
+    std::string
+    describe_worst_point() const;
 
     /** Generalised forces sum_A f_A . dx_A/dq_k of the trial state: what the
-     *  chuck exerts on the implant, conjugate to its six components [N, N mm]. */
-    Chuck::Vector6 chuck_forces() const;
+     *  chuck exerts on the implant, conjugate to its six components [N, N mm].
+     */
+    Chuck::Vector6
+    chuck_forces() const;
     /** Force and moment about C + u that the chuck exerts on the implant, in
      *  space, from the contact forces [N, N mm]. */
-    Chuck::Vector6 chuck_resultant() const;
+    Chuck::Vector6
+    chuck_resultant() const;
     /** |contact resultant - reaction of the supports| of the implant relative
-     *  to the larger of the two, moments divided by R: 0 for a rigid implant. */
-    double reaction_defect();
+     *  to the larger of the two, moments divided by R: 0 for a rigid implant.
+     */
+    double
+    reaction_defect();
 
-    Body                         bone, implant;
-    Chuck                        chuck;
-    ContactInterface             interface;
+    Body             bone, implant;
+    Chuck            chuck;
+    ContactInterface interface;
     /** Surfaces in space as of the last evaluate() or commit(). */
-    InterfaceConfiguration       configuration;
-    const double                 R; ///< characteristic radius of the implant [mm]
+    InterfaceConfiguration configuration;
+    const double           R; ///< characteristic radius of the implant [mm]
 
-    const DenseSolver  &linear_solver() const { return solver; }
+    const DenseSolver &
+    linear_solver() const
+    {
+      return solver;
+    }
 
   private:
-    void update_configuration();
-    void number_unknowns();
-    bool extend_contact_unknowns();
-    void add_geometric_part(const Eigen::VectorXd &x, Eigen::VectorXd &y) const;
-    double scale_of(unsigned int chuck_component) const;
+    void
+    update_configuration();
+    void
+    number_unknowns();
+    bool
+    extend_contact_unknowns();
+    void
+    add_geometric_part(const Eigen::VectorXd &x, Eigen::VectorXd &y) const;
+    double
+    scale_of(unsigned int chuck_component) const;
 
     dealii::TimerOutput &timer;
-    unsigned int    unknowns = 0;
-    double          force_floor = 0; ///< [N]
-    Eigen::VectorXd residual;
-    DenseSolver     solver;
+    unsigned int         unknowns    = 0;
+    double               force_floor = 0; ///< [N]
+    Eigen::VectorXd      residual;
+    DenseSolver          solver;
   };
-}
+} // namespace Debond
 #endif

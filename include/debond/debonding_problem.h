@@ -32,32 +32,44 @@ namespace Debond
     /** Runs the scene and writes everything into its directory. Throws RunError
      *  if a step cannot be solved; what was written before stays, and
      *  summary.json then says `converged: false` and why. */
-    void run();
+    void
+    run();
 
     /** Builds the meshes, prints degrees of freedom and what closed forms
      *  foretell, and runs nothing. */
-    void check(std::ostream &out);
+    void
+    check(std::ostream &out);
 
     /** The accepted rows so far. */
-    const std::vector<TorqueRow> &rows() const;
+    const std::vector<TorqueRow> &
+    rows() const;
 
   private:
     struct Run;
 
-    void         set_up();
-    void         solve_first_row();
-    void         solve_planned_step(unsigned int step);
+    void
+    set_up();
+    void
+    solve_first_row();
+    void
+    solve_planned_step(unsigned int step);
     /** Tries one sub-step; returns the Newton iterations spent, and whether it
      *  was accepted in @p accepted. */
-    unsigned int try_sub_step(double time, bool extrapolate, bool &accepted);
-    void         accept(double time);
-    void         check_accepted_state();
-    void         write_row(unsigned int step, unsigned int iterations);
-    void         write_fields(unsigned int step);
-    void         finish(bool converged, const std::string &reason);
+    unsigned int
+    try_sub_step(double time, bool extrapolate, bool &accepted);
+    void
+    accept(double time);
+    void
+    check_accepted_state();
+    void
+    write_row(unsigned int step, unsigned int iterations);
+    void
+    write_fields(unsigned int step);
+    void
+    finish(bool converged, const std::string &reason);
 
     const Scene          scene;
     std::unique_ptr<Run> state;
   };
-}
+} // namespace Debond
 #endif

@@ -18,30 +18,45 @@ namespace Debond
   class DenseSolver
   {
   public:
-    using Product  = std::function<void(const Eigen::VectorXd &, Eigen::VectorXd &)>;
+    using Product =
+      std::function<void(const Eigen::VectorXd &, Eigen::VectorXd &)>;
     using Assemble = std::function<void(Eigen::MatrixXd &)>;
 
-    /** Returns x with |b - A x| <= relative_tolerance |b|. @p product applies A;
+    /** Returns x with |b - A x| <= relative_tolerance |b|. @p product applies
+     * A;
      *  @p assemble writes A, and is called only for a new factorisation. */
-    Eigen::VectorXd solve(const Eigen::VectorXd &b,
-                          const Product         &product,
-                          const Assemble        &assemble,
-                          double                 relative_tolerance);
+    Eigen::VectorXd
+    solve(const Eigen::VectorXd &b,
+          const Product         &product,
+          const Assemble        &assemble,
+          double                 relative_tolerance);
 
     /** The next call factorises. */
-    void forget() { usable = false; }
+    void
+    forget()
+    {
+      usable = false;
+    }
 
-    unsigned int n_factorisations() const { return factorisations; }
-    unsigned int n_iterations() const { return iterations; }
+    unsigned int
+    n_factorisations() const
+    {
+      return factorisations;
+    }
+    unsigned int
+    n_iterations() const
+    {
+      return iterations;
+    }
 
   private:
-    Eigen::VectorXd factorise_and_solve(const Eigen::VectorXd &b,
-                                        const Assemble        &assemble);
+    Eigen::VectorXd
+    factorise_and_solve(const Eigen::VectorXd &b, const Assemble &assemble);
 
-    bool                                usable = false;
-    Eigen::MatrixXd                     matrix;
+    bool                                 usable = false;
+    Eigen::MatrixXd                      matrix;
     Eigen::PartialPivLU<Eigen::MatrixXd> lu;
-    unsigned int                        factorisations = 0, iterations = 0;
+    unsigned int                         factorisations = 0, iterations = 0;
   };
-}
+} // namespace Debond
 #endif

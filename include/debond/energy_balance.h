@@ -16,25 +16,33 @@ namespace Debond
   public:
     /** Notes an accepted state. Forces and position: generalised, in internal
      *  units; energies in N mm. */
-    void add(const Chuck::Vector6 &forces,
-             const Chuck::Vector6 &position,
-             double                energy_bulk,
-             double                energy_interface,
-             double                dissipation);
+    void
+    add(const Chuck::Vector6 &forces,
+        const Chuck::Vector6 &position,
+        double                energy_bulk,
+        double                energy_interface,
+        double                dissipation);
 
-    double work() const { return W; } ///< [N mm]
+    double
+    work() const
+    {
+      return W;
+    } ///< [N mm]
     /** (W - E_bulk - E_interface - D) / max |W|, 0 while W = 0. */
-    double defect() const;
+    double
+    defect() const;
     /** Bound of the trapezoid's share in defect(). */
-    double defect_bound() const;
+    double
+    defect_bound() const;
     /** Dissipated more than was put in, beyond the bound? */
-    bool dissipates_too_much() const;
+    bool
+    dissipates_too_much() const;
 
   private:
     bool           started = false;
     Chuck::Vector6 last_forces, last_position;
     double         W = 0, max_W = 0, bound = 0;
-    double         stored = 0, dissipated = 0, first_stored = 0, first_dissipated = 0;
+    double stored = 0, dissipated = 0, first_stored = 0, first_dissipated = 0;
   };
-}
+} // namespace Debond
 #endif

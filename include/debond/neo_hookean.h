@@ -20,17 +20,20 @@ namespace Debond
     double Lambda = 0; ///< first Lame parameter [MPa]
 
     /** Eq. (2). @p young_modulus [MPa], @p poisson_ratio in (-1, 0.5). */
-    static NeoHookean from_young(double young_modulus, double poisson_ratio)
+    static NeoHookean
+    from_young(double young_modulus, double poisson_ratio)
     {
       NeoHookean material;
-      material.G      = young_modulus / (2. * (1. + poisson_ratio));
-      material.Lambda = 2. * material.G * poisson_ratio / (1. - 2. * poisson_ratio);
+      material.G = young_modulus / (2. * (1. + poisson_ratio));
+      material.Lambda =
+        2. * material.G * poisson_ratio / (1. - 2. * poisson_ratio);
       return material;
     }
 
     /** J - 1 = tr H + second and third invariant of H, free of cancellation. */
     template <typename Number>
-    static Number volume_change(const Number (&H)[3][3])
+    static Number
+    volume_change(const Number (&H)[3][3])
     {
       const Number minors = H[0][0] * H[1][1] - H[0][1] * H[1][0] +
                             H[0][0] * H[2][2] - H[0][2] * H[2][0] +
@@ -44,9 +47,10 @@ namespace Debond
 
     /** F^-T for F = I + H with @p J = det F. */
     template <typename Number>
-    static void inverse_transpose(const Number (&H)[3][3],
-                                  const Number &J,
-                                  Number (&F_inv_T)[3][3])
+    static void
+    inverse_transpose(const Number (&H)[3][3],
+                      const Number &J,
+                      Number (&F_inv_T)[3][3])
     {
       Number F[3][3];
       for (unsigned int i = 0; i < 3; ++i)
@@ -64,7 +68,8 @@ namespace Debond
     /** First Piola-Kirchhoff stress P = G (F - F^-T) + Lambda ln J F^-T [MPa],
      *  with F - F^-T = H + H^T F^-T. */
     template <typename Number>
-    void stress(const Number (&H)[3][3], Number (&P)[3][3]) const
+    void
+    stress(const Number (&H)[3][3], Number (&P)[3][3]) const
     {
       using std::log1p;
       const Number j = volume_change(H);
@@ -79,10 +84,11 @@ namespace Debond
     }
 
     /** Strain energy density W [MPa = N mm / mm^3], with
-     *  (tr C - 3)/2 = tr H + H:H/2 and tr H - ln J = (tr H - j) + (j - ln(1+j)),
-     *  j = J - 1. */
+     *  (tr C - 3)/2 = tr H + H:H/2 and tr H - ln J = (tr H - j) + (j -
+     * ln(1+j)), j = J - 1. */
     template <typename Number>
-    Number energy(const Number (&H)[3][3]) const
+    Number
+    energy(const Number (&H)[3][3]) const
     {
       using std::log1p;
       Number HH = H[0][0] * H[0][0];
@@ -94,15 +100,18 @@ namespace Debond
              0.5 * Lambda * ln_J * ln_J;
     }
 
-    /** dP_iJ / dF_kL = G (d_ik d_JL + A_iL A_kJ) + Lambda (A_iJ A_kL - ln J A_iL A_kJ),
-     *  A = F^-T; row 3 i + J, column 3 k + L. */
-    void tangent(const double (&H)[3][3], double (&C)[9][9]) const;
+    /** dP_iJ / dF_kL = G (d_ik d_JL + A_iL A_kJ) + Lambda (A_iJ A_kL - ln J
+     * A_iL A_kJ), A = F^-T; row 3 i + J, column 3 k + L. */
+    void
+    tangent(const double (&H)[3][3], double (&C)[9][9]) const;
 
     /** Cauchy stress, Eq. (1) [MPa]. */
-    void cauchy_stress(const double (&H)[3][3], double (&sigma)[3][3]) const;
+    void
+    cauchy_stress(const double (&H)[3][3], double (&sigma)[3][3]) const;
 
     /** The linear law of the same moduli: sigma = 2 G eps + Lambda tr eps I. */
-    void linear_stress(const double (&H)[3][3], double (&sigma)[3][3]) const;
+    void
+    linear_stress(const double (&H)[3][3], double (&sigma)[3][3]) const;
   };
-}
+} // namespace Debond
 #endif

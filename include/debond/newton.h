@@ -38,6 +38,7 @@ namespace Debond
    * shrinks too slowly with it. Never returns converged = true unless the
    * residual of the true law meets the tolerance.
    */
-  NewtonResult solve_newton(CoupledSystem &system, const NewtonOptions &options);
-}
+  NewtonResult
+  solve_newton(CoupledSystem &system, const NewtonOptions &options);
+} // namespace Debond
 #endif

@@ -12,29 +12,38 @@ namespace dealii
 
 namespace Debond
 {
-  /** steps: one line a step, progress and timings; quiet: warnings and errors only. */
-  enum class ConsoleKind { steps, quiet };
+  /** steps: one line a step, progress and timings; quiet: warnings and errors
+   * only. */
+  enum class ConsoleKind
+  {
+    steps,
+    quiet
+  };
 
   /** The subsection `Output` of a scene. */
   struct OutputParameters
   {
     std::string  directory = "output/coin";
-    unsigned int fields_every = 50; ///< planned steps between VTU files, 0: none
-    std::string  reference_curve;   ///< CSV angle_deg,torque_Nmm, or empty
-    double       full_sliding_angle = 0; ///< [deg], 0: from the curve
-    ConsoleKind  console = ConsoleKind::steps;
+    unsigned int fields_every =
+      50;                        ///< planned steps between VTU files, 0: none
+    std::string reference_curve; ///< CSV angle_deg,torque_Nmm, or empty
+    double      full_sliding_angle = 0; ///< [deg], 0: from the curve
+    ConsoleKind console            = ConsoleKind::steps;
     /** Use a directory that holds results of another scene. No entry of the
      *  scene: the option --force of the program. */
     bool overwrite_other_results = false;
 
-    static void declare(dealii::ParameterHandler &prm);
-    void        parse(dealii::ParameterHandler &prm);
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
   };
 
   /** Writes a whole file or leaves what was there before: the text goes to a
    *  temporary file that then takes the place of @p filename. Throws InputError
    *  that names the file and what the system says. */
-  void write_file(const std::string &filename, const std::string &text);
+  void
+  write_file(const std::string &filename, const std::string &text);
 
   /** The directory that a run writes to. */
   class ResultDirectory
@@ -48,10 +57,15 @@ namespace Debond
                     const std::string      &completed_parameters);
 
     /** The directory, without a slash at its end. */
-    const std::string &path() const { return directory; }
+    const std::string &
+    path() const
+    {
+      return directory;
+    }
 
     /** The path of the file @p name in the directory. */
-    std::string file(const std::string &name) const
+    std::string
+    file(const std::string &name) const
     {
       return directory + "/" + name;
     }
@@ -60,20 +74,26 @@ namespace Debond
     std::string directory;
   };
 
-  /** A flat JSON object whose members keep the order in which they are added. */
+  /** A flat JSON object whose members keep the order in which they are added.
+   */
   class JsonObject
   {
   public:
     /** Twelve significant digits; `null` if not finite. */
-    void add(const std::string &name, double value);
-    void add(const std::string &name, const std::string &value);
+    void
+    add(const std::string &name, double value);
+    void
+    add(const std::string &name, const std::string &value);
     /** Without this one a literal would be taken for a bool. */
-    void add(const std::string &name, const char *value);
-    void add(const std::string &name, const std::vector<std::string> &values);
+    void
+    add(const std::string &name, const char *value);
+    void
+    add(const std::string &name, const std::vector<std::string> &values);
     /** Whole numbers and bool. */
     template <typename Integral,
               typename = std::enable_if_t<std::is_integral<Integral>::value>>
-    void add(const std::string &name, Integral value)
+    void
+    add(const std::string &name, Integral value)
     {
       add_text(name,
                std::is_same<Integral, bool>::value ?
@@ -82,10 +102,12 @@ namespace Debond
     }
 
     /** The whole object, one member in a line. */
-    std::string text() const;
+    std::string
+    text() const;
 
   private:
-    void add_text(const std::string &name, const std::string &json);
+    void
+    add_text(const std::string &name, const std::string &json);
 
     std::string members;
   };

@@ -6,7 +6,8 @@
 namespace Debond
 {
   /** The matrix of the cross product: skew(a) b = a x b. */
-  inline Eigen::Matrix3d skew(const Eigen::Vector3d &a)
+  inline Eigen::Matrix3d
+  skew(const Eigen::Vector3d &a)
   {
     Eigen::Matrix3d S;
     S << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;

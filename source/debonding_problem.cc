@@ -9,6 +9,7 @@
 #include <deal.II/base/timer.h>
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -177,6 +178,11 @@ namespace Debond
                     << state->system->chuck.position()[5] * 180. / M_PI
                     << " deg, with the smallest allowed part of a step: "
                     << state->last_failure;
+            if (!state->system->chuck.unknowns().empty())
+              message
+                << ". A prescribed load may be more than the interface can "
+                   "carry; prescribing the displacement or angle instead "
+                   "follows the fall";
             throw RunError(message.str());
           }
       }
@@ -261,6 +267,17 @@ namespace Debond
              "" :
              ", and points that close again are "
              "bonded as before"));
+    const double thinner =
+      std::min(scene.bone.thickness(), scene.implant.thickness());
+    if (summary.max_penetration > 0.1 * thinner)
+      {
+        std::ostringstream text;
+        text << where << "the bodies penetrate each other by "
+             << summary.max_penetration
+             << " mm, more than a tenth of the thinner one (" << thinner
+             << " mm): lengths are mm, is the push-in right?";
+        state->console.warn("penetration", text.str());
+      }
     if (system.reaction_defect() > 1e-6)
       {
         std::ostringstream text;
@@ -288,7 +305,7 @@ namespace Debond
     row.time                 = state->time;
     row.angle_deg            = q[5] * 180. / M_PI;
     row.torque_Nmm           = system.chuck_forces()[5];
-    row.force_N              = -reaction[2];
+    row.force_N              = 0. - reaction[2]; // no negative zero
     row.pressure_MPa         = row.force_N / system.interface.implant_area();
     row.phi_mean             = summary.phi_mean;
     row.share_stick          = summary.share_stick;
@@ -336,6 +353,11 @@ namespace Debond
   void
   DebondingProblem::finish(const bool converged, const std::string &reason)
   {
+    if (converged &&
+        std::all_of(state->rows.begin(),
+                    state->rows.end(),
+                    [](const TorqueRow &row) { return row.share_open == 1.; }))
+      state->console.warn("no contact", "the bodies are never in contact");
     const CoupledSystem &system = *state->system;
     CurveSettings        settings;
     settings.contact_area_mm2 =
@@ -373,10 +395,17 @@ namespace Debond
     if (converged)
       {
         std::ostringstream text;
-        text << "Largest torque " << summary.measures.T_max_Nmm << " N mm at "
-             << summary.measures.theta_max_deg << " deg, at the end "
-             << summary.measures.T_inf_Nmm << " N mm. Results are in "
-             << state->directory->path();
+        if (std::isfinite(summary.measures.theta_max_deg))
+          text << "Largest torque " << summary.measures.T_max_Nmm << " N mm at "
+               << summary.measures.theta_max_deg << " deg, at the end "
+               << summary.measures.T_inf_Nmm << " N mm. ";
+        else
+          {
+            const auto &reaction = state->rows.back().chuck_reaction;
+            text << "Force of the chuck at the end: " << reaction[0] << ", "
+                 << reaction[1] << ", " << reaction[2] << " N. ";
+          }
+        text << "Results are in " << state->directory->path();
         state->console.headline(text.str());
         if (!state->console.quiet())
           state->timer.print_summary();

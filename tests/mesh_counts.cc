@@ -127,6 +127,23 @@ check_cells(const std::string    &name,
          no_tied_nodes);
   report("  opposite face lies above the element, deviation", corners, 1e-14);
 
+  bool right_fixed = true;
+  for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
+    for (unsigned int c = 0; c < 3; ++c)
+      {
+        const Eigen::Vector3d &X = mesh.reference_position(node);
+        const bool             held =
+          std::abs(std::abs(X[2]) - parameters.thickness()) < 1e-12;
+        const bool at_side =
+          side == BodySide::bone && c < 2 &&
+          std::abs(std::abs(X[c]) - 0.5 * parameters.size[c]) < 1e-12;
+        if (!mesh.is_tied(node))
+          right_fixed =
+            right_fixed && mesh.is_fixed(node, c) == (held || at_side);
+      }
+  report("  held where the body is held, normal to the sides of the bone",
+         right_fixed);
+
   unsigned int n_tied = 0, n_fixed = 0;
   for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
     {

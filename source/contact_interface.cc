@@ -114,6 +114,7 @@ namespace Debond
         Point point;
         point.element = quadrature_point.element;
         point.xi      = quadrature_point.xi;
+        point.X       = quadrature_point.X;
         point.basis   = quadrature_point.basis;
         point.JxW     = quadrature_point.JxW;
         points.push_back(point);

@@ -5,9 +5,10 @@
 #include <debond/energy_balance.h>
 #include <debond/field_output.h>
 #include <debond/newton.h>
+#include <debond/profile_output.h>
+#include <debond/runtime.h>
 
 #include <deal.II/base/timer.h>
-#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
@@ -36,6 +37,7 @@ namespace Debond
     std::unique_ptr<CoupledSystem>     system;
     std::unique_ptr<TorqueCurveWriter> torque_writer;
     std::unique_ptr<FieldOutput>       field_output;
+    std::unique_ptr<ProfileOutput>     profiles;
     ReferenceCurve                     reference;
     EnergyBalance                      energy;
 
@@ -112,6 +114,7 @@ namespace Debond
     state->reference = read_reference_curve(scene.output.reference_curve);
     state->torque_writer =
       std::make_unique<TorqueCurveWriter>(*state->directory);
+    state->profiles = std::make_unique<ProfileOutput>(scene, *state->directory);
     {
       const dealii::TimerOutput::Scope t(state->timer, "set-up");
       state->system = std::make_unique<CoupledSystem>(scene, state->timer);
@@ -330,6 +333,7 @@ namespace Debond
     const dealii::TimerOutput::Scope t(state->timer, "output");
     state->torque_writer->write(row);
     state->console.row(row, state->stepping.n_steps());
+    state->profiles->write(row.angle_deg, system.interface);
   }
 
 
@@ -358,13 +362,18 @@ namespace Debond
                     state->rows.end(),
                     [](const TorqueRow &row) { return row.share_open == 1.; }))
       state->console.warn("no contact", "the bodies are never in contact");
+    const std::string unreached = state->profiles->finish();
+    if (!unreached.empty())
+      state->console.warn("profile", unreached);
     const CoupledSystem &system = *state->system;
     CurveSettings        settings;
     settings.contact_area_mm2 =
       scene.implant.shape == BodyShape::coin ?
         M_PI * scene.implant.radius * scene.implant.radius :
         system.interface.implant_area();
-    settings.mean_phi_0             = system.interface.mean_initial_bonding();
+    settings.mean_phi_0             = scene.output.observed_bonding > 0 ?
+                                        scene.output.observed_bonding :
+                                        system.interface.mean_initial_bonding();
     settings.full_sliding_angle_deg = scene.output.full_sliding_angle;
     settings.phase_times            = scene.load_steps.times;
     settings.reference              = state->reference;
@@ -384,10 +393,8 @@ namespace Debond
     for (const auto &[section, seconds] :
          state->timer.get_summary_data(dealii::TimerOutput::total_wall_time))
       summary.seconds.emplace_back(section, seconds);
-    summary.wall_seconds = state->wall_clock.wall_time();
-    dealii::Utilities::System::MemoryStats memory;
-    dealii::Utilities::System::get_memory_stats(memory);
-    summary.peak_memory_MB = memory.VmHWM / 1024.; // from kB
+    summary.wall_seconds   = state->wall_clock.wall_time();
+    summary.peak_memory_MB = peak_memory_MB();
 
     JsonObject json;
     add_summary(summary, json);

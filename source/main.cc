@@ -1,15 +1,18 @@
-#include <debond/debonding_problem.h>
 #include <debond/input_error.h>
+#include <debond/problem.h>
 #include <debond/runtime.h>
 #include <debond/scene.h>
+#include <debond/study.h>
 
 #include <deal.II/base/config.h>
 #include <deal.II/base/exceptions.h>
 
+#include <algorithm>
 #include <iostream>
 #include <new>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace
@@ -19,11 +22,15 @@ namespace
 
 Simulates the tangential debonding of an implant from bone as the scene file
 describes it, and writes torque curve, summary and fields into the directory
-that the scene names.
+that the scene names. A scene whose entries hold several values, {{a|b|c}}, is a
+study: all variants are run and gathered in study.csv.
 
   --set ENTRY=VALUE   override an entry of the scene; may be repeated
                       --set "Interface/Penalty stiffness=1800"
-  --force             write into a directory that holds results of another scene
+  --force             write into a directory that holds results of another
+                      scene; run variants of a study again that are done
+  --jobs N            run N variants of a study at a time (default: as many as
+                      there are processors)
   --check             read the scene, build the meshes, say what to expect, and
                       run nothing
   --print-parameters  print all entries with documentation and values: those of
@@ -49,7 +56,8 @@ Exit codes: 0 success, 1 wrong usage or scene, 2 the run failed, 3 internal erro
     Action                   action = Action::run;
     std::string              scene_file;
     std::vector<std::string> overrides;
-    bool                     force = false;
+    bool                     force  = false;
+    unsigned int             n_jobs = 0; ///< 0: as many as processors
   };
 
 
@@ -58,6 +66,18 @@ Exit codes: 0 success, 1 wrong usage or scene, 2 the run failed, 3 internal erro
   refuse_usage(const std::string &message)
   {
     throw Debond::InputError("debond: " + message + " (see debond --help)");
+  }
+
+
+
+  unsigned int
+  read_number_of_jobs(const std::string &word)
+  {
+    if (word.empty() || word.size() > 4 ||
+        word.find_first_not_of("0123456789") != std::string::npos ||
+        std::stoi(word) == 0)
+      refuse_usage("--jobs needs a whole number >= 1, not '" + word + "'");
+    return std::stoi(word);
   }
 
 
@@ -86,6 +106,9 @@ Exit codes: 0 success, 1 wrong usage or scene, 2 the run failed, 3 internal erro
               refuse_usage("--set needs ENTRY=VALUE");
             arguments.overrides.push_back(words[++i]);
           }
+        else if (word == "--jobs")
+          arguments.n_jobs =
+            read_number_of_jobs(i + 1 == words.size() ? "" : words[++i]);
         else if (word.size() > 1 && word[0] == '-')
           refuse_usage("unknown option '" + word + "'");
         else if (!arguments.scene_file.empty())
@@ -102,6 +125,23 @@ Exit codes: 0 success, 1 wrong usage or scene, 2 the run failed, 3 internal erro
         arguments.action != Action::help && arguments.action != Action::version)
       refuse_usage("no scene file is given");
     return arguments;
+  }
+
+
+
+  void
+  run_study(const std::vector<Debond::SceneEntry> &entries,
+            const Arguments                       &arguments)
+  {
+    Debond::Study study(entries, arguments.scene_file);
+    if (arguments.action == Arguments::Action::check)
+      study.check(std::cout);
+    else
+      study.run(arguments.n_jobs > 0 ?
+                  arguments.n_jobs :
+                  std::max(1U, std::thread::hardware_concurrency()),
+                arguments.force,
+                std::cout);
   }
 
 
@@ -124,17 +164,25 @@ Exit codes: 0 success, 1 wrong usage or scene, 2 the run failed, 3 internal erro
     if (arguments.scene_file.empty())
       return Debond::print_parameters(std::cout);
 
+    std::vector<Debond::SceneEntry> entries =
+      Debond::read_scene_file(arguments.scene_file);
+    for (const std::string &text : arguments.overrides)
+      entries.push_back(Debond::read_override(text));
+    if (Debond::is_study(entries) &&
+        arguments.action != Action::print_parameters)
+      return run_study(entries, arguments);
+
     Debond::Scene scene =
-      Debond::Scene::from_file(arguments.scene_file, arguments.overrides);
+      Debond::Scene::from_entries(entries, arguments.scene_file);
     if (arguments.action == Action::print_parameters)
       return Debond::print_parameters(std::cout, &scene);
 
     scene.output.overwrite_other_results = arguments.force;
-    Debond::DebondingProblem problem(scene);
+    const auto problem                   = Debond::Problem::create(scene);
     if (arguments.action == Action::check)
-      problem.check(std::cout);
+      problem->check(std::cout);
     else
-      problem.run();
+      problem->run();
   }
 
 

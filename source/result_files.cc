@@ -42,6 +42,24 @@ namespace Debond
                       "Angle theta_full [deg] from which on E_fric is counted. "
                       "0: the last angle with a torque of at least 0.999 of "
                       "the largest.");
+    prm.declare_entry("Observed bonding",
+                      "0",
+                      Allowed::number_between(0, 1, ""),
+                      "Mean phi_0 that w_adh refers to, Eq. (21), where it was "
+                      "observed and differs from that of the scene; 0: that of "
+                      "the scene.");
+    prm.declare_entry("Profile angles",
+                      "",
+                      Allowed::numbers(0, 0, true, "deg"),
+                      "Angles [deg] at which pressure, traction, sliding "
+                      "distance and friction coefficient of all points of the "
+                      "interface are written into profiles.csv, each at the "
+                      "first planned step that reaches it; empty: none.");
+    prm.declare_entry("Friction law curve",
+                      "false",
+                      Allowed::yes_or_no(),
+                      "Write phi and mu over the sliding distance g_s into "
+                      "friction_law.csv.");
     prm.declare_entry("Checkpoint every",
                       "0",
                       Allowed::only("0"),
@@ -64,6 +82,9 @@ namespace Debond
     fields_every       = prm.get_integer("Fields every");
     reference_curve    = prm.get("Reference curve");
     full_sliding_angle = prm.get_double("Full sliding angle");
+    observed_bonding   = prm.get_double("Observed bonding");
+    profile_angles     = to_numbers(prm.get("Profile angles"));
+    friction_law_curve = prm.get_bool("Friction law curve");
     console =
       prm.get("Console") == "quiet" ? ConsoleKind::quiet : ConsoleKind::steps;
     prm.leave_subsection();
@@ -90,6 +111,22 @@ namespace Debond
 
 
 
+  DirectoryContent
+  content_of_result_directory(const OutputParameters &output,
+                              const std::string      &completed_parameters)
+  {
+    std::ifstream file(output.directory + "/parameters.prm", std::ios::binary);
+    if (!file)
+      return DirectoryContent::no_results;
+    std::ostringstream existing;
+    existing << file.rdbuf();
+    return existing.str() == completed_parameters ?
+             DirectoryContent::same_scene :
+             DirectoryContent::other_scene;
+  }
+
+
+
   ResultDirectory::ResultDirectory(const OutputParameters &output,
                                    const std::string      &completed_parameters)
     : directory(output.directory)
@@ -104,22 +141,17 @@ namespace Debond
       throw InputError(
         entry + ": this directory cannot be created: " + error.message());
 
-    const std::string filename = file("parameters.prm");
-    if (std::filesystem::exists(filename, error) &&
-        !output.overwrite_other_results)
-      {
-        std::ostringstream existing;
-        existing << std::ifstream(filename, std::ios::binary).rdbuf();
-        if (existing.str() != completed_parameters)
-          throw InputError(entry +
-                           ": this directory holds results of another scene "
-                           "(compare its parameters.prm): choose another one, "
-                           "or overwrite them with --force");
-      }
+    if (!output.overwrite_other_results &&
+        content_of_result_directory(output, completed_parameters) ==
+          DirectoryContent::other_scene)
+      throw InputError(entry +
+                       ": this directory holds results of another scene "
+                       "(compare its parameters.prm): choose another one, "
+                       "or overwrite them with --force");
 
     try
       {
-        write_file(filename, completed_parameters);
+        write_file(file("parameters.prm"), completed_parameters);
       }
     catch (const InputError &reason)
       {

@@ -2,6 +2,7 @@
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/multithread_info.h>
+#include <deal.II/base/utilities.h>
 
 // Declared here because the headers of OpenBLAS declare LAPACK, too.
 extern "C" void
@@ -16,5 +17,15 @@ namespace Debond
     dealii::deal_II_exceptions::suppress_stacktrace_in_exceptions();
     dealii::MultithreadInfo::set_thread_limit(1);
     openblas_set_num_threads(1);
+  }
+
+
+
+  double
+  peak_memory_MB()
+  {
+    dealii::Utilities::System::MemoryStats memory;
+    dealii::Utilities::System::get_memory_stats(memory);
+    return memory.VmHWM / 1024.; // from kB
   }
 } // namespace Debond

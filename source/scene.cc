@@ -16,6 +16,33 @@
 namespace Debond
 {
   void
+  StudyParameters::declare(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Study");
+    prm.declare_entry("Reference variant",
+                      "0",
+                      Allowed::whole_number(0, 100000),
+                      "In a study, whose entries hold several values as in "
+                      "{{a|b|c}}: number of the variant that the others' "
+                      "torque curves are compared with in study.csv. 0: "
+                      "they are compared with Output / Reference curve, if "
+                      "there is one.");
+    prm.leave_subsection();
+  }
+
+
+
+  void
+  StudyParameters::parse(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Study");
+    reference_variant = prm.get_integer("Reference variant");
+    prm.leave_subsection();
+  }
+
+
+
+  void
   Scene::declare(dealii::ParameterHandler &prm)
   {
     prm.declare_entry("Title",
@@ -24,11 +51,17 @@ namespace Debond
                       "Title of the scene, for people.");
     prm.declare_entry("Model",
                       "finite elements",
-                      Allowed::choice("finite elements",
-                                      "foundation | analytical | mathieu | "
+                      Allowed::choice("finite elements | foundation | "
+                                      "analytical | mathieu",
                                       "auto"),
-                      "Model that is solved: two bodies of finite elements "
-                      "with an interface between them.");
+                      "Model that is solved. `finite elements': two bodies "
+                      "with an interface between them. The others are closed "
+                      "forms for a coin that is pressed down and then turned: "
+                      "`foundation': a rigid disk on a foundation with the "
+                      "stiffness of interface and bodies in series, and the "
+                      "full friction law. `analytical': Eq. (18) of the "
+                      "paper. `mathieu': Eqs. (14) to (16). See subsection "
+                      "Closed form.");
     prm.declare_entry("Task",
                       "simulate",
                       Allowed::choice("simulate", "calibrate"),
@@ -38,6 +71,8 @@ namespace Debond
     InterfaceParameters::declare(prm);
     ChuckParameters::declare(prm);
     LoadSteppingParameters::declare(prm);
+    ClosedFormParameters::declare(prm);
+    StudyParameters::declare(prm);
     OutputParameters::declare(prm);
   }
 
@@ -46,12 +81,19 @@ namespace Debond
   void
   Scene::parse(dealii::ParameterHandler &prm)
   {
-    title = prm.get("Title");
+    title                        = prm.get("Title");
+    const std::string model_name = prm.get("Model");
+    model = model_name == "foundation" ? ModelKind::foundation :
+            model_name == "analytical" ? ModelKind::analytical :
+            model_name == "mathieu"    ? ModelKind::mathieu :
+                                         ModelKind::finite_elements;
     bone.parse_bone(prm);
     implant.parse_implant(prm);
     interface.parse(prm);
     chuck.parse(prm);
     load_steps.parse(prm);
+    closed_form.parse(prm);
+    study.parse(prm);
     output.parse(prm);
   }
 
@@ -319,38 +361,45 @@ namespace Debond
 
 
 
-    Scene
-    scene_from_entries(std::vector<SceneEntry>         entries,
-                       const std::vector<std::string> &overrides,
-                       const std::string              &name)
+    std::vector<SceneEntry>
+    with_overrides(std::vector<SceneEntry>         entries,
+                   const std::vector<std::string> &overrides)
     {
-      for (const std::string &override_text : overrides)
-        entries.push_back(read_override(override_text));
-
-      dealii::ParameterHandler prm;
-      Scene::declare(prm);
-      apply_entries(entries, prm);
-
-      Scene scene;
-      try
-        {
-          scene.parse(prm);
-          scene.check();
-        }
-      catch (const InputError &error)
-        {
-          throw InputError(place_of(error.what(), entries, name) + ": " +
-                           error.what());
-        }
-
-      std::ostringstream completed;
-      prm.print_parameters(completed,
-                           dealii::ParameterHandler::ShortPRM |
-                             dealii::ParameterHandler::KeepDeclarationOrder);
-      scene.completed_parameters = completed.str();
-      return scene;
+      for (const std::string &text : overrides)
+        entries.push_back(read_override(text));
+      return entries;
     }
   } // namespace
+
+
+
+  Scene
+  Scene::from_entries(const std::vector<SceneEntry> &entries,
+                      const std::string             &name)
+  {
+    dealii::ParameterHandler prm;
+    declare(prm);
+    apply_entries(entries, prm);
+
+    Scene scene;
+    try
+      {
+        scene.parse(prm);
+        scene.check();
+      }
+    catch (const InputError &error)
+      {
+        throw InputError(place_of(error.what(), entries, name) + ": " +
+                         error.what());
+      }
+
+    std::ostringstream completed;
+    prm.print_parameters(completed,
+                         dealii::ParameterHandler::ShortPRM |
+                           dealii::ParameterHandler::KeepDeclarationOrder);
+    scene.completed_parameters = completed.str();
+    return scene;
+  }
 
 
 
@@ -358,7 +407,8 @@ namespace Debond
   Scene::from_file(const std::string              &filename,
                    const std::vector<std::string> &overrides)
   {
-    return scene_from_entries(read_scene_file(filename), overrides, filename);
+    return from_entries(with_overrides(read_scene_file(filename), overrides),
+                        filename);
   }
 
 
@@ -368,7 +418,8 @@ namespace Debond
                    const std::vector<std::string> &overrides,
                    const std::string              &name)
   {
-    return scene_from_entries(read_scene_text(text, name), overrides, name);
+    return from_entries(with_overrides(read_scene_text(text, name), overrides),
+                        name);
   }
 
 

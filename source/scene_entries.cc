@@ -312,8 +312,8 @@ namespace Debond
       if (entry.value.find("{{") != std::string::npos)
         throw InputError(entry.place + ": " + entry.full_name() + " = '" +
                          entry.value +
-                         "' is a study of several values, which is not in "
-                         "this version: expected one value");
+                         "' holds several values, which makes a study: "
+                         "expected one value here");
 
       for (const std::string &subsection : entry.subsections)
         prm.enter_subsection(subsection);

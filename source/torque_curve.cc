@@ -356,7 +356,7 @@ namespace Debond
       for (const auto &[angle_deg, torque_Nmm] : reference)
         largest = std::max(largest, std::abs(torque_Nmm));
 
-      double       sum_mp = 0, sum_rel = 0;
+      double       sum_mp = 0, sum_difference = 0, max_difference = 0;
       unsigned int n = 0;
       for (const auto &[angle_deg, T_reference] : reference)
         {
@@ -364,16 +364,20 @@ namespace Debond
           if (angle_deg > 0. && std::abs(T_reference) > 0.01 * largest &&
               std::isfinite(T))
             {
-              sum_mp += std::abs((T - T_reference) / T_reference);
-              sum_rel += std::abs(T - T_reference) / measures.T_max_Nmm;
+              const double difference = std::abs(T - T_reference);
+              sum_mp += difference / std::abs(T_reference);
+              sum_difference += difference;
+              max_difference = std::max(max_difference, difference);
               ++n;
             }
         }
       measures.reference_rows_used = n;
       if (n > 0)
         {
-          measures.e_mp  = sum_mp / n;
-          measures.e_rel = sum_rel / n;
+          measures.e_mp            = sum_mp / n;
+          measures.e_rel           = sum_difference / n / measures.T_max_Nmm;
+          measures.difference_mean = sum_difference / n / largest;
+          measures.difference_max  = max_difference / largest;
         }
     }
 
@@ -395,6 +399,16 @@ namespace Debond
       // no phase ends before: the first row, or what there is without rotation
       return rows[rotation.direction == 0. ? last : 0].pressure_MPa;
     }
+
+
+
+    /** A maximum that keeps a NaN. */
+    void
+    grow(double &maximum, const double value)
+    {
+      if (!std::isnan(maximum) && !(value <= maximum))
+        maximum = value;
+    }
   } // namespace
 
 
@@ -414,10 +428,8 @@ namespace Debond
       {
         if (std::abs(row.torque_Nmm) > std::abs(peak->torque_Nmm))
           peak = &row;
-        measures.largest_energy_defect =
-          std::max(measures.largest_energy_defect, std::abs(row.energy_defect));
-        measures.largest_reaction_defect =
-          std::max(measures.largest_reaction_defect, row.reaction_defect);
+        grow(measures.largest_energy_defect, std::abs(row.energy_defect));
+        grow(measures.largest_reaction_defect, row.reaction_defect);
       }
     measures.T_max_Nmm = std::abs(peak->torque_Nmm);
     measures.T_inf_Nmm = rows.back().torque_Nmm;
@@ -425,6 +437,9 @@ namespace Debond
       pressure_before_rotation(rows, rotation, settings.phase_times);
     measures.D_adh_Nm       = 1e-3 * rows.back().adhesive_work_Nmm;
     measures.dissipation_Nm = 1e-3 * rows.back().dissipation_Nmm;
+    measures.work_Nm        = 1e-3 * rows.back().work_Nmm;
+    measures.E_bulk_Nm      = 1e-3 * rows.back().energy_bulk_Nmm;
+    measures.E_interface_Nm = 1e-3 * rows.back().energy_interface_Nmm;
     if (rotation.is_one_way())
       {
         measures.theta_max_deg = peak->angle_deg;
@@ -453,6 +468,17 @@ namespace Debond
 
 
 
+  std::vector<std::pair<std::string, double>>
+  error_measures(const CurveMeasures &measures)
+  {
+    return {{"e_mp", measures.e_mp},
+            {"e_rel", measures.e_rel},
+            {"difference_max", measures.difference_max},
+            {"difference_mean", measures.difference_mean}};
+  }
+
+
+
   void
   add_summary(const RunSummary &summary, JsonObject &json)
   {
@@ -469,8 +495,8 @@ namespace Debond
     json.add("w_adh_star_N_per_m", m.w_adh_star_N_per_m);
     json.add("D_adh_Nm", m.D_adh_Nm);
     json.add("dissipation_Nm", m.dissipation_Nm);
-    json.add("e_mp", m.e_mp);
-    json.add("e_rel", m.e_rel);
+    for (const auto &[name, value] : error_measures(m))
+      json.add(name, value);
     json.add("steps", summary.steps);
     json.add("newton_iterations", summary.newton_iterations);
     json.add("dofs", summary.dofs);
@@ -483,6 +509,9 @@ namespace Debond
     json.add("condensed_unknowns", summary.condensed_unknowns);
     json.add("peak_memory_MB", summary.peak_memory_MB);
     json.add("reference_rows_used", m.reference_rows_used);
+    json.add("work_Nm", m.work_Nm);
+    json.add("E_bulk_Nm", m.E_bulk_Nm);
+    json.add("E_interface_Nm", m.E_interface_Nm);
     json.add("largest_energy_defect", m.largest_energy_defect);
     json.add("largest_reaction_defect", m.largest_reaction_defect);
     for (const auto &[name, seconds] : summary.seconds)

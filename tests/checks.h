@@ -32,7 +32,7 @@ report(const std::string &what, const bool is_true)
 inline void
 grow(double &maximum, const double value)
 {
-  if (!(value <= maximum))
+  if (!std::isnan(maximum) && !(value <= maximum))
     maximum = value;
 }
 

@@ -137,6 +137,7 @@ namespace Debond
     {
       unsigned int      element = 0;
       Eigen::Vector2d   xi; ///< on the slave
+      Eigen::Vector3d   X;  ///< reference position [mm]
       SurfaceBasis      basis;
       double            JxW   = 0; ///< reference area [mm^2]
       double            phi_0 = 0;

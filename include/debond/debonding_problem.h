@@ -1,48 +1,34 @@
 #ifndef debond_debonding_problem_h
 #define debond_debonding_problem_h
 
-#include <debond/scene.h>
-#include <debond/torque_curve.h>
+#include <debond/problem.h>
 
-#include <iosfwd>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace Debond
 {
-  /** A run that could not be finished; the message says where and why. */
-  class RunError : public std::runtime_error
-  {
-  public:
-    using std::runtime_error::runtime_error;
-  };
-
   /**
-   * The program: from a scene to torque curve, summary and fields. run() reads
-   * like a table of contents.
+   * The model `finite elements`: from a scene to torque curve, summary and
+   * fields. run() reads like a table of contents.
    */
-  class DebondingProblem
+  class DebondingProblem : public Problem
   {
   public:
     explicit DebondingProblem(const Scene &scene);
-    ~DebondingProblem();
+    ~DebondingProblem() override;
 
-    /** Runs the scene and writes everything into its directory. Throws RunError
-     *  if a step cannot be solved; what was written before stays, and
-     *  summary.json then says `converged: false` and why. */
     void
-    run();
+    run() override;
 
     /** Builds the meshes, prints degrees of freedom and what closed forms
      *  foretell, and runs nothing. */
     void
-    check(std::ostream &out);
+    check(std::ostream &out) override;
 
-    /** The accepted rows so far. */
     const std::vector<TorqueRow> &
-    rows() const;
+    rows() const override;
 
   private:
     struct Run;

@@ -28,7 +28,10 @@ namespace Debond
       50;                        ///< planned steps between VTU files, 0: none
     std::string reference_curve; ///< CSV angle_deg,torque_Nmm, or empty
     double      full_sliding_angle = 0; ///< [deg], 0: from the curve
-    ConsoleKind console            = ConsoleKind::steps;
+    double      observed_bonding   = 0; ///< mean phi_0 of w_adh, 0: the scene's
+    std::vector<double> profile_angles; ///< [deg]
+    bool                friction_law_curve = false; ///< write friction_law.csv
+    ConsoleKind         console            = ConsoleKind::steps;
     /** Use a directory that holds results of another scene. No entry of the
      *  scene: the option --force of the program. */
     bool overwrite_other_results = false;
@@ -44,6 +47,19 @@ namespace Debond
    *  that names the file and what the system says. */
   void
   write_file(const std::string &filename, const std::string &text);
+
+  enum class DirectoryContent
+  {
+    no_results,
+    same_scene,
+    other_scene
+  };
+
+  /** Whether the directory of @p output holds results, judged by the text of
+   *  its parameters.prm. */
+  DirectoryContent
+  content_of_result_directory(const OutputParameters &output,
+                              const std::string      &completed_parameters);
 
   /** The directory that a run writes to. */
   class ResultDirectory

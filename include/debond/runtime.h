@@ -11,5 +11,9 @@ namespace Debond
    */
   void
   set_up_libraries();
+
+  /** Largest memory that this process has held so far [MB]. */
+  double
+  peak_memory_MB();
 } // namespace Debond
 #endif

@@ -3,10 +3,12 @@
 
 #include <debond/body_parameters.h>
 #include <debond/chuck.h>
+#include <debond/closed_form_parameters.h>
 #include <debond/contact_interface.h>
 #include <debond/input_error.h>
 #include <debond/load_stepping.h>
 #include <debond/result_files.h>
+#include <debond/scene_file.h>
 
 #include <iosfwd>
 #include <string>
@@ -14,16 +16,40 @@
 
 namespace Debond
 {
+  /** What is solved: two bodies of finite elements, or one of the closed forms
+   *  of closed_forms.h. */
+  enum class ModelKind
+  {
+    finite_elements,
+    foundation,
+    analytical,
+    mathieu
+  };
+
+  /** The subsection `Study`, for scenes whose entries hold several values. */
+  struct StudyParameters
+  {
+    unsigned int reference_variant = 0; ///< 0: none
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+  };
+
   /** Everything a `.prm` file says. A plain value: copy it, change it, run it.
    */
   struct Scene
   {
     std::string            title;
+    ModelKind              model = ModelKind::finite_elements;
     BodyParameters         bone;
     BodyParameters         implant;
     InterfaceParameters    interface;
     ChuckParameters        chuck;
     LoadSteppingParameters load_steps;
+    ClosedFormParameters   closed_form;
+    StudyParameters        study;
     OutputParameters       output;
 
     /** All entries, completed with defaults, as a `.prm` text that gives the
@@ -35,6 +61,10 @@ namespace Debond
     static Scene
     from_file(const std::string              &filename,
               const std::vector<std::string> &overrides = {});
+    /** The same from entries; @p name stands for the file in messages. */
+    static Scene
+    from_entries(const std::vector<SceneEntry> &entries,
+                 const std::string             &name);
     /** The same from a text; @p name stands for the file in messages. */
     static Scene
     from_text(const std::string              &text,

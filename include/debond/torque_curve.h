@@ -121,9 +121,16 @@ namespace Debond
     double w_adh_star_N_per_m = undefined; ///< Eq. (21) with a mean phi_0 of 1
     double D_adh_Nm           = undefined; ///< work the law spends on adhesion
     double dissipation_Nm     = undefined;
-    double e_mp               = undefined; ///< Eq. (19), a ratio
-    double e_rel              = undefined; ///< Eq. (50), a ratio
-    unsigned int reference_rows_used = 0;  ///< in e_mp and e_rel
+    /** Of the last row: work of the chuck, energy stored in bodies and
+     *  interface. */
+    double work_Nm = undefined, E_bulk_Nm = undefined,
+           E_interface_Nm = undefined;
+    double e_mp           = undefined; ///< Eq. (19), a ratio
+    double e_rel          = undefined; ///< Eq. (50), a ratio
+    /** Largest and mean |T - T_reference| over the reference's rows, relative
+     *  to the largest |T_reference|. */
+    double       difference_max = undefined, difference_mean = undefined;
+    unsigned int reference_rows_used = 0; ///< in e_mp and e_rel
     double       largest_energy_defect =
       undefined; ///< largest magnitude over the rows
     double largest_reaction_defect = undefined;
@@ -134,6 +141,14 @@ namespace Debond
   CurveMeasures
   measure_torque_curve(const std::vector<TorqueRow> &rows,
                        const CurveSettings          &settings);
+
+
+
+  /** The members of summary.json that measure the distance from a reference
+   *  curve, in their order there: e_mp, e_rel, difference_max,
+   *  difference_mean. */
+  std::vector<std::pair<std::string, double>>
+  error_measures(const CurveMeasures &measures);
 
 
 

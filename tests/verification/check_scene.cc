@@ -16,7 +16,7 @@
 // a line for each expectation; the exit code says only whether the scene could
 // be run.
 
-#include <debond/debonding_problem.h>
+#include <debond/problem.h>
 #include <debond/runtime.h>
 #include <debond/scene.h>
 
@@ -300,8 +300,7 @@ namespace
     Debond::Scene     scene =
       Debond::Scene::from_file(scene_file, overrides(scene_text));
     scene.output.overwrite_other_results = true;
-    Debond::DebondingProblem problem(scene);
-    problem.run();
+    Debond::Problem::create(scene)->run();
 
     const Results results{read_table(scene.output.directory + "/torque.csv"),
                           read_summary(scene.output.directory +

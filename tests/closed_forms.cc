@@ -1,11 +1,16 @@
-// Torque of two rigid bodies on the elastic frictional interface: the values of
-// an independent computation, the elementary formula of a constant friction
-// coefficient, the balance of stick, slip and traction point by point.
+// The closed forms of torsion. Two rigid bodies on the elastic frictional
+// interface: the values of an independent computation, the elementary formula
+// of a constant friction coefficient, the balance of stick, slip and traction
+// point by point, a bonded disk inside an unbonded ring. The paper's analytical
+// model against its integral done by hand. Mathieu's model: its torque against
+// the integral of its traction, its limits.
 
 #include <debond/closed_forms.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/numbers.h>
+
+#include <boost/math/quadrature/tanh_sinh.hpp>
 
 #include <cmath>
 #include <iostream>
@@ -195,6 +200,112 @@ check_uniqueness()
 
 
 
+/** A bonded disk in an unbonded ring: the difference of two disks. */
+void
+check_bonded_disk()
+{
+  auto mixed            = paper();
+  mixed.bonded_radius   = 1.7;
+  auto bonded           = paper();
+  auto unbonded         = paper();
+  unbonded.phi_0        = 0;
+  auto inner_bonded     = bonded;
+  auto inner_unbonded   = unbonded;
+  inner_bonded.radius   = 1.7;
+  inner_unbonded.radius = 1.7;
+  double largest        = 0;
+  for (const double angle : {0.02, 0.1, 0.3, 0.7, 1.2, 2.5, 8.})
+    keep_largest(largest,
+                 std::abs(
+                   RigidBodiesTorsion(mixed).torque(angle * degree) -
+                   (RigidBodiesTorsion(unbonded).torque(angle * degree) -
+                    RigidBodiesTorsion(inner_unbonded).torque(angle * degree) +
+                    RigidBodiesTorsion(inner_bonded).torque(angle * degree))));
+  report("bonded disk against the sum of its parts [N mm]", largest, 1e-11);
+}
+
+
+
+/** Eq. (18) with a constant coefficient: 2/3 pi t_max (R^3 - c^3/4). With the
+ *  modified law beyond theta_max the numbers of an independent computation. */
+void
+check_analytical()
+{
+  AnalyticalTorsion::Parameters parameters;
+  parameters.radius       = 2.5;
+  parameters.pressure     = 2.8113;
+  parameters.linear_limit = 0.13 * degree;
+  parameters.full_sliding = 1.13 * degree;
+  const AnalyticalTorsion form(parameters);
+  double                  largest = 0;
+  for (const double angle : {0.05, 0.13, 0.2, 0.8, 1.12})
+    {
+      const double c     = 2.5 * std::min(1., 0.13 / angle);
+      const double t_max = 0.58 * 2.8113;
+      const double T =
+        angle < 0.13 ?
+          pi / 2 * std::pow(2.5, 3) * t_max * angle / 0.13 :
+          2. / 3. * pi * t_max * (std::pow(2.5, 3) - std::pow(c, 3) / 4.);
+      keep_largest(largest, std::abs(form.torque(angle * degree) / T - 1.));
+    }
+  report("Eq. (18) before full sliding, relative", largest, 1e-12);
+  report("Eq. (18), T_inf at 10 degrees [N mm]",
+         std::abs(form.torque(10 * degree) - 36.82),
+         0.005);
+  report("Eq. (18), its largest torque [N mm]",
+         std::abs(form.torque(1.51 * degree) - 53.35),
+         0.005);
+}
+
+
+
+void
+check_mathieu()
+{
+  MathieuTorsion::Parameters parameters;
+  parameters.radius          = 2.5;
+  parameters.shear_modulus   = 40;
+  parameters.adhesion_energy = 0.07;
+  parameters.friction_stress = 1.1;
+  const MathieuTorsion                       form(parameters);
+  boost::math::quadrature::tanh_sinh<double> integrator;
+  double                                     inverse = 0, torque = 0;
+  for (const double c : {2.4, 2., 1.3, 0.6, 0.1})
+    {
+      const double theta = form.angle(c);
+      keep_largest(inverse, std::abs(form.stick_radius(theta) / c - 1.));
+      // r = c sin(s) takes the singularity at the tip away
+      const double inside = integrator.integrate(
+        [&](const double s) {
+          const double r = c * std::sin(s);
+          return r * r * form.point(r, theta).traction * c * std::cos(s);
+        },
+        0.,
+        pi / 2 * (1 - 1e-9));
+      const double outside = 1.1 * (std::pow(2.5, 3) - std::pow(c, 3)) / 3.;
+      keep_largest(torque,
+                   std::abs(form.torque(theta) / (2 * pi * (inside + outside)) -
+                            1.));
+    }
+  report("Eq. (14) and its inverse, relative", inverse, 1e-12);
+  report("Eq. (37) of Eqs. (15) and (16), relative", torque, 1e-7);
+  const double start = form.angle(2.5);
+  report("Reissner-Sagoci before the crack, relative",
+         std::abs(form.torque(start / 3) /
+                    (16. / 3. * 40 * std::pow(2.5, 3) * start / 3) -
+                  1.),
+         1e-14);
+  report("torque continuous where the crack starts, relative",
+         std::abs(form.torque(start * (1 + 1e-9)) / form.torque(start) - 1.),
+         1e-4);
+  report("torque of a nearly broken bond, relative",
+         std::abs(form.torque(1e3) / (2. / 3. * pi * 1.1 * std::pow(2.5, 3)) -
+                  1.),
+         1e-3);
+}
+
+
+
 int
 main()
 {
@@ -202,4 +313,7 @@ main()
   check_constant_friction();
   check_points();
   check_uniqueness();
+  check_bonded_disk();
+  check_analytical();
+  check_mathieu();
 }

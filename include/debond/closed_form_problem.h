@@ -1,0 +1,68 @@
+#ifndef debond_closed_form_problem_h
+#define debond_closed_form_problem_h
+
+#include <debond/closed_forms.h>
+#include <debond/console.h>
+#include <debond/problem.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Debond
+{
+  /**
+   * Runs a scene with one of the closed forms instead of finite elements: the
+   * same loads, the same result files. Closed forms know one loading, a coin
+   * that is pressed down and then turned, ever further, under constant
+   * pressure; scenes that ask for more are refused.
+   */
+  class ClosedFormProblem : public Problem
+  {
+  public:
+    /** Throws InputError, beginning with the name of the entry, if the closed
+     *  form does not apply to the scene. */
+    explicit ClosedFormProblem(const Scene &scene);
+    ~ClosedFormProblem() override;
+
+    void
+    run() override;
+    void
+    check(std::ostream &out) override;
+    const std::vector<TorqueRow> &
+    rows() const override
+    {
+      return torque_rows;
+    }
+
+  private:
+    struct Load
+    {
+      double time  = 0;
+      double push  = 0; ///< depth [mm] or force [N], positive downwards
+      double angle = 0; ///< [rad]
+    };
+
+    void
+    find_loads();
+    void
+    find_stiffness();
+    double
+    pressure(const Load &load) const;
+    void
+    make_model();
+    TorqueRow
+    row(unsigned int step);
+    void
+    write_summary(const ResultDirectory &directory,
+                  Console               &console,
+                  double                 wall_seconds) const;
+
+    const Scene                   scene;
+    std::vector<Load>             loads; ///< one per row
+    double                        normal_stiffness = 0, lambda = 0; // [MPa/mm]
+    std::unique_ptr<TorsionModel> model;
+    std::vector<TorqueRow>        torque_rows;
+  };
+} // namespace Debond
+#endif

@@ -1,0 +1,25 @@
+#ifndef debond_foundation_h
+#define debond_foundation_h
+
+#include <debond/scene.h>
+
+namespace Debond
+{
+  /** Stiffness of interface and bodies in series, lumped into the interface of
+   *  a disk [MPa/mm]. */
+  struct FoundationStiffness
+  {
+    double normal    = 0; ///< mean pressure per depth of push-in
+    double torsional = 0; ///< lambda, with a torque pi/2 R^4 lambda theta
+  };
+
+  /**
+   * One linear solution with the bodies of @p scene, all of whose interface
+   * sticks: pressed by a millionth of its radius, then turned by as little. The
+   * bodies keep mesh and elasticity, rigid ones stay rigid. Throws InputError
+   * if the bodies do not touch all over then.
+   */
+  FoundationStiffness
+  foundation_stiffness(const Scene &scene);
+} // namespace Debond
+#endif

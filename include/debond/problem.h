@@ -1,0 +1,47 @@
+#ifndef debond_problem_h
+#define debond_problem_h
+
+#include <debond/scene.h>
+#include <debond/torque_curve.h>
+
+#include <iosfwd>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+namespace Debond
+{
+  /** A run that could not be finished; the message says where and why. */
+  class RunError : public std::runtime_error
+  {
+  public:
+    using std::runtime_error::runtime_error;
+  };
+
+  /** A scene and the model that it asks for: from the scene to the files in its
+   *  directory. */
+  class Problem
+  {
+  public:
+    /** The problem of the scene's `Model`. */
+    static std::unique_ptr<Problem>
+    create(const Scene &scene);
+
+    virtual ~Problem() = default;
+
+    /** Runs the scene and writes everything into its directory. Throws RunError
+     *  if it cannot be finished; what was written before stays, and
+     *  summary.json then says `converged: false` and why. */
+    virtual void
+    run() = 0;
+
+    /** Prints what a run would do, and runs nothing. */
+    virtual void
+    check(std::ostream &out) = 0;
+
+    /** The accepted rows so far. */
+    virtual const std::vector<TorqueRow> &
+    rows() const = 0;
+  };
+} // namespace Debond
+#endif

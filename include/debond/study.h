@@ -1,0 +1,64 @@
+#ifndef debond_study_h
+#define debond_study_h
+
+#include <debond/parameter_loop.h>
+#include <debond/scene.h>
+
+#include <iosfwd>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace Debond
+{
+  /**
+   * A scene whose entries hold several values: runs every variant, several at a
+   * time, into DIR/variant-001 and so on, and gathers them in DIR/study.csv.
+   *
+   * Variants are processes of their own, so that one that fails leaves the
+   * others alone. A variant whose directory holds the finished results of the
+   * same scene is not run again.
+   */
+  class Study
+  {
+  public:
+    /** Reads all variants. Throws InputError, as Scene does, if any of them is
+     *  no valid scene. */
+    Study(const std::vector<SceneEntry> &entries, const std::string &name);
+
+    /** Runs what is not there yet, @p n_jobs at a time, and writes study.csv
+     *  after every one. @p force: runs all, whatever their directories hold. */
+    void
+    run(unsigned int n_jobs, bool force, std::ostream &out);
+
+    /** Says what would be run. */
+    void
+    check(std::ostream &out) const;
+
+  private:
+    struct Variant
+    {
+      Scene                    scene;
+      std::vector<std::string> values; ///< of the varied entries
+      bool                     done = false;
+      std::string              failure; ///< why it failed, if it did
+    };
+
+    std::string
+    describe(unsigned int variant) const;
+    void
+    prepare(bool force);
+    void
+    report(unsigned int variant, std::ostream &out) const;
+    std::vector<std::pair<std::string, std::string>>
+    table_row(unsigned int variant) const;
+    void
+    write_table() const;
+
+    std::vector<std::string> varied; ///< full names of the varied entries
+    std::vector<Variant>     variants;
+    std::string              directory;
+    unsigned int             reference = 0; ///< number of a variant, 0: none
+  };
+} // namespace Debond
+#endif

@@ -1,0 +1,394 @@
+#include <debond/closed_form_problem.h>
+#include <debond/console.h>
+#include <debond/energy_balance.h>
+#include <debond/foundation.h>
+#include <debond/input_error.h>
+#include <debond/profile_output.h>
+#include <debond/runtime.h>
+
+#include <deal.II/base/timer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <sstream>
+
+namespace Debond
+{
+  namespace
+  {
+    constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+
+
+    std::string
+    name_of(const ModelKind model)
+    {
+      switch (model)
+        {
+          case ModelKind::foundation:
+            return "foundation";
+          case ModelKind::analytical:
+            return "analytical";
+          case ModelKind::mathieu:
+            return "mathieu";
+          case ModelKind::finite_elements:
+            break;
+        }
+      return "finite elements";
+    }
+
+
+
+    [[noreturn]] void
+    refuse(const Scene &scene, const std::string &entry, const std::string &why)
+    {
+      throw InputError(entry + ": " + why +
+                       " (Model = " + name_of(scene.model) +
+                       "; Model = finite elements can do more)");
+    }
+
+
+
+    void
+    check_scene_is_simple(const Scene &scene)
+    {
+      if (scene.implant.shape != BodyShape::coin)
+        refuse(scene,
+               "Implant / Shape",
+               "closed forms are for the flat disk of a coin");
+      if (scene.interface.bonding.pattern == BondingPatternKind::disk &&
+          scene.model != ModelKind::foundation)
+        refuse(scene,
+               "Interface / Bonding / Pattern",
+               "this closed form knows homogeneous bonding only");
+      if (scene.model == ModelKind::mathieu &&
+          scene.interface.bonding.initial_bonding != 1)
+        refuse(scene,
+               "Interface / Bonding / Initial bonding",
+               "this closed form knows a fully bonded surface only");
+      for (const unsigned int k : {0, 1, 3, 4, 5})
+        if (scene.chuck.component[k].loaded)
+          refuse(scene,
+                 std::string("Chuck / ") + ChuckParameters::names[k] +
+                   " / Control",
+                 "closed forms take this motion as prescribed");
+      for (unsigned int k = 0; k < 6; ++k)
+        if (scene.chuck.component[k].stiffness != 0)
+          refuse(scene,
+                 std::string("Chuck / ") + ChuckParameters::names[k] +
+                   " / Stiffness",
+                 "closed forms have no compliant machine");
+    }
+  } // namespace
+
+
+
+  ClosedFormProblem::ClosedFormProblem(const Scene &scene)
+    : scene(scene)
+  {
+    check_scene_is_simple(scene);
+    find_loads();
+    find_stiffness();
+    make_model();
+  }
+
+  ClosedFormProblem::~ClosedFormProblem() = default;
+
+
+
+  void
+  ClosedFormProblem::find_loads()
+  {
+    const Chuck        chuck(scene.chuck,
+                      Eigen::Vector3d::Zero(),
+                      scene.implant.radius);
+    const LoadStepping stepping(scene.load_steps);
+    for (unsigned int step = 0; step <= stepping.n_steps(); ++step)
+      {
+        const double         time = stepping.time(step);
+        const Chuck::Vector6 q    = chuck.values(time);
+        for (const unsigned int k : {0, 1, 3, 4})
+          if (q[k] != 0.)
+            refuse(scene,
+                   std::string("Chuck / ") + ChuckParameters::names[k] +
+                     " / Value",
+                   "closed forms know Translation z and Rotation z only");
+        loads.push_back({time, -q[2], q[5]});
+      }
+
+    if (loads.front().angle != 0.)
+      refuse(scene,
+             "Chuck / Rotation z / Value",
+             "closed forms begin with an angle of zero");
+    const double direction = loads.back().angle < 0. ? -1. : 1.;
+    double       last_push = 0.;
+    for (const Load &load : loads)
+      last_push = std::max(last_push, std::abs(load.push));
+    for (std::size_t i = 1; i < loads.size(); ++i)
+      {
+        const double turned = direction * (loads[i].angle - loads[i - 1].angle);
+        if (turned < 0.)
+          refuse(scene,
+                 "Chuck / Rotation z / Value",
+                 "closed forms know no rotation that reverses");
+        if (loads[i].angle != 0. &&
+            std::abs(loads[i].push - loads[i - 1].push) > 1e-9 * last_push)
+          refuse(scene,
+                 "Chuck / Translation z / Value",
+                 "closed forms know no push-in that changes while it turns");
+        if (loads[i].angle != 0. &&
+            loads[i - 1].time < scene.interface.friction.starts_at -
+                                  1e-9 * (loads.back().time - loads[0].time))
+          refuse(scene,
+                 "Interface / Friction starts at",
+                 "closed forms know no rotation without friction before one "
+                 "with friction");
+      }
+  }
+
+
+
+  void
+  ClosedFormProblem::find_stiffness()
+  {
+    const ClosedFormParameters &given = scene.closed_form;
+    normal_stiffness                  = given.normal_stiffness;
+    lambda                            = given.torsional_stiffness;
+
+    const bool pressure_is_given =
+      given.pressure > 0. || scene.chuck.component[2].loaded;
+    const bool turns_on_foundation = scene.model == ModelKind::foundation;
+    if ((normal_stiffness == 0. && !pressure_is_given) ||
+        (lambda == 0. && turns_on_foundation))
+      {
+        const FoundationStiffness bulk = foundation_stiffness(scene);
+        if (normal_stiffness == 0.)
+          normal_stiffness = bulk.normal;
+        if (lambda == 0.)
+          lambda = bulk.torsional;
+      }
+  }
+
+
+
+  double
+  ClosedFormProblem::pressure(const Load &load) const
+  {
+    const double final_push = loads.back().push;
+    if (scene.closed_form.pressure > 0.)
+      return final_push > 0. ? scene.closed_form.pressure *
+                                 std::max(0., load.push) / final_push :
+                               scene.closed_form.pressure;
+    const double R = scene.implant.radius;
+    return std::max(0.,
+                    scene.chuck.component[2].loaded ?
+                      load.push / (M_PI * R * R) :
+                      load.push * normal_stiffness);
+  }
+
+
+
+  void
+  ClosedFormProblem::make_model()
+  {
+    const double R = scene.implant.radius, p = pressure(loads.back());
+    const auto  &bonding  = scene.interface.bonding;
+    const auto  &friction = scene.interface.friction;
+    const auto  &given    = scene.closed_form;
+    if (!(p > 0.))
+      refuse(scene,
+             "Chuck / Translation z / Value",
+             "closed forms need pressure while they turn");
+
+    if (scene.model == ModelKind::foundation)
+      {
+        RigidBodiesTorsion::Parameters parameters;
+        parameters.radius             = R;
+        parameters.push_in            = 1.;
+        parameters.normal_penalty     = p;
+        parameters.tangential_penalty = lambda;
+        parameters.phi_0              = bonding.initial_bonding;
+        parameters.friction           = friction;
+        if (bonding.pattern == BondingPatternKind::disk)
+          parameters.bonded_radius = R * std::sqrt(bonding.bonded_fraction);
+        if (!RigidBodiesTorsion::has_unique_solution(parameters))
+          refuse(scene,
+                 "Interface / Sliding threshold",
+                 "the friction law softens faster than the foundation is "
+                 "stiff, so that the traction would jump");
+        model = std::make_unique<RigidBodiesTorsion>(parameters);
+      }
+    else if (scene.model == ModelKind::analytical)
+      {
+        AnalyticalTorsion::Parameters parameters;
+        parameters.radius       = R;
+        parameters.pressure     = p;
+        parameters.linear_limit = given.linear_limit * M_PI / 180.;
+        parameters.full_sliding = given.full_sliding * M_PI / 180.;
+        parameters.phi_0        = bonding.initial_bonding;
+        parameters.friction     = friction;
+        if (given.full_sliding < given.linear_limit)
+          refuse(scene,
+                 "Closed form / Full sliding angle",
+                 "this is less than Linear limit angle");
+        model = std::make_unique<AnalyticalTorsion>(parameters);
+      }
+    else
+      {
+        MathieuTorsion::Parameters parameters;
+        parameters.radius          = R;
+        parameters.shear_modulus   = given.shear_modulus;
+        parameters.adhesion_energy = 1e-3 * given.adhesion_energy; // N/mm
+        parameters.friction_stress =
+          friction.kind == FrictionLawKind::frictionless ?
+            0. :
+            friction.mu_broken * p;
+        model = std::make_unique<MathieuTorsion>(parameters);
+      }
+  }
+
+
+
+  TorqueRow
+  ClosedFormProblem::row(const unsigned int step)
+  {
+    const Load  &load = loads[step];
+    const double R = scene.implant.radius, area = M_PI * R * R;
+    const double p     = pressure(load);
+    const auto   state = model->state(load.angle);
+    const double c     = model->stick_radius(load.angle);
+
+    TorqueRow row;
+    row.step                 = step;
+    row.time                 = load.time;
+    row.angle_deg            = load.angle * 180. / M_PI;
+    row.torque_Nmm           = state.torque;
+    row.force_N              = p * area;
+    row.pressure_MPa         = p;
+    row.phi_mean             = state.phi_mean;
+    row.share_stick          = p > 0. ? c * c / (R * R) : 0.;
+    row.share_open           = p > 0. ? 0. : 1.;
+    row.share_slip           = 1. - row.share_stick - row.share_open;
+    row.energy_interface_Nmm = state.stored_energy;
+    row.dissipation_Nmm      = state.dissipation;
+    row.adhesive_work_Nmm    = state.adhesive_work;
+    row.chuck_reaction       = {{0, 0, -row.force_N, 0, 0, state.torque}};
+    row.chuck_position[2] =
+      scene.chuck.component[2].loaded ? undefined : -load.push;
+    row.chuck_position[5] = row.angle_deg;
+    return row;
+  }
+
+
+
+  namespace
+  {
+    /** Work of the torque and how well it is accounted for; the push-in is not
+     *  in it, because the model is about the rotation alone. */
+    void
+    balance_energy(TorqueRow &row, const double angle, EnergyBalance &energy)
+    {
+      Chuck::Vector6 force = Chuck::Vector6::Zero(), position = force;
+      force[5]    = row.torque_Nmm;
+      position[5] = angle;
+      energy.add(
+        force, position, 0., row.energy_interface_Nmm, row.dissipation_Nmm);
+      row.work_Nmm            = energy.work();
+      row.energy_defect       = energy.defect();
+      row.energy_defect_bound = energy.defect_bound();
+      row.reaction_defect     = undefined;
+    }
+  } // namespace
+
+
+
+  void
+  ClosedFormProblem::run()
+  {
+    const dealii::Timer   clock;
+    const ResultDirectory directory(scene.output, scene.completed_parameters);
+    Console               console(scene.output.console, std::cout);
+    TorqueCurveWriter     writer(directory);
+    ProfileOutput         profiles(scene, directory);
+    EnergyBalance         energy;
+    if (!scene.title.empty())
+      console.headline(scene.title);
+    for (unsigned int step = 0; step < loads.size(); ++step)
+      {
+        TorqueRow next = row(step);
+        balance_energy(next, loads[step].angle, energy);
+        torque_rows.push_back(next);
+        writer.write(next);
+        console.row(next, loads.size() - 1);
+        profiles.write(next.angle_deg, *model);
+      }
+    const std::string warning = profiles.finish();
+    if (!warning.empty())
+      console.warn("profile", warning);
+    write_summary(directory, console, clock.wall_time());
+  }
+
+
+
+  void
+  ClosedFormProblem::write_summary(const ResultDirectory &directory,
+                                   Console               &console,
+                                   const double           wall_seconds) const
+  {
+    const double  R = scene.implant.radius;
+    CurveSettings settings;
+    settings.contact_area_mm2       = M_PI * R * R;
+    settings.mean_phi_0             = scene.output.observed_bonding > 0 ?
+                                        scene.output.observed_bonding :
+                                        scene.interface.bonding.initial_bonding *
+                              scene.interface.bonding.bonded_fraction;
+    settings.full_sliding_angle_deg = scene.output.full_sliding_angle;
+    if (scene.model == ModelKind::analytical &&
+        scene.output.full_sliding_angle == 0.)
+      settings.full_sliding_angle_deg = scene.closed_form.full_sliding;
+    settings.phase_times = scene.load_steps.times;
+    settings.reference   = read_reference_curve(scene.output.reference_curve);
+
+    RunSummary summary;
+    summary.measures       = measure_torque_curve(torque_rows, settings);
+    summary.steps          = torque_rows.size() - 1;
+    summary.converged      = true;
+    summary.reason         = "all planned steps are done";
+    summary.warnings       = console.warnings();
+    summary.wall_seconds   = wall_seconds;
+    summary.peak_memory_MB = peak_memory_MB();
+    JsonObject json;
+    add_summary(summary, json);
+    json.add("normal_stiffness_MPa_per_mm",
+             normal_stiffness > 0. ? normal_stiffness : undefined);
+    json.add("torsional_stiffness_MPa_per_mm",
+             lambda > 0. ? lambda : undefined);
+    write_file(directory.file("summary.json"), json.text());
+
+    std::ostringstream text;
+    text << "Largest torque " << summary.measures.T_max_Nmm << " N mm at "
+         << summary.measures.theta_max_deg << " deg, at the end "
+         << summary.measures.T_inf_Nmm << " N mm. Results are in "
+         << directory.path();
+    console.headline(text.str());
+  }
+
+
+
+  void
+  ClosedFormProblem::check(std::ostream &out)
+  {
+    out << "Model " << name_of(scene.model) << ", pressure "
+        << model->pressure() << " MPa";
+    if (normal_stiffness > 0.)
+      out << ", normal stiffness " << normal_stiffness << " MPa/mm";
+    if (lambda > 0.)
+      out << ", torsional stiffness " << lambda << " MPa/mm";
+    out << '\n'
+        << loads.size() - 1 << " planned steps from time " << loads.front().time
+        << " to " << loads.back().time << '\n'
+        << "at the end " << model->torque(loads.back().angle) << " N mm\n";
+  }
+} // namespace Debond

@@ -1,0 +1,224 @@
+#include <debond/input_error.h>
+#include <debond/parameter_loop.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <map>
+#include <regex>
+
+namespace Debond
+{
+  using dealii::Utilities::trim;
+
+
+
+  namespace
+  {
+    /** Each entry once, with the value that was set last. */
+    std::vector<SceneEntry>
+    last_values(const std::vector<SceneEntry> &entries)
+    {
+      std::vector<SceneEntry> result;
+      for (const SceneEntry &entry : entries)
+        {
+          const auto earlier =
+            std::find_if(result.begin(),
+                         result.end(),
+                         [&](const SceneEntry &other) {
+                           return other.full_name() == entry.full_name();
+                         });
+          if (earlier == result.end())
+            result.push_back(entry);
+          else
+            *earlier = entry;
+        }
+      return result;
+    }
+
+
+
+    std::vector<std::string>
+    split_at(const std::string &text, const std::string &separator)
+    {
+      std::vector<std::string> items;
+      std::string::size_type   begin = 0;
+      for (;;)
+        {
+          const auto end = text.find(separator, begin);
+          items.push_back(trim(text.substr(begin, end - begin)));
+          if (end == std::string::npos)
+            return items;
+          begin = end + separator.size();
+        }
+    }
+
+
+
+    [[noreturn]] void
+    refuse(const SceneEntry &entry, const std::string &why)
+    {
+      throw InputError(entry.place + ": " + entry.full_name() + " = '" +
+                       entry.value + "': " + why);
+    }
+
+
+
+    /** The values of one varied entry. */
+    struct Choice
+    {
+      std::vector<std::string> values;
+      std::string              name;           ///< of {{name: ...}}, or empty
+      bool                     by_run = false; ///< {{a||b}}
+    };
+
+
+
+    Choice
+    read_choice(const SceneEntry &entry)
+    {
+      const std::string &value = entry.value;
+      const auto         begin = value.find("{{"), end = value.find("}}");
+      if (end == std::string::npos || end < begin ||
+          value.find("{{", begin + 2) != std::string::npos ||
+          value.find("}}", end + 2) != std::string::npos)
+        refuse(entry,
+               "the braces of several values do not match: expected "
+               "{{a|b|c}}, {{a||b||c}} or {{name: a|b|c}}, once");
+      const std::string prefix = value.substr(0, begin);
+      const std::string suffix = value.substr(end + 2);
+      std::string       inside = value.substr(begin + 2, end - begin - 2);
+
+      Choice            choice;
+      std::smatch       match;
+      static const auto named =
+        std::regex("\\s*([A-Za-z][A-Za-z0-9_ -]*?)\\s*:([^]*)");
+      if (std::regex_match(inside, match, named))
+        {
+          choice.name = match[1];
+          inside      = std::string(match[2]);
+        }
+      choice.by_run = inside.find("||") != std::string::npos;
+      if (choice.by_run && !choice.name.empty())
+        refuse(entry, "a named choice takes | between its values, not ||");
+      for (const std::string &item :
+           split_at(inside, choice.by_run ? "||" : "|"))
+        choice.values.push_back(trim(prefix + item + suffix));
+      return choice;
+    }
+
+
+
+    /** Number of variants, and which value an entry takes in one of them. */
+    class Axes
+    {
+    public:
+      void
+      add(const SceneEntry &entry, const Choice &choice)
+      {
+        const unsigned int n = choice.values.size();
+        if (choice.by_run)
+          by_run.emplace_back(entry, n);
+        else if (choice.name.empty() || strides.count(choice.name) == 0)
+          {
+            // an entry without a name is an axis of its own
+            strides[choice.name.empty() ? entry.full_name() : choice.name] = {
+              n_combinations, n};
+            n_combinations *= n;
+          }
+        else if (strides.at(choice.name).second != n)
+          refuse(entry,
+                 std::to_string(n) + " values, but an entry before has " +
+                   std::to_string(strides.at(choice.name).second) + " for '" +
+                   choice.name + "'");
+        if (n_combinations > 100000)
+          refuse(entry, "this makes a study of more than 100000 variants");
+      }
+
+      /** Variants of all; with entries {{a||b}} alone their number of values.
+       */
+      unsigned int
+      n_variants() const
+      {
+        const unsigned int n = n_combinations == 1 && !by_run.empty() ?
+                                 by_run.front().second :
+                                 n_combinations;
+        for (const auto &[entry, n_values] : by_run)
+          if (n_values != n)
+            refuse(entry,
+                   std::to_string(n_values) + " values for " +
+                     std::to_string(n) +
+                     " variants: {{a||b}} needs one for each");
+        return n;
+      }
+
+      unsigned int
+      index(const SceneEntry  &entry,
+            const Choice      &choice,
+            const unsigned int variant) const
+      {
+        if (choice.by_run)
+          return variant;
+        const auto [stride, n] =
+          strides.at(choice.name.empty() ? entry.full_name() : choice.name);
+        return variant / stride % n;
+      }
+
+    private:
+      unsigned int n_combinations = 1;
+      /** Name of the axis -> {variants between two values, number of values}.
+       */
+      std::map<std::string, std::pair<unsigned int, unsigned int>> strides;
+      std::vector<std::pair<SceneEntry, unsigned int>>             by_run;
+    };
+  } // namespace
+
+
+
+  bool
+  is_study(const std::vector<SceneEntry> &entries)
+  {
+    return !varied_entries(entries).empty();
+  }
+
+
+
+  std::vector<SceneEntry>
+  varied_entries(const std::vector<SceneEntry> &entries)
+  {
+    std::vector<SceneEntry> result;
+    for (const SceneEntry &entry : last_values(entries))
+      if (entry.value.find("{{") != std::string::npos)
+        result.push_back(entry);
+    return result;
+  }
+
+
+
+  std::vector<StudyVariant>
+  study_variants(const std::vector<SceneEntry> &entries)
+  {
+    std::map<std::string, Choice> choices;
+    Axes                          axes;
+    for (const SceneEntry &entry : varied_entries(entries))
+      {
+        choices[entry.full_name()] = read_choice(entry);
+        axes.add(entry, choices[entry.full_name()]);
+      }
+
+    std::vector<StudyVariant> variants(axes.n_variants());
+    for (unsigned int i = 0; i < variants.size(); ++i)
+      for (SceneEntry entry : last_values(entries))
+        {
+          const auto choice = choices.find(entry.full_name());
+          if (choice != choices.end())
+            {
+              entry.value =
+                choice->second.values[axes.index(entry, choice->second, i)];
+              variants[i].values.push_back(entry.value);
+            }
+          variants[i].entries.push_back(entry);
+        }
+    return variants;
+  }
+} // namespace Debond

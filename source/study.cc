@@ -1,0 +1,424 @@
+#include <debond/input_error.h>
+#include <debond/problem.h>
+#include <debond/study.h>
+#include <debond/torque_curve.h>
+
+#define BOOST_BIND_GLOBAL_PLACEHOLDERS
+#include <boost/property_tree/json_parser.hpp>
+#include <boost/property_tree/ptree.hpp>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <ostream>
+#include <sstream>
+
+namespace Debond
+{
+  namespace
+  {
+    std::string
+    variant_name(const unsigned int variant)
+    {
+      char name[32];
+      std::snprintf(name, sizeof(name), "variant-%03u", variant + 1);
+      return name;
+    }
+
+
+
+    using Members = std::vector<std::pair<std::string, std::string>>;
+
+    /** Members of a summary.json as text; lists joined, null as nan. Empty if
+     *  there is none. */
+    Members
+    read_summary(const std::string &filename)
+    {
+      boost::property_tree::ptree tree;
+      try
+        {
+          boost::property_tree::read_json(filename, tree);
+        }
+      catch (const boost::property_tree::json_parser_error &)
+        {
+          return {};
+        }
+      Members members;
+      for (const auto &[name, child] : tree)
+        {
+          std::string value = child.data() == "null" ? "nan" : child.data();
+          for (const auto &item : child)
+            value += (value.empty() ? "" : "; ") + item.second.data();
+          members.emplace_back(name, value);
+        }
+      return members;
+    }
+
+
+
+    std::string
+    member(const Members &members, const std::string &name)
+    {
+      for (const auto &[other, value] : members)
+        if (other == name)
+          return value;
+      return "";
+    }
+
+
+
+    /** A field of a CSV file. */
+    std::string
+    csv_field(const std::string &text)
+    {
+      if (text.find_first_of(",\"\n") == std::string::npos)
+        return text;
+      std::string quoted = "\"";
+      for (const char c : text)
+        quoted += (c == '"' ? std::string("\"\"") : std::string(1, c));
+      return quoted + "\"";
+    }
+
+
+
+    /** Distance of one torque curve from another, both from files. */
+    CurveMeasures
+    compare(const std::string &file, const std::string &reference_file)
+    {
+      std::vector<TorqueRow> rows;
+      for (const auto &[angle, torque] : read_reference_curve(file))
+        {
+          rows.emplace_back();
+          rows.back().angle_deg  = angle;
+          rows.back().torque_Nmm = torque;
+        }
+      CurveSettings settings;
+      settings.reference = read_reference_curve(reference_file);
+      return measure_torque_curve(rows, settings);
+    }
+  } // namespace
+
+
+
+  Study::Study(const std::vector<SceneEntry> &entries, const std::string &name)
+  {
+    for (const SceneEntry &entry : varied_entries(entries))
+      {
+        varied.push_back(entry.full_name());
+        if (entry.full_name() == "Output / Directory")
+          throw InputError(entry.place +
+                           ": Output / Directory: a study gives each variant "
+                           "a directory of its own below this one: expected "
+                           "one value");
+      }
+    for (StudyVariant &variant : study_variants(entries))
+      {
+        const std::string where = variant_name(variants.size());
+        Variant           next;
+        next.values = variant.values;
+        directory = Scene::from_entries(variant.entries, name).output.directory;
+        SceneEntry output;
+        output.subsections = {"Output"};
+        output.name        = "Directory";
+        output.place       = name;
+        output.value       = directory + "/" + where;
+        variant.entries.push_back(output);
+        next.scene = Scene::from_entries(variant.entries, name);
+        variants.push_back(std::move(next));
+      }
+    reference = variants.front().scene.study.reference_variant;
+    if (reference > variants.size())
+      throw InputError(
+        name + ": Study / Reference variant = " + std::to_string(reference) +
+        ": this study has " + std::to_string(variants.size()) + " variants");
+  }
+
+
+
+  std::string
+  Study::describe(const unsigned int variant) const
+  {
+    std::string text = variant_name(variant) + ":";
+    for (unsigned int i = 0; i < varied.size(); ++i)
+      text +=
+        (i == 0 ? " " : "; ") + varied[i] + " = " + variants[variant].values[i];
+    return text;
+  }
+
+
+
+  void
+  Study::check(std::ostream &out) const
+  {
+    out << variants.size() << " variants\n";
+    for (unsigned int i = 0; i < variants.size(); ++i)
+      out << describe(i) << '\n';
+  }
+
+
+
+  // Refuses before anything runs, and finds what is there already.
+  void
+  Study::prepare(const bool force)
+  {
+    for (Variant &variant : variants)
+      {
+        OutputParameters &output       = variant.scene.output;
+        output.overwrite_other_results = force;
+        output.console                 = ConsoleKind::quiet;
+        const auto content =
+          content_of_result_directory(output,
+                                      variant.scene.completed_parameters);
+        if (content == DirectoryContent::other_scene && !force)
+          throw InputError("Output / Directory = '" + directory +
+                           "': " + output.directory +
+                           " holds results of another scene (compare its "
+                           "parameters.prm): choose another directory, or "
+                           "overwrite them with --force");
+        variant.done = content == DirectoryContent::same_scene && !force &&
+                       member(read_summary(output.directory + "/summary.json"),
+                              "converged") == "true";
+      }
+  }
+
+
+
+  namespace
+  {
+    /** A variant that runs as a process. */
+    struct Job
+    {
+      unsigned int variant  = 0;
+      int          read_end = -1; ///< of the pipe with its last words
+    };
+
+
+
+    /** What a child process does: it ends with the message on the pipe, an
+     *  empty one if all went well. */
+    [[noreturn]] void
+    run_in_child(const Scene &scene, const int write_end)
+    {
+      std::string message;
+      if (std::freopen("/dev/null", "w", stdout) == nullptr)
+        message = "cannot redirect the output";
+      try
+        {
+          if (message.empty())
+            Problem::create(scene)->run();
+        }
+      catch (const std::exception &error)
+        {
+          message = error.what();
+        }
+      const char *text = message.c_str();
+      for (std::size_t left = message.size(); left > 0;)
+        {
+          const ssize_t written = write(write_end, text, left);
+          if (written <= 0)
+            break;
+          text += written;
+          left -= written;
+        }
+      _exit(message.empty() ? 0 : 1);
+    }
+
+
+
+    std::string
+    read_to_end(const int read_end)
+    {
+      std::string text;
+      char        buffer[4096];
+      for (ssize_t n; (n = read(read_end, buffer, sizeof(buffer))) > 0;)
+        text.append(buffer, n);
+      close(read_end);
+      return text;
+    }
+
+
+
+    pid_t
+    start_job(const Scene &scene, Job &job)
+    {
+      int pipe_ends[2];
+      if (pipe(pipe_ends) != 0)
+        throw std::runtime_error(std::string("pipe: ") + std::strerror(errno));
+      const pid_t process = fork();
+      if (process < 0)
+        throw std::runtime_error(std::string("fork: ") + std::strerror(errno));
+      if (process == 0)
+        {
+          close(pipe_ends[0]);
+          run_in_child(scene, pipe_ends[1]);
+        }
+      close(pipe_ends[1]);
+      job.read_end = pipe_ends[0];
+      return process;
+    }
+  } // namespace
+
+
+
+  void
+  Study::run(const unsigned int n_jobs, const bool force, std::ostream &out)
+  {
+    prepare(force);
+    const auto n_done = std::count_if(variants.begin(),
+                                      variants.end(),
+                                      [](const Variant &v) { return v.done; });
+    out << variants.size() << " variants in " << directory;
+    if (n_done > 0)
+      out << ", " << n_done << " of them done already";
+    out << std::endl;
+
+    std::map<pid_t, Job> jobs;
+    unsigned int         next = 0;
+    while (true)
+      {
+        for (; next < variants.size() && jobs.size() < n_jobs; ++next)
+          if (!variants[next].done)
+            {
+              Job job;
+              job.variant         = next;
+              const pid_t process = start_job(variants[next].scene, job);
+              jobs[process]       = job;
+            }
+        if (jobs.empty())
+          break;
+
+        int         status  = 0;
+        const pid_t process = waitpid(-1, &status, 0);
+        const auto  job     = jobs.find(process);
+        if (job == jobs.end())
+          continue;
+        Variant &variant = variants[job->second.variant];
+        variant.failure  = read_to_end(job->second.read_end);
+        if (WIFSIGNALED(status))
+          variant.failure =
+            std::string("the process was ended by the system: ") +
+            strsignal(WTERMSIG(status));
+        variant.done = variant.failure.empty();
+        report(job->second.variant, out);
+        jobs.erase(job);
+        write_table();
+      }
+    write_table();
+    const auto n_failed =
+      std::count_if(variants.begin(), variants.end(), [](const Variant &v) {
+        return !v.done;
+      });
+    if (n_failed > 0)
+      out << n_failed << " of " << variants.size() << " variants failed\n";
+    out << "Results are in " << directory << "/study.csv" << std::endl;
+  }
+
+
+
+  void
+  Study::report(const unsigned int variant, std::ostream &out) const
+  {
+    out << describe(variant) << ": ";
+    if (!variants[variant].done)
+      out << "failed: " << variants[variant].failure << std::endl;
+    else
+      {
+        const Members summary = read_summary(
+          variants[variant].scene.output.directory + "/summary.json");
+        out << "T_max " << member(summary, "T_max_Nmm") << " N mm, "
+            << member(summary, "wall_seconds") << " s" << std::endl;
+      }
+  }
+
+
+
+  Members
+  Study::table_row(const unsigned int number) const
+  {
+    const Variant &variant = variants[number];
+    Members        row{{"variant", std::to_string(number + 1)}};
+    for (unsigned int i = 0; i < varied.size(); ++i)
+      row.emplace_back(varied[i], variant.values[i]);
+
+    Members summary;
+    if (variant.done ||
+        content_of_result_directory(variant.scene.output,
+                                    variant.scene.completed_parameters) ==
+          DirectoryContent::same_scene)
+      summary = read_summary(variant.scene.output.directory + "/summary.json");
+    if (!variant.done)
+      {
+        const std::string why =
+          variant.failure.empty() ? "not run yet" : variant.failure;
+        if (summary.empty())
+          summary = {{"converged", "false"}, {"reason", why}};
+        for (auto &[name, value] : summary)
+          if (name == "converged")
+            value = "false";
+          else if (name == "reason")
+            value = why;
+      }
+    else if (reference > 0 && variants[reference - 1].done)
+      {
+        const auto measures = error_measures(
+          compare(variant.scene.output.directory + "/torque.csv",
+                  variants[reference - 1].scene.output.directory +
+                    "/torque.csv"));
+        for (const auto &[name, value] : measures)
+          for (auto &[other, text] : summary)
+            if (other == name)
+              {
+                std::ostringstream number_text;
+                number_text.precision(12);
+                number_text << value;
+                text = number_text.str();
+              }
+      }
+    row.insert(row.end(), summary.begin(), summary.end());
+    return row;
+  }
+
+
+
+  void
+  Study::write_table() const
+  {
+    std::vector<std::string> columns;
+    // finished variants first: they know all columns and their order
+    for (const bool done : {true, false})
+      for (unsigned int i = 0; i < variants.size(); ++i)
+        if (variants[i].done == done)
+          for (const auto &[name, value] : table_row(i))
+            if (std::find(columns.begin(), columns.end(), name) ==
+                columns.end())
+              columns.push_back(name);
+    std::string text;
+    for (const std::string &column : columns)
+      text += (text.empty() ? "" : ",") + csv_field(column);
+    text += "\n";
+    for (unsigned int i = 0; i < variants.size(); ++i)
+      {
+        const Members row = table_row(i);
+        std::string   line;
+        for (const std::string &column : columns)
+          {
+            const auto has =
+              std::find_if(row.begin(), row.end(), [&](const auto &item) {
+                return item.first == column;
+              });
+            line += (line.empty() ? "" : ",") +
+                    (has == row.end() ? "nan" : csv_field(has->second));
+          }
+        text += line + "\n";
+      }
+    std::filesystem::create_directories(directory);
+    write_file(directory + "/study.csv", text);
+  }
+} // namespace Debond

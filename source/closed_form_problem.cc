@@ -6,8 +6,6 @@
 #include <debond/profile_output.h>
 #include <debond/runtime.h>
 
-#include <deal.II/base/timer.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -307,7 +305,6 @@ namespace Debond
   void
   ClosedFormProblem::run()
   {
-    const dealii::Timer   clock;
     const ResultDirectory directory(scene.output, scene.completed_parameters);
     Console               console(scene.output.console, std::cout);
     TorqueCurveWriter     writer(directory);

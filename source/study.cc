@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -70,6 +71,17 @@ namespace Debond
         if (other == name)
           return value;
       return "";
+    }
+
+
+
+    /** A number with fewer digits, for people. */
+    std::string
+    rounded(const std::string &number)
+    {
+      char text[32];
+      std::snprintf(text, sizeof(text), "%.4g", std::atof(number.c_str()));
+      return text;
     }
 
 
@@ -332,8 +344,8 @@ namespace Debond
       {
         const Members summary = read_summary(
           variants[variant].scene.output.directory + "/summary.json");
-        out << "T_max " << member(summary, "T_max_Nmm") << " N mm, "
-            << member(summary, "wall_seconds") << " s" << std::endl;
+        out << "T_max " << rounded(member(summary, "T_max_Nmm")) << " N mm, "
+            << rounded(member(summary, "wall_seconds")) << " s" << std::endl;
       }
   }
 

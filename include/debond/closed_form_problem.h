@@ -5,6 +5,8 @@
 #include <debond/console.h>
 #include <debond/problem.h>
 
+#include <deal.II/base/timer.h>
+
 #include <memory>
 #include <string>
 #include <vector>
@@ -58,6 +60,7 @@ namespace Debond
                   Console               &console,
                   double                 wall_seconds) const;
 
+    const dealii::Timer           clock;
     const Scene                   scene;
     std::vector<Load>             loads; ///< one per row
     double                        normal_stiffness = 0, lambda = 0; // [MPa/mm]

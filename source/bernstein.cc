@@ -174,6 +174,29 @@ namespace Debond
 
 
 
+  KnotVector
+  KnotVector::graded(const unsigned int degree,
+                     const unsigned int n_spans,
+                     const double       grading)
+  {
+    if (grading == 1.)
+      return uniform(degree, n_spans);
+    if (!(grading > 0.) || n_spans == 0)
+      throw std::invalid_argument(
+        "A graded knot vector needs a positive exponent and one span at least.");
+    std::vector<double> knots(degree + 1, 0.);
+    for (unsigned int i = 1; i < n_spans; ++i)
+      {
+        const double s     = (2. * i - n_spans) / n_spans;
+        const double power = 0.5 * std::pow(std::abs(s), grading);
+        knots.push_back(s < 0. ? 0.5 - power : 0.5 + power);
+      }
+    knots.insert(knots.end(), degree + 1, 1.);
+    return KnotVector(degree, knots);
+  }
+
+
+
   unsigned int
   KnotVector::degree() const
   {

@@ -17,10 +17,16 @@ namespace Debond
       const NurbsSurface exact =
         parameters.shape == BodyShape::coin ?
           NurbsSurface::disk(parameters.radius, parameters.cells[0]) :
+        parameters.shape == BodyShape::cap ?
+          NurbsSurface::cap(parameters.radius,
+                            parameters.cap_radius,
+                            parameters.cells[0]) :
           NurbsSurface::rectangle(parameters.size[0],
                                   parameters.size[1],
                                   parameters.cells[0],
-                                  parameters.cells[1]);
+                                  parameters.cells[1],
+                                  2,
+                                  parameters.lateral_grading);
       return parameters.contact_surface == SurfaceKind::nurbs ?
                exact :
                exact.bilinear_interpolant();
@@ -45,12 +51,14 @@ namespace Debond
 
 
   double
-  BodyMesh::layer_height(const unsigned int layer) const
+  BodyMesh::layer_height(const unsigned int layer,
+                         const double       height_of_face) const
   {
-    // z_k = -+ H (k/n)^g with k = 0 at the contact face
+    // z_k = -+ H (k/n)^g over a flat contact face at z_0 = 0
     const double fraction = std::pow(double(layer) / body_parameters.cells[2],
                                      body_parameters.layer_grading);
-    return -outward_sign() * body_parameters.thickness() * fraction;
+    const double end      = -outward_sign() * body_parameters.thickness();
+    return height_of_face + (end - height_of_face) * fraction;
   }
 
 
@@ -97,7 +105,8 @@ namespace Debond
         const auto &index = lattice[node];
         reference_positions[node] =
           contact_surface.point({breaks_1[index[0]], breaks_2[index[1]]});
-        reference_positions[node][2] = layer_height(index[2]);
+        reference_positions[node][2] =
+          layer_height(index[2], reference_positions[node][2]);
       }
     for (unsigned int A = 0; A < contact_surface.n_control_points(); ++A)
       reference_positions[control_point_node(A)] =

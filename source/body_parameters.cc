@@ -1,6 +1,7 @@
 #include <debond/allowed_values.h>
 #include <debond/body_parameters.h>
 #include <debond/input_error.h>
+#include <debond/nurbs_surface.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -80,18 +81,29 @@ namespace Debond
 
 
 
-    /** `Cells = n, m` of a coin are n cells across the disk in both directions
-     *  and m along the axis; a block has three numbers. */
+    const char *
+    name_of(const BodyShape shape)
+    {
+      return shape == BodyShape::coin ? "coin" :
+             shape == BodyShape::cap  ? "cap" :
+                                        "block";
+    }
+
+
+
+    /** `Cells = n, m` of a coin or a cap are n cells across the disk in both
+     * directions and m along the axis; a block has three numbers. */
     void
     parse_implant_cells(dealii::ParameterHandler &prm, BodyParameters &body)
     {
       const std::string               text  = prm.get("Cells");
       const std::vector<unsigned int> cells = to_whole_numbers(text);
-      if (body.shape == BodyShape::coin)
+      if (body.is_round())
         {
           if (cells.size() != 2)
-            throw InputError("Implant / Cells = '" + text +
-                             "': a coin takes two numbers, cells across the "
+            throw InputError("Implant / Cells = '" + text + "': a " +
+                             name_of(body.shape) +
+                             " takes two numbers, cells across the "
                              "disk and along the axis");
           body.cells = {{cells[0], cells[0], cells[1]}};
         }
@@ -114,9 +126,15 @@ namespace Debond
     {
       const std::array<double, 3> default_size{{5, 5, 3}};
       const BodyParameters        defaults;
-      if (body.shape == BodyShape::coin && body.size != default_size)
-        throw InputError("Implant / Size has no meaning for Shape = coin: "
-                         "give Radius and Height");
+      if (body.is_round() && body.size != default_size)
+        throw InputError(
+          std::string("Implant / Size has no meaning for Shape = ") +
+          name_of(body.shape) + ": give Radius and Height");
+      if (body.shape != BodyShape::cap &&
+          body.cap_radius != defaults.cap_radius)
+        throw InputError(
+          std::string("Implant / Cap radius has no meaning for Shape = ") +
+          name_of(body.shape) + ", whose contact face is flat");
       if (body.shape == BodyShape::block && body.radius != defaults.radius)
         throw InputError("Implant / Radius has no meaning for Shape = block: "
                          "give Size");
@@ -128,10 +146,26 @@ namespace Debond
 
 
 
+  bool
+  BodyParameters::is_round() const
+  {
+    return shape == BodyShape::coin || shape == BodyShape::cap;
+  }
+
+
+
   double
   BodyParameters::thickness() const
   {
-    return shape == BodyShape::coin ? height : size[2];
+    return is_round() ? height : size[2];
+  }
+
+
+
+  double
+  BodyParameters::rise() const
+  {
+    return shape == BodyShape::cap ? height_on_sphere(radius, cap_radius) : 0.;
   }
 
 
@@ -139,7 +173,7 @@ namespace Debond
   double
   BodyParameters::characteristic_radius() const
   {
-    return shape == BodyShape::coin ? radius : 0.5 * std::min(size[0], size[1]);
+    return is_round() ? radius : 0.5 * std::min(size[0], size[1]);
   }
 
 
@@ -158,6 +192,14 @@ namespace Debond
                       "15, 15, 2",
                       Allowed::whole_numbers(3, 3),
                       "Number of cells in x, y and z.");
+    prm.declare_entry(
+      "Lateral grading",
+      "1",
+      Allowed::number_above(0, ""),
+      "Exponent g that places the cells across the block: their sides are at "
+      "x = sign(s) |s|^g L/2 with s equally spaced from -1 to 1 and L the "
+      "edge length, in y alike. 1: equal cells; more than 1: smaller cells "
+      "towards the centre, under the implant.");
     declare_common_entries(prm, "18000");
     prm.leave_subsection();
   }
@@ -170,28 +212,39 @@ namespace Debond
     prm.enter_subsection("Implant");
     prm.declare_entry("Shape",
                       "coin",
-                      Allowed::choice("coin | block", "cap"),
-                      "Shape of the implant. Its contact face is at z = 0 with "
-                      "its centre at the origin; its top face is held by the "
-                      "rigid chuck. `coin': a cylinder given by Radius and "
-                      "Height. `block': a box given by Size.");
+                      Allowed::choice("coin | cap | block"),
+                      "Shape of the implant. Its contact face touches z = 0 "
+                      "with its centre at the origin; its flat top face is "
+                      "held by the rigid chuck. `coin': a cylinder given by "
+                      "Radius and Height. `cap': the same with a spherical "
+                      "contact face of radius Cap radius. `block': a box given "
+                      "by Size.");
     prm.declare_entry("Radius",
                       "2.5",
                       Allowed::number_above(0, "mm"),
-                      "Radius R [mm] of a coin.");
+                      "Radius R [mm] of a coin or a cap.");
     prm.declare_entry("Height",
                       "3",
                       Allowed::number_above(0, "mm"),
-                      "Height [mm] of a coin.");
+                      "Height [mm] of a coin or a cap, on its axis.");
+    prm.declare_entry("Cap radius",
+                      "50",
+                      Allowed::number_above(0, "mm"),
+                      "Radius [mm] of the sphere that is the contact face of a "
+                      "cap, convex towards the bone; more than Radius. The "
+                      "face meets the sphere at the Greville points of its "
+                      "cells; between them its error is of third order in "
+                      "their size.");
     prm.declare_entry("Size",
                       "5, 5, 3",
                       Allowed::numbers(3, 3, true, "mm"),
                       "Edge lengths [mm] of a block in x, y and z.");
-    prm.declare_entry("Cells",
-                      "3, 2",
-                      Allowed::whole_numbers(2, 3),
-                      "Number of cells. Coin: two numbers, across the disk and "
-                      "along the axis. Block: three numbers, in x, y and z.");
+    prm.declare_entry(
+      "Cells",
+      "3, 2",
+      Allowed::whole_numbers(2, 3),
+      "Number of cells. Coin and cap: two numbers, across the disk "
+      "and along the axis. Block: three numbers, in x, y and z.");
     declare_common_entries(prm, "113000");
     prm.leave_subsection();
   }
@@ -207,6 +260,7 @@ namespace Debond
     const std::vector<unsigned int> numbers =
       to_whole_numbers(prm.get("Cells"));
     std::copy(numbers.begin(), numbers.end(), cells.begin());
+    lateral_grading = prm.get_double("Lateral grading");
     parse_common_entries(prm, *this);
     prm.leave_subsection();
   }
@@ -217,9 +271,13 @@ namespace Debond
   BodyParameters::parse_implant(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Implant");
-    shape  = prm.get("Shape") == "coin" ? BodyShape::coin : BodyShape::block;
-    radius = prm.get_double("Radius");
-    height = prm.get_double("Height");
+    const std::string name = prm.get("Shape");
+    shape                  = name == "coin" ? BodyShape::coin :
+                             name == "cap"  ? BodyShape::cap :
+                                              BodyShape::block;
+    radius                 = prm.get_double("Radius");
+    height                 = prm.get_double("Height");
+    cap_radius             = prm.get_double("Cap radius");
     parse_size(prm, *this);
     parse_common_entries(prm, *this);
     parse_implant_cells(prm, *this);

@@ -54,7 +54,7 @@ namespace Debond
                       "annulus | random | expression | image | file"),
       "Where the implant's contact face is bonded at the start (phi_0, in "
       "reference coordinates). `homogeneous': everywhere. `disk': inside the "
-      "concentric disk that holds Bonded fraction of the area of a coin.");
+      "concentric disk that holds Bonded fraction of the area of a coin or a cap.");
     prm.declare_entry("Initial bonding",
                       "1",
                       Allowed::number_between(0, 1, ""),

@@ -611,6 +611,33 @@ namespace Debond
 
 
 
+  namespace
+  {
+    // Marks what lies between marked elements of a row or column: outlines of
+    // implants are convex, but samples may miss cells that grading made small.
+    void
+    fill_gaps(std::vector<bool> &marked, const std::array<unsigned int, 2> &n)
+    {
+      const std::array<unsigned int, 2> stride{{1, n[0]}};
+      for (unsigned int d = 0; d < 2; ++d)
+        for (unsigned int line = 0; line < n[1 - d]; ++line)
+          {
+            const auto element = [&](const unsigned int i) {
+              return i * stride[d] + line * stride[1 - d];
+            };
+            unsigned int first = 0, end = n[d];
+            while (first < end && !marked[element(first)])
+              ++first;
+            while (end > first && !marked[element(end - 1)])
+              --end;
+            for (unsigned int i = first; i < end; ++i)
+              marked[element(i)] = true;
+          }
+    }
+  } // namespace
+
+
+
   std::vector<bool>
   ContactInterface::bone_elements_under_implant(
     const InterfaceConfiguration &configuration) const
@@ -641,6 +668,7 @@ namespace Debond
           guess                              = closest.xi;
           under[bone.element_of(closest.xi)] = true;
         }
+    fill_gaps(under, bone.n_elements_per_direction());
     return under;
   }
 

@@ -370,6 +370,8 @@ namespace Debond
     settings.contact_area_mm2 =
       scene.implant.shape == BodyShape::coin ?
         M_PI * scene.implant.radius * scene.implant.radius :
+      scene.implant.shape == BodyShape::cap ?
+        2. * M_PI * scene.implant.cap_radius * scene.implant.rise() :
         system.interface.implant_area();
     settings.mean_phi_0             = scene.output.observed_bonding > 0 ?
                                         scene.output.observed_bonding :

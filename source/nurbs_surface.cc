@@ -1,5 +1,7 @@
 #include <debond/nurbs_surface.h>
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -433,18 +435,78 @@ namespace Debond
 
 
 
+  double
+  height_on_sphere(const double r, const double sphere_radius)
+  {
+    return r * r /
+           (sphere_radius + std::sqrt(sphere_radius * sphere_radius - r * r));
+  }
+
+
+
+  // With W the sum of all w_A N_A, the products W x and W z are B-splines whose
+  // coefficients are w_A x_A and w_A z_A: the interpolation is a tensor product
+  // although the weights are none.
+  NurbsSurface
+  NurbsSurface::cap(const double       R,
+                    const double       cap_radius,
+                    const unsigned int n)
+  {
+    if (!(cap_radius > R && std::isfinite(cap_radius)))
+      throw std::invalid_argument("A cap is part of a larger sphere.");
+
+    NurbsSurface              result = disk(R, n);
+    const KnotVector         &knots  = result.knot_vectors[0];
+    const std::vector<double> u      = greville_abscissae(knots);
+    const unsigned int        size   = u.size();
+    Eigen::MatrixXd           B      = Eigen::MatrixXd::Zero(size, size);
+    for (unsigned int i = 0; i < size; ++i)
+      {
+        const unsigned int    span   = knots.span_of(u[i]);
+        const BernsteinValues values = knots.evaluate(span, u[i]);
+        for (unsigned int k = 0; k <= knots.degree(); ++k)
+          B(i, knots.first_basis_function(span) + k) = values.B[k];
+      }
+
+    Eigen::MatrixXd w(size, size), w_x(size, size), w_y(size, size);
+    for (unsigned int A = 0; A < result.n_control_points(); ++A)
+      {
+        w(A % size, A / size)   = result.weight[A];
+        w_x(A % size, A / size) = result.weight[A] * result.points(0, A);
+        w_y(A % size, A / size) = result.weight[A] * result.points(1, A);
+      }
+    const Eigen::ArrayXXd W = B * w * B.transpose();
+    const Eigen::ArrayXXd x = (B * w_x * B.transpose()).array() / W;
+    const Eigen::ArrayXXd y = (B * w_y * B.transpose()).array() / W;
+    Eigen::MatrixXd       W_z(size, size);
+    for (unsigned int j = 0; j < size; ++j)
+      for (unsigned int i = 0; i < size; ++i)
+        W_z(i, j) =
+          W(i, j) * height_on_sphere(std::min(R, std::hypot(x(i, j), y(i, j))),
+                                     cap_radius);
+    const Eigen::PartialPivLU<Eigen::MatrixXd> solver(B);
+    const Eigen::MatrixXd                      columns = solver.solve(W_z);
+    const Eigen::MatrixXd w_z = solver.solve(columns.transpose()).transpose();
+    for (unsigned int A = 0; A < result.n_control_points(); ++A)
+      result.points(2, A) = w_z(A % size, A / size) / result.weight[A];
+    return result;
+  }
+
+
+
   NurbsSurface
   NurbsSurface::rectangle(const double       lx,
                           const double       ly,
                           const unsigned int n1,
                           const unsigned int n2,
-                          const unsigned int degree)
+                          const unsigned int degree,
+                          const double       grading)
   {
     if (!(lx > 0. && ly > 0. && std::isfinite(lx) && std::isfinite(ly)))
       throw std::invalid_argument("A rectangle needs positive edge lengths.");
 
-    const KnotVector knots_1 = KnotVector::uniform(degree, n1);
-    const KnotVector knots_2 = KnotVector::uniform(degree, n2);
+    const KnotVector knots_1 = KnotVector::graded(degree, n1, grading);
+    const KnotVector knots_2 = KnotVector::graded(degree, n2, grading);
     const auto       u       = greville_abscissae(knots_1);
     const auto       v       = greville_abscissae(knots_2);
     ControlNet       net(3, u.size() * v.size());

@@ -130,6 +130,22 @@ namespace Debond
           " makes the first of " + std::to_string(body.cells[2]) +
           " layers thinner than a millionth of the body");
 
+      for (unsigned int d = 0; d < 2; ++d)
+        {
+          const double n      = body.cells[d];
+          const double g      = body.lateral_grading;
+          const double centre = body.cells[d] % 2 == 1 ?
+                                  std::pow(1. / n, g) :
+                                  0.5 * std::pow(2. / n, g);
+          const double border =
+            n > 2 ? 0.5 * (1. - std::pow(1. - 2. / n, g)) : 1.;
+          if (std::min(centre, border) < 1e-6)
+            throw InputError(
+              name + " / Lateral grading = " + to_text(g) + " makes some of " +
+              std::to_string(body.cells[d]) +
+              " cells across thinner than a millionth of the body");
+        }
+
       // nine control points over one face: 2 x 2 Gauss points do not see all
       // their motions, and the stiffness is singular
       if (body.material != Material::rigid &&
@@ -144,17 +160,36 @@ namespace Debond
     void
     check_faces(const BodyParameters &bone, const BodyParameters &implant)
     {
-      const bool is_coin = implant.shape == BodyShape::coin;
+      const bool is_round = implant.is_round();
       for (unsigned int d = 0; d < 2; ++d)
         {
-          const double width = is_coin ? 2 * implant.radius : implant.size[d];
+          const double width = is_round ? 2 * implant.radius : implant.size[d];
           if (width > bone.size[d])
             throw InputError(
-              std::string("Implant / ") + (is_coin ? "Radius" : "Size") +
+              std::string("Implant / ") + (is_round ? "Radius" : "Size") +
               ": the implant is " + to_text(width) + " mm wide in " + "xy"[d] +
               ", wider than the bone below it (Bone / Size: " +
               to_text(bone.size[d]) + " mm)");
         }
+    }
+
+
+
+    void
+    check_cap(const BodyParameters &implant)
+    {
+      if (implant.shape != BodyShape::cap)
+        return;
+      if (implant.cap_radius <= implant.radius)
+        throw InputError(
+          "Implant / Cap radius = " + to_text(implant.cap_radius) +
+          ": a cap is flatter than a hemisphere: expected more "
+          "than Radius, " +
+          to_text(implant.radius) + " mm");
+      if (implant.rise() >= implant.height)
+        throw InputError("Implant / Height = " + to_text(implant.height) +
+                         ": the rim of the cap is " + to_text(implant.rise()) +
+                         " mm above its centre: expected more than that");
     }
 
 
@@ -170,10 +205,9 @@ namespace Debond
                          " contradicts Pattern = homogeneous, which is bonded "
                          "everywhere: use Pattern = disk, or Initial bonding "
                          "for a lower degree of bonding");
-      if (bonding.pattern == BondingPatternKind::disk &&
-          implant.shape != BodyShape::coin)
+      if (bonding.pattern == BondingPatternKind::disk && !implant.is_round())
         throw InputError("Interface / Bonding / Pattern = 'disk' is defined "
-                         "for Implant / Shape = coin only");
+                         "for Implant / Shape = coin and cap only");
     }
 
 
@@ -328,6 +362,7 @@ namespace Debond
   {
     check_cells(bone, "Bone");
     check_cells(implant, "Implant");
+    check_cap(implant);
     check_faces(bone, implant);
     check_bonding(interface.bonding, implant);
     check_times(load_steps);

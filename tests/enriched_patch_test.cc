@@ -149,6 +149,11 @@ main()
   check_exact("Block as implant", block, BodySide::implant);
   block.contact_surface = SurfaceKind::bilinear;
   check_exact("Block, bilinear", block, BodySide::bone);
+  block.lateral_grading = 2.;
+  block.cells           = {{5, 4, 3}};
+  check_exact("Block, graded, bilinear", block, BodySide::bone);
+  block.contact_surface = SurfaceKind::nurbs;
+  check_exact("Block, graded", block, BodySide::bone);
   BodyParameters coin;
   coin.shape           = BodyShape::coin;
   coin.cells           = {{3, 3, 2}};

@@ -122,6 +122,15 @@ namespace
     show("three numbers of cells for a coin",
          in("Implant", "set Cells = 3, 3, 2"));
     show("size of a coin", in("Implant", "set Size = 4, 4, 3"));
+    show("radius of the sphere of a coin",
+         in("Implant", "set Cap radius = 20"));
+    show("steep cap",
+         in("Implant", "set Shape = cap"),
+         {"Implant/Cap radius=2"});
+    show("low cap",
+         in("Implant", "set Height = 0.5"),
+         {"Implant/Shape=cap", "Implant/Cap radius=3"});
+    show("thin cells", in("Bone", "set Lateral grading = 9"));
     show("too many cells", in("Bone", "set Cells = 2000, 2000, 2"));
     show("part of a homogeneous bond",
          turning,

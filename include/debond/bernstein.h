@@ -32,6 +32,10 @@ namespace Debond
     KnotVector(unsigned int degree, const std::vector<double> &knots);
     static KnotVector
     uniform(unsigned int degree, unsigned int n_spans);
+    /** Simple inner knots (1 + sign(s) |s|^g)/2 with g = @p grading and s
+     *  equally spaced in [-1,1]: g > 1 makes the spans in the middle short. */
+    static KnotVector
+    graded(unsigned int degree, unsigned int n_spans, double grading);
 
     unsigned int
     degree() const;

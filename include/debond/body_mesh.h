@@ -38,7 +38,7 @@ namespace Debond
   public:
     /** The bone is fixed at the bottom and held normal to its sides, contact
      *  face on top; the implant is held at its top, contact face at the bottom.
-     *  Both contact faces lie in z = 0. */
+     *  Both contact faces lie in z = 0; that of a cap touches it. */
     BodyMesh(const BodyParameters &parameters, BodySide side);
 
     const BodyParameters &
@@ -150,7 +150,7 @@ namespace Debond
     void
     make_constraints();
     double
-    layer_height(unsigned int layer) const;
+    layer_height(unsigned int layer, double height_of_face) const;
 
     const BodyParameters body_parameters;
     const BodySide       body_side;

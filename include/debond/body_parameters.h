@@ -14,7 +14,8 @@ namespace Debond
   enum class BodyShape
   {
     block,
-    coin
+    coin,
+    cap
   };
   enum class Material
   {
@@ -33,22 +34,30 @@ namespace Debond
   {
     BodyShape             shape = BodyShape::block;
     std::array<double, 3> size{{12.5, 12.5, 5}}; ///< block [mm]
-    double                radius = 2.5;          ///< coin [mm]
-    double                height = 3;            ///< coin [mm]
-    /** Number of cells in x, y, z; z along the axis (a coin's `Cells = n, m`
-     *  becomes n, n, m). */
+    double                radius     = 2.5;      ///< coin, cap [mm]
+    double                height     = 3;        ///< coin, cap: axis [mm]
+    double                cap_radius = 50;       ///< of the sphere [mm]
+    /** Number of cells in x, y, z; z along the axis (`Cells = n, m` of a coin
+     *  or a cap becomes n, n, m). */
     std::array<unsigned int, 3> cells{{15, 15, 2}};
+    double                      lateral_grading = 1; ///< block
     double                      layer_grading   = 1;
     Material                    material        = Material::neo_hookean;
     double                      young_modulus   = 18000; ///< [MPa]
     double                      poisson_ratio   = 0.3;
     SurfaceKind                 contact_surface = SurfaceKind::nurbs;
 
-    /** Height of the body [mm]. */
+    /** Whether the body is a disk seen from above: a coin or a cap. */
+    bool
+    is_round() const;
+    /** Height of the body on its axis [mm]. */
     double
     thickness() const;
-    /** Radius of a coin, half the shorter side of a block [mm]: the `R` of
-     *  expressions and of length tolerances. */
+    /** Height of the rim of the contact face above its centre [mm]. */
+    double
+    rise() const;
+    /** Radius of a coin or a cap, half the shorter side of a block [mm]: the
+     * `R` of expressions and of length tolerances. */
     double
     characteristic_radius() const;
 

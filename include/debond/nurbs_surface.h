@@ -35,6 +35,11 @@ namespace Debond
    */
   using ControlNet = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
+  /** Height [mm] at the distance @p r from the axis of a sphere that touches
+   *  z = 0 at the origin from above. */
+  double
+  height_on_sphere(double r, double sphere_radius);
+
   /**
    * One NURBS patch with equal degree (1 or 2) in both directions: knots,
    * weights and the *reference* control points. Eqs. (34) and (35) of the
@@ -118,16 +123,26 @@ namespace Debond
     static NurbsSurface
     disk(double R, unsigned int n);
 
+    /** The disk with the heights of a sphere of radius @p cap_radius > @p R
+     *  that touches z = 0 at the origin from above. The control points stand
+     *  over those of the disk; the surface meets the sphere at the Greville
+     *  abscissae and leaves it by O(1/n^3) in between (one rational biquadratic
+     *  patch over the disk cannot be a part of a sphere). */
+    static NurbsSurface
+    cap(double R, double cap_radius, unsigned int n);
+
     /** The rectangle [-lx/2,lx/2] x [-ly/2,ly/2] in z = 0 of the given degree
-     *  (2 or 1) with n1 x n2 equal elements, weights 1, open knot vectors and
+     *  (2 or 1) with n1 x n2 elements, weights 1, open knot vectors and
      *  control points at the Greville abscissae, so that the map from
-     *  parameters to positions is affine. a_1 x a_2 points to +z. */
+     *  parameters to positions is affine, whatever the grading (see
+     *  KnotVector::graded()). a_1 x a_2 points to +z. */
     static NurbsSurface
     rectangle(double       lx,
               double       ly,
               unsigned int n1,
               unsigned int n2,
-              unsigned int degree = 2);
+              unsigned int degree  = 2,
+              double       grading = 1);
 
     /** Degree-1 surface with the same elements whose control points are the
      *  surface's points at the knots: the `bilinear` contact surface. */

@@ -54,9 +54,9 @@ print_variants(const std::string &text)
 std::map<std::string, std::vector<std::string>>
 read_study(const std::string &filename)
 {
-  std::ifstream            file(filename);
-  std::string              line, item;
-  std::vector<std::string> columns;
+  std::ifstream                                   file(filename);
+  std::string                                     line, item;
+  std::vector<std::string>                        columns;
   std::map<std::string, std::vector<std::string>> table;
   std::getline(file, line);
   for (std::istringstream items(line); std::getline(items, item, ',');)

@@ -31,6 +31,13 @@ namespace Debond
     void
     run(unsigned int n_jobs, bool force, std::ostream &out);
 
+    /** The directory of study.csv. */
+    const std::string &
+    result_directory() const
+    {
+      return directory;
+    }
+
     /** Says what would be run. */
     void
     check(std::ostream &out) const;

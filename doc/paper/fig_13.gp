@@ -1,0 +1,12 @@
+# Fig. 13: mean relative error over the load step on three meshes. Needs output/paper/table_7 (prm/paper/table_7.prm).
+load "doc/paper/style.gp"
+dir = "output/paper/table_7/"
+set output dir . "fig_13.png"
+set xlabel "Number of load steps"
+set ylabel "{/:Italic e}_{rel}, Eq. (50), against closed form (b)"
+set logscale x
+set yrange [0:*]
+set key bottom right
+array steps[6] = [100, 200, 500, 1000, 2000, 2500]
+plot for [mesh=1:3] dir . "study.csv" using (int(column("variant") - 1) % 3 == mesh - 1 ? steps[int(column("variant") - 1) / 3 + 1] : NaN):"e_rel" \
+  with linespoints pointtype 6 + mesh linewidth 2 title word("coarse medium fine", mesh)

@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# Makes tables and figures of the paper again: doc/paper/reproduce.sh NAME...
+#   NAME: table_3 table_4_set_1 table_4_set_2 table_5 table_7 table_7_meshes table_7_steps table_7_layers
+#         contradictions fig_1 fig_3_12 fig_4 fig_5_6 fig_13 all
+# Results go to output/paper; what is there already is not run again.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+debond=${DEBOND:-build/release/debond}
+[[ -x $debond ]] || { echo "reproduce.sh: there is no $debond: build the program first, or set DEBOND" >&2; exit 1; }
+
+run() { "$debond" "prm/paper/$1.prm"; }
+picture() { gnuplot "doc/paper/$1.gp" && echo "Picture: output/paper/$2"; }
+
+reproduce() {
+  case $1 in
+    fig_1) run fig_1; picture fig_1 fig_1/fig_1.png ;;
+    fig_3_12) run fig_3_12; picture fig_3_12 fig_3_12/fig_3_12.png ;;
+    fig_4) run table_5; picture fig_4 table_5/fig_4.png ;;
+    fig_5_6) run fig_5_6; picture fig_5_6 "fig_5_6/fig_5.png and fig_6.png" ;;
+    fig_13) run table_7; picture fig_13 table_7/fig_13.png ;;
+    all)
+      local name
+      for name in contradictions table_3 table_4_set_1 table_4_set_2 fig_4 fig_1 fig_3_12 fig_5_6 table_7_meshes \
+        table_7_steps table_7_layers fig_13; do
+        reproduce "$name"
+      done
+      ;;
+    *)
+      if [[ ! -f prm/paper/$1.prm ]]; then
+        echo "reproduce.sh: unknown name '$1'; the names stand at the top of this script" >&2
+        exit 1
+      fi
+      run "$1"
+      ;;
+  esac
+}
+
+if (($# == 0)); then sed -n '2,5s/^# //p' "$0"; exit 1; fi
+for name in "$@"; do reproduce "$name"; done

@@ -176,10 +176,10 @@ namespace Debond
     std::string
     how_many(const unsigned int min_count, const unsigned int max_count)
     {
-      if (min_count == max_count)
-        return std::to_string(min_count);
       if (max_count == 0)
         return std::to_string(min_count) + " or more";
+      if (min_count == max_count)
+        return std::to_string(min_count);
       return std::to_string(min_count) + " to " + std::to_string(max_count);
     }
   } // namespace

@@ -175,15 +175,15 @@ namespace Debond
   {
     const double phi_0 = initial_bonding(r);
     Point        here;
-    here.slip = slip(r, theta);
-    // In stick as in slip the elastic part of the path makes the traction.
-    here.traction          = std::copysign(parameters.tangential_penalty *
-                                    (r * std::abs(theta) - here.slip),
-                                  theta);
+    here.slip              = slip(r, theta);
     here.sticks            = here.slip == 0.;
     const auto coefficient = friction_coefficient(friction, phi_0, here.slip);
     here.phi               = coefficient.phi;
     here.mu                = coefficient.mu;
+    here.traction = std::copysign(here.sticks ? parameters.tangential_penalty *
+                                                  r * std::abs(theta) :
+                                                here.mu * p,
+                                  theta);
     return here;
   }
 

@@ -1,5 +1,6 @@
 #include <debond/closed_form_problem.h>
 #include <debond/debonding_problem.h>
+#include <debond/input_error.h>
 #include <debond/problem.h>
 
 namespace Debond
@@ -9,6 +10,13 @@ namespace Debond
   {
     if (scene.model == ModelKind::finite_elements)
       return std::make_unique<DebondingProblem>(scene);
-    return std::make_unique<ClosedFormProblem>(scene);
+    try
+      {
+        return std::make_unique<ClosedFormProblem>(scene);
+      }
+    catch (const InputError &error)
+      {
+        throw InputError(scene.with_place(error.what()));
+      }
   }
 } // namespace Debond

@@ -417,6 +417,8 @@ namespace Debond
     apply_entries(entries, prm);
 
     Scene scene;
+    scene.entries = entries;
+    scene.name    = name;
     try
       {
         scene.parse(prm);
@@ -434,6 +436,21 @@ namespace Debond
                            dealii::ParameterHandler::KeepDeclarationOrder);
     scene.completed_parameters = completed.str();
     return scene;
+  }
+
+
+
+  std::string
+  Scene::with_place(const std::string &message) const
+  {
+    for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry)
+      {
+        const std::string beginning = entry->full_name() + ":";
+        if (message.compare(0, beginning.size(), beginning) == 0)
+          return entry->place + ": " + entry->full_name() + " = '" +
+                 entry->value + "'" + message.substr(beginning.size() - 1);
+      }
+    return name + ": " + message;
   }
 
 

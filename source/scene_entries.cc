@@ -281,7 +281,8 @@ namespace Debond
       for (const std::string &item : items)
         if (is_list && !read_number(item, number))
           return "; '" + item + "' is no number";
-      if (is_list && items.size() != std::strtoul(allowed.c_str(), nullptr, 10))
+      if (is_list && allowed.find(" or more ") == std::string::npos &&
+          items.size() != std::strtoul(allowed.c_str(), nullptr, 10))
         return "; here are " + std::to_string(items.size());
       return "";
     }

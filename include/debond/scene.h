@@ -52,6 +52,17 @@ namespace Debond
     StudyParameters        study;
     OutputParameters       output;
 
+    /** The entries that the scene sets, and its name: where to look for a
+     *  mistake. */
+    std::vector<SceneEntry> entries;
+    std::string             name;
+
+    /** @p message, which begins with the name of an entry and a colon, with
+     * file and line before it and the value of the entry after its name; with
+     * the name of the scene if it does not set the entry. */
+    std::string
+    with_place(const std::string &message) const;
+
     /** All entries, completed with defaults, as a `.prm` text that gives the
      *  same scene again. Filled when the scene is read. */
     std::string completed_parameters;

@@ -36,7 +36,7 @@ double
 integral(const Function &f, const double from, const double to)
 {
   return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(
-    f, from, to, 20, 1e-12);
+    f, from, to, 10, 1e-10);
 }
 
 

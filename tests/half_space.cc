@@ -1,7 +1,8 @@
 // Exact solutions of contact on half spaces: partial slip in torsion by
 // quadrature against closed forms and against an independent computation, its
 // tractions against its torque, limits, inverse; Hertz, Cattaneo and Mindlin;
-// the wedge. Their published curves in prm/verification/data are theirs.
+// the wedge; full stick through an elastic layer. The curves in
+// prm/verification/data are theirs.
 
 #include <debond/half_space.h>
 #include <debond/torque_curve.h>
@@ -286,6 +287,71 @@ check_hertz_and_mindlin()
 
 
 
+/** Full stick through an elastic layer: between bounds that meet for a soft
+ *  layer, and Reissner's and Sagoci's value for a stiff one. */
+void
+check_elastic_layer()
+{
+  const double rigid = reissner_sagoci_torque(G, R, 1.);
+  double       low = -1., high = -1., rises = -1., last = 0.;
+  for (const double eps : {1., 100., 1e3, 1e4, 1e5, 1e6, 1e8})
+    {
+      const double T = reissner_sagoci_torque(G, R, 1., eps);
+      // from above: the face below the disk turns like a rigid one
+      const double layer = pi / 2. * eps * std::pow(R, 4);
+      grow(high, T * (1. / rigid + 1. / layer) - 1.);
+      // from below: the traction is proportional to r
+      const double traction =
+        pi * pi / 4. * std::pow(R, 8) /
+        (8. / 15. * std::pow(R, 5) / G + pi / 2. * std::pow(R, 4) / eps);
+      grow(low, traction / T - 1.);
+      grow(rises, last / T - 1.);
+      last = T;
+    }
+  report("elastic layer: excess over the upper bound", high, 1e-6);
+  report("elastic layer: deficit to the lower bound", low, 1e-6);
+  report("elastic layer: fall with the stiffness", rises, 0.);
+  report("elastic layer: stiff",
+         relative(reissner_sagoci_torque(G, R, 1., 1e13), rigid),
+         2e-5);
+  report("elastic layer: independent of the units",
+         relative(reissner_sagoci_torque(8. * G, 0.5 * R, 1., 160000.),
+                  reissner_sagoci_torque(G, R, 1., 10000.)),
+         1e-12);
+  // the values that the scene tests/verification/reissner_sagoci.prm expects
+  const double bone = 18000. / 2.6, angle = 0.01 * pi / 180.;
+  report("elastic layer: 1e5 MPa/mm [N mm]",
+         std::abs(reissner_sagoci_torque(bone, 2.5, angle, 1e5) - 88.397),
+         2e-3);
+}
+
+
+
+/** The curves that scenes are compared with. */
+void
+check_published_curves()
+{
+  const std::string directory = DEBOND_SOURCE_DIR "/prm/verification/data/";
+  const double      bone = 18000. / 2.6, radius = 2.5, q = 0.1;
+  const TorsionalPartialSlip problem(radius, bone, uniform_limit(q));
+  double                     stick = 0, slip = 0;
+  const auto                 stick_rows =
+    read_reference_curve(directory + "reissner_sagoci.csv");
+  const auto slip_rows =
+    read_reference_curve(directory + "torsional_partial_slip.csv");
+  for (const auto &[angle, torque] : stick_rows)
+    grow(stick,
+         std::abs(reissner_sagoci_torque(bone, radius, angle * pi / 180.) -
+                  torque));
+  for (const auto &[angle, torque] : slip_rows)
+    grow(slip, std::abs(problem.torque(angle * pi / 180.) - torque));
+  report("reissner_sagoci.csv [N mm]", stick, 1e-9);
+  report("torsional_partial_slip.csv [N mm]", slip, 1e-9);
+  report("rows", stick_rows.size() == 11 && slip_rows.size() == 26);
+}
+
+
+
 int
 main()
 {
@@ -293,4 +359,6 @@ main()
   check_singular_and_hertz_limits();
   check_traction();
   check_hertz_and_mindlin();
+  check_elastic_layer();
+  check_published_curves();
 }

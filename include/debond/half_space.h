@@ -35,6 +35,25 @@ namespace Debond
   double
   reissner_sagoci_torque(double shear_modulus, double radius, double angle);
 
+  /** The same if half space and disk are joined by a tangentially elastic layer
+   *  of stiffness eps_t [MPa/mm], as they are by the interface of this program
+   *  while it sticks; the relative error is below 2e-5.
+   *
+   *  With the traction written as a sum of rigid rotations of smaller disks,
+   *  tau(r) = 4 G r/pi int_r^R g(s) / sqrt(s^2 - r^2) ds, displacement plus
+   *  tau/eps_t being theta r becomes
+   *
+   *    int_r^R g ds + 2/pi int_0^r g [asin x - x sqrt(1 - x^2)] ds, x = s/r,
+   *    + 4 G / (pi eps_t) int_r^R g / sqrt(s^2 - r^2) ds = theta,
+   *
+   *  and T = 16/3 G int_0^R g s^3 ds. It is solved by collocation for a
+   *  piecewise constant g, on intervals that become short towards the edge. */
+  double
+  reissner_sagoci_torque(double shear_modulus,
+                         double radius,
+                         double angle,
+                         double tangential_penalty);
+
 
 
   /**

@@ -64,6 +64,8 @@ command -v "$calculix_input" > /dev/null ||
   fail "$calculix_input not found: build it with cmake --build --preset release --target calculix_input," \
     "or set CALCULIX_INPUT"
 
+ccx=$(realpath "$(command -v "$ccx")") # it runs elsewhere
+
 if [ -z "$directory" ]; then
   directory=$(mktemp -d)
   trap 'rm -rf "$directory"' EXIT
@@ -72,14 +74,14 @@ else
   directory=$(cd "$directory" && pwd)
 fi
 
-# Runs a command, which prints into a file, and sets $seconds: of the processor,
-# so that other work on the machine matters less.
+# timed NAME COMMAND...: runs a command, which prints into NAME.log, and sets
+# $seconds: of the processor, so that other work on the machine matters less.
 timed() {
-  local log=$1 TIMEFORMAT="%U %S"
+  local name=$1 log=$directory/$1.log TIMEFORMAT="%U %S"
   shift
   { time "$@" > "$log" 2>&1; } 2> "$directory/seconds" || {
     tail -n 20 "$log" >&2
-    fail "$1 failed; its last lines are above"
+    fail "$name failed; its last lines are above"
   }
   seconds=$(awk "{ printf \"%.1f\", \$1 + \$2 }" "$directory/seconds")
 }
@@ -89,8 +91,10 @@ rm -f "$directory"/calculix.*
 run_calculix() (
   cd "$directory" && exec "$ccx" calculix
 )
-timed "$directory/calculix.log" run_calculix
+timed calculix run_calculix
 seconds_calculix=$seconds
+
+version=$("$ccx" -v | awk '{ for (i = 1; i < NF; ++i) if ($i == "Version") print $(i + 1) }') || true
 
 # Force and torque from the reactions of the top nodes. The first file gives
 # their places and, in a comment before each step, time and angle.
@@ -123,7 +127,7 @@ awk '
 
 # The same columns from torque.csv, whose row of the first time CalculiX has not.
 for surface in nurbs bilinear; do
-  timed "$directory/$surface.log" "$debond" "$scene" "${sets[@]}" --set "Output/Directory=$directory/$surface" --force \
+  timed "debond_$surface" "$debond" "$scene" "${sets[@]}" --set "Output/Directory=$directory/$surface" --force \
     --set "Output/Fields every=0" --set "Bone/Contact surface=$surface" --set "Implant/Contact surface=$surface"
   declare "seconds_$surface=$seconds"
   awk -F, '
@@ -133,20 +137,21 @@ for surface in nurbs bilinear; do
 done
 
 # Forces are compared in steps without rotation and at the end, torques where
-# the implant is turned. Differences of values near
-# zero mean nothing: they are taken relative to at least a hundredth of the
-# largest value.
-awk -F, -v seconds="$seconds_calculix $seconds_nurbs $seconds_bilinear" -v within="$within" \
-  -v nurbs_within="$nurbs_within" '
+# the implant is turned. Differences are relative to CalculiX, near zero to a
+# tenth of its largest value (or 0.01 mm times the force).
+awk -F, -v header="CalculiX $version ($element) and debond: $scene" \
+  -v seconds="$seconds_calculix $seconds_nurbs $seconds_bilinear" \
+  -v within="$within" -v nurbs_within="$nurbs_within" '
   function abs(x) { return x < 0 ? -x : x }
+  function max(x, y) { return x > y ? x : y }
   function percent(value, reference, scale) {
-    scale = abs(reference) > 0.01 * largest ? abs(reference) : 0.01 * largest
+    scale = max(abs(reference), max(0.1 * largest, 0.01 * largest_force))
     return scale > 0 ? 100 * (value - reference) / scale : 0
   }
   function table(title, first_column,     i, k, d, is_turned) {
     largest = 0
-    for (i = 1; i <= n; ++i)
-      if (abs(v[1, i, first_column]) > largest) largest = abs(v[1, i, first_column])
+    for (i = 1; i <= n; ++i) largest = max(largest, abs(v[1, i, first_column]))
+    if (first_column == 3) largest_force = largest
     printf "%-10s %10s %10s | %10s %9s | %10s %9s\n",
       title, "angle", "CalculiX", "nurbs", "diff [%]", "bilinear", "diff [%]"
     for (i = 1; i <= n; ++i)
@@ -155,8 +160,7 @@ awk -F, -v seconds="$seconds_calculix $seconds_nurbs $seconds_bilinear" -v withi
         if (first_column == 4 ? v[1, i, 2] == 0 : is_turned && i < n) continue
         d[2] = percent(v[2, i, first_column], v[1, i, first_column])
         d[3] = percent(v[3, i, first_column], v[1, i, first_column])
-        for (k = 2; k <= 3; ++k)
-          if (abs(d[k]) > worst[k]) worst[k] = abs(d[k])
+        for (k = 2; k <= 3; ++k) worst[k] = max(worst[k], abs(d[k]))
         printf "%-10s %10.4g %10.4f | %10.4f %+9.3f | %10.4f %+9.3f\n", "", v[1, i, 2],
           v[1, i, first_column], v[2, i, first_column], d[2], v[3, i, first_column], d[3]
       }
@@ -166,6 +170,7 @@ awk -F, -v seconds="$seconds_calculix $seconds_nurbs $seconds_bilinear" -v withi
   END {
     n = count[1]
     if (count[2] != n || count[3] != n) { print "compare.sh: the programs gave different numbers of rows"; exit 1 }
+    print header
     table("F [N]", 3)
     table("T [N mm]", 4)
     split(seconds, s, " ")

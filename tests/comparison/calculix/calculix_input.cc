@@ -1,0 +1,331 @@
+// Writes a scene as an input of CalculiX: the same cells, materials, boundary
+// conditions and load steps, the interface as surface-to-surface penalty
+// contact. See README.md here for what is the same and what is not.
+
+#include <debond/body_mesh.h>
+#include <debond/chuck.h>
+#include <debond/input_error.h>
+#include <debond/load_stepping.h>
+#include <debond/runtime.h>
+#include <debond/scene.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace
+{
+  using namespace Debond;
+
+  const char *const help_text =
+    R"(usage: calculix_input [OPTIONS] SCENE.prm OUTPUT.inp
+
+Writes a scene of debond as an input of CalculiX.
+
+  --set ENTRY=VALUE   override an entry of the scene; may be repeated
+  --element TYPE      element of CalculiX: C3D8 (default), C3D8I or C3D8R
+  --help              print this text
+)";
+
+
+
+  /** Refuses what CalculiX has no counterpart for. */
+  void
+  check(const Scene &scene)
+  {
+    const std::string cannot = "calculix_input: cannot translate ";
+
+    const FrictionParameters &friction = scene.interface.friction;
+    const BondingParameters  &bonding  = scene.interface.bonding;
+    if (friction.kind == FrictionLawKind::modified_coulomb &&
+        friction.mu_broken != friction.mu_unbroken &&
+        bonding.initial_bonding != 0 && bonding.bonded_fraction != 0)
+      throw InputError(cannot +
+                       "a friction coefficient that changes with sliding: "
+                       "expected Interface / Friction law = coulomb or "
+                       "frictionless, or equal coefficients");
+    if (friction.kind != FrictionLawKind::frictionless &&
+        friction.starts_at > scene.load_steps.times.front())
+      throw InputError(cannot +
+                       "Interface / Friction starts at after the first time");
+
+    const std::array<const BodyParameters *, 2> bodies{
+      {&scene.bone, &scene.implant}};
+    for (const BodyParameters *body : bodies)
+      if (body->material == Material::rigid)
+        throw InputError(cannot + "Material = rigid of the " +
+                         (body == &scene.bone ? "bone" : "implant") +
+                         ": expected linear or neo-hookean");
+  }
+
+
+
+  /** CalculiX reads at most 20 characters of a number. */
+  std::string
+  to_text(const double number)
+  {
+    char text[32];
+    std::snprintf(text, sizeof(text), "%.12e", number);
+    return text;
+  }
+
+
+
+  /** Both bodies in one numbering: CalculiX counts from 1, bone first. */
+  class Input
+  {
+  public:
+    Input(const Scene &scene, const std::string &element)
+      : scene(scene)
+      , element(element)
+      , bone(scene.bone, BodySide::bone)
+      , implant(scene.implant, BodySide::implant)
+      , chuck(scene.chuck,
+              {0, 0, scene.implant.thickness()},
+              scene.implant.characteristic_radius())
+      , stepping(scene.load_steps)
+    {
+      if (!chuck.unknowns().empty())
+        throw InputError(
+          "calculix_input: cannot translate Chuck / " +
+          std::string(ChuckParameters::names[chuck.unknowns().front()]) +
+          " being loaded or compliant: expected a prescribed "
+          "value");
+      if (!chuck.values(stepping.time(0)).isZero())
+        throw InputError("calculix_input: CalculiX starts from bodies at rest: "
+                         "all components of Chuck must be 0 at the first time");
+      for (unsigned int step = 1; step <= stepping.n_steps(); ++step)
+        if (!chuck.values(stepping.time(step)).segment<2>(3).isZero())
+          throw InputError("calculix_input: only rotations about z are "
+                           "compared: expected Chuck / Rotation x and y = 0");
+    }
+
+    void
+    write(std::ostream &out)
+    {
+      out << "** " << (scene.title.empty() ? "a scene of debond" : scene.title)
+          << "\n** Written by calculix_input. Units: mm, N, MPa.\n";
+      write_nodes(out);
+      write_elements(out, bone, "BONE", 0);
+      write_elements(out, implant, "IMPLANT", bone.cells().size());
+      write_material(out, scene.bone, "BONE");
+      write_material(out, scene.implant, "IMPLANT");
+      write_contact(out);
+      write_fixed_nodes(out);
+      for (unsigned int step = 1; step <= stepping.n_steps(); ++step)
+        write_step(out, step);
+    }
+
+  private:
+    unsigned int
+    number(const BodyMesh &body, const unsigned int vertex) const
+    {
+      return 1 + vertex + (&body == &implant ? bone.n_vertices() : 0);
+    }
+
+    bool
+    is_at(const BodyMesh &body, const unsigned int vertex, const double z) const
+    {
+      return std::abs(body.reference_position(vertex)[2] - z) <
+             1e-9 * body.parameters().thickness();
+    }
+
+    std::vector<unsigned int>
+    top_of_implant() const
+    {
+      std::vector<unsigned int> vertices;
+      for (unsigned int vertex = 0; vertex < implant.n_vertices(); ++vertex)
+        if (is_at(implant, vertex, scene.implant.thickness()))
+          vertices.push_back(vertex);
+      return vertices;
+    }
+
+    void
+    write_nodes(std::ostream &out) const
+    {
+      out << "*NODE\n";
+      for (const BodyMesh *body : {&bone, &implant})
+        for (unsigned int vertex = 0; vertex < body->n_vertices(); ++vertex)
+          {
+            const Eigen::Vector3d &X = body->reference_position(vertex);
+            out << number(*body, vertex) << ", " << to_text(X[0]) << ", "
+                << to_text(X[1]) << ", " << to_text(X[2]) << '\n';
+          }
+      out << "*NSET, NSET=TOP\n";
+      for (const unsigned int vertex : top_of_implant())
+        out << number(implant, vertex) << '\n';
+    }
+
+    // deal.II counts vertices lexicographically, CalculiX around the lower
+    // and then around the upper face, which are its faces S1 and S2
+    void
+    write_elements(std::ostream      &out,
+                   const BodyMesh    &body,
+                   const std::string &name,
+                   const unsigned int n_before) const
+    {
+      constexpr std::array<unsigned int, 8> order{{0, 1, 3, 2, 4, 5, 7, 6}};
+      out << "*ELEMENT, TYPE=" << element << ", ELSET=" << name << '\n';
+      for (unsigned int cell = 0; cell < body.cells().size(); ++cell)
+        {
+          out << 1 + n_before + cell;
+          for (const unsigned int v : order)
+            out << ", " << number(body, body.cells()[cell].vertices[v]);
+          out << '\n';
+        }
+      out << "*SURFACE, TYPE=ELEMENT, NAME=FACE_OF_" << name << '\n';
+      for (unsigned int cell = 0; cell < body.cells().size(); ++cell)
+        if (body.cells()[cell].enriched)
+          out << 1 + n_before + cell
+              << (body.side() == BodySide::bone ? ", S2\n" : ", S1\n");
+    }
+
+    void
+    write_material(std::ostream         &out,
+                   const BodyParameters &body,
+                   const std::string    &name) const
+    {
+      const double E = body.young_modulus, nu = body.poisson_ratio;
+      out << "*MATERIAL, NAME=" << name << '\n';
+      if (body.material == Material::linear)
+        out << "*ELASTIC\n" << to_text(E) << ", " << to_text(nu) << '\n';
+      else
+        out << "*HYPERELASTIC, NEO HOOKE\n"
+            << to_text(E / (4 * (1 + nu))) << ", "
+            << to_text(6 * (1 - 2 * nu) / E) << '\n';
+      out << "*SOLID SECTION, ELSET=" << name << ", MATERIAL=" << name << '\n';
+    }
+
+    void
+    write_contact(std::ostream &out) const
+    {
+      const InterfaceParameters &interface = scene.interface;
+      const FrictionParameters  &friction  = interface.friction;
+      const bool slave_is_implant = interface.slave == SlaveSide::implant;
+      // The tension behind the slope means nothing for this type of contact.
+      out << "*SURFACE INTERACTION, NAME=INTERFACE\n"
+             "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n"
+          << to_text(interface.normal_penalty) << ", 1.\n";
+      if (friction.kind != FrictionLawKind::frictionless &&
+          friction.mu_broken > 0)
+        out << "*FRICTION\n"
+            << to_text(friction.mu_broken) << ", "
+            << to_text(interface.tangential_penalty) << '\n';
+      out << "*CONTACT PAIR, INTERACTION=INTERFACE, TYPE=SURFACE TO SURFACE\n"
+          << (slave_is_implant ? "FACE_OF_IMPLANT, FACE_OF_BONE\n" :
+                                 "FACE_OF_BONE, FACE_OF_IMPLANT\n");
+    }
+
+    // As BodyMesh does, but for the vertices of the contact face themselves.
+    void
+    write_fixed_nodes(std::ostream &out) const
+    {
+      const double height = scene.bone.thickness();
+      out << "*BOUNDARY\n";
+      for (unsigned int vertex = 0; vertex < bone.n_vertices(); ++vertex)
+        {
+          const Eigen::Vector3d &X = bone.reference_position(vertex);
+          const unsigned int     n = number(bone, vertex);
+          if (is_at(bone, vertex, -height))
+            out << n << ", 1, 3\n";
+          else
+            for (unsigned int d = 0; d < 2; ++d)
+              if (std::abs(X[d]) > scene.bone.size[d] / 2 * (1 - 1e-9))
+                out << n << ", " << d + 1 << ", " << d + 1 << '\n';
+        }
+    }
+
+    // One step of CalculiX for each planned step: its end is hit exactly, and
+    // the last increment, the one that is printed, is always that end.
+    void
+    write_step(std::ostream &out, const unsigned int step)
+    {
+      const double time     = stepping.time(step);
+      const double duration = time - stepping.time(step - 1);
+      chuck.prescribe(time);
+      out << "** step, time, angle [deg]: " << step << ' ' << to_text(time)
+          << ' ' << to_text(chuck.position()[5] * 180 / M_PI) << '\n'
+          << "*STEP, NLGEOM, INC=10000\n"
+             "*STATIC\n"
+          << to_text(duration) << ", " << to_text(duration) << "\n*BOUNDARY\n";
+      for (const unsigned int vertex : top_of_implant())
+        {
+          const Eigen::Vector3d &X = implant.reference_position(vertex);
+          const Eigen::Vector3d  u = chuck.map(X, Eigen::Vector3d::Zero()) - X;
+          for (unsigned int d = 0; d < 3; ++d)
+            out << number(implant, vertex) << ", " << d + 1 << ", " << d + 1
+                << ", " << to_text(u[d]) << '\n';
+        }
+      out << "*NODE PRINT, NSET=TOP, FREQUENCY=10000\nRF\n*END STEP\n";
+    }
+
+    const Scene        scene;
+    const std::string  element;
+    const BodyMesh     bone, implant;
+    Chuck              chuck;
+    const LoadStepping stepping;
+  };
+
+
+
+  void
+  act(const std::vector<std::string> &words)
+  {
+    std::vector<std::string> files, overrides;
+    std::string              element = "C3D8";
+    for (std::size_t i = 0; i < words.size(); ++i)
+      if (words[i] == "--help")
+        {
+          std::cout << help_text;
+          return;
+        }
+      else if ((words[i] == "--set" || words[i] == "--element") &&
+               i + 1 < words.size())
+        {
+          const bool is_set = words[i] == "--set";
+          ++i;
+          if (is_set)
+            overrides.push_back(words[i]);
+          else
+            element = words[i];
+        }
+      else if (words[i].substr(0, 1) == "-")
+        throw InputError("calculix_input: unknown option or missing value '" +
+                         words[i] + "' (see calculix_input --help)");
+      else
+        files.push_back(words[i]);
+    if (files.size() != 2)
+      throw InputError("calculix_input: a scene and a file to write are needed "
+                       "(see calculix_input --help)");
+
+    const Scene scene = Scene::from_file(files[0], overrides);
+    check(scene);
+    std::ostringstream text;
+    Input(scene, element).write(text);
+    write_file(files[1], text.str());
+  }
+} // namespace
+
+
+
+int
+main(int argc, char *argv[])
+{
+  Debond::set_up_libraries();
+  try
+    {
+      act({argv + 1, argv + argc});
+      return 0;
+    }
+  catch (const std::exception &error)
+    {
+      std::cerr << error.what() << std::endl;
+      return 1;
+    }
+}

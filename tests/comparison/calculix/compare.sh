@@ -92,7 +92,7 @@ run_calculix() (
   cd "$directory" && exec "$ccx" calculix
 )
 timed calculix run_calculix
-seconds_calculix=$seconds
+all_seconds=$seconds
 
 version=$("$ccx" -v | awk '{ for (i = 1; i < NF; ++i) if ($i == "Version") print $(i + 1) }') || true
 
@@ -129,7 +129,7 @@ awk '
 for surface in nurbs bilinear; do
   timed "debond_$surface" "$debond" "$scene" "${sets[@]}" --set "Output/Directory=$directory/$surface" --force \
     --set "Output/Fields every=0" --set "Bone/Contact surface=$surface" --set "Implant/Contact surface=$surface"
-  declare "seconds_$surface=$seconds"
+  all_seconds+=" $seconds"
   awk -F, '
     FNR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i; next }
     FNR > 2 { print $column["time"] "," $column["angle_deg"] "," $column["force_N"] "," $column["torque_Nmm"] }
@@ -140,8 +140,7 @@ done
 # the implant is turned. Differences are relative to CalculiX, near zero to a
 # tenth of its largest value (or 0.01 mm times the force).
 awk -F, -v header="CalculiX $version ($element) and debond: $scene" \
-  -v seconds="$seconds_calculix $seconds_nurbs $seconds_bilinear" \
-  -v within="$within" -v nurbs_within="$nurbs_within" '
+  -v seconds="$all_seconds" -v within="$within" -v nurbs_within="$nurbs_within" '
   function abs(x) { return x < 0 ? -x : x }
   function max(x, y) { return x > y ? x : y }
   function percent(value, reference, scale) {

@@ -437,6 +437,7 @@ namespace Debond
       pressure_before_rotation(rows, rotation, settings.phase_times);
     measures.D_adh_Nm       = 1e-3 * rows.back().adhesive_work_Nmm;
     measures.dissipation_Nm = 1e-3 * rows.back().dissipation_Nmm;
+    measures.force_end_N    = rows.back().force_N;
     measures.work_Nm        = 1e-3 * rows.back().work_Nmm;
     measures.E_bulk_Nm      = 1e-3 * rows.back().energy_bulk_Nmm;
     measures.E_interface_Nm = 1e-3 * rows.back().energy_interface_Nmm;
@@ -509,6 +510,7 @@ namespace Debond
     json.add("condensed_unknowns", summary.condensed_unknowns);
     json.add("peak_memory_MB", summary.peak_memory_MB);
     json.add("reference_rows_used", m.reference_rows_used);
+    json.add("force_end_N", m.force_end_N);
     json.add("work_Nm", m.work_Nm);
     json.add("E_bulk_Nm", m.E_bulk_Nm);
     json.add("E_interface_Nm", m.E_interface_Nm);

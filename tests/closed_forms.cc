@@ -10,7 +10,7 @@
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/numbers.h>
 
-#include <boost/math/quadrature/tanh_sinh.hpp>
+#include <boost/math/quadrature/gauss.hpp>
 
 #include <cmath>
 #include <iostream>
@@ -267,28 +267,28 @@ check_mathieu()
   parameters.shear_modulus   = 40;
   parameters.adhesion_energy = 0.07;
   parameters.friction_stress = 1.1;
-  const MathieuTorsion                       form(parameters);
-  boost::math::quadrature::tanh_sinh<double> integrator;
-  double                                     inverse = 0, torque = 0;
+  const MathieuTorsion form(parameters);
+  double               inverse = 0, torque = 0;
   for (const double c : {2.4, 2., 1.3, 0.6, 0.1})
     {
       const double theta = form.angle(c);
       keep_largest(inverse, std::abs(form.stick_radius(theta) / c - 1.));
       // r = c sin(s) takes the singularity at the tip away
-      const double inside = integrator.integrate(
-        [&](const double s) {
-          const double r = c * std::sin(s);
-          return r * r * form.point(r, theta).traction * c * std::cos(s);
-        },
-        0.,
-        pi / 2 * (1 - 1e-9));
+      const double inside =
+        boost::math::quadrature::gauss<double, 30>::integrate(
+          [&](const double s) {
+            const double r = c * std::sin(s);
+            return r * r * form.point(r, theta).traction * c * std::cos(s);
+          },
+          0.,
+          pi / 2);
       const double outside = 1.1 * (std::pow(2.5, 3) - std::pow(c, 3)) / 3.;
       keep_largest(torque,
                    std::abs(form.torque(theta) / (2 * pi * (inside + outside)) -
                             1.));
     }
   report("Eq. (14) and its inverse, relative", inverse, 1e-12);
-  report("Eq. (37) of Eqs. (15) and (16), relative", torque, 1e-7);
+  report("Eq. (37) of Eqs. (15) and (16), relative", torque, 1e-9);
   const double start = form.angle(2.5);
   report("Reissner-Sagoci before the crack, relative",
          std::abs(form.torque(start / 3) /

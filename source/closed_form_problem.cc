@@ -228,15 +228,20 @@ namespace Debond
         parameters.phi_0        = bonding.initial_bonding;
         parameters.friction     = friction;
         if (given.full_sliding < given.linear_limit)
-          refuse(scene,
-                 "Closed form / Full sliding angle",
-                 "this is less than Linear limit angle");
+          {
+            std::ostringstream why;
+            why << "Closed form / Linear limit angle: " << given.linear_limit
+                << " deg is more than Full sliding angle, "
+                << given.full_sliding << " deg";
+            throw InputError(why.str());
+          }
         model = std::make_unique<AnalyticalTorsion>(parameters);
       }
     else
       {
         MathieuTorsion::Parameters parameters;
         parameters.radius          = R;
+        parameters.pressure        = p;
         parameters.shear_modulus   = given.shear_modulus;
         parameters.adhesion_energy = 1e-3 * given.adhesion_energy; // N/mm
         parameters.friction_stress =
@@ -349,7 +354,10 @@ namespace Debond
     settings.reference   = read_reference_curve(scene.output.reference_curve);
 
     RunSummary summary;
-    summary.measures       = measure_torque_curve(torque_rows, settings);
+    summary.measures = measure_torque_curve(torque_rows, settings);
+    if (misses_reference(summary.measures, settings))
+      console.warn("reference",
+                   "no row of the reference curve could be compared with");
     summary.steps          = torque_rows.size() - 1;
     summary.converged      = true;
     summary.reason         = "all planned steps are done";

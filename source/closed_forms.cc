@@ -84,8 +84,9 @@ namespace Debond
         p * adhesive_strength(friction, initial_bonding(r), 0., here.slip);
       sum.torque += r * here.traction * dA;
       sum.phi_mean += here.phi * dA / (pi * R * R);
-      sum.stored_energy +=
-        0.5 * here.traction * here.traction / stiffness() * dA;
+      if (here.traction != 0.) // else the stiffness may be zero, too
+        sum.stored_energy +=
+          0.5 * here.traction * here.traction / stiffness() * dA;
       sum.adhesive_work += adhesive * dA;
       sum.dissipation += (adhesive + mu_without_bond * p * here.slip) * dA;
     };
@@ -242,7 +243,8 @@ namespace Debond
   AnalyticalTorsion::slip_per_radius(const double theta) const
   {
     const double angle = std::abs(theta);
-    return angle < parameters.full_sliding ?
+    // the angle went from degrees to radians, as theta_max did
+    return angle < parameters.full_sliding * (1. - 1e-12) ?
              0. :
              angle - parameters.full_sliding + parameters.linear_limit;
   }
@@ -301,7 +303,7 @@ namespace Debond
 
 
   MathieuTorsion::MathieuTorsion(const Parameters &parameters)
-    : TorsionModel(parameters.radius, undefined, FrictionParameters())
+    : TorsionModel(parameters.radius, parameters.pressure, FrictionParameters())
     , parameters(parameters)
   {}
 
@@ -330,6 +332,8 @@ namespace Debond
     double inner = 0.5 * R;
     while (excess(inner) > 0. && inner > 1e-300)
       inner *= 0.5;
+    if (excess(inner) > 0.)
+      return 0.; // nothing sticks
     return zero_of(
       excess, inner, 2. * inner, excess(inner), excess(2. * inner));
   }
@@ -341,7 +345,7 @@ namespace Debond
   {
     const double c = stick_radius(theta);
     Point        here;
-    here.sticks = r <= c;
+    here.sticks = r <= c && c > 0.;
     here.phi    = here.sticks ? 1. : 0.;
     here.slip = here.mu = undefined;
     if (!here.sticks)
@@ -370,9 +374,9 @@ namespace Debond
     State        sum;
     sum.torque =
       c < R ?
-        8. / 3. * std::pow(c, 3) *
+        8. / 3. * std::pow(c, 2.5) *
             std::sqrt(pi * parameters.shear_modulus *
-                      parameters.adhesion_energy / c) +
+                      parameters.adhesion_energy) +
           4. / 3. * parameters.friction_stress * std::pow(R, 3) *
             (std::acos(k) + k * std::sqrt(1. - k * k)) :
         16. / 3. * parameters.shear_modulus * std::pow(R, 3) * std::abs(theta);

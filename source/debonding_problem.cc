@@ -381,7 +381,11 @@ namespace Debond
     settings.reference              = state->reference;
 
     RunSummary summary;
-    summary.measures          = measure_torque_curve(state->rows, settings);
+    summary.measures = measure_torque_curve(state->rows, settings);
+    if (converged && misses_reference(summary.measures, settings))
+      state->console.warn("reference",
+                          "no row of the reference curve could be compared "
+                          "with");
     summary.steps             = state->accepted_steps;
     summary.newton_iterations = state->newton_iterations;
     summary.dofs              = system.bone.mesh().n_dofs_as_published() +

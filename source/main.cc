@@ -167,7 +167,7 @@ Exit codes: 0 success, 1 wrong usage or scene, 2 the run failed, 3 internal erro
     std::vector<Debond::SceneEntry> entries =
       Debond::read_scene_file(arguments.scene_file);
     for (const std::string &text : arguments.overrides)
-      entries.push_back(Debond::read_override(text));
+      Debond::set_entry(entries, Debond::read_override(text));
     if (Debond::is_study(entries) &&
         arguments.action != Action::print_parameters)
       return run_study(entries, arguments);

@@ -15,29 +15,6 @@ namespace Debond
 
   namespace
   {
-    /** Each entry once, with the value that was set last. */
-    std::vector<SceneEntry>
-    last_values(const std::vector<SceneEntry> &entries)
-    {
-      std::vector<SceneEntry> result;
-      for (const SceneEntry &entry : entries)
-        {
-          const auto earlier =
-            std::find_if(result.begin(),
-                         result.end(),
-                         [&](const SceneEntry &other) {
-                           return other.full_name() == entry.full_name();
-                         });
-          if (earlier == result.end())
-            result.push_back(entry);
-          else
-            *earlier = entry;
-        }
-      return result;
-    }
-
-
-
     std::vector<std::string>
     split_at(const std::string &text, const std::string &separator)
     {
@@ -103,7 +80,11 @@ namespace Debond
         refuse(entry, "a named choice takes | between its values, not ||");
       for (const std::string &item :
            split_at(inside, choice.by_run ? "||" : "|"))
-        choice.values.push_back(trim(prefix + item + suffix));
+        {
+          if (item.find('|') != std::string::npos)
+            refuse(entry, "either | or || between all values");
+          choice.values.push_back(trim(prefix + item + suffix));
+        }
       return choice;
     }
 
@@ -187,7 +168,7 @@ namespace Debond
   varied_entries(const std::vector<SceneEntry> &entries)
   {
     std::vector<SceneEntry> result;
-    for (const SceneEntry &entry : last_values(entries))
+    for (const SceneEntry &entry : entries)
       if (entry.value.find("{{") != std::string::npos)
         result.push_back(entry);
     return result;
@@ -208,7 +189,7 @@ namespace Debond
 
     std::vector<StudyVariant> variants(axes.n_variants());
     for (unsigned int i = 0; i < variants.size(); ++i)
-      for (SceneEntry entry : last_values(entries))
+      for (SceneEntry entry : entries)
         {
           const auto choice = choices.find(entry.full_name());
           if (choice != choices.end())

@@ -43,8 +43,10 @@ namespace Debond
         {
           const double slip      = end * i / n;
           const auto coefficient = friction_coefficient(friction, phi_0, slip);
-          table += csv_line(
-            {slip, coefficient.phi, coefficient.mu, coefficient.mu / initial});
+          table += csv_line({slip,
+                             coefficient.phi,
+                             coefficient.mu,
+                             initial > 0. ? coefficient.mu / initial : 0.});
         }
       return table;
     }

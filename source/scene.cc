@@ -401,7 +401,7 @@ namespace Debond
                    const std::vector<std::string> &overrides)
     {
       for (const std::string &text : overrides)
-        entries.push_back(read_override(text));
+        set_entry(entries, read_override(text));
       return entries;
     }
   } // namespace

@@ -342,6 +342,20 @@ namespace Debond
 
 
 
+  void
+  set_entry(std::vector<SceneEntry> &entries, const SceneEntry &entry)
+  {
+    for (SceneEntry &other : entries)
+      if (other.full_name() == entry.full_name())
+        {
+          other = entry;
+          return;
+        }
+    entries.push_back(entry);
+  }
+
+
+
   SceneEntry
   read_override(const std::string &text)
   {

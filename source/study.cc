@@ -7,11 +7,13 @@
 #include <boost/property_tree/json_parser.hpp>
 #include <boost/property_tree/ptree.hpp>
 
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -35,7 +37,7 @@ namespace Debond
 
 
 
-    using Members = std::vector<std::pair<std::string, std::string>>;
+    using Members = StudyRow;
 
     /** Members of a summary.json as text; lists joined, null as nan. Empty if
      *  there is none. */
@@ -71,6 +73,18 @@ namespace Debond
         if (other == name)
           return value;
       return "";
+    }
+
+
+
+    void
+    set_member(Members           &members,
+               const std::string &name,
+               const std::string &value)
+    {
+      for (auto &[other, text] : members)
+        if (other == name)
+          text = value;
     }
 
 
@@ -132,24 +146,26 @@ namespace Debond
       }
     for (StudyVariant &variant : study_variants(entries))
       {
-        const std::string where = variant_name(variants.size());
-        Variant           next;
+        const Scene as_written = Scene::from_entries(variant.entries, name);
+        directory              = as_written.output.directory;
+        reference              = as_written.study.reference_variant;
+        // what only the study uses must not make another scene of a variant
+        for (const std::string &entry :
+             {std::string("Study/Reference variant=0"),
+              std::string("Output/Console=quiet"),
+              "Output/Directory=" + directory + "/" +
+                variant_name(variants.size())})
+          set_entry(variant.entries, read_override(entry));
+        Variant next;
         next.values = variant.values;
-        directory = Scene::from_entries(variant.entries, name).output.directory;
-        SceneEntry output;
-        output.subsections = {"Output"};
-        output.name        = "Directory";
-        output.place       = name;
-        output.value       = directory + "/" + where;
-        variant.entries.push_back(output);
-        next.scene = Scene::from_entries(variant.entries, name);
+        next.scene  = Scene::from_entries(variant.entries, name);
         variants.push_back(std::move(next));
       }
-    reference = variants.front().scene.study.reference_variant;
     if (reference > variants.size())
       throw InputError(
-        name + ": Study / Reference variant = " + std::to_string(reference) +
-        ": this study has " + std::to_string(variants.size()) + " variants");
+        Scene::from_entries(study_variants(entries)[0].entries, name)
+          .with_place("Study / Reference variant: this study has " +
+                      std::to_string(variants.size()) + " variants"));
   }
 
 
@@ -167,11 +183,31 @@ namespace Debond
 
 
   void
-  Study::check(std::ostream &out) const
+  Study::check(std::ostream &out)
   {
     out << variants.size() << " variants\n";
     for (unsigned int i = 0; i < variants.size(); ++i)
-      out << describe(i) << '\n';
+      {
+        look_up(variants[i]);
+        out << describe(i) << (variants[i].done ? " (done already)" : "")
+            << '\n';
+        if (variants[i].scene.model != ModelKind::finite_elements)
+          Problem::create(variants[i].scene); // refuses what it cannot do
+      }
+  }
+
+
+
+  void
+  Study::look_up(Variant &variant)
+  {
+    const OutputParameters &output = variant.scene.output;
+    variant.content =
+      content_of_result_directory(output, variant.scene.completed_parameters);
+    if (variant.content == DirectoryContent::same_scene)
+      variant.summary = read_summary(output.directory + "/summary.json");
+    variant.done = member(variant.summary, "converged") == "true" &&
+                   std::filesystem::exists(output.directory + "/torque.csv");
   }
 
 
@@ -184,20 +220,21 @@ namespace Debond
       {
         OutputParameters &output       = variant.scene.output;
         output.overwrite_other_results = force;
-        output.console                 = ConsoleKind::quiet;
-        const auto content =
-          content_of_result_directory(output,
-                                      variant.scene.completed_parameters);
-        if (content == DirectoryContent::other_scene && !force)
+        look_up(variant);
+        if (variant.content == DirectoryContent::other_scene && !force)
           throw InputError("Output / Directory = '" + directory +
                            "': " + output.directory +
                            " holds results of another scene (compare its "
                            "parameters.prm): choose another directory, or "
                            "overwrite them with --force");
-        variant.done = content == DirectoryContent::same_scene && !force &&
-                       member(read_summary(output.directory + "/summary.json"),
-                              "converged") == "true";
+        variant.done = variant.done && !force;
       }
+    std::error_code error;
+    std::filesystem::create_directories(directory, error);
+    if (error)
+      throw InputError(
+        "Output / Directory = '" + directory +
+        "': this directory cannot be created: " + error.message());
   }
 
 
@@ -218,6 +255,8 @@ namespace Debond
     [[noreturn]] void
     run_in_child(const Scene &scene, const int write_end)
     {
+      // a variant does not outlive its study
+      prctl(PR_SET_PDEATHSIG, SIGKILL);
       std::string message;
       if (std::freopen("/dev/null", "w", stdout) == nullptr)
         message = "cannot redirect the output";
@@ -283,6 +322,8 @@ namespace Debond
   Study::run(const unsigned int n_jobs, const bool force, std::ostream &out)
   {
     prepare(force);
+    std::signal(SIGCHLD,
+                SIG_DFL); // ignored, it would leave nothing to wait for
     const auto n_done = std::count_if(variants.begin(),
                                       variants.end(),
                                       [](const Variant &v) { return v.done; });
@@ -308,16 +349,20 @@ namespace Debond
 
         int         status  = 0;
         const pid_t process = waitpid(-1, &status, 0);
-        const auto  job     = jobs.find(process);
+        if (process < 0 && errno != EINTR)
+          throw std::runtime_error(std::string("waitpid: ") +
+                                   std::strerror(errno));
+        const auto job = jobs.find(process);
         if (job == jobs.end())
-          continue;
+          continue; // not one of ours
         Variant &variant = variants[job->second.variant];
         variant.failure  = read_to_end(job->second.read_end);
         if (WIFSIGNALED(status))
           variant.failure =
             std::string("the process was ended by the system: ") +
             strsignal(WTERMSIG(status));
-        variant.done = variant.failure.empty();
+        look_up(variant);
+        variant.done = variant.done && variant.failure.empty();
         report(job->second.variant, out);
         jobs.erase(job);
         write_table();
@@ -327,9 +372,11 @@ namespace Debond
       std::count_if(variants.begin(), variants.end(), [](const Variant &v) {
         return !v.done;
       });
-    if (n_failed > 0)
-      out << n_failed << " of " << variants.size() << " variants failed\n";
     out << "Results are in " << directory << "/study.csv" << std::endl;
+    if (n_failed > 0)
+      throw RunError(std::to_string(n_failed) + " of " +
+                     std::to_string(variants.size()) +
+                     " variants failed: " + directory + "/study.csv says why");
   }
 
 
@@ -342,8 +389,7 @@ namespace Debond
       out << "failed: " << variants[variant].failure << std::endl;
     else
       {
-        const Members summary = read_summary(
-          variants[variant].scene.output.directory + "/summary.json");
+        const Members &summary = variants[variant].summary;
         out << "T_max " << rounded(member(summary, "T_max_Nmm")) << " N mm, "
             << rounded(member(summary, "wall_seconds")) << " s" << std::endl;
       }
@@ -351,7 +397,30 @@ namespace Debond
 
 
 
-  Members
+  // Not a number as long as either curve is missing.
+  StudyRow
+  Study::compare_with_reference(const unsigned int number) const
+  {
+    const Variant &variant = variants[number];
+    const Variant &other   = variants[reference - 1];
+    CurveMeasures  measures;
+    if (variant.done && other.done)
+      measures = compare(variant.scene.output.directory + "/torque.csv",
+                         other.scene.output.directory + "/torque.csv");
+    StudyRow row;
+    for (const auto &[name, value] : error_measures(measures))
+      {
+        std::ostringstream text;
+        text.precision(12);
+        text << value;
+        row.emplace_back(name, text.str());
+      }
+    return row;
+  }
+
+
+
+  StudyRow
   Study::table_row(const unsigned int number) const
   {
     const Variant &variant = variants[number];
@@ -359,40 +428,19 @@ namespace Debond
     for (unsigned int i = 0; i < varied.size(); ++i)
       row.emplace_back(varied[i], variant.values[i]);
 
-    Members summary;
-    if (variant.done ||
-        content_of_result_directory(variant.scene.output,
-                                    variant.scene.completed_parameters) ==
-          DirectoryContent::same_scene)
-      summary = read_summary(variant.scene.output.directory + "/summary.json");
+    Members summary = variant.summary;
     if (!variant.done)
       {
         const std::string why =
           variant.failure.empty() ? "not run yet" : variant.failure;
         if (summary.empty())
-          summary = {{"converged", "false"}, {"reason", why}};
-        for (auto &[name, value] : summary)
-          if (name == "converged")
-            value = "false";
-          else if (name == "reason")
-            value = why;
+          summary = {{"converged", ""}, {"reason", ""}};
+        set_member(summary, "converged", "false");
+        set_member(summary, "reason", why);
       }
-    else if (reference > 0 && variants[reference - 1].done)
-      {
-        const auto measures = error_measures(
-          compare(variant.scene.output.directory + "/torque.csv",
-                  variants[reference - 1].scene.output.directory +
-                    "/torque.csv"));
-        for (const auto &[name, value] : measures)
-          for (auto &[other, text] : summary)
-            if (other == name)
-              {
-                std::ostringstream number_text;
-                number_text.precision(12);
-                number_text << value;
-                text = number_text.str();
-              }
-      }
+    if (reference > 0)
+      for (const auto &[name, value] : compare_with_reference(number))
+        set_member(summary, name, value);
     row.insert(row.end(), summary.begin(), summary.end());
     return row;
   }
@@ -430,7 +478,6 @@ namespace Debond
           }
         text += line + "\n";
       }
-    std::filesystem::create_directories(directory);
     write_file(directory + "/study.csv", text);
   }
 } // namespace Debond

@@ -361,8 +361,8 @@ namespace Debond
       for (const auto &[angle_deg, T_reference] : reference)
         {
           const double T = torque_at(rows, rotation, angle_deg);
-          if (angle_deg > 0. && std::abs(T_reference) > 0.01 * largest &&
-              std::isfinite(T))
+          if (rotation.direction * angle_deg > 0. &&
+              std::abs(T_reference) > 0.01 * largest && std::isfinite(T))
             {
               const double difference = std::abs(T - T_reference);
               sum_mp += difference / std::abs(T_reference);
@@ -444,6 +444,10 @@ namespace Debond
     if (rotation.is_one_way())
       {
         measures.theta_max_deg = peak->angle_deg;
+        const TorqueRow &first = rows[rotation.first_row];
+        measures.initial_stiffness_Nm_per_rad =
+          1e-3 * (first.torque_Nmm - rows[rotation.first_row - 1].torque_Nmm) /
+          radians(first.angle_deg - rows[rotation.first_row - 1].angle_deg);
         measure_energies(rows, rotation, settings, measures);
         measure_errors(rows, rotation, settings.reference, measures);
       }
@@ -469,13 +473,22 @@ namespace Debond
 
 
 
+  bool
+  misses_reference(const CurveMeasures &measures, const CurveSettings &settings)
+  {
+    return !settings.reference.empty() && measures.reference_rows_used == 0;
+  }
+
+
+
   std::vector<std::pair<std::string, double>>
   error_measures(const CurveMeasures &measures)
   {
     return {{"e_mp", measures.e_mp},
             {"e_rel", measures.e_rel},
             {"difference_max", measures.difference_max},
-            {"difference_mean", measures.difference_mean}};
+            {"difference_mean", measures.difference_mean},
+            {"reference_rows_used", measures.reference_rows_used}};
   }
 
 
@@ -497,7 +510,8 @@ namespace Debond
     json.add("D_adh_Nm", m.D_adh_Nm);
     json.add("dissipation_Nm", m.dissipation_Nm);
     for (const auto &[name, value] : error_measures(m))
-      json.add(name, value);
+      if (name != "reference_rows_used") // stands further down
+        json.add(name, value);
     json.add("steps", summary.steps);
     json.add("newton_iterations", summary.newton_iterations);
     json.add("dofs", summary.dofs);
@@ -510,6 +524,7 @@ namespace Debond
     json.add("condensed_unknowns", summary.condensed_unknowns);
     json.add("peak_memory_MB", summary.peak_memory_MB);
     json.add("reference_rows_used", m.reference_rows_used);
+    json.add("initial_stiffness_Nm_per_rad", m.initial_stiffness_Nm_per_rad);
     json.add("force_end_N", m.force_end_N);
     json.add("work_Nm", m.work_Nm);
     json.add("E_bulk_Nm", m.E_bulk_Nm);

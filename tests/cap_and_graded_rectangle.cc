@@ -57,7 +57,7 @@ error_of_cap(const unsigned int n)
         const Eigen::Vector3d normal =
           normal_at(cap, {(i + 0.5) / samples, (j + 0.5) / samples}, y);
         grow(error.surface, std::abs((y - centre).norm() - sphere_radius) / R);
-        grow(error.normal, normal.cross((centre - y).normalized()).norm());
+        grow(error.normal, (normal - (centre - y).normalized()).norm());
       }
   for (const auto &point : surface_quadrature(cap, 8))
     error.area += point.JxW;

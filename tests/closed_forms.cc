@@ -18,32 +18,12 @@
 #include <utility>
 #include <vector>
 
+#include "checks.h"
+
 using namespace Debond;
 
 constexpr double pi     = dealii::numbers::PI;
 constexpr double degree = pi / 180.;
-
-void
-report(const std::string &what, const double deviation, const double limit)
-{
-  std::cout << what << " below " << limit << ": ";
-  if (deviation < limit) // false for NaN as well
-    std::cout << "yes" << std::endl;
-  else
-    std::cout << "NO, " << deviation << std::endl;
-}
-
-
-
-/** Keeps a NaN once there is one, which std::max would not. */
-void
-keep_largest(double &largest, const double value)
-{
-  if (!std::isnan(largest) && !(value <= largest))
-    largest = value;
-}
-
-
 
 RigidBodiesTorsion::Parameters
 paper()
@@ -121,9 +101,8 @@ check_constant_friction()
         {
           const double expected =
             elementary_torque(parameters, 0.4, angle * degree);
-          keep_largest(largest,
-                       std::abs(problem.torque(angle * degree) / expected -
-                                1.));
+          grow(largest,
+               std::abs(problem.torque(angle * degree) / expected - 1.));
         }
     }
   report("relative deviation from the elementary formula", largest, 1e-12);
@@ -150,15 +129,14 @@ check_points()
         const double r = 0.1 * i, theta = angle * degree;
         const double slip = problem.slip(r, theta);
         const double t    = problem.traction(r, theta);
-        keep_largest(worst_sum,
-                     std::abs(slip + t / parameters.tangential_penalty -
-                              r * theta));
+        grow(worst_sum,
+             std::abs(slip + t / parameters.tangential_penalty - r * theta));
         const double mu =
           friction_coefficient(parameters.friction, 1., slip).mu;
         if (slip > 0)
-          keep_largest(worst_law, std::abs(t - mu * p));
+          grow(worst_law, std::abs(t - mu * p));
         else
-          keep_largest(worst_excess, t - mu * p);
+          grow(worst_excess, t - mu * p);
       }
   report("deviation of slip and elastic path from r theta [mm]",
          worst_sum,
@@ -215,12 +193,11 @@ check_bonded_disk()
   inner_unbonded.radius = 1.7;
   double largest        = 0;
   for (const double angle : {0.02, 0.1, 0.3, 0.7, 1.2, 2.5, 8.})
-    keep_largest(largest,
-                 std::abs(
-                   RigidBodiesTorsion(mixed).torque(angle * degree) -
-                   (RigidBodiesTorsion(unbonded).torque(angle * degree) -
-                    RigidBodiesTorsion(inner_unbonded).torque(angle * degree) +
-                    RigidBodiesTorsion(inner_bonded).torque(angle * degree))));
+    grow(largest,
+         std::abs(RigidBodiesTorsion(mixed).torque(angle * degree) -
+                  (RigidBodiesTorsion(unbonded).torque(angle * degree) -
+                   RigidBodiesTorsion(inner_unbonded).torque(angle * degree) +
+                   RigidBodiesTorsion(inner_bonded).torque(angle * degree))));
   report("bonded disk against the sum of its parts [N mm]", largest, 1e-11);
 }
 
@@ -246,7 +223,7 @@ check_analytical()
         angle < 0.13 ?
           pi / 2 * std::pow(2.5, 3) * t_max * angle / 0.13 :
           2. / 3. * pi * t_max * (std::pow(2.5, 3) - std::pow(c, 3) / 4.);
-      keep_largest(largest, std::abs(form.torque(angle * degree) / T - 1.));
+      grow(largest, std::abs(form.torque(angle * degree) / T - 1.));
     }
   report("Eq. (18) before full sliding, relative", largest, 1e-12);
   report("Eq. (18), T_inf at 10 degrees [N mm]",
@@ -272,7 +249,7 @@ check_mathieu()
   for (const double c : {2.4, 2., 1.3, 0.6, 0.1})
     {
       const double theta = form.angle(c);
-      keep_largest(inverse, std::abs(form.stick_radius(theta) / c - 1.));
+      grow(inverse, std::abs(form.stick_radius(theta) / c - 1.));
       // r = c sin(s) takes the singularity at the tip away
       const double inside =
         boost::math::quadrature::gauss<double, 30>::integrate(
@@ -283,9 +260,8 @@ check_mathieu()
           0.,
           pi / 2);
       const double outside = 1.1 * (std::pow(2.5, 3) - std::pow(c, 3)) / 3.;
-      keep_largest(torque,
-                   std::abs(form.torque(theta) / (2 * pi * (inside + outside)) -
-                            1.));
+      grow(torque,
+           std::abs(form.torque(theta) / (2 * pi * (inside + outside)) - 1.));
     }
   report("Eq. (14) and its inverse, relative", inverse, 1e-12);
   report("Eq. (37) of Eqs. (15) and (16), relative", torque, 1e-9);

@@ -8,6 +8,7 @@ set multiplot layout 1, 2
 set xlabel "Rotation angle {/:Italic θ} [°]"
 set ylabel "Torque {/:Italic T} [N mm]"
 set yrange [0:*]
+set key bottom right
 array name[3] = ["Eqs. (14) to (16), fitted", "Eq. (18)", "finite elements, calibrated"]
 do for [set=1:2] {
   set title sprintf("Data set %d", set)

@@ -25,7 +25,7 @@ do for [row=1:2] {
     if (i == 6) { set colorbox; set cblabel (row == 1 ? "μ" : "g_s [mm]") } else { unset colorbox; unset cblabel }
     if (row == 1) { set title word(angles, i) . "°" } else { unset title }
     plot file using (at(angle) ? column("x_mm") : NaN):"y_mm":(row == 1 ? column("mu") : column("slip_mm")) \
-      with points pointtype 5 pointsize 0.55 palette
+      with points pointtype 5 pointsize 0.8 palette
   }
 }
 unset multiplot

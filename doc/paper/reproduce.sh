@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
-# Makes tables and figures of the paper again: doc/paper/reproduce.sh NAME...
+# Makes tables and figures of the paper again: doc/paper/reproduce.sh [--jobs N] [--force] NAME...
 #   NAME: table_3 table_4_set_1 table_4_set_2 table_5 table_7 table_7_meshes table_7_steps table_7_layers
-#         contradictions fig_1 fig_3_12 fig_4 fig_5_6 fig_13 all
-# Results go to output/paper; what is there already is not run again.
+#         table_7_layers_printed contradictions fig_1 fig_3_12 fig_4 fig_5_6 fig_13 all
+# Results go to output/paper. Variants of studies that are there already are not run again. Pictures need gnuplot.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 debond=${DEBOND:-build/release/debond}
 [[ -x $debond ]] || { echo "reproduce.sh: there is no $debond: build the program first, or set DEBOND" >&2; exit 1; }
 
-run() { "$debond" "prm/paper/$1.prm"; }
+options=()
+run() { "$debond" "prm/paper/$1.prm" "${options[@]}"; }
 picture() { gnuplot "doc/paper/$1.gp" && echo "Picture: output/paper/$2"; }
 
 reproduce() {
@@ -21,7 +22,7 @@ reproduce() {
     all)
       local name
       for name in contradictions table_3 table_4_set_1 table_4_set_2 fig_4 fig_1 fig_3_12 fig_5_6 table_7_meshes \
-        table_7_steps table_7_layers fig_13; do
+        table_7_steps table_7_layers table_7_layers_printed fig_13; do
         reproduce "$name"
       done
       ;;
@@ -35,5 +36,10 @@ reproduce() {
   esac
 }
 
+while [[ "${1:-}" == --* ]]; do
+  options+=("$1")
+  if [[ $1 == --jobs ]]; then options+=("${2:-}"); shift; fi
+  shift
+done
 if (($# == 0)); then sed -n '2,5s/^# //p' "$0"; exit 1; fi
 for name in "$@"; do reproduce "$name"; done

@@ -17,8 +17,8 @@ namespace Debond
     double torsional_stiffness = 0;    ///< lambda [MPa/mm], 0: from the bulk
     double linear_limit        = 0.13; ///< theta_lin [deg]
     double full_sliding        = 1.13; ///< theta_max [deg]
-    double shear_modulus       = 40;   ///< G [MPa]
-    double adhesion_energy     = 70;   ///< w_adh [N/m]
+    double shear_modulus       = 40.4; ///< G [MPa]
+    double adhesion_energy     = 22.2; ///< w_adh [N/m]
 
     static void
     declare(dealii::ParameterHandler &prm);

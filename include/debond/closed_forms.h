@@ -241,6 +241,8 @@ namespace Debond
       double shear_modulus   = 0; ///< G > 0 [MPa]
       double adhesion_energy = 0; ///< w_adh >= 0 [N/mm]
       double friction_stress = 0; ///< tau_0 >= 0 [MPa]
+      /** Not part of the model: what tau_0 was found from [MPa]. */
+      double pressure = std::numeric_limits<double>::quiet_NaN();
     };
     explicit MathieuTorsion(const Parameters &parameters);
 

@@ -26,20 +26,18 @@ namespace Debond
   varied_entries(const std::vector<SceneEntry> &entries);
 
   /**
-   * All variants of a study, in the language of deal.II's
-   * MultipleParameterLoop:
+   * All variants of a study. The notation resembles that of deal.II's
+   * MultipleParameterLoop, which writes {a|b} and {{a|b}} for the first two:
    *
    *   {{a|b|c}}         every value with every combination of the others; the
    *                     entry that comes first in the scene varies fastest
-   *   {{a||b||c}}       run i takes value i: as many values as variants
-   *
-   * and, beyond it, to vary entries together in every combination with others,
-   *
+   *   {{a||b||c}}       variant i takes value i: as many values as variants,
+   *                     whose number such entries set if there are no others
    *   {{name: a|b|c}}   all entries with this name take the values of the same
-   *                     position.
+   *                     position, in every combination with the others
    *
-   * Text around the braces belongs to every value. If an entry is there several
-   * times the last one counts. Throws InputError with place and entry if braces
+   * Text around the braces belongs to every value. Each entry may be there once
+   * only. Throws InputError with place and entry if braces
    * do not match or numbers of values disagree.
    */
   std::vector<StudyVariant>

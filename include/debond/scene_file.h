@@ -46,6 +46,11 @@ namespace Debond
   std::vector<SceneEntry>
   read_scene_file(const std::string &filename);
 
+  /** Gives @p entries this entry, in the place of one with the same name if
+   *  there is one. */
+  void
+  set_entry(std::vector<SceneEntry> &entries, const SceneEntry &entry);
+
   /** Takes "Subsection/Entry=value" apart; its place is "--set". Throws
    *  InputError if there is no `=` or no name. */
   SceneEntry

@@ -11,6 +11,9 @@
 
 namespace Debond
 {
+  /** Columns of study.csv and their values, of one variant. */
+  using StudyRow = std::vector<std::pair<std::string, std::string>>;
+
   /**
    * A scene whose entries hold several values: runs every variant, several at a
    * time, into DIR/variant-001 and so on, and gathers them in DIR/study.csv.
@@ -27,7 +30,8 @@ namespace Debond
     Study(const std::vector<SceneEntry> &entries, const std::string &name);
 
     /** Runs what is not there yet, @p n_jobs at a time, and writes study.csv
-     *  after every one. @p force: runs all, whatever their directories hold. */
+     *  after every one. @p force: runs all, whatever their directories hold.
+     *  Throws RunError at the end if any of them failed. */
     void
     run(unsigned int n_jobs, bool force, std::ostream &out);
 
@@ -40,13 +44,15 @@ namespace Debond
 
     /** Says what would be run. */
     void
-    check(std::ostream &out) const;
+    check(std::ostream &out);
 
   private:
     struct Variant
     {
       Scene                    scene;
       std::vector<std::string> values; ///< of the varied entries
+      DirectoryContent         content = DirectoryContent::no_results;
+      StudyRow                 summary; ///< its summary.json
       bool                     done = false;
       std::string              failure; ///< why it failed, if it did
     };
@@ -57,7 +63,11 @@ namespace Debond
     prepare(bool force);
     void
     report(unsigned int variant, std::ostream &out) const;
-    std::vector<std::pair<std::string, std::string>>
+    static void
+    look_up(Variant &variant);
+    StudyRow
+    compare_with_reference(unsigned int variant) const;
+    StudyRow
     table_row(unsigned int variant) const;
     void
     write_table() const;

@@ -114,15 +114,17 @@ namespace Debond
     double theta_full_deg = undefined; ///< beginning of full sliding
     double T_inf_Nmm      = undefined; ///< T of the last row
     /** At the end of the last phase before the angle first changes. */
-    double pressure_MPa       = undefined;
-    double E_deb_Nm           = undefined; ///< Eq. (20)
-    double E_fric_Nm          = undefined; ///< Eq. (20)
-    double W_adh_Nm           = undefined; ///< Eq. (20)
-    double w_adh_N_per_m      = undefined; ///< Eq. (21)
+    double pressure_MPa = undefined;
+    /** Torque per angle up to the first row that has turned. */
+    double initial_stiffness_Nm_per_rad = undefined;
+    double E_deb_Nm                     = undefined; ///< Eq. (20)
+    double E_fric_Nm                    = undefined; ///< Eq. (20)
+    double W_adh_Nm                     = undefined; ///< Eq. (20)
+    double w_adh_N_per_m                = undefined; ///< Eq. (21)
     double w_adh_star_N_per_m = undefined; ///< Eq. (21) with a mean phi_0 of 1
     double D_adh_Nm           = undefined; ///< work the law spends on adhesion
     double dissipation_Nm     = undefined;
-    double force_end_N = undefined; ///< axial force of the last row
+    double force_end_N        = undefined; ///< axial force of the last row
     /** Of the last row: work of the chuck, energy stored in bodies and
      *  interface. */
     double work_Nm = undefined, E_bulk_Nm = undefined,
@@ -146,9 +148,14 @@ namespace Debond
 
 
 
+  /** Whether there is a reference curve, and no row of it could be used. */
+  bool
+  misses_reference(const CurveMeasures &measures,
+                   const CurveSettings &settings);
+
   /** The members of summary.json that measure the distance from a reference
-   *  curve, in their order there: e_mp, e_rel, difference_max,
-   *  difference_mean. */
+   *  curve: e_mp, e_rel, difference_max, difference_mean,
+   *  reference_rows_used. */
   std::vector<std::pair<std::string, double>>
   error_measures(const CurveMeasures &measures);
 

@@ -383,12 +383,17 @@ namespace
       Debond::read_scene_file(scene_file);
     for (const auto &list : {overrides(scene_text), more_overrides})
       for (const std::string &text : list)
-        entries.push_back(Debond::read_override(text));
+        Debond::set_entry(entries, Debond::read_override(text));
     if (Debond::is_study(entries))
       {
         std::ostringstream log;
         Debond::Study      study(entries, scene_file);
-        study.run(2, true, log);
+        try
+          {
+            study.run(2, true, log);
+          }
+        catch (const Debond::RunError &) // study.csv says which variant failed
+          {}
         return read_study(study.result_directory());
       }
 

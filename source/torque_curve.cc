@@ -448,6 +448,9 @@ namespace Debond
         measures.initial_stiffness_Nm_per_rad =
           1e-3 * (first.torque_Nmm - rows[rotation.first_row - 1].torque_Nmm) /
           radians(first.angle_deg - rows[rotation.first_row - 1].angle_deg);
+        for (auto row = rows.rbegin(); row != rows.rend(); ++row)
+          if (row->phi_mean < rows.front().phi_mean * (1. - 1e-12))
+            measures.theta_debonding_deg = row->angle_deg;
         measure_energies(rows, rotation, settings, measures);
         measure_errors(rows, rotation, settings.reference, measures);
       }
@@ -525,6 +528,7 @@ namespace Debond
     json.add("peak_memory_MB", summary.peak_memory_MB);
     json.add("reference_rows_used", m.reference_rows_used);
     json.add("initial_stiffness_Nm_per_rad", m.initial_stiffness_Nm_per_rad);
+    json.add("theta_debonding_deg", m.theta_debonding_deg);
     json.add("force_end_N", m.force_end_N);
     json.add("work_Nm", m.work_Nm);
     json.add("E_bulk_Nm", m.E_bulk_Nm);

@@ -110,6 +110,16 @@ check_triangle()
   check("w_adh*", m.w_adh_star_N_per_m, 1e3 * (E_deb - E_fric) / 20);
   check("D_adh", m.D_adh_Nm, 4e-3);
   check("dissipation", m.dissipation_Nm, 8e-3);
+  check("initial stiffness",
+        m.initial_stiffness_Nm_per_rad,
+        1e-3 * 50 / (2 * radian));
+  check("nothing debonds", m.theta_debonding_deg, NAN);
+  std::vector<TorqueRow> debonding = make_rows(triangle());
+  for (TorqueRow &row : debonding)
+    row.phi_mean = row.angle_deg < 5 ? 0.7 : 0.6;
+  check("debonding begins",
+        measure_torque_curve(debonding, settings()).theta_debonding_deg,
+        6);
   check("no error without a reference", m.e_mp, NAN);
   check("no error without a reference", m.e_rel, NAN);
 

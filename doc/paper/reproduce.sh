@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes tables and figures of the paper again: doc/paper/reproduce.sh [--jobs N] [--force] NAME...
-#   NAME: table_3 table_4_set_1 table_4_set_2 table_5 table_7 table_7_meshes table_7_steps table_7_layers
-#         table_7_layers_printed contradictions fig_1 fig_3_12 fig_4 fig_5_6 fig_13 all
+#   NAME: calibrated contradictions table_3 table_4_set_1 table_4_set_2 table_5 table_7 table_7_meshes table_7_steps table_7_layers
+#         table_7_layers_printed fig_1 fig_3_12 fig_4 fig_5_6 fig_13 all
 # Results go to output/paper. Variants of studies that are there already are not run again. Pictures need gnuplot.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -21,7 +21,7 @@ reproduce() {
     fig_13) run table_7; picture fig_13 table_7/fig_13.png ;;
     all)
       local name
-      for name in contradictions table_3 table_4_set_1 table_4_set_2 fig_4 fig_1 fig_3_12 fig_5_6 table_7_meshes \
+      for name in calibrated contradictions table_3 table_4_set_1 table_4_set_2 fig_4 fig_1 fig_3_12 fig_5_6 table_7_meshes \
         table_7_steps table_7_layers table_7_layers_printed fig_13; do
         reproduce "$name"
       done

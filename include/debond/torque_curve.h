@@ -124,7 +124,9 @@ namespace Debond
     double w_adh_star_N_per_m = undefined; ///< Eq. (21) with a mean phi_0 of 1
     double D_adh_Nm           = undefined; ///< work the law spends on adhesion
     double dissipation_Nm     = undefined;
-    double force_end_N        = undefined; ///< axial force of the last row
+    /** Angle of the first row whose mean bonding state is below the initial. */
+    double theta_debonding_deg = undefined;
+    double force_end_N         = undefined; ///< axial force of the last row
     /** Of the last row: work of the chuck, energy stored in bodies and
      *  interface. */
     double work_Nm = undefined, E_bulk_Nm = undefined,

@@ -2,6 +2,10 @@
 #
 #   gnuplot -e "dir='output/coin'" doc/plot_torque.gp
 #
+# Together with another run, with the seconds that each took:
+#
+#   gnuplot -e "dir='output/coin'; other='output/coin_fast'" doc/plot_torque.gp
+#
 # With a curve to compare with (CSV with the columns angle_deg,torque_Nmm; another run's torque.csv will do):
 #
 #   gnuplot -e "dir='output/coin'; reference='measured.csv'" doc/plot_torque.gp
@@ -31,9 +35,16 @@ if (STATS_max > 0 && STATS_min > -1e-3 * STATS_max) {
   set yrange [0:*] # begins at zero in spite of rounding errors
 }
 
-if (exists("reference")) {
+seconds(d) = real(system("sed -n 's/.*\"wall_seconds\": *\\([0-9.e+-]*\\).*/\\1/p' " . d . "/summary.json"))
+label(d) = sprintf("%s, %.2g s", d, seconds(d))
+
+if (exists("other")) {
+  plot file using "angle_deg":"torque_Nmm" with lines linewidth 2 linecolor rgb "#c03028" title label(dir), \
+       other . "/torque.csv" using "angle_deg":"torque_Nmm" with linespoints pointtype 7 pointsize 0.6 \
+         linewidth 1 linecolor rgb "#2c1e5c" title label(other)
+} else { if (exists("reference")) {
   plot reference using "angle_deg":"torque_Nmm" with points pointtype 6 linecolor rgb "#555555" title reference, \
        file using "angle_deg":"torque_Nmm" with lines linewidth 2 linecolor rgb "#c03028" title "debond"
 } else {
   plot file using "angle_deg":"torque_Nmm" with lines linewidth 2 linecolor rgb "#c03028" notitle
-}
+} }

@@ -72,6 +72,11 @@ namespace Debond
                  std::string("Chuck / ") + ChuckParameters::names[k] +
                    " / Control",
                  "closed forms take this motion as prescribed");
+      if (scene.load_steps.adaptive)
+        refuse(scene,
+               "Load steps / Adaptive",
+               "closed forms cost next to nothing a row and take the planned "
+               "steps");
       for (unsigned int k = 0; k < 6; ++k)
         if (scene.chuck.component[k].stiffness != 0)
           refuse(scene,

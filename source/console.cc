@@ -62,7 +62,7 @@ namespace Debond
                   100. * row.share_slip,
                   row.newton_iterations);
     out << line;
-    if (on_terminal)
+    if (on_terminal && n_steps > 0)
       show_progress(row.step, n_steps);
   }
 

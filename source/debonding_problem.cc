@@ -1,3 +1,4 @@
+#include <debond/adaptive_stepping.h>
 #include <debond/closed_forms.h>
 #include <debond/console.h>
 #include <debond/coupled_system.h>
@@ -33,6 +34,7 @@ namespace Debond
     dealii::TimerOutput                timer;
     dealii::Timer                      wall_clock;
     LoadStepping                       stepping;
+    std::unique_ptr<AdaptiveStepping>  adaptive_stepping; ///< if wanted
     std::unique_ptr<ResultDirectory>   directory;
     std::unique_ptr<CoupledSystem>     system;
     std::unique_ptr<TorqueCurveWriter> torque_writer;
@@ -73,15 +75,22 @@ namespace Debond
     try
       {
         solve_first_row();
-        for (unsigned int step = 1; step <= state->stepping.n_steps(); ++step)
-          solve_planned_step(step);
+        if (scene.load_steps.adaptive)
+          for (unsigned int phase = 0; phase < scene.load_steps.steps.size();
+               ++phase)
+            solve_phase_adaptively(phase);
+        else
+          for (unsigned int step = 1; step <= state->stepping.n_steps(); ++step)
+            solve_planned_step(step);
       }
     catch (const std::exception &error)
       {
         finish(false, error.what());
         throw;
       }
-    finish(true, "all planned steps are done");
+    finish(true,
+           scene.load_steps.adaptive ? "the last time is reached" :
+                                       "all planned steps are done");
   }
 
 
@@ -119,6 +128,9 @@ namespace Debond
       const dealii::TimerOutput::Scope t(state->timer, "set-up");
       state->system = std::make_unique<CoupledSystem>(scene, state->timer);
     }
+    if (scene.load_steps.adaptive)
+      state->adaptive_stepping =
+        std::make_unique<AdaptiveStepping>(scene.load_steps, state->system->R);
     state->system->start(state->stepping.time(0));
     if (scene.output.fields_every > 0)
       state->field_output =
@@ -162,35 +174,97 @@ namespace Debond
     bool extrapolate = !stepping.begins_phase(step);
     for (stepping.begin(step); !stepping.finished();)
       {
-        const double time     = stepping.target_time();
-        bool         accepted = false;
-        iterations += try_sub_step(time, extrapolate, accepted);
-        if (!accepted && extrapolate) // the prediction may be to blame
-          iterations += try_sub_step(time, false, accepted);
-        if (accepted)
+        const double time = stepping.target_time();
+        if (try_step(time, extrapolate, iterations))
           {
             accept(time);
             stepping.accept();
             extrapolate = true;
           }
         else if (!stepping.reject())
-          {
-            std::ostringstream message;
-            message << "Step " << step << " of " << stepping.n_steps()
-                    << " failed at time " << time << ", angle "
-                    << state->system->chuck.position()[5] * 180. / M_PI
-                    << " deg, with the smallest allowed part of a step: "
-                    << state->last_failure;
-            if (!state->system->chuck.unknowns().empty())
-              message
-                << ". A prescribed load may be more than the interface can "
-                   "carry; prescribing the displacement or angle instead "
-                   "follows the fall";
-            throw RunError(message.str());
-          }
+          give_up(step, time);
       }
     write_row(step, iterations);
     write_fields(step);
+  }
+
+
+
+  void
+  DebondingProblem::solve_phase_adaptively(const unsigned int phase)
+  {
+    CoupledSystem    &system      = *state->system;
+    AdaptiveStepping &stepping    = *state->adaptive_stepping;
+    unsigned int      iterations  = 0;
+    bool              extrapolate = false;
+    stepping.begin_phase(phase, system.chuck_forces());
+    while (!stepping.phase_is_finished())
+      {
+        ++state->step;
+        bool solved = true;
+        if (stepping.wants_middle())
+          {
+            solved = try_step(stepping.middle_time(), extrapolate, iterations);
+            if (solved)
+              {
+                stepping.note_middle(system.chuck_forces());
+                system.rollback();
+              }
+          }
+        const double time = stepping.target_time();
+        solved            = solved && try_step(time, extrapolate, iterations);
+        const double error =
+          solved ? stepping.error(system.chuck_forces()) : 0.;
+        if (solved && error > 1. && stepping.shrink(error))
+          system.rollback(); // the curve bends too much for this step
+        else if (solved)
+          {
+            accept(time);
+            stepping.accept(system.chuck_forces(), error);
+            extrapolate = true;
+            write_row(state->step, iterations);
+            write_fields(state->step);
+            iterations = 0;
+            continue;
+          }
+        else if (!stepping.reject())
+          give_up(state->step, time);
+        --state->step;
+      }
+  }
+
+
+
+  bool
+  DebondingProblem::try_step(const double  time,
+                             const bool    extrapolate,
+                             unsigned int &iterations)
+  {
+    bool accepted = false;
+    iterations += try_sub_step(time, extrapolate, accepted);
+    if (!accepted && extrapolate) // the prediction may be to blame
+      iterations += try_sub_step(time, false, accepted);
+    return accepted;
+  }
+
+
+
+  void
+  DebondingProblem::give_up(const unsigned int step, const double time) const
+  {
+    std::ostringstream message;
+    message << "Step " << step;
+    if (!scene.load_steps.adaptive)
+      message << " of " << state->stepping.n_steps();
+    message << " failed at time " << time << ", angle "
+            << state->system->chuck.position()[5] * 180. / M_PI
+            << " deg, with the smallest allowed part of a step: "
+            << state->last_failure;
+    if (!state->system->chuck.unknowns().empty())
+      message << ". A prescribed load may be more than the interface can "
+                 "carry; prescribing the displacement or angle instead "
+                 "follows the fall";
+    throw RunError(message.str());
   }
 
 
@@ -332,7 +406,9 @@ namespace Debond
 
     const dealii::TimerOutput::Scope t(state->timer, "output");
     state->torque_writer->write(row);
-    state->console.row(row, state->stepping.n_steps());
+    state->console.row(row,
+                       scene.load_steps.adaptive ? 0 :
+                                                   state->stepping.n_steps());
     state->profiles->write(row.angle_deg, system.interface);
   }
 
@@ -344,8 +420,14 @@ namespace Debond
     if (!state->field_output)
       return;
     const LoadStepping &stepping = state->stepping;
-    if (stepping.step_in_phase(step) % scene.output.fields_every == 0 ||
-        stepping.ends_phase(step))
+    const bool          is_due =
+      scene.load_steps.adaptive ?
+                 step % scene.output.fields_every == 0 ||
+          (state->adaptive_stepping->phase_is_finished() && step > 0) ||
+          step == 0 :
+                 stepping.step_in_phase(step) % scene.output.fields_every == 0 ||
+          stepping.ends_phase(step);
+    if (is_due)
       {
         const dealii::TimerOutput::Scope t(state->timer, "output");
         state->field_output->write(state->time);

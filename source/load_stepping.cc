@@ -21,17 +21,20 @@ namespace Debond
                       "1, 1000",
                       Allowed::whole_numbers(1, 0),
                       "Number of planned steps in each phase: one number less "
-                      "than Times.");
+                      "than Times. With Adaptive this sets the largest step.");
     prm.declare_entry("Adaptive",
                       "false",
-                      Allowed::choice("false", "true"),
-                      "Reserved: steps of a size chosen by the program. A step "
+                      Allowed::yes_or_no(),
+                      "Let the program choose the steps of each phase, at most "
+                      "as large as the planned ones, such that torque and "
+                      "forces drawn as straight lines between the rows keep "
+                      "the Tolerance; each accepted step is a row. A step "
                       "that does not converge is halved in any case.");
     prm.declare_entry("Tolerance",
                       "1e-3",
                       Allowed::number_above(0, ""),
                       "Relative accuracy wanted of the torque curve; used only "
-                      "where steps or models are chosen by the program.");
+                      "with Adaptive.");
     prm.declare_entry("Smallest step fraction",
                       "1e-4",
                       Allowed::number_between_excluding_lower(0, 1, ""),
@@ -55,6 +58,8 @@ namespace Debond
     steps                  = to_whole_numbers(prm.get("Steps"));
     smallest_step_fraction = prm.get_double("Smallest step fraction");
     residual_tolerance     = prm.get_double("Residual tolerance");
+    adaptive               = prm.get_bool("Adaptive");
+    tolerance              = prm.get_double("Tolerance");
     prm.leave_subsection();
   }
 } // namespace Debond

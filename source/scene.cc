@@ -329,6 +329,17 @@ namespace Debond
       // a step has friction or has none
       if (friction.starts_at <= load_steps.times.front())
         return;
+      if (load_steps.adaptive)
+        {
+          if (std::find(load_steps.times.begin(),
+                        load_steps.times.end(),
+                        friction.starts_at) == load_steps.times.end())
+            throw InputError("Interface / Friction starts at = " +
+                             to_text(friction.starts_at) +
+                             " is inside a phase: with adaptive steps one of "
+                             "Load steps / Times is expected");
+          return;
+        }
       const LoadStepping stepping(load_steps);
       const double       duration =
         load_steps.times.back() - load_steps.times.front();

@@ -20,7 +20,8 @@ namespace Debond
 
     void
     headline(const std::string &text);
-    /** The row of @p n_steps planned ones that was just accepted. */
+    /** The row that was just accepted, of @p n_steps planned ones (0: their
+     *  number is not known). */
     void
     row(const TorqueRow &row, unsigned int n_steps);
     /** Printed, with the step, the first time only; kept for the summary. */

@@ -39,6 +39,14 @@ namespace Debond
     solve_first_row();
     void
     solve_planned_step(unsigned int step);
+    void
+    solve_phase_adaptively(unsigned int phase);
+    /** Tries a step, with an extrapolated start if wanted and again without if
+     *  that fails. */
+    bool
+    try_step(double time, bool extrapolate, unsigned int &iterations);
+    [[noreturn]] void
+    give_up(unsigned int step, double time) const;
     /** Tries one sub-step; returns the Newton iterations spent, and whether it
      *  was accepted in @p accepted. */
     unsigned int

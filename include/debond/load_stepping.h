@@ -18,6 +18,8 @@ namespace Debond
     std::vector<unsigned int> steps{1, 1000}; ///< planned steps of each phase
     double                    smallest_step_fraction = 1e-4;
     double                    residual_tolerance     = 1e-8;
+    bool                      adaptive               = false;
+    double                    tolerance = 1e-3; ///< of the curves, if adaptive
 
     static void
     declare(dealii::ParameterHandler &prm);

@@ -1,0 +1,157 @@
+#include <debond/adaptive_stepping.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Debond
+{
+  AdaptiveStepping::AdaptiveStepping(const LoadSteppingParameters &parameters,
+                                     const double                  radius)
+    : parameters(parameters)
+    , radius(radius)
+  {}
+
+
+
+  void
+  AdaptiveStepping::begin_phase(const unsigned int phase, const Forces &forces)
+  {
+    time         = parameters.times[phase];
+    end          = parameters.times[phase + 1];
+    largest      = (end - time) / parameters.steps[phase];
+    current      = forces;
+    greatest     = greatest.cwiseMax(forces.cwiseAbs());
+    has_previous = false; // a new phase is not the continuation of the last one
+    set_size(largest);
+  }
+
+
+
+  double
+  AdaptiveStepping::smallest() const
+  {
+    return parameters.smallest_step_fraction * largest;
+  }
+
+
+
+  void
+  AdaptiveStepping::set_size(const double new_size)
+  {
+    size       = std::clamp(new_size, smallest(), largest);
+    has_middle = false;
+  }
+
+
+
+  double
+  AdaptiveStepping::target_time() const
+  {
+    // no tiny step before the end: two equal ones instead
+    const double left = end - time;
+    if (left <= size * (1. + 1e-9))
+      return end;
+    return left < 2. * size ? time + 0.5 * left : time + size;
+  }
+
+
+
+  double
+  AdaptiveStepping::middle_time() const
+  {
+    return 0.5 * (time + target_time());
+  }
+
+
+
+  void
+  AdaptiveStepping::note_middle(const Forces &forces)
+  {
+    middle     = forces;
+    has_middle = true;
+  }
+
+
+
+  double
+  AdaptiveStepping::relative_to_tolerance(const Forces &difference,
+                                          const Forces &forces) const
+  {
+    Forces largest_so_far = greatest.cwiseMax(forces.cwiseAbs());
+    Forces in_newton      = largest_so_far;
+    in_newton.tail<3>() /= radius;
+    // a component next to nothing, for instance by symmetry, has no curve
+    const double floor = 1e-3 * in_newton.maxCoeff();
+    double       error = 0;
+    for (unsigned int k = 0; k < 6; ++k)
+      {
+        const double scale =
+          std::max(largest_so_far[k], floor * (k < 3 ? 1. : radius));
+        if (scale > 0.)
+          error = std::max(error, std::abs(difference[k]) / scale);
+      }
+    // twice: the curve need not be a parabola
+    return 2. * error / parameters.tolerance;
+  }
+
+
+
+  double
+  AdaptiveStepping::error(const Forces &forces) const
+  {
+    const double h = target_time() - time;
+    if (has_previous)
+      {
+        // F'' h^2 / 8, with F'' from the distance to the extrapolated line,
+        // F'' h (h + h_0) / 2
+        const double h_0          = time - previous_time;
+        const Forces extrapolated = current + h / h_0 * (current - previous);
+        return relative_to_tolerance((forces - extrapolated) * h /
+                                       (4. * (h + h_0)),
+                                     forces);
+      }
+    return relative_to_tolerance(middle - 0.5 * (current + forces), forces);
+  }
+
+
+
+  void
+  AdaptiveStepping::accept(const Forces &forces, const double error)
+  {
+    const double step = target_time() - time;
+    previous          = current;
+    previous_time     = time;
+    has_previous      = true;
+    current           = forces;
+    time              = target_time();
+    greatest          = greatest.cwiseMax(forces.cwiseAbs());
+    // the error goes with the square of the step; towards 0.6 of the tolerance
+    set_size(step *
+             std::clamp(std::sqrt(0.6 / std::max(error, 1e-12)), 0.5, 2.));
+  }
+
+
+
+  bool
+  AdaptiveStepping::shrink(const double error)
+  {
+    const double step = target_time() - time;
+    if (step <= smallest() * (1. + 1e-9))
+      return false;
+    set_size(step * std::clamp(std::sqrt(0.6 / error), 0.1, 0.7));
+    return true;
+  }
+
+
+
+  bool
+  AdaptiveStepping::reject()
+  {
+    const double step = target_time() - time;
+    if (step <= smallest() * (1. + 1e-9))
+      return false;
+    set_size(0.5 * step);
+    return true;
+  }
+} // namespace Debond

@@ -1,7 +1,9 @@
 // Planned times are hit exactly, also after sub-steps; a step that fails is
 // halved, one that succeeds may grow again on its grid, and there is a smallest
-// step.
+// step. Adaptive steps keep a known curve within the tolerance, with not many
+// more than the fewest possible, and end phases exactly.
 
+#include <debond/adaptive_stepping.h>
 #include <debond/load_stepping.h>
 
 #include <string>
@@ -40,9 +42,87 @@ are(const std::vector<double> &times, const std::vector<double> &expected)
 
 
 
+/** A force that is pressed up in the first phase, and a torque that then rises
+ *  steeply, falls and stays, much like that of an implant. */
+AdaptiveStepping::Forces
+forces_at(const double t)
+{
+  AdaptiveStepping::Forces forces = AdaptiveStepping::Forces::Zero();
+  const double             s      = std::max(0., t - 1.);
+  forces[2]                       = -40. * std::min(t, 1.);
+  forces[5]                       = 30. * std::tanh(60. * s) +
+              10. * (1. - std::tanh(20. * (s - 0.15))) * std::tanh(60. * s);
+  return forces;
+}
+
+
+
+void
+check_adaptive(const double tolerance)
+{
+  LoadSteppingParameters parameters;
+  parameters.times                  = {0, 1, 2};
+  parameters.steps                  = {1, 4};
+  parameters.tolerance              = tolerance;
+  parameters.smallest_step_fraction = 1e-6;
+  AdaptiveStepping    stepping(parameters, 2.5);
+  std::vector<double> times{0.};
+  unsigned int        n_pressing = 0;
+  for (unsigned int phase = 0; phase < 2; ++phase)
+    {
+      stepping.begin_phase(phase, forces_at(times.back()));
+      while (!stepping.phase_is_finished())
+        {
+          if (stepping.wants_middle())
+            stepping.note_middle(forces_at(stepping.middle_time()));
+          const double time  = stepping.target_time();
+          const double error = stepping.error(forces_at(time));
+          if (error > 1. && stepping.shrink(error))
+            continue;
+          stepping.accept(forces_at(time), error);
+          times.push_back(time);
+        }
+      if (phase == 0)
+        n_pressing = times.size() - 1;
+    }
+  double error = 0, integral = 0, largest = 0;
+  for (unsigned int i = 0; i + 1 < times.size(); ++i)
+    for (unsigned int k = 0; k < 200; ++k)
+      {
+        const double x = k / 200.;
+        const double t = times[i] + x * (times[i + 1] - times[i]);
+        const double line =
+          (1. - x) * forces_at(times[i])[5] + x * forces_at(times[i + 1])[5];
+        grow(error, std::abs(forces_at(t)[5] - line));
+        grow(largest, std::abs(forces_at(t)[5]));
+        // the fewest straight lines: int sqrt(|F''| / 8 / tolerance) dt
+        const double h = 1e-4;
+        const double F2 =
+          (forces_at(t + h)[5] - 2. * forces_at(t)[5] + forces_at(t - h)[5]) /
+          (h * h);
+        if (t > 1. + h)
+          integral +=
+            std::sqrt(std::abs(F2) / 8.) * (times[i + 1] - times[i]) / 200.;
+      }
+  const double fewest = integral / std::sqrt(tolerance * largest);
+  std::cout << "Adaptive, tolerance " << tolerance << std::endl;
+  report("A straight line takes one step", n_pressing == 1);
+  report("The end is hit exactly", times.back() == 2.);
+  report("Error relative to the tolerance", error / largest / tolerance, 1.);
+  report("Steps per step of the fewest",
+         (times.size() - 2.) / (fewest + 4.),
+         2.5);
+}
+
+
+
 int
 main()
 {
+  check_adaptive(1e-2);
+  check_adaptive(1e-3);
+  check_adaptive(1e-4);
+
   LoadSteppingParameters parameters;
   parameters.times                  = {0.1, 1.3, 2.2, 2.9};
   parameters.steps                  = {3, 1000, 7};

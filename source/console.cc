@@ -40,7 +40,9 @@ namespace Debond
   void
   Console::row(const TorqueRow &row, const unsigned int n_steps)
   {
-    if (quiet())
+    // of very many planned steps some hundred lines tell as much
+    const unsigned int stride = std::max(1U, n_steps / 100);
+    if (quiet() || (row.step % stride != 0 && row.step != n_steps))
       return;
     erase_progress();
     if (!columns_named)

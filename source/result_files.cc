@@ -67,7 +67,8 @@ namespace Debond
     prm.declare_entry("Console",
                       "steps",
                       Allowed::choice("steps | quiet"),
-                      "`steps': a line for each step, progress and timings. "
+                      "`steps': lines about the steps (a hundred if very many "
+                      "are planned), progress and timings. "
                       "`quiet': warnings and errors only.");
     prm.leave_subsection();
   }

@@ -11,7 +11,7 @@
 
 namespace Debond
 {
-  /** What a run says on its standard output: one line a step, a line of
+  /** What a run says on its standard output: lines about the steps, one of
    *  progress that is overwritten if the output is a terminal, warnings. */
   class Console
   {

@@ -12,7 +12,7 @@ namespace dealii
 
 namespace Debond
 {
-  /** steps: one line a step, progress and timings; quiet: warnings and errors
+  /** steps: lines about the steps, progress and timings; quiet: warnings and errors
    * only. */
   enum class ConsoleKind
   {

@@ -42,6 +42,9 @@ namespace Debond
     std::unique_ptr<ProfileOutput>     profiles;
     ReferenceCurve                     reference;
     EnergyBalance                      energy;
+    /** Of the accepted state. */
+    ContactInterface::Summary interface_summary;
+    double                    reaction_defect = 0;
 
     std::vector<TorqueRow> rows;
     double                 time              = 0; ///< of the accepted state
@@ -301,14 +304,15 @@ namespace Debond
   void
   DebondingProblem::accept(const double time)
   {
+    CoupledSystem &system    = *state->system;
+    state->interface_summary = system.interface.summarise();
+    state->reaction_defect   = system.reaction_defect();
     check_accepted_state();
-    CoupledSystem &system           = *state->system;
-    const double   energy_interface = system.interface.summarise().energy;
     system.commit(time);
     state->energy.add(system.chuck_forces(),
                       system.chuck.position(),
                       system.bone.energy() + system.implant.energy(),
-                      energy_interface,
+                      state->interface_summary.energy,
                       system.interface.dissipation());
     state->time = time;
     if (state->step > 0)
@@ -326,9 +330,8 @@ namespace Debond
   void
   DebondingProblem::check_accepted_state()
   {
-    CoupledSystem    &system  = *state->system;
-    const auto        summary = system.interface.summarise();
-    const std::string where   = "step " + std::to_string(state->step) + ": ";
+    const ContactInterface::Summary &summary = state->interface_summary;
+    const std::string where = "step " + std::to_string(state->step) + ": ";
     if (summary.steepest_softening >= 1.)
       state->console.warn(
         "uniqueness",
@@ -355,13 +358,13 @@ namespace Debond
              << " mm): lengths are mm, is the push-in right?";
         state->console.warn("penetration", text.str());
       }
-    if (system.reaction_defect() > 1e-6)
+    if (state->reaction_defect > 1e-6)
       {
         std::ostringstream text;
         text
           << where
           << "contact forces and the reaction of the implant's top differ by "
-          << system.reaction_defect() << " of the larger";
+          << state->reaction_defect << " of the larger";
         state->console.warn("reaction", text.str());
       }
   }
@@ -373,7 +376,7 @@ namespace Debond
                               const unsigned int iterations)
   {
     CoupledSystem        &system   = *state->system;
-    const auto            summary  = system.interface.summarise();
+    const auto           &summary  = state->interface_summary;
     const Chuck::Vector6 &q        = system.chuck.position();
     const Chuck::Vector6  reaction = system.chuck_resultant();
 
@@ -396,7 +399,7 @@ namespace Debond
     row.dissipation_Nmm      = system.interface.dissipation();
     row.adhesive_work_Nmm    = system.interface.adhesive_work();
     row.energy_defect_bound  = state->energy.defect_bound();
-    row.reaction_defect      = system.reaction_defect();
+    row.reaction_defect      = state->reaction_defect;
     for (unsigned int k = 0; k < 6; ++k)
       {
         row.chuck_reaction[k] = reaction[k];

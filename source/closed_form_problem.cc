@@ -331,9 +331,7 @@ namespace Debond
         console.row(next, loads.size() - 1);
         profiles.write(next.angle_deg, *model);
       }
-    const std::string warning = profiles.finish();
-    if (!warning.empty())
-      console.warn("profile", warning);
+    console.warn("profile", profiles.finish());
     write_summary(directory, console, clock.wall_time());
   }
 
@@ -360,9 +358,8 @@ namespace Debond
 
     RunSummary summary;
     summary.measures = measure_torque_curve(torque_rows, settings);
-    if (misses_reference(summary.measures, settings))
-      console.warn("reference",
-                   "no row of the reference curve could be compared with");
+    console.warn("reference",
+                 warning_about_reference(summary.measures, settings));
     summary.steps          = torque_rows.size() - 1;
     summary.converged      = true;
     summary.reason         = "all planned steps are done";

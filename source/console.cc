@@ -95,8 +95,9 @@ namespace Debond
   void
   Console::warn(const std::string &key, const std::string &text)
   {
-    if (std::find(warning_keys.begin(), warning_keys.end(), key) !=
-        warning_keys.end())
+    if (text.empty() ||
+        std::find(warning_keys.begin(), warning_keys.end(), key) !=
+          warning_keys.end())
       return;
     warning_keys.push_back(key);
     warning_texts.push_back(text);

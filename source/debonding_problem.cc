@@ -203,37 +203,44 @@ namespace Debond
     stepping.begin_phase(phase, system.chuck_forces());
     while (!stepping.phase_is_finished())
       {
-        ++state->step;
-        bool solved = true;
-        if (stepping.wants_middle())
-          {
-            solved = try_step(stepping.middle_time(), extrapolate, iterations);
-            if (solved)
-              {
-                stepping.note_middle(system.chuck_forces());
-                system.rollback();
-              }
-          }
         const double time = stepping.target_time();
-        solved            = solved && try_step(time, extrapolate, iterations);
-        const double error =
-          solved ? stepping.error(system.chuck_forces()) : 0.;
-        if (solved && error > 1. && stepping.shrink(error))
-          system.rollback(); // the curve bends too much for this step
-        else if (solved)
+        if (!try_middle(extrapolate, iterations) ||
+            !try_step(time, extrapolate, iterations))
           {
-            accept(time);
-            stepping.accept(system.chuck_forces(), error);
-            extrapolate = true;
-            write_row(state->step, iterations);
-            write_fields(state->step);
-            iterations = 0;
+            if (!stepping.reject())
+              give_up(state->step + 1, time);
             continue;
           }
-        else if (!stepping.reject())
-          give_up(state->step, time);
-        --state->step;
+        const double error = stepping.error(system.chuck_forces());
+        if (error > 1. && stepping.shrink(error))
+          {
+            system.rollback(); // the curve bends too much for this step
+            continue;
+          }
+        ++state->step;
+        accept(time);
+        stepping.accept(system.chuck_forces(), error);
+        extrapolate = true;
+        write_row(state->step, iterations);
+        write_fields(state->step);
+        iterations = 0;
       }
+  }
+
+
+
+  // A trial in the middle of the step, where the step control wants one.
+  bool
+  DebondingProblem::try_middle(const bool extrapolate, unsigned int &iterations)
+  {
+    AdaptiveStepping &stepping = *state->adaptive_stepping;
+    if (!stepping.wants_middle())
+      return true;
+    if (!try_step(stepping.middle_time(), extrapolate, iterations))
+      return false;
+    stepping.note_middle(state->system->chuck_forces());
+    state->system->rollback();
+    return true;
   }
 
 
@@ -447,9 +454,7 @@ namespace Debond
                     state->rows.end(),
                     [](const TorqueRow &row) { return row.share_open == 1.; }))
       state->console.warn("no contact", "the bodies are never in contact");
-    const std::string unreached = state->profiles->finish();
-    if (!unreached.empty())
-      state->console.warn("profile", unreached);
+    state->console.warn("profile", state->profiles->finish());
     const CoupledSystem &system = *state->system;
     CurveSettings        settings;
     settings.contact_area_mm2 =
@@ -467,10 +472,9 @@ namespace Debond
 
     RunSummary summary;
     summary.measures = measure_torque_curve(state->rows, settings);
-    if (converged && misses_reference(summary.measures, settings))
+    if (converged)
       state->console.warn("reference",
-                          "no row of the reference curve could be compared "
-                          "with");
+                          warning_about_reference(summary.measures, settings));
     summary.steps             = state->accepted_steps;
     summary.newton_iterations = state->newton_iterations;
     summary.dofs              = system.bone.mesh().n_dofs_as_published() +

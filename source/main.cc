@@ -164,10 +164,9 @@ Exit codes: 0 success, 1 wrong usage or scene, 2 the run failed, 3 internal erro
     if (arguments.scene_file.empty())
       return Debond::print_parameters(std::cout);
 
-    std::vector<Debond::SceneEntry> entries =
-      Debond::read_scene_file(arguments.scene_file);
-    for (const std::string &text : arguments.overrides)
-      Debond::set_entry(entries, Debond::read_override(text));
+    const std::vector<Debond::SceneEntry> entries =
+      Debond::with_overrides(Debond::read_scene_file(arguments.scene_file),
+                             arguments.overrides);
     if (Debond::is_study(entries) &&
         arguments.action != Action::print_parameters)
       return run_study(entries, arguments);

@@ -404,17 +404,6 @@ namespace Debond
         }
       return place;
     }
-
-
-
-    std::vector<SceneEntry>
-    with_overrides(std::vector<SceneEntry>         entries,
-                   const std::vector<std::string> &overrides)
-    {
-      for (const std::string &text : overrides)
-        set_entry(entries, read_override(text));
-      return entries;
-    }
   } // namespace
 
 

@@ -356,6 +356,17 @@ namespace Debond
 
 
 
+  std::vector<SceneEntry>
+  with_overrides(std::vector<SceneEntry>         entries,
+                 const std::vector<std::string> &overrides)
+  {
+    for (const std::string &text : overrides)
+      set_entry(entries, read_override(text));
+    return entries;
+  }
+
+
+
   SceneEntry
   read_override(const std::string &text)
   {

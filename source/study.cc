@@ -37,11 +37,9 @@ namespace Debond
 
 
 
-    using Members = StudyRow;
-
-    /** Members of a summary.json as text; lists joined, null as nan. Empty if
+    /** StudyRow of a summary.json as text; lists joined, null as nan. Empty if
      *  there is none. */
-    Members
+    StudyRow
     read_summary(const std::string &filename)
     {
       boost::property_tree::ptree tree;
@@ -53,7 +51,7 @@ namespace Debond
         {
           return {};
         }
-      Members members;
+      StudyRow members;
       for (const auto &[name, child] : tree)
         {
           std::string value = child.data() == "null" ? "nan" : child.data();
@@ -67,7 +65,7 @@ namespace Debond
 
 
     std::string
-    member(const Members &members, const std::string &name)
+    member(const StudyRow &members, const std::string &name)
     {
       for (const auto &[other, value] : members)
         if (other == name)
@@ -78,7 +76,7 @@ namespace Debond
 
 
     void
-    set_member(Members           &members,
+    set_member(StudyRow          &members,
                const std::string &name,
                const std::string &value)
     {
@@ -144,28 +142,29 @@ namespace Debond
                            "a directory of its own below this one: expected "
                            "one value");
       }
-    for (StudyVariant &variant : study_variants(entries))
+    std::vector<StudyVariant> combinations = study_variants(entries);
+    const Scene first = Scene::from_entries(combinations[0].entries, name);
+    directory         = first.output.directory;
+    reference         = first.study.reference_variant;
+    if (reference > combinations.size())
+      throw InputError(
+        first.with_place("Study / Reference variant: this study has " +
+                         std::to_string(combinations.size()) + " variants"));
+    for (StudyVariant &combination : combinations)
       {
-        const Scene as_written = Scene::from_entries(variant.entries, name);
-        directory              = as_written.output.directory;
-        reference              = as_written.study.reference_variant;
         // what only the study uses must not make another scene of a variant
-        for (const std::string &entry :
-             {std::string("Study/Reference variant=0"),
-              std::string("Output/Console=quiet"),
-              "Output/Directory=" + directory + "/" +
-                variant_name(variants.size())})
-          set_entry(variant.entries, read_override(entry));
         Variant next;
-        next.values = variant.values;
-        next.scene  = Scene::from_entries(variant.entries, name);
+        next.values = combination.values;
+        next.scene =
+          Scene::from_entries(with_overrides(std::move(combination.entries),
+                                             {"Study/Reference variant=0",
+                                              "Output/Console=quiet",
+                                              "Output/Directory=" + directory +
+                                                "/" +
+                                                variant_name(variants.size())}),
+                              name);
         variants.push_back(std::move(next));
       }
-    if (reference > variants.size())
-      throw InputError(
-        Scene::from_entries(study_variants(entries)[0].entries, name)
-          .with_place("Study / Reference variant: this study has " +
-                      std::to_string(variants.size()) + " variants"));
   }
 
 
@@ -389,7 +388,7 @@ namespace Debond
       out << "failed: " << variants[variant].failure << std::endl;
     else
       {
-        const Members &summary = variants[variant].summary;
+        const StudyRow &summary = variants[variant].summary;
         out << "T_max " << rounded(member(summary, "T_max_Nmm")) << " N mm, "
             << rounded(member(summary, "wall_seconds")) << " s" << std::endl;
       }
@@ -398,24 +397,26 @@ namespace Debond
 
 
   // Not a number as long as either curve is missing.
-  StudyRow
-  Study::compare_with_reference(const unsigned int number) const
+  void
+  Study::compare_with_reference()
   {
-    const Variant &variant = variants[number];
-    const Variant &other   = variants[reference - 1];
-    CurveMeasures  measures;
-    if (variant.done && other.done)
-      measures = compare(variant.scene.output.directory + "/torque.csv",
-                         other.scene.output.directory + "/torque.csv");
-    StudyRow row;
-    for (const auto &[name, value] : error_measures(measures))
-      {
-        std::ostringstream text;
-        text.precision(12);
-        text << value;
-        row.emplace_back(name, text.str());
-      }
-    return row;
+    const Variant &other = variants[reference - 1];
+    for (Variant &variant : variants)
+      if (!variant.compared)
+        {
+          CurveMeasures measures;
+          variant.compared = variant.done && other.done;
+          if (variant.compared)
+            measures = compare(variant.scene.output.directory + "/torque.csv",
+                               other.scene.output.directory + "/torque.csv");
+          for (const auto &[name, value] : error_measures(measures))
+            {
+              std::ostringstream text;
+              text.precision(12);
+              text << value;
+              set_member(variant.summary, name, text.str());
+            }
+        }
   }
 
 
@@ -424,11 +425,11 @@ namespace Debond
   Study::table_row(const unsigned int number) const
   {
     const Variant &variant = variants[number];
-    Members        row{{"variant", std::to_string(number + 1)}};
+    StudyRow       row{{"variant", std::to_string(number + 1)}};
     for (unsigned int i = 0; i < varied.size(); ++i)
       row.emplace_back(varied[i], variant.values[i]);
 
-    Members summary = variant.summary;
+    StudyRow summary = variant.summary;
     if (!variant.done)
       {
         const std::string why =
@@ -438,9 +439,6 @@ namespace Debond
         set_member(summary, "converged", "false");
         set_member(summary, "reason", why);
       }
-    if (reference > 0)
-      for (const auto &[name, value] : compare_with_reference(number))
-        set_member(summary, name, value);
     row.insert(row.end(), summary.begin(), summary.end());
     return row;
   }
@@ -448,14 +446,20 @@ namespace Debond
 
 
   void
-  Study::write_table() const
+  Study::write_table()
   {
+    if (reference > 0)
+      compare_with_reference();
+    std::vector<StudyRow> rows;
+    for (unsigned int i = 0; i < variants.size(); ++i)
+      rows.push_back(table_row(i));
+
     std::vector<std::string> columns;
     // finished variants first: they know all columns and their order
     for (const bool done : {true, false})
       for (unsigned int i = 0; i < variants.size(); ++i)
         if (variants[i].done == done)
-          for (const auto &[name, value] : table_row(i))
+          for (const auto &[name, value] : rows[i])
             if (std::find(columns.begin(), columns.end(), name) ==
                 columns.end())
               columns.push_back(name);
@@ -463,10 +467,9 @@ namespace Debond
     for (const std::string &column : columns)
       text += (text.empty() ? "" : ",") + csv_field(column);
     text += "\n";
-    for (unsigned int i = 0; i < variants.size(); ++i)
+    for (const StudyRow &row : rows)
       {
-        const Members row = table_row(i);
-        std::string   line;
+        std::string line;
         for (const std::string &column : columns)
           {
             const auto has =

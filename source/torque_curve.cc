@@ -476,10 +476,13 @@ namespace Debond
 
 
 
-  bool
-  misses_reference(const CurveMeasures &measures, const CurveSettings &settings)
+  std::string
+  warning_about_reference(const CurveMeasures &measures,
+                          const CurveSettings &settings)
   {
-    return !settings.reference.empty() && measures.reference_rows_used == 0;
+    return !settings.reference.empty() && measures.reference_rows_used == 0 ?
+             "no row of the reference curve could be compared with" :
+             "";
   }
 
 

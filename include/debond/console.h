@@ -24,7 +24,8 @@ namespace Debond
      *  number is not known). */
     void
     row(const TorqueRow &row, unsigned int n_steps);
-    /** Printed, with the step, the first time only; kept for the summary. */
+    /** Printed the first time only; kept for the summary. An empty text is no
+     *  warning. */
     void
     warn(const std::string &key, const std::string &text);
     const std::vector<std::string> &

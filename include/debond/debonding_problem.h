@@ -41,6 +41,8 @@ namespace Debond
     solve_planned_step(unsigned int step);
     void
     solve_phase_adaptively(unsigned int phase);
+    bool
+    try_middle(bool extrapolate, unsigned int &iterations);
     /** Tries a step, with an extrapolated start if wanted and again without if
      *  that fails. */
     bool

@@ -12,8 +12,8 @@ namespace dealii
 
 namespace Debond
 {
-  /** steps: lines about the steps, progress and timings; quiet: warnings and errors
-   * only. */
+  /** steps: lines about the steps, progress and timings; quiet: warnings and
+   * errors only. */
   enum class ConsoleKind
   {
     steps,

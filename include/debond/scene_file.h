@@ -51,6 +51,11 @@ namespace Debond
   void
   set_entry(std::vector<SceneEntry> &entries, const SceneEntry &entry);
 
+  /** @p entries with overrides "Subsection/Entry=value" in their order. */
+  std::vector<SceneEntry>
+  with_overrides(std::vector<SceneEntry>         entries,
+                 const std::vector<std::string> &overrides);
+
   /** Takes "Subsection/Entry=value" apart; its place is "--set". Throws
    *  InputError if there is no `=` or no name. */
   SceneEntry

@@ -52,8 +52,9 @@ namespace Debond
       Scene                    scene;
       std::vector<std::string> values; ///< of the varied entries
       DirectoryContent         content = DirectoryContent::no_results;
-      StudyRow                 summary; ///< its summary.json
-      bool                     done = false;
+      StudyRow                 summary;          ///< its summary.json
+      bool                     compared = false; ///< with the reference variant
+      bool                     done     = false;
       std::string              failure; ///< why it failed, if it did
     };
 
@@ -65,12 +66,12 @@ namespace Debond
     report(unsigned int variant, std::ostream &out) const;
     static void
     look_up(Variant &variant);
-    StudyRow
-    compare_with_reference(unsigned int variant) const;
+    void
+    compare_with_reference();
     StudyRow
     table_row(unsigned int variant) const;
     void
-    write_table() const;
+    write_table();
 
     std::vector<std::string> varied; ///< full names of the varied entries
     std::vector<Variant>     variants;

@@ -150,10 +150,11 @@ namespace Debond
 
 
 
-  /** Whether there is a reference curve, and no row of it could be used. */
-  bool
-  misses_reference(const CurveMeasures &measures,
-                   const CurveSettings &settings);
+  /** A warning if there is a reference curve and no row of it could be used,
+   *  else nothing. */
+  std::string
+  warning_about_reference(const CurveMeasures &measures,
+                          const CurveSettings &settings);
 
   /** The members of summary.json that measure the distance from a reference
    *  curve: e_mp, e_rel, difference_max, difference_mean,

@@ -379,11 +379,10 @@ namespace
       const std::string              &scene_text,
       const std::vector<std::string> &more_overrides)
   {
-    std::vector<Debond::SceneEntry> entries =
-      Debond::read_scene_file(scene_file);
-    for (const auto &list : {overrides(scene_text), more_overrides})
-      for (const std::string &text : list)
-        Debond::set_entry(entries, Debond::read_override(text));
+    const std::vector<Debond::SceneEntry> entries = Debond::with_overrides(
+      Debond::with_overrides(Debond::read_scene_file(scene_file),
+                             overrides(scene_text)),
+      more_overrides);
     if (Debond::is_study(entries))
       {
         std::ostringstream log;

@@ -1,0 +1,116 @@
+// profiles.csv and friction_law.csv: two rigid bodies have at every slave point
+// the traction, sliding distance and friction coefficient of the closed form at
+// that radius, at the angles that were asked for.
+
+#include <debond/closed_forms.h>
+
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "checks.h"
+#include "driven_scene.h"
+
+using namespace Debond;
+
+std::map<std::string, std::vector<double>>
+read_columns(const std::string &filename)
+{
+  std::ifstream                              file(filename);
+  std::string                                line, item;
+  std::vector<std::string>                   names;
+  std::map<std::string, std::vector<double>> columns;
+  std::getline(file, line);
+  for (std::istringstream items(line); std::getline(items, item, ',');)
+    names.push_back(item);
+  while (std::getline(file, line))
+    {
+      std::istringstream items(line);
+      for (const std::string &name : names)
+        {
+          std::getline(items, item, ',');
+          columns[name].push_back(std::stod(item));
+        }
+    }
+  return columns;
+}
+
+
+
+void
+test()
+{
+  run_scene("profiles",
+            R"(
+subsection Bone
+  set Material = rigid
+end
+subsection Implant
+  set Material = rigid
+end
+subsection Chuck
+  subsection Translation z
+    set Value = -2.6 / 585 * min(t, 1)
+  end
+  subsection Rotation z
+    set Value = 2 * max(t - 1, 0)
+  end
+end
+subsection Load steps
+  set Steps = 1, 40
+end
+subsection Output
+  set Profile angles     = 1.5, 0.1
+  set Friction law curve = true
+end
+)");
+  RigidBodiesTorsion::Parameters parameters;
+  parameters.radius             = 2.5;
+  parameters.push_in            = 2.6 / 585;
+  parameters.normal_penalty     = 585;
+  parameters.tangential_penalty = 585;
+  const RigidBodiesTorsion exact(parameters);
+
+  auto   profile  = read_columns("results/profiles/profiles.csv");
+  double traction = 0, slip = 0, mu = 0, pressure = 0;
+  for (unsigned int i = 0; i < profile["r_mm"].size(); ++i)
+    {
+      const auto point =
+        exact.point(profile["r_mm"][i], profile["angle_deg"][i] * M_PI / 180.);
+      grow(traction, std::abs(profile["traction_MPa"][i] - point.traction));
+      grow(slip, std::abs(profile["slip_mm"][i] - point.slip));
+      grow(mu, std::abs(profile["mu"][i] - point.mu));
+      grow(pressure, std::abs(profile["pressure_MPa"][i] - 2.6));
+    }
+  report("points of both angles", profile["r_mm"].size() == 2 * 225);
+  report("angles",
+         std::abs(profile["angle_deg"].front() - 0.1) < 1e-9 &&
+           std::abs(profile["angle_deg"].back() - 1.5) < 1e-9);
+  report("traction [MPa]", traction, 1e-4);
+  report("sliding distance [mm]", slip, 1e-5);
+  report("friction coefficient", mu, 1e-4);
+  report("pressure [MPa]", pressure, 1e-9);
+
+  auto law = read_columns("results/profiles/friction_law.csv");
+  mu       = 0;
+  for (unsigned int i = 0; i < law["slip_mm"].size(); ++i)
+    {
+      // Eqs. (11) and (13) with a_s = 22 um, b_s = 0.74, 0.58 and 0.40
+      const double s = law["slip_mm"][i] / 0.022;
+      const double phi =
+        s < 1.   ? 1. :
+        s > 2.48 ? 0. :
+                   0.5 - 0.5 * std::sin(M_PI / 1.48 * (s - 1.74));
+      grow(mu, std::abs(law["mu"][i] - (0.4 + 0.18 * phi)));
+      grow(mu, std::abs(law["mu_over_initial"][i] - law["mu"][i] / 0.58));
+    }
+  report("friction law", mu, 1e-10);
+}
+
+
+
+int
+main()
+{
+  return run_test(&test);
+}

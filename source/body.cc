@@ -128,6 +128,7 @@ namespace Debond
       *state = full_displacement(*state);
     is_contact           = contact;
     surface_is_condensed = false;
+    surface_is_stale     = false;
     contact_unknowns.clear();
     for (unsigned int A = 0; A < is_contact.size(); ++A)
       for (unsigned int c = 0; c < 3; ++c)
@@ -230,9 +231,8 @@ namespace Debond
     if (material() == Material::linear)
       {
         const Eigen::VectorXd v_c = contact_values(v);
-        condensed.noalias() =
-          schur_complement().selfadjointView<Eigen::Lower>() * v_c;
-        strain_energy = 0.5 * v_c.dot(condensed);
+        condensed                 = condensed_product(v_c);
+        strain_energy             = 0.5 * v_c.dot(condensed);
         for (unsigned int k = 0; k < n_unknowns(); ++k)
           condensed[k] += force[free_dofs[contact_unknowns[k]] - first];
         result.norm_squared = condensed.squaredNorm();
@@ -281,10 +281,15 @@ namespace Debond
 
 
   void
-  Body::commit(const double time)
+  Body::commit(const double time, const bool surface_is_seen)
   {
-    if (surface_is_condensed)
-      v = full_displacement(v);
+    if (surface_is_condensed && surface_is_seen)
+      {
+        if (surface_is_stale) // the state to extrapolate from
+          accepted.value = full_displacement(accepted.value);
+        v = full_displacement(v);
+      }
+    surface_is_stale = surface_is_condensed && !surface_is_seen;
     accepted.commit(v, time);
   }
 

@@ -1,4 +1,6 @@
+#include <debond/chunks.h>
 #include <debond/condensation.h>
+#include <debond/runtime.h>
 
 #include <deal.II/base/exceptions.h>
 
@@ -13,8 +15,7 @@ namespace Debond
   struct Condensation::Cholmod
   {
     cholmod_common  common;
-    cholmod_factor *factor   = nullptr;
-    cholmod_dense  *solution = nullptr, *work_1 = nullptr, *work_2 = nullptr;
+    cholmod_factor *factor = nullptr;
 
     Cholmod()
     {
@@ -34,9 +35,6 @@ namespace Debond
     operator=(const Cholmod &) = delete;
     ~Cholmod()
     {
-      cholmod_free_dense(&solution, &common);
-      cholmod_free_dense(&work_1, &common);
-      cholmod_free_dense(&work_2, &common);
       cholmod_free_factor(&factor, &common);
       cholmod_finish(&common);
     }
@@ -50,6 +48,11 @@ namespace Debond
 
   namespace
   {
+    // From here on threads inside the dense algebra of a factorisation pay.
+    constexpr unsigned int many_unknowns = 20000;
+
+
+
     // CHOLMOD's view on a matrix that is stored elsewhere.
     cholmod_sparse
     view(const SymmetricSparseMatrix &K)
@@ -147,7 +150,7 @@ namespace Debond
     cholmod = std::make_unique<Cholmod>();
     if (n_total == 0)
       {
-        S.resize(0, 0);
+        L_cc.resize(0, 0);
         return true;
       }
     cholmod_sparse A = view(K);
@@ -159,12 +162,15 @@ namespace Debond
                            permutation.end(),
                            static_cast<int *>(cholmod->factor->Perm)),
                 dealii::ExcMessage("CHOLMOD did not keep the given order"));
-    cholmod_factorize(&A, cholmod->factor, &cholmod->common);
+    {
+      const ThreadedBlas threads(n_total > many_unknowns);
+      cholmod_factorize(&A, cholmod->factor, &cholmod->common);
+    }
     if (cholmod->common.status != CHOLMOD_OK ||
         cholmod->factor->minor != cholmod->factor->n)
       return false;
     extract_trailing_block();
-    return S.allFinite(); // a matrix with NaN passes all pivots
+    return L_cc.allFinite(); // a matrix with NaN passes all pivots
   }
 
 
@@ -191,37 +197,183 @@ namespace Debond
           for (int k = column - super[s]; k < n_rows; ++k)
             L_cc(row[pi[s] + k] - n_i, column - n_i) = values[k];
         }
-    S.setZero(n_c, n_c);
+  }
+
+
+
+  Eigen::MatrixXd
+  Condensation::schur_complement() const
+  {
+    Eigen::MatrixXd S = Eigen::MatrixXd::Zero(n_c, n_c);
     if (n_c == 0)
-      return; // BLAS refuses empty matrices
+      return S; // BLAS refuses empty matrices
     S.selfadjointView<Eigen::Lower>().rankUpdate(L_cc);
     S.triangularView<Eigen::StrictlyUpper>() = S.transpose();
+    return S;
+  }
+
+
+
+  namespace
+  {
+    /** A dense part of the factor, columns @p stride apart. */
+    using Block = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+
+
+
+    Eigen::OuterStride<>
+    stride_of(const Eigen::MatrixXd &L)
+    {
+      return Eigen::OuterStride<>(L.rows());
+    }
+
+
+
+    // x <- L^-1 x or L^-T x. Eigen would do this itself, but without the
+    // processor's wide instructions.
+    void
+    solve_lower(const Block &L, const char *transposed, double *x)
+    {
+      const int n = L.cols(), stride = L.outerStride(), one = 1;
+      if (n > 0)
+        dtrsv_("L", transposed, "N", &n, L.data(), &stride, x, &one);
+    }
+
+
+
+    // Columns of a large triangle that are solved for at a time: small enough
+    // for the cache, large enough for several threads to share the rest.
+    constexpr int panel_width = 256;
+
+    // The same for a large triangle L, panel by panel, in threads.
+    void
+    solve_large_lower(const Eigen::MatrixXd &L, Eigen::VectorXd &x)
+    {
+      const int n = L.rows();
+      for (int first = 0; first < n; first += panel_width)
+        {
+          const int   width = std::min(panel_width, n - first);
+          const int   next  = first + width;
+          const Block triangle(&L(first, first), width, width, stride_of(L));
+          solve_lower(triangle, "N", &x[first]);
+          for_each_chunk(n - next,
+                         [&](unsigned int, const int begin, const int end) {
+                           x.segment(next + begin, end - begin).noalias() -=
+                             L.block(next + begin, first, end - begin, width) *
+                             x.segment(first, width);
+                         });
+        }
+    }
+
+
+
+    // x <- L^-T x.
+    void
+    solve_large_upper(const Eigen::MatrixXd &L, Eigen::VectorXd &x)
+    {
+      const int n = L.rows();
+      for (int first = (n - 1) / panel_width * panel_width; first >= 0;
+           first -= panel_width)
+        {
+          const int width = std::min(panel_width, n - first);
+          const int next  = first + width;
+          for_each_chunk(width,
+                         [&](unsigned int, const int begin, const int end) {
+                           x.segment(first + begin, end - begin).noalias() -=
+                             L.block(next, first + begin, n - next, end - begin)
+                               .transpose() *
+                             x.tail(n - next);
+                         });
+          const Block triangle(&L(first, first), width, width, stride_of(L));
+          solve_lower(triangle, "T", &x[first]);
+        }
+    }
+
+
+
+    /** The columns of a supernode of the factor that are not condensed. */
+    struct Supernode
+    {
+      Supernode(const cholmod_factor &L, const std::size_t s, const int n_i)
+        : first(static_cast<int *>(L.super)[s])
+        , n(std::min(static_cast<int *>(L.super)[s + 1], n_i) - first)
+        , n_below(static_cast<int *>(L.pi)[s + 1] -
+                  static_cast<int *>(L.pi)[s] - n)
+        , rows_below(static_cast<int *>(L.s) + static_cast<int *>(L.pi)[s] + n)
+        , diagonal(static_cast<double *>(L.x) + static_cast<int *>(L.px)[s],
+                   n,
+                   n,
+                   Eigen::OuterStride<>(n + n_below))
+        , below(diagonal.data() + n, n_below, n, diagonal.outerStride())
+      {}
+
+      int        first, n, n_below;
+      const int *rows_below;
+      Block      diagonal, below;
+    };
+  } // namespace
+
+
+
+  Eigen::VectorXd
+  Condensation::schur_product(const Eigen::VectorXd &x) const
+  {
+    if (n_c == 0)
+      return x;
+    Eigen::VectorXd y = L_cc.transpose().triangularView<Eigen::Upper>() * x;
+    return L_cc.triangularView<Eigen::Lower>() * y;
   }
 
 
 
   Eigen::VectorXd
-  Condensation::solve_triangular(const bool             transposed,
-                                 const Eigen::VectorXd &b)
+  Condensation::schur_solve(const Eigen::VectorXd &b) const
   {
-    cholmod_dense right_hand_side{};
-    right_hand_side.nrow = right_hand_side.d = right_hand_side.nzmax = n_total;
-    right_hand_side.ncol                                             = 1;
-    right_hand_side.x     = const_cast<double *>(b.data());
-    right_hand_side.xtype = CHOLMOD_REAL;
-    right_hand_side.dtype = CHOLMOD_DOUBLE;
-    const int ok          = cholmod_solve2(transposed ? CHOLMOD_Lt : CHOLMOD_L,
-                                  cholmod->factor,
-                                  &right_hand_side,
-                                  nullptr,
-                                  &cholmod->solution,
-                                  nullptr,
-                                  &cholmod->work_1,
-                                  &cholmod->work_2,
-                                  &cholmod->common);
-    AssertThrow(ok, dealii::ExcMessage("CHOLMOD's triangular solve failed"));
-    return Eigen::Map<Eigen::VectorXd>(
-      static_cast<double *>(cholmod->solution->x), n_total);
+    Eigen::VectorXd x = b;
+    solve_large_lower(L_cc, x);
+    solve_large_upper(L_cc, x);
+    return x;
+  }
+
+
+
+  void
+  Condensation::eliminate_interior(Eigen::VectorXd &x) const
+  {
+    const cholmod_factor &L   = *cholmod->factor;
+    const int             n_i = n_total - n_c;
+    Eigen::VectorXd       change;
+    for (std::size_t s = 0;
+         s < L.nsuper && static_cast<int *>(L.super)[s] < n_i;
+         ++s)
+      {
+        const Supernode node(L, s, n_i);
+        solve_lower(node.diagonal, "N", &x[node.first]);
+        change.noalias() = node.below * x.segment(node.first, node.n);
+        for (int k = 0; k < node.n_below; ++k)
+          x[node.rows_below[k]] -= change[k];
+      }
+  }
+
+
+
+  void
+  Condensation::recover_interior(Eigen::VectorXd &x) const
+  {
+    const cholmod_factor &L   = *cholmod->factor;
+    const int             n_i = n_total - n_c;
+    Eigen::VectorXd       known;
+    for (std::size_t s = L.nsuper; s-- > 0;)
+      if (static_cast<int *>(L.super)[s] < n_i)
+        {
+          const Supernode node(L, s, n_i);
+          known.resize(node.n_below);
+          for (int k = 0; k < node.n_below; ++k)
+            known[k] = x[node.rows_below[k]];
+          x.segment(node.first, node.n).noalias() -=
+            node.below.transpose() * known;
+          solve_lower(node.diagonal, "T", &x[node.first]);
+        }
   }
 
 
@@ -231,13 +383,12 @@ namespace Debond
   {
     if (n_total == 0)
       return r;
-    Eigen::VectorXd permuted(n_total);
+    Eigen::VectorXd x(n_total);
     for (unsigned int k = 0; k < n_total; ++k)
-      permuted[k] = r[permutation[k]];
-    forward_part = solve_triangular(false, permuted);
-    if (n_c == 0)
-      return Eigen::VectorXd();
-    return L_cc.triangularView<Eigen::Lower>() * forward_part.tail(n_c);
+      x[k] = r[permutation[k]];
+    eliminate_interior(x);
+    forward_part = x.head(n_total - n_c);
+    return x.tail(n_c);
   }
 
 
@@ -247,11 +398,10 @@ namespace Debond
   {
     if (n_total == 0)
       return x_c;
-    Eigen::VectorXd b = forward_part;
-    if (n_c > 0)
-      b.tail(n_c) = L_cc.transpose().triangularView<Eigen::Upper>() * x_c;
-    const Eigen::VectorXd permuted = solve_triangular(true, b);
-    Eigen::VectorXd       x(n_total);
+    Eigen::VectorXd permuted(n_total);
+    permuted << forward_part, x_c;
+    recover_interior(permuted);
+    Eigen::VectorXd x(n_total);
     for (unsigned int k = 0; k < n_total; ++k)
       x[permutation[k]] = permuted[k];
     return x;
@@ -262,7 +412,7 @@ namespace Debond
   Eigen::VectorXd
   Condensation::extend(const Eigen::VectorXd &x_c)
   {
-    forward_part.setZero(n_total);
+    forward_part.setZero(n_total - n_c);
     return backward(x_c);
   }
 } // namespace Debond

@@ -1,6 +1,7 @@
 #include <debond/allowed_values.h>
 #include <debond/body_mesh.h>
 #include <debond/chuck.h>
+#include <debond/chunks.h>
 #include <debond/closest_point.h>
 #include <debond/contact_interface.h>
 
@@ -138,6 +139,18 @@ namespace Debond
         sum += basis.N[a] * nodes.col(basis.control_point[a]);
       return sum;
     }
+
+
+
+    ContactInterface::NodalSums
+    total(const std::array<ContactInterface::NodalSums, n_chunks> &sums)
+    {
+      ContactInterface::NodalSums result = sums[0];
+      for (unsigned int chunk = 1; chunk < n_chunks; ++chunk)
+        for (unsigned int side = 0; side < 2; ++side)
+          result[side] += sums[chunk][side];
+      return result;
+    }
   } // namespace
 
 
@@ -226,40 +239,74 @@ namespace Debond
   {
     const MasterSurface surface = master(configuration);
     const double        moved   = motion(configuration);
-    for (ControlNet &force : forces)
-      force.setZero();
-    failed_point     = -1;
-    frictionless_now = mode.frictionless;
-    for (unsigned int q = 0; q < points.size(); ++q)
-      {
-        Point &point = points[q];
-        if (!point.accepted.has_partner && point.clearance > moved)
-          {
-            // still beyond the edge: open
-            point.trial.state            = point.accepted;
-            point.trial.pressure         = point.trial.normal_gap =
-              point.trial.softening      = 0.;
-            point.trial.traction         = point.trial.tangential_traction =
-              point.trial.slip_increment = Eigen::Vector3d::Zero();
-            continue;
-          }
-        const Eigen::Vector3d x =
-          interpolate(point.basis, configuration.side[slave].positions);
-        update_contact_point(
-          law, point.accepted, point.phi_0, x, surface, mode, point.trial);
-        if (point.trial.failed && failed_point < 0)
-          failed_point = q;
-        if (point.trial.state.status == PointStatus::open)
-          continue;
-        const Eigen::Vector3d f = point.JxW * point.trial.traction;
-        for (unsigned int a = 0; a < point.basis.size; ++a)
-          forces[slave].col(point.basis.control_point[a]) +=
-            point.basis.N[a] * f;
-        const SurfaceBasis &basis = point.trial.basis;
-        for (unsigned int b = 0; b < basis.size; ++b)
-          forces[master_side()].col(basis.control_point[b]) -= basis.N[b] * f;
-      }
+    frictionless_now            = mode.frictionless;
+    std::array<NodalSums, n_chunks> sums;
+    std::array<int, n_chunks>       failed;
+    for_each_chunk(points.size(),
+                   [&](const unsigned int chunk,
+                       const unsigned int first,
+                       const unsigned int end) {
+                     failed[chunk] = -1;
+                     for (unsigned int side = 0; side < 2; ++side)
+                       sums[chunk][side].setZero(3, forces[side].cols());
+                     for (unsigned int q = first; q < end; ++q)
+                       {
+                         update(points[q], configuration, surface, moved, mode);
+                         if (points[q].trial.failed && failed[chunk] < 0)
+                           failed[chunk] = q;
+                         add_forces(points[q], sums[chunk]);
+                       }
+                   });
+    forces       = total(sums);
+    failed_point = -1;
+    for (const int q : failed)
+      if (failed_point < 0)
+        failed_point = q;
     return failed_point < 0;
+  }
+
+
+
+  void
+  ContactInterface::update(Point                        &point,
+                           const InterfaceConfiguration &configuration,
+                           const MasterSurface          &surface,
+                           const double                  moved,
+                           const ContactPointMode       &mode) const
+  {
+    if (point.accepted.has_partner || point.clearance <= moved)
+      {
+        update_contact_point(law,
+                             point.accepted,
+                             point.phi_0,
+                             interpolate(point.basis,
+                                         configuration.side[slave].positions),
+                             surface,
+                             mode,
+                             point.trial);
+        return;
+      }
+    // still beyond the edge: open
+    point.trial.failed   = false;
+    point.trial.state    = point.accepted;
+    point.trial.pressure = point.trial.normal_gap = point.trial.softening = 0.;
+    point.trial.traction         = point.trial.tangential_traction =
+      point.trial.slip_increment = Eigen::Vector3d::Zero();
+  }
+
+
+
+  void
+  ContactInterface::add_forces(const Point &point, NodalSums &sums) const
+  {
+    if (point.trial.state.status == PointStatus::open)
+      return;
+    const Eigen::Vector3d f = point.JxW * point.trial.traction;
+    for (unsigned int a = 0; a < point.basis.size; ++a)
+      sums[slave].col(point.basis.control_point[a]) += point.basis.N[a] * f;
+    const SurfaceBasis &basis = point.trial.basis;
+    for (unsigned int b = 0; b < basis.size; ++b)
+      sums[master_side()].col(basis.control_point[b]) -= basis.N[b] * f;
   }
 
 
@@ -479,13 +526,12 @@ namespace Debond
                                   const Eigen::VectorXd        &direction,
                                   Eigen::VectorXd              &result) const
   {
-    const Chuck              &chuck = *configuration.chuck;
-    std::array<ControlNet, 2> moved, change;
+    const Chuck &chuck = *configuration.chuck;
+    NodalSums    moved;
     for (unsigned int s = 0; s < 2; ++s)
       {
         const auto &side = configuration.side[s];
         moved[s].setZero(3, side.positions.cols());
-        change[s].setZero(3, side.positions.cols());
         for (unsigned int i = 0; i < side.unknown_of.size(); ++i)
           if (side.unknown_of[i] >= 0)
             moved[s](i % 3, i / 3) = direction[side.unknown_of[i]];
@@ -498,30 +544,17 @@ namespace Debond
                 chuck.velocity(component, side.positions.col(A));
       }
 
-    for (const Point &point : points)
-      if (point.trial.state.status != PointStatus::open)
-        {
-          const SurfaceBasis          &basis = point.trial.basis;
-          Eigen::Matrix<double, 15, 1> dw;
-          SurfaceGeometry              master_change;
-          contract(basis, moved[master_side()], false, master_change);
-          dw << interpolate(point.basis, moved[slave]), master_change.y,
-            master_change.a1, master_change.a2, Eigen::Vector3d::Zero();
-          if (point.trial.state.status == PointStatus::slip)
-            dw.tail<3>() =
-              interpolate(point.trial.old_basis, moved[master_side()]);
-          const Eigen::Vector3d dt  = point.JxW * (point.trial.dt * dw);
-          const Eigen::Vector2d dxi = point.trial.dxi * dw;
-          const Eigen::Vector3d t   = point.JxW * point.trial.traction;
-          for (unsigned int a = 0; a < point.basis.size; ++a)
-            change[slave].col(point.basis.control_point[a]) +=
-              point.basis.N[a] * dt;
-          for (unsigned int b = 0; b < basis.size; ++b)
-            change[master_side()].col(basis.control_point[b]) -=
-              basis.N[b] * dt +
-              (basis.N_1[b] * dxi[0] + basis.N_2[b] * dxi[1]) * t;
-        }
-
+    std::array<NodalSums, n_chunks> sums;
+    for_each_chunk(points.size(),
+                   [&](const unsigned int chunk,
+                       const unsigned int first,
+                       const unsigned int end) {
+                     for (unsigned int side = 0; side < 2; ++side)
+                       sums[chunk][side].setZero(3, moved[side].cols());
+                     for (unsigned int q = first; q < end; ++q)
+                       add_change(points[q], moved, sums[chunk]);
+                   });
+    NodalSums change = total(sums);
     for (const auto &[component, number] : configuration.chuck_unknowns)
       for (unsigned int A = 0; A < change[1].cols(); ++A)
         result[number] += change[1].col(A).dot(
@@ -534,6 +567,33 @@ namespace Debond
           if (side.unknown_of[i] >= 0)
             result[side.unknown_of[i]] += change[s](i % 3, i / 3);
       }
+  }
+
+
+
+  void
+  ContactInterface::add_change(const Point     &point,
+                               const NodalSums &moved,
+                               NodalSums       &sums) const
+  {
+    if (point.trial.state.status == PointStatus::open)
+      return;
+    const SurfaceBasis          &basis = point.trial.basis;
+    Eigen::Matrix<double, 15, 1> dw;
+    SurfaceGeometry              master_change;
+    contract(basis, moved[master_side()], false, master_change);
+    dw << interpolate(point.basis, moved[slave]), master_change.y,
+      master_change.a1, master_change.a2, Eigen::Vector3d::Zero();
+    if (point.trial.state.status == PointStatus::slip)
+      dw.tail<3>() = interpolate(point.trial.old_basis, moved[master_side()]);
+    const Eigen::Vector3d dt  = point.JxW * (point.trial.dt * dw);
+    const Eigen::Vector2d dxi = point.trial.dxi * dw;
+    const Eigen::Vector3d t   = point.JxW * point.trial.traction;
+    for (unsigned int a = 0; a < point.basis.size; ++a)
+      sums[slave].col(point.basis.control_point[a]) += point.basis.N[a] * dt;
+    for (unsigned int b = 0; b < basis.size; ++b)
+      sums[master_side()].col(basis.control_point[b]) -=
+        basis.N[b] * dt + (basis.N_1[b] * dxi[0] + basis.N_2[b] * dxi[1]) * t;
   }
 
 
@@ -590,6 +650,16 @@ namespace Debond
         if (point.accepted.status == PointStatus::open)
           project_accepted(point, surface, configuration, true);
       }
+  }
+
+
+
+  bool
+  ContactInterface::has_open_points() const
+  {
+    return std::any_of(points.begin(), points.end(), [](const Point &point) {
+      return point.trial.state.status == PointStatus::open;
+    });
   }
 
 

@@ -12,65 +12,45 @@ namespace Debond
   namespace
   {
     using Eigen::Matrix3d;
-    using Eigen::RowVector3d;
     using Eigen::Vector2d;
     using Eigen::Vector3d;
-    using Gradient = Eigen::Matrix<double, 1, 15>;
-    using Jacobian = Eigen::Matrix<double, 3, 15>;
 
     // Columns of w = (x, y, a_1, a_2, y_n).
-    constexpr int at_x = 0, at_y = 3, at_a1 = 6, at_a2 = 9, at_y_old = 12;
+    constexpr int at_x = 0, at_y = 3, at_a1 = 6;
 
-    // The unit normal that points to the slave and its derivatives, Eq. (24).
+    // The unit normal that points to the slave, Eq. (24).
     struct Normal
     {
-      Vector3d n;
-      Matrix3d dn_da1, dn_da2;
+      const SurfaceGeometry &geometry;
+      Vector3d               n;
+      double                 scale; ///< n = scale * a_1 x a_2
 
       Normal(const SurfaceGeometry &geometry, const double outward_sign)
+        : geometry(geometry)
       {
-        const Vector3d m      = geometry.a1.cross(geometry.a2);
-        const double   length = m.norm();
-        n                     = outward_sign / length * m;
-        const Matrix3d project =
-          outward_sign / length * (Matrix3d::Identity() - n * n.transpose());
-        dn_da1 = -project * skew(geometry.a2);
-        dn_da2 = project * skew(geometry.a1);
+        const Vector3d m = geometry.a1.cross(geometry.a2);
+        scale            = outward_sign / m.norm();
+        n                = scale * m;
+      }
+
+      // dn for changes of the tangents.
+      Vector3d
+      change(const Vector3d &da1, const Vector3d &da2) const
+      {
+        const Vector3d dm =
+          scale * (da1.cross(geometry.a2) + geometry.a1.cross(da2));
+        return dm - n * n.dot(dm);
+      }
+
+      // dn/d(a_1, a_2).
+      Eigen::Matrix<double, 3, 6>
+      derivative() const
+      {
+        Eigen::Matrix<double, 3, 6> dm;
+        dm << -scale * skew(geometry.a2), scale * skew(geometry.a1);
+        return dm - n * (n.transpose() * dm);
       }
     };
-
-
-
-    // Normal gap g_n = n . (x - y) with its gradient.
-    struct NormalGap
-    {
-      double   value;
-      Gradient gradient;
-
-      NormalGap(const Normal &normal, const Vector3d &gap)
-        : value(normal.n.dot(gap))
-        , gradient(Gradient::Zero())
-      {
-        gradient.segment<3>(at_x)  = normal.n;
-        gradient.segment<3>(at_y)  = -normal.n;
-        gradient.segment<3>(at_a1) = gap.transpose() * normal.dn_da1;
-        gradient.segment<3>(at_a2) = gap.transpose() * normal.dn_da2;
-      }
-    };
-
-
-
-    // d(eps g_n n) for a factor eps.
-    void
-    add_normal_part(const double     factor,
-                    const Normal    &normal,
-                    const NormalGap &gap,
-                    Jacobian        &dt)
-    {
-      dt += factor * normal.n * gap.gradient;
-      dt.middleCols<3>(at_a1) += factor * gap.value * normal.dn_da1;
-      dt.middleCols<3>(at_a2) += factor * gap.value * normal.dn_da2;
-    }
 
 
 
@@ -94,15 +74,20 @@ namespace Debond
 
 
 
-    // Traction and the two slip equations h = 0 at a trial xi_hat, with their
-    // derivatives with respect to w at fixed xi_hat.
+    // Traction and the two slip equations h = 0 at a trial xi_hat.
     struct SlipEquations
     {
-      double                       g_n, pressure, softening;
-      Vector3d                     t_t, traction;
-      Vector2d                     h;
-      Jacobian                     dt;
-      Eigen::Matrix<double, 2, 15> dh;
+      const ContactPointLaw &law;
+      const SurfaceGeometry &geometry;
+      const Vector3d         gap, trial;
+      const Normal           normal;
+      const Vector3d        &n;
+      const double           g_n, pressure;
+      double                 n_part, u_norm, limit;
+      Vector3d               tau, forward;
+      FrictionCoefficient    coefficient;
+      Vector3d               t_t, traction, excess;
+      Vector2d               h;
 
       SlipEquations(const ContactPointLaw &law,
                     const PointFriction   &friction,
@@ -111,86 +96,132 @@ namespace Debond
                     const Vector3d        &y_old,
                     const SurfaceGeometry &geometry,
                     const double           outward_sign)
+        : law(law)
+        , geometry(geometry)
+        , gap(x - geometry.y)
+        , trial(x - y_old)
+        , normal(geometry, outward_sign)
+        , n(normal.n)
+        , g_n(n.dot(gap))
+        , pressure(g_n < 0. ? -law.normal_penalty * g_n : 0.)
       {
-        const double eps_n = law.normal_penalty, eps_t = law.tangential_penalty;
-        const Vector3d  gap = x - geometry.y;
-        const Normal    normal(geometry, outward_sign);
-        const NormalGap normal_gap(normal, gap);
-        const Vector3d &n   = normal.n;
-        g_n                 = normal_gap.value;
-        const bool pressing = (g_n < 0.);
-        pressure            = pressing ? -eps_n * g_n : 0.;
-
         // direction of slip: the trial gap on the tangent plane at xi_hat
-        const Vector3d trial  = x - y_old;
-        const double   n_part = n.dot(trial);
-        const Vector3d u      = trial - n_part * n;
-        const double   u_norm = u.norm();
-        Vector3d       tau    = Vector3d::Zero();
-        Jacobian       dtau   = Jacobian::Zero();
-        if (u_norm > std::numeric_limits<double>::min())
-          {
-            tau = u / u_norm;
-            const Matrix3d across =
-              (Matrix3d::Identity() - tau * tau.transpose()) / u_norm;
-            const Matrix3d across_n =
-              across * (Matrix3d::Identity() - n * n.transpose());
-            dtau.middleCols<3>(at_x)     = across_n;
-            dtau.middleCols<3>(at_y_old) = -across_n;
-            dtau.middleCols<3>(at_a1) =
-              across * (-n_part * normal.dn_da1 -
-                        n * (trial.transpose() * normal.dn_da1));
-            dtau.middleCols<3>(at_a2) =
-              across * (-n_part * normal.dn_da2 -
-                        n * (trial.transpose() * normal.dn_da2));
-          }
+        n_part           = n.dot(trial);
+        const Vector3d u = trial - n_part * n;
+        u_norm           = u.norm();
+        tau =
+          has_direction() ? Vector3d(u / u_norm) : Vector3d(Vector3d::Zero());
 
         // limit mu(g_s) p with g_s = g_s^n + |y - y_n|, Eq. (32); where slip
         // only just begins y - y_n has no direction but the limit tau
         const Vector3d slip     = geometry.y - y_old;
         const double   distance = slip.norm();
-        const Vector3d forward =
-          distance > 1e-14 * u_norm ? Vector3d(slip / distance) : tau;
-        const FrictionCoefficient coefficient = friction(old_slip + distance);
-        softening           = std::max(0., -coefficient.dmu) * pressure / eps_t;
-        const double limit  = coefficient.mu * pressure;
-        Gradient     dlimit = Gradient::Zero();
-        dlimit.segment<3>(at_y)     = coefficient.dmu * pressure * forward;
-        dlimit.segment<3>(at_y_old) = -coefficient.dmu * pressure * forward;
-        if (pressing)
-          dlimit -= coefficient.mu * eps_n * normal_gap.gradient;
+        forward = distance > 1e-14 * u_norm ? Vector3d(slip / distance) : tau;
+        coefficient = friction(old_slip + distance);
+        limit       = coefficient.mu * pressure;
 
-        t_t                 = limit * tau;
-        traction            = eps_n * g_n * n + t_t;
-        const Jacobian dt_t = tau * dlimit + limit * dtau;
-        dt                  = dt_t;
-        add_normal_part(eps_n, normal, normal_gap, dt);
-
-        const Vector3d excess  = gap - t_t / eps_t;
-        Jacobian       dexcess = -dt_t / eps_t;
-        dexcess.middleCols<3>(at_x) += Matrix3d::Identity();
-        dexcess.middleCols<3>(at_y) -= Matrix3d::Identity();
+        t_t      = limit * tau;
+        traction = law.normal_penalty * g_n * n + t_t;
+        excess   = gap - t_t / law.tangential_penalty;
         h << geometry.a1.dot(excess), geometry.a2.dot(excess);
-        dh.row(0) = geometry.a1.transpose() * dexcess;
-        dh.row(1) = geometry.a2.transpose() * dexcess;
-        dh.block<1, 3>(0, at_a1) += excess.transpose();
-        dh.block<1, 3>(1, at_a2) += excess.transpose();
       }
 
-      // Contraction of a derivative with dw/dxi = (0, a_b, a_1b, a_2b, 0).
-      template <int rows>
-      static Eigen::Matrix<double, rows, 2>
-      along_surface(const Eigen::Matrix<double, rows, 15> &d,
-                    const SurfaceGeometry                 &geometry)
+      bool
+      has_direction() const
       {
-        Eigen::Matrix<double, rows, 2> result;
-        result.col(0) = d.template middleCols<3>(at_y) * geometry.a1 +
-                        d.template middleCols<3>(at_a1) * geometry.a11 +
-                        d.template middleCols<3>(at_a2) * geometry.a12;
-        result.col(1) = d.template middleCols<3>(at_y) * geometry.a2 +
-                        d.template middleCols<3>(at_a1) * geometry.a12 +
-                        d.template middleCols<3>(at_a2) * geometry.a22;
+        return u_norm > std::numeric_limits<double>::min();
+      }
+
+      double
+      softening() const
+      {
+        return std::max(0., -coefficient.dmu) * pressure /
+               law.tangential_penalty;
+      }
+
+      template <int N>
+      struct Derivative
+      {
+        Eigen::Matrix<double, 3, N> traction;
+        Eigen::Matrix<double, 2, N> h;
+      };
+
+      // Derivatives along N changes of x - y, x - y_n, n, and of a_1 and a_2
+      // as far as they change a_alpha . excess.
+      template <int N>
+      Derivative<N>
+      along(const Eigen::Matrix<double, 3, N> &dgap,
+            const Eigen::Matrix<double, 3, N> &dtrial,
+            const Eigen::Matrix<double, 3, N> &dn,
+            const Eigen::Matrix<double, 2, N> &excess_da) const
+      {
+        using Vectors      = Eigen::Matrix<double, 3, N>;
+        using Numbers      = Eigen::Matrix<double, 1, N>;
+        const Numbers dg_n = n.transpose() * dgap + gap.transpose() * dn;
+
+        Numbers dlimit =
+          (coefficient.dmu * pressure * forward).transpose() * (dtrial - dgap);
+        if (pressure > 0.)
+          dlimit -= coefficient.mu * law.normal_penalty * dg_n;
+        Vectors dt_t = tau * dlimit;
+        if (has_direction())
+          {
+            const Numbers dn_part =
+              n.transpose() * dtrial + trial.transpose() * dn;
+            const Vectors du = dtrial - n_part * dn - n * dn_part;
+            dt_t += limit / u_norm * (du - tau * (tau.transpose() * du));
+          }
+        const Vectors dexcess = dgap - dt_t / law.tangential_penalty;
+
+        Derivative<N> result;
+        result.traction = dt_t + law.normal_penalty * (n * dg_n + g_n * dn);
+        result.h        = excess_da;
+        result.h.row(0) += geometry.a1.transpose() * dexcess;
+        result.h.row(1) += geometry.a2.transpose() * dexcess;
         return result;
+      }
+
+      // ... with respect to w.
+      Derivative<15>
+      along_w() const
+      {
+        using Vectors = Eigen::Matrix<double, 3, 12>;
+        Vectors dgap = Vectors::Zero(), dtrial = Vectors::Zero(),
+                dn = Vectors::Zero();
+        Eigen::Matrix<double, 2, 12> excess_da =
+          Eigen::Matrix<double, 2, 12>::Zero();
+        dgap.leftCols<3>()          = Matrix3d::Identity();
+        dtrial.middleCols<3>(3)     = Matrix3d::Identity();
+        dn.rightCols<6>()           = normal.derivative();
+        excess_da.block<1, 3>(0, 6) = excess.transpose();
+        excess_da.block<1, 3>(1, 9) = excess.transpose();
+        const Derivative<12> d      = along<12>(dgap, dtrial, dn, excess_da);
+
+        Derivative<15> result;
+        result.traction << d.traction.leftCols<3>() +
+                             d.traction.middleCols<3>(3),
+          -d.traction.leftCols<3>(), d.traction.rightCols<6>(),
+          -d.traction.middleCols<3>(3);
+        result.h << d.h.leftCols<3>() + d.h.middleCols<3>(3),
+          -d.h.leftCols<3>(), d.h.rightCols<6>(), -d.h.middleCols<3>(3);
+        return result;
+      }
+
+      // ... with respect to the two parameters of the surface.
+      Derivative<2>
+      along_surface() const
+      {
+        const SurfaceGeometry      &y = geometry;
+        Eigen::Matrix<double, 3, 2> dgap, dn;
+        Eigen::Matrix2d             excess_da;
+        dgap << -y.a1, -y.a2;
+        dn << normal.change(y.a11, y.a12), normal.change(y.a12, y.a22);
+        excess_da << excess.dot(y.a11), excess.dot(y.a12), excess.dot(y.a12),
+          excess.dot(y.a22);
+        return along<2>(dgap,
+                        Eigen::Matrix<double, 3, 2>::Zero(),
+                        dn,
+                        excess_da);
       }
     };
 
@@ -283,15 +314,16 @@ namespace Debond
         const SlipEquations &e     = *equations;
         result.normal_gap          = e.g_n;
         result.pressure            = e.pressure;
-        result.softening           = e.softening;
+        result.softening           = e.softening();
         result.traction            = e.traction;
         result.tangential_traction = e.t_t;
         result.slip_increment      = geometry.y - y_old;
         if (!friction.frictionless)
           result.state.slip = old_slip + result.slip_increment.norm();
-        result.dxi = -jacobian().inverse() * e.dh;
-        result.dt =
-          e.dt + SlipEquations::along_surface<3>(e.dt, geometry) * result.dxi;
+        const auto along_w  = e.along_w();
+        const auto along_xi = e.along_surface();
+        result.dxi          = -along_xi.h.inverse() * along_w.h;
+        result.dt           = along_w.traction + along_xi.traction * result.dxi;
       }
 
       double
@@ -310,23 +342,18 @@ namespace Debond
           law, friction, old_slip, x, y_old, geometry, master.outward_sign);
       }
 
-      Eigen::Matrix2d
-      jacobian() const
-      {
-        return SlipEquations::along_surface<2>(equations->dh, geometry);
-      }
-
       Vector2d
       newton_step() const
       {
-        return -jacobian().inverse() * equations->h;
+        return -equations->along_surface().h.inverse() * equations->h;
       }
 
       double
       distance_error() const
       {
-        return std::hypot(equations->h[0] / geometry.a1.norm(),
-                          equations->h[1] / geometry.a2.norm());
+        return Vector2d(equations->h[0] / geometry.a1.norm(),
+                        equations->h[1] / geometry.a2.norm())
+          .norm();
       }
 
       const ContactPointLaw &law;
@@ -365,24 +392,28 @@ namespace Debond
               const ContactPointState &old_state,
               const Vector3d          &gap,
               const Normal            &normal,
-              const NormalGap         &normal_gap,
               ContactPointResult      &result)
     {
       const double eps_n = law.normal_penalty, eps_t = law.tangential_penalty;
+      const Vector3d &n          = normal.n;
+      const double    g_n        = n.dot(gap);
       result.state               = old_state;
       result.state.status        = PointStatus::stick;
-      result.normal_gap          = normal_gap.value;
-      result.pressure            = std::max(0., -eps_n * normal_gap.value);
+      result.normal_gap          = g_n;
+      result.pressure            = std::max(0., -eps_n * g_n);
       result.softening           = 0.;
-      result.tangential_traction = eps_t * (gap - normal_gap.value * normal.n);
-      result.traction =
-        eps_n * normal_gap.value * normal.n + result.tangential_traction;
-      result.slip_increment = Vector3d::Zero();
+      result.tangential_traction = eps_t * (gap - g_n * n);
+      result.traction            = eps_n * g_n * n + result.tangential_traction;
+      result.slip_increment      = Vector3d::Zero();
       result.dxi.setZero();
       result.dt.setZero();
-      result.dt.middleCols<3>(at_x) = eps_t * Matrix3d::Identity();
-      result.dt.middleCols<3>(at_y) = -eps_t * Matrix3d::Identity();
-      add_normal_part(eps_n - eps_t, normal, normal_gap, result.dt);
+      const Matrix3d along_gap =
+        eps_t * Matrix3d::Identity() + (eps_n - eps_t) * n * n.transpose();
+      result.dt.middleCols<3>(at_x)        = along_gap;
+      result.dt.middleCols<3>(at_y)        = -along_gap;
+      const Eigen::Matrix<double, 3, 6> dn = normal.derivative();
+      result.dt.middleCols<6>(at_a1) =
+        (eps_n - eps_t) * (n * (gap.transpose() * dn) + g_n * dn);
     }
 
 
@@ -480,25 +511,25 @@ namespace Debond
     SurfaceGeometry geometry;
     master.surface->evaluate(start.xi, result.basis, false);
     contract(result.basis, *master.positions, false, geometry);
-    const Vector3d  gap = x - geometry.y;
-    const Normal    normal(geometry, master.outward_sign);
-    const NormalGap normal_gap(normal, gap);
-    result.normal_gap = normal_gap.value;
+    const Vector3d gap = x - geometry.y;
+    const Normal   normal(geometry, master.outward_sign);
+    const double   normal_gap = normal.n.dot(gap);
+    result.normal_gap         = normal_gap;
 
     const double touch =
       mode.stick_first ? mode.touch_tolerance : -mode.touch_tolerance;
-    const bool          closed = normal_gap.value < touch;
+    const bool          closed = normal_gap < touch;
     const PointFriction friction{law.friction,
                                  start.broken ? 0. : phi_0,
                                  mode.frictionless};
-    const double        limit = friction(start.slip).mu *
-                         std::max(0., -law.normal_penalty * normal_gap.value);
+    const double        limit =
+      friction(start.slip).mu * std::max(0., -law.normal_penalty * normal_gap);
     const double trial_traction =
-      law.tangential_penalty * (gap - normal_gap.value * normal.n).norm();
+      law.tangential_penalty * (gap - normal_gap * normal.n).norm();
     if (closed && (mode.stick_first || trial_traction <= limit))
       {
-        set_stick(law, start, gap, normal, normal_gap, result);
-        if (!old_state.has_partner && normal_gap.value < 0.)
+        set_stick(law, start, gap, normal, result);
+        if (!old_state.has_partner && normal_gap < 0.)
           follow_projection(law, start, x, geometry.y, master, result);
         return;
       }

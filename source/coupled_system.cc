@@ -145,8 +145,13 @@ namespace Debond
   void
   CoupledSystem::commit(const double time)
   {
-    bone.commit(time);
-    implant.commit(time);
+    {
+      const dealii::TimerOutput::Scope t(timer, "bulk");
+      // closed points face contact unknowns only
+      const bool surface_is_seen = interface.has_open_points();
+      bone.commit(time, surface_is_seen);
+      implant.commit(time, surface_is_seen);
+    }
     chuck.commit(time);
     update_configuration();
     const dealii::TimerOutput::Scope t(timer, "contact");
@@ -273,20 +278,46 @@ namespace Debond
 
 
 
-  void
-  CoupledSystem::apply(const Eigen::VectorXd &x, Eigen::VectorXd &y) const
+  Eigen::VectorXd
+  CoupledSystem::interface_product(const Eigen::VectorXd &x) const
   {
-    const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
-    y.setZero(unknowns);
-    if (n_b > 0)
-      y.head(n_b).noalias() =
-        bone.schur_complement().selfadjointView<Eigen::Lower>() * x.head(n_b);
-    if (n_i > 0)
-      y.segment(n_b, n_i).noalias() =
-        implant.schur_complement().selfadjointView<Eigen::Lower>() *
-        x.segment(n_b, n_i);
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(unknowns);
     interface.apply_tangent(configuration, x, y);
     add_geometric_part(x, y);
+    return y;
+  }
+
+
+
+  Eigen::VectorXd
+  CoupledSystem::product(const Eigen::VectorXd &x) const
+  {
+    const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
+    Eigen::VectorXd    y = interface_product(x);
+    y.head(n_b) += bone.condensed_product(x.head(n_b));
+    y.segment(n_b, n_i) += implant.condensed_product(x.segment(n_b, n_i));
+    return y;
+  }
+
+
+
+  // The bulk does not resist the chuck.
+  bool
+  CoupledSystem::bulk_is_regular() const
+  {
+    return configuration.chuck_unknowns.empty();
+  }
+
+
+
+  Eigen::VectorXd
+  CoupledSystem::solve_bulk(const Eigen::VectorXd &b) const
+  {
+    const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
+    Eigen::VectorXd    x(unknowns);
+    x << bone.condensed_solve(b.head(n_b)),
+      implant.condensed_solve(b.segment(n_b, n_i));
+    return x;
   }
 
 
@@ -297,9 +328,9 @@ namespace Debond
     const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
     matrix.setZero(unknowns, unknowns);
     if (n_b > 0)
-      matrix.topLeftCorner(n_b, n_b) = bone.schur_complement();
+      matrix.topLeftCorner(n_b, n_b) = bone.condensed_stiffness();
     if (n_i > 0)
-      matrix.block(n_b, n_b, n_i, n_i) = implant.schur_complement();
+      matrix.block(n_b, n_b, n_i, n_i) = implant.condensed_stiffness();
     interface.add_tangent(configuration, matrix);
     Eigen::VectorXd unit = Eigen::VectorXd::Zero(unknowns), column(unknowns);
     for (const auto &[k, number] : configuration.chuck_unknowns)
@@ -334,11 +365,7 @@ namespace Debond
     Eigen::VectorXd correction;
     {
       const dealii::TimerOutput::Scope t(timer, "dense solve");
-      correction = solver.solve(
-        residual,
-        [this](const Eigen::VectorXd &x, Eigen::VectorXd &y) { apply(x, y); },
-        [this](Eigen::MatrixXd &matrix) { assemble(matrix); },
-        relative_tolerance);
+      correction = solver.solve(*this, residual, relative_tolerance);
     }
     if (!correction.allFinite())
       {

@@ -1,10 +1,12 @@
 #include <debond/dense_solver.h>
 
+#include <deal.II/lac/precondition.h>
 #include <deal.II/lac/solver_control.h>
 #include <deal.II/lac/solver_gmres.h>
 #include <deal.II/lac/vector.h>
 
 #include <algorithm>
+#include <functional>
 
 namespace Debond
 {
@@ -23,21 +25,24 @@ namespace Debond
       return {v.begin(), static_cast<Eigen::Index>(v.size())};
     }
 
-    // What deal.II's solvers ask of a matrix or a preconditioner.
+    // What deal.II's solvers ask of a matrix.
     struct Operator
     {
-      std::function<void(const Eigen::VectorXd &, Eigen::VectorXd &)> product;
+      std::function<Eigen::VectorXd(const Eigen::VectorXd &)> product;
 
       void
       vmult(DealVector &y, const DealVector &x) const
       {
-        Eigen::VectorXd result(x.size());
-        product(as_eigen(x), result);
-        as_eigen(y) = result;
+        as_eigen(y) = product(as_eigen(x));
       }
     };
 
 
+
+    // More iterations than this with the bulk as preconditioner, and those
+    // with a factorisation, which cost twice as much each but are fewer, are
+    // cheaper in the long run.
+    constexpr unsigned int max_bulk_iterations = 12;
 
     // Iterations that are cheaper than a new factorisation: n^3 against n^2
     // work, with a floor for small systems where overheads count.
@@ -51,29 +56,33 @@ namespace Debond
 
 
   Eigen::VectorXd
-  DenseSolver::factorise_and_solve(const Eigen::VectorXd &b,
-                                   const Assemble        &assemble)
+  DenseSolver::factorise_and_solve(const SplitMatrix     &A,
+                                   const Eigen::VectorXd &b)
   {
-    assemble(matrix);
+    A.assemble(matrix);
     lu.compute(matrix);
-    usable = true;
+    preconditioner = Preconditioner::factorisation;
     ++factorisations;
     return lu.solve(b);
   }
 
 
 
-  Eigen::VectorXd
-  DenseSolver::solve(const Eigen::VectorXd &b,
-                     const Product         &product,
-                     const Assemble        &assemble,
-                     const double           relative_tolerance)
+  // Preconditioned from the right with P: (A P^-1) y = b, x = P^-1 y, and with
+  // P = B there is no product with B: A B^-1 = 1 + C B^-1.
+  bool
+  DenseSolver::iterate(const SplitMatrix     &A,
+                       const Eigen::VectorXd &b,
+                       const double           relative_tolerance,
+                       Eigen::VectorXd       &x)
   {
-    if (b.size() == 0 || b.isZero(0.))
-      return Eigen::VectorXd::Zero(b.size());
-    if (!usable || lu.rows() != b.size())
-      return factorise_and_solve(b, assemble);
-
+    const bool     with_bulk = preconditioner == Preconditioner::bulk;
+    const Operator preconditioned{
+      [&](const Eigen::VectorXd &y) -> Eigen::VectorXd {
+        if (with_bulk)
+          return y + A.interface_product(A.solve_bulk(y));
+        return A.product(lu.solve(y));
+      }};
     const unsigned int    max_iterations = affordable_iterations(b.size());
     dealii::SolverControl control(max_iterations,
                                   relative_tolerance * b.norm(),
@@ -81,24 +90,42 @@ namespace Debond
                                   false);
     dealii::SolverGMRES<DealVector> gmres(
       control,
-      dealii::SolverGMRES<DealVector>::AdditionalData(max_iterations + 2,
-                                                      true));
-    DealVector x(b.size()), right_hand_side(b.size());
+      dealii::SolverGMRES<DealVector>::AdditionalData(max_iterations + 2));
+    DealVector y(b.size()), right_hand_side(b.size());
     as_eigen(right_hand_side) = b;
+    bool converged            = true;
     try
       {
-        gmres.solve(Operator{product},
-                    x,
+        gmres.solve(preconditioned,
+                    y,
                     right_hand_side,
-                    Operator{[this](const Eigen::VectorXd &v,
-                                    Eigen::VectorXd &y) { y = lu.solve(v); }});
+                    dealii::PreconditionIdentity());
       }
     catch (const dealii::SolverControl::NoConvergence &)
       {
-        iterations += control.last_step();
-        return factorise_and_solve(b, assemble);
+        converged = false;
       }
     iterations += control.last_step();
-    return as_eigen(x);
+    if (converged)
+      x = with_bulk ? A.solve_bulk(as_eigen(y)) : lu.solve(as_eigen(y)).eval();
+    return converged;
+  }
+
+
+
+  Eigen::VectorXd
+  DenseSolver::solve(const SplitMatrix     &A,
+                     const Eigen::VectorXd &b,
+                     const double           relative_tolerance)
+  {
+    if (b.size() == 0 || b.isZero(0.))
+      return Eigen::VectorXd::Zero(b.size());
+    Eigen::VectorXd x;
+    const bool      can_iterate = preconditioner == Preconditioner::bulk ?
+                                    A.bulk_is_regular() :
+                                    lu.rows() == b.size();
+    if (can_iterate && iterate(A, b, relative_tolerance, x))
+      return x;
+    return factorise_and_solve(A, b);
   }
 } // namespace Debond

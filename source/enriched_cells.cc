@@ -1,7 +1,10 @@
+#include <debond/chunks.h>
 #include <debond/enriched_cells.h>
 
 #include <Eigen/LU>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace Debond
@@ -170,32 +173,59 @@ namespace Debond
                                  Eigen::VectorXd       &force,
                                  double                &energy) const
   {
-    energy            = 0.;
-    double smallest_j = 0.;
-    for (unsigned int cell = 0; cell < n_cells(); ++cell)
+    std::array<Eigen::VectorXd, n_chunks> forces;
+    std::array<double, n_chunks>          energies, smallest_j;
+    for_each_chunk(n_cells(),
+                   [&](const unsigned int chunk,
+                       const unsigned int first,
+                       const unsigned int end) {
+                     forces[chunk].setZero(force.size());
+                     energies[chunk] = smallest_j[chunk] = 0.;
+                     for (unsigned int cell = first; cell < end; ++cell)
+                       add_internal_force(cell,
+                                          v,
+                                          forces[chunk],
+                                          energies[chunk],
+                                          smallest_j[chunk]);
+                   });
+    energy = 0.;
+    for (unsigned int chunk = 0; chunk < n_chunks; ++chunk)
       {
-        PointValues H[3][3], P[3][3];
-        gradient_at_points(cell, v, H);
-        bulk_material.stress(H, P);
-        const Eigen::Map<const PointValues> weight(&JxW[n_q * cell]);
-        energy += (bulk_material.energy(H) * weight).sum();
-        smallest_j =
-          std::min(smallest_j, NeoHookean::volume_change(H).minCoeff());
-        for (auto &row : P)
-          for (PointValues &entry : row)
-            entry *= weight;
-
-        const double *G = gradients(cell);
-        for (unsigned int a = 0; a < n_cell_nodes[cell]; ++a, G += 3 * n_q)
-          {
-            const Eigen::Map<const PointValues> G_0(G), G_1(G + n_q),
-              G_2(G + 2 * n_q);
-            for (unsigned int i = 0; i < 3; ++i)
-              force[3 * nodes(cell)[a] + i] +=
-                (P[i][0] * G_0 + P[i][1] * G_1 + P[i][2] * G_2).sum();
-          }
+        force += forces[chunk];
+        energy += energies[chunk];
       }
-    return smallest_j > -1. && std::isfinite(energy);
+    return *std::min_element(smallest_j.begin(), smallest_j.end()) > -1. &&
+           std::isfinite(energy);
+  }
+
+
+
+  void
+  EnrichedCells::add_internal_force(const unsigned int     cell,
+                                    const Eigen::VectorXd &v,
+                                    Eigen::VectorXd       &force,
+                                    double                &energy,
+                                    double                &smallest_j) const
+  {
+    PointValues H[3][3], P[3][3];
+    gradient_at_points(cell, v, H);
+    bulk_material.stress(H, P);
+    const Eigen::Map<const PointValues> weight(&JxW[n_q * cell]);
+    energy += (bulk_material.energy(H) * weight).sum();
+    smallest_j = std::min(smallest_j, NeoHookean::volume_change(H).minCoeff());
+    for (auto &row : P)
+      for (PointValues &entry : row)
+        entry *= weight;
+
+    const double *G = gradients(cell);
+    for (unsigned int a = 0; a < n_cell_nodes[cell]; ++a, G += 3 * n_q)
+      {
+        const Eigen::Map<const PointValues> G_0(G), G_1(G + n_q),
+          G_2(G + 2 * n_q);
+        for (unsigned int i = 0; i < 3; ++i)
+          force[3 * nodes(cell)[a] + i] +=
+            (P[i][0] * G_0 + P[i][1] * G_1 + P[i][2] * G_2).sum();
+      }
   }
 
 

@@ -31,6 +31,8 @@ study: all variants are run and gathered in study.csv.
                       scene; run variants of a study again that are done
   --jobs N            run N variants of a study at a time (default: as many as
                       there are processors)
+  --threads N         use N threads (default: as many as there are processors, in
+                      a study shared among the variants that run at a time)
   --check             read the scene, build the meshes, say what to expect, and
                       run nothing
   --print-parameters  print all entries with documentation and values: those of
@@ -56,8 +58,9 @@ Exit codes: 0 success, 1 wrong usage or scene, 2 the run failed, 3 internal erro
     Action                   action = Action::run;
     std::string              scene_file;
     std::vector<std::string> overrides;
-    bool                     force  = false;
-    unsigned int             n_jobs = 0; ///< 0: as many as processors
+    bool                     force     = false;
+    unsigned int             n_jobs    = 0; ///< 0: as many as processors
+    unsigned int             n_threads = 0; ///< 0: as many as processors
   };
 
 
@@ -71,12 +74,12 @@ Exit codes: 0 success, 1 wrong usage or scene, 2 the run failed, 3 internal erro
 
 
   unsigned int
-  read_number_of_jobs(const std::string &word)
+  read_number(const std::string &option, const std::string &word)
   {
     if (word.empty() || word.size() > 4 ||
         word.find_first_not_of("0123456789") != std::string::npos ||
         std::stoi(word) == 0)
-      refuse_usage("--jobs needs a whole number >= 1, not '" + word + "'");
+      refuse_usage(option + " needs a whole number >= 1, not '" + word + "'");
     return std::stoi(word);
   }
 
@@ -106,9 +109,9 @@ Exit codes: 0 success, 1 wrong usage or scene, 2 the run failed, 3 internal erro
               refuse_usage("--set needs ENTRY=VALUE");
             arguments.overrides.push_back(words[++i]);
           }
-        else if (word == "--jobs")
-          arguments.n_jobs =
-            read_number_of_jobs(i + 1 == words.size() ? "" : words[++i]);
+        else if (word == "--jobs" || word == "--threads")
+          (word == "--jobs" ? arguments.n_jobs : arguments.n_threads) =
+            read_number(word, i + 1 == words.size() ? "" : words[++i]);
         else if (word.size() > 1 && word[0] == '-')
           refuse_usage("unknown option '" + word + "'");
         else if (!arguments.scene_file.empty())
@@ -129,6 +132,14 @@ Exit codes: 0 success, 1 wrong usage or scene, 2 the run failed, 3 internal erro
 
 
 
+  unsigned int
+  n_processors()
+  {
+    return std::max(1U, std::thread::hardware_concurrency());
+  }
+
+
+
   void
   run_study(const std::vector<Debond::SceneEntry> &entries,
             const Arguments                       &arguments)
@@ -137,11 +148,14 @@ Exit codes: 0 success, 1 wrong usage or scene, 2 the run failed, 3 internal erro
     if (arguments.action == Arguments::Action::check)
       study.check(std::cout);
     else
-      study.run(arguments.n_jobs > 0 ?
-                  arguments.n_jobs :
-                  std::max(1U, std::thread::hardware_concurrency()),
-                arguments.force,
-                std::cout);
+      {
+        const unsigned int n_jobs =
+          arguments.n_jobs > 0 ? arguments.n_jobs : n_processors();
+        Debond::set_number_of_threads(arguments.n_threads > 0 ?
+                                        arguments.n_threads :
+                                        std::max(1U, n_processors() / n_jobs));
+        study.run(n_jobs, arguments.force, std::cout);
+      }
   }
 
 
@@ -176,6 +190,8 @@ Exit codes: 0 success, 1 wrong usage or scene, 2 the run failed, 3 internal erro
     if (arguments.action == Action::print_parameters)
       return Debond::print_parameters(std::cout, &scene);
 
+    Debond::set_number_of_threads(
+      arguments.n_threads > 0 ? arguments.n_threads : n_processors());
     scene.output.overwrite_other_results = arguments.force;
     const auto problem                   = Debond::Problem::create(scene);
     if (arguments.action == Action::check)

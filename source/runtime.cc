@@ -15,7 +15,28 @@ namespace Debond
   {
     dealii::deal_II_exceptions::disable_abort_on_exception();
     dealii::deal_II_exceptions::suppress_stacktrace_in_exceptions();
-    dealii::MultithreadInfo::set_thread_limit(1);
+    set_number_of_threads(1);
+  }
+
+
+
+  void
+  set_number_of_threads(const unsigned int n)
+  {
+    dealii::MultithreadInfo::set_thread_limit(n);
+    openblas_set_num_threads(1);
+  }
+
+
+
+  ThreadedBlas::ThreadedBlas(const bool wanted)
+  {
+    if (wanted)
+      openblas_set_num_threads(dealii::MultithreadInfo::n_threads());
+  }
+
+  ThreadedBlas::~ThreadedBlas()
+  {
     openblas_set_num_threads(1);
   }
 

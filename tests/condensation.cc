@@ -95,7 +95,8 @@ random_vector(const int n)
 
 struct Deviation
 {
-  double S = 0, asymmetry = 0, forward = 0, backward = 0, extend = 0;
+  double S = 0, asymmetry = 0, product = 0, solve = 0, forward = 0,
+         backward = 0, extend = 0;
 };
 
 void
@@ -121,7 +122,7 @@ compare(const MatrixXd &K, const std::vector<int> &c, Deviation &deviation)
   if (both)
     S -= K_ci * inverse.solve(K_ci.transpose());
 
-  const MatrixXd &ours = condensation.schur_complement();
+  const MatrixXd ours = condensation.schur_complement();
   if (!c.empty())
     {
       grow(deviation.S, (ours - S).norm() / S.norm());
@@ -146,6 +147,13 @@ compare(const MatrixXd &K, const std::vector<int> &c, Deviation &deviation)
           const VectorXd x_i = inverse.solve(r_i), shape_i = inverse.solve(s_i);
           x(i)     = x_i;
           shape(i) = shape_i;
+        }
+      if (!c.empty())
+        {
+          grow(deviation.product,
+               (condensation.schur_product(x_c) - S * x_c).norm() / x_c.norm());
+          grow(deviation.solve,
+               (condensation.schur_solve(S * x_c) - x_c).norm() / x_c.norm());
         }
       const VectorXd our_condensed = condensation.forward(r);
       const VectorXd our_x         = condensation.backward(x_c);
@@ -186,6 +194,8 @@ check(const std::string &name, const MatrixXd &K)
     compare(K, c, deviation);
   report("  Schur complement, relative deviation", deviation.S, 1e-13);
   report("  its asymmetry", deviation.asymmetry, 1e-13);
+  report("  product with it, relative deviation", deviation.product, 1e-13);
+  report("  solution with it, relative deviation", deviation.solve, 1e-12);
   report("  forward, relative deviation", deviation.forward, 1e-12);
   report("  backward, relative deviation", deviation.backward, 1e-12);
   report("  extend, relative deviation", deviation.extend, 1e-12);
@@ -199,6 +209,8 @@ main()
   const MatrixXd large = lattice(7);
   check("Lattice of 343 unknowns", large);
   check("Lattice of 27 unknowns", lattice(3));
+  // more condensed unknowns than are solved for at a time
+  check("Lattice of 729 unknowns", lattice(9));
   check("Web of 200 unknowns", web(200));
   MatrixXd single(1, 1);
   single << 3.;

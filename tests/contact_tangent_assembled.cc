@@ -113,10 +113,7 @@ check(const std::string    &name,
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(n, n);
   Eigen::VectorXd       column(n);
   for (unsigned int j = 0; j < n; ++j)
-    {
-      system.apply(identity.col(j), column);
-      applied.col(j) = column;
-    }
+    applied.col(j) = system.product(identity.col(j));
   Eigen::MatrixXd interface_tangent = Eigen::MatrixXd::Zero(n, n);
   Eigen::MatrixXd interface_applied(n, n);
   system.interface.add_tangent(system.configuration, interface_tangent);

@@ -81,11 +81,23 @@ namespace Debond
     {
       return unknown_numbers;
     }
-    /** Stiffness condensed on the contact unknowns [N/mm]. */
-    const Eigen::MatrixXd &
-    schur_complement() const
+    /** Stiffness S condensed on the contact unknowns [N/mm]; formed at every
+     *  call. */
+    Eigen::MatrixXd
+    condensed_stiffness() const
     {
       return condensation.schur_complement();
+    }
+    /** S x [N] for a displacement x [mm], and its inverse. */
+    Eigen::VectorXd
+    condensed_product(const Eigen::VectorXd &x) const
+    {
+      return condensation.schur_product(x);
+    }
+    Eigen::VectorXd
+    condensed_solve(const Eigen::VectorXd &b) const
+    {
+      return condensation.schur_solve(b);
     }
     //@}
 
@@ -119,8 +131,11 @@ namespace Debond
      */
     Eigen::Map<const ControlNet>
     contact_displacement() const;
+    /** Accepts the trial state. @p surface_is_seen: whether anybody needs what
+     *  lies beside the contact unknowns; a linear body whose surface is seen
+     *  gives it its equilibrium shape. */
     void
-    commit(double time);
+    commit(double time, bool surface_is_seen);
     void
     rollback();
     /** Starts a step from the accepted state, extrapolated linearly to @p time
@@ -172,6 +187,8 @@ namespace Debond
     /** Linear bodies: some of the contact surface's control points are no
      *  contact unknowns. */
     bool         surface_is_condensed = false;
+    /** Those control points have not followed at the last commit(). */
+    bool         surface_is_stale = false;
     Condensation condensation;
 
     Eigen::VectorXd                v; ///< trial displacement, 3 n_nodes [mm]

@@ -24,9 +24,9 @@ namespace Debond
    *   S = K_cc - K_ci K_ii^-1 K_ic.
    *
    * The unknowns c are ordered last in a sparse Cholesky factorisation
-   * P K P^T = L L^T (CHOLMOD, nested dissection of the rest), so S = L_cc
-   * L_cc^T falls out of the factor, and solves with K_ii are the two halves of
-   * a solve with L.
+   * P K P^T = L L^T (CHOLMOD, nested dissection of the rest), so that
+   * S = L_cc L_cc^T falls out of the factor. Solves with K_ii use the other
+   * columns of the factor only, those with S only the block L_cc.
    */
   class Condensation
   {
@@ -50,12 +50,15 @@ namespace Debond
       return n_c;
     }
 
-    /** S, n_c x n_c. */
-    const Eigen::MatrixXd &
-    schur_complement() const
-    {
-      return S;
-    }
+    /** S, n_c x n_c; formed at every call. */
+    Eigen::MatrixXd
+    schur_complement() const;
+    /** S x. */
+    Eigen::VectorXd
+    schur_product(const Eigen::VectorXd &x) const;
+    /** S^-1 b. */
+    Eigen::VectorXd
+    schur_solve(const Eigen::VectorXd &b) const;
 
     /** Forward half: returns r_c - K_ci K_ii^-1 r_i for a vector r over all
      *  unknowns and keeps what backward() needs. */
@@ -73,16 +76,19 @@ namespace Debond
     struct Cholmod;
     std::unique_ptr<Cholmod> cholmod;
 
-    Eigen::VectorXd
-    solve_triangular(bool transposed, const Eigen::VectorXd &b);
     void
     extract_trailing_block();
+    /** x_i <- L_ii^-1 x_i, x_c <- x_c - L_ci x_i, in the factor's order. */
+    void
+    eliminate_interior(Eigen::VectorXd &x) const;
+    /** x_i <- L_ii^-T (x_i - L_ci^T x_c), in the factor's order. */
+    void
+    recover_interior(Eigen::VectorXd &x) const;
 
     unsigned int     n_total = 0, n_c = 0;
-    std::vector<int> permutation; ///< new -> old
-    Eigen::MatrixXd  L_cc;        ///< lower triangular
-    Eigen::MatrixXd  S;
-    Eigen::VectorXd  forward_part; ///< L^-1 P r of the last forward()
+    std::vector<int> permutation;  ///< new -> old
+    Eigen::MatrixXd  L_cc;         ///< lower triangular
+    Eigen::VectorXd  forward_part; ///< L_ii^-1 (P r)_i of the last forward()
   };
 } // namespace Debond
 #endif

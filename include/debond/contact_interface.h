@@ -87,6 +87,9 @@ namespace Debond
       return 1 - slave;
     }
 
+    /** Vectors at the control points of bone and implant. */
+    using NodalSums = std::array<ControlNet, 2>;
+
     /** Faces every point with its closest point on the master. */
     void
     initialise(const InterfaceConfiguration &configuration);
@@ -123,6 +126,9 @@ namespace Debond
     void
     commit(const InterfaceConfiguration &configuration);
 
+    /** Whether any point of the last evaluate() is open. */
+    bool
+    has_open_points() const;
     /** Elements of the bone's surface that closed points of the last
      *  evaluate() lie on. */
     std::vector<bool>
@@ -228,6 +234,18 @@ namespace Debond
     FrictionCoefficient
     friction(const Point &point, const ContactPointState &state) const;
     void
+    update(Point                        &point,
+           const InterfaceConfiguration &configuration,
+           const MasterSurface          &surface,
+           double                        moved,
+           const ContactPointMode       &mode) const;
+    void
+    add_forces(const Point &point, NodalSums &sums) const;
+    void
+    add_change(const Point     &point,
+               const NodalSums &moved,
+               NodalSums       &sums) const;
+    void
     project_accepted(Point                        &point,
                      const MasterSurface          &master,
                      const InterfaceConfiguration &configuration,
@@ -245,8 +263,7 @@ namespace Debond
     ContactPointLaw                 law;
     std::vector<Point>              points;
     double                          area_of_implant = 0, phi_0_mean = 0;
-    std::array<ControlNet, 2>       forces;
-    std::array<ControlNet, 2>       accepted_positions;
+    NodalSums                       forces, accepted_positions;
     double accepted_dissipation = 0, accepted_adhesive_work = 0;
     int    failed_point     = -1;
     bool   frictionless_now = false;

@@ -22,7 +22,7 @@ namespace Debond
    *
    * Everything here is a trial state until commit().
    */
-  class CoupledSystem
+  class CoupledSystem : private SplitMatrix
   {
   public:
     /** Seconds go to the sections `bulk`, `condensation`, `contact` and `dense
@@ -72,11 +72,10 @@ namespace Debond
     {
       return residual;
     }
-    /** y = tangent * x. */
+    Eigen::VectorXd
+    product(const Eigen::VectorXd &x) const override;
     void
-    apply(const Eigen::VectorXd &x, Eigen::VectorXd &y) const;
-    void
-    assemble(Eigen::MatrixXd &tangent) const;
+    assemble(Eigen::MatrixXd &tangent) const override;
     //@}
 
     /** Solves for the Newton correction to @p relative_tolerance and applies
@@ -131,6 +130,12 @@ namespace Debond
     number_unknowns();
     bool
     extend_contact_unknowns();
+    Eigen::VectorXd
+    interface_product(const Eigen::VectorXd &x) const override;
+    bool
+    bulk_is_regular() const override;
+    Eigen::VectorXd
+    solve_bulk(const Eigen::VectorXd &b) const override;
     void
     add_geometric_part(const Eigen::VectorXd &x, Eigen::VectorXd &y) const;
     double

@@ -4,38 +4,56 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
-#include <functional>
-
 namespace Debond
 {
+  /** An unsymmetric matrix A = B + C that is not stored: B the condensed bulk,
+   *  C the interface. */
+  class SplitMatrix
+  {
+  public:
+    virtual ~SplitMatrix() = default;
+    /** A x. */
+    virtual Eigen::VectorXd
+    product(const Eigen::VectorXd &x) const = 0;
+    /** C x. */
+    virtual Eigen::VectorXd
+    interface_product(const Eigen::VectorXd &x) const = 0;
+    /** Whether B has an inverse. */
+    virtual bool
+    bulk_is_regular() const = 0;
+    /** B^-1 b. */
+    virtual Eigen::VectorXd
+    solve_bulk(const Eigen::VectorXd &b) const = 0;
+    /** Writes A. */
+    virtual void
+    assemble(Eigen::MatrixXd &A) const = 0;
+  };
+
   /**
-   * Solves a dense unsymmetric system whose matrix changes little from one call
-   * to the next: GMRES with the LU factorisation of an earlier matrix, and a
-   * new factorisation when that no longer pays. Whether it pays is decided by
-   * the size of the system and the number of iterations only, so that results
-   * do not depend on the clock.
+   * Solves dense unsymmetric systems whose matrix changes little from one call
+   * to the next, by GMRES.
+   *
+   * As long as the bulk is not much softer than the interface, B is all the
+   * preconditioner it takes: C B^-1 is small and compact, since the compliance
+   * of the bulk decays with the wave number. Otherwise it is the LU
+   * factorisation of an earlier matrix, formed anew when that no longer pays.
+   * Whether it pays is decided by the size of the system and the number of
+   * iterations only, so that results do not depend on the clock.
    */
   class DenseSolver
   {
   public:
-    using Product =
-      std::function<void(const Eigen::VectorXd &, Eigen::VectorXd &)>;
-    using Assemble = std::function<void(Eigen::MatrixXd &)>;
-
-    /** Returns x with |b - A x| <= relative_tolerance |b|. @p product applies
-     * A;
-     *  @p assemble writes A, and is called only for a new factorisation. */
+    /** Returns x with |b - A x| <= relative_tolerance |b|. */
     Eigen::VectorXd
-    solve(const Eigen::VectorXd &b,
-          const Product         &product,
-          const Assemble        &assemble,
+    solve(const SplitMatrix     &A,
+          const Eigen::VectorXd &b,
           double                 relative_tolerance);
 
-    /** The next call factorises. */
+    /** Matrices to come have nothing to do with those before. */
     void
     forget()
     {
-      usable = false;
+      preconditioner = Preconditioner::bulk;
     }
 
     unsigned int
@@ -50,10 +68,20 @@ namespace Debond
     }
 
   private:
+    enum class Preconditioner
+    {
+      bulk,
+      factorisation
+    };
+    bool
+    iterate(const SplitMatrix     &A,
+            const Eigen::VectorXd &b,
+            double                 relative_tolerance,
+            Eigen::VectorXd       &x);
     Eigen::VectorXd
-    factorise_and_solve(const Eigen::VectorXd &b, const Assemble &assemble);
+    factorise_and_solve(const SplitMatrix &A, const Eigen::VectorXd &b);
 
-    bool                                 usable = false;
+    Preconditioner                       preconditioner = Preconditioner::bulk;
     Eigen::MatrixXd                      matrix;
     Eigen::PartialPivLU<Eigen::MatrixXd> lu;
     unsigned int                         factorisations = 0, iterations = 0;

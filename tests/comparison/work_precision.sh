@@ -16,6 +16,8 @@ largest torque), unknowns, increments. A code that is not installed is left out.
   --processor         seconds of the processors instead of the wall, for a
                       machine with other work; two threads then look worse
   --list              print the runs and their seconds, run nothing
+  --factors           run nothing, print of an OUTPUT.csv how many times faster
+                      debond reaches the same error (also printed after a run)
   --help              print this text
 
 Environment: DEBOND, CALCULIX_INPUT, CCX, PYTHON name the programs; by default
@@ -29,21 +31,22 @@ debond   nurbs        15  3  2 1 0.3
 debond   nurbs        15  3  4 1 0.3
 debond   nurbs        30  6  4 1 0.6
 debond   nurbs        30  6  8 1 1.1
-debond   nurbs        45  9  8 1 3
-debond   nurbs        60 12  8 1 7
+debond   nurbs        30  6 12 1 2
+debond   nurbs        45  9 12 1 5
 debond   nurbs        60 12 16 1 20
 debond   adaptive     15  3  4 1 0.4
 debond   adaptive     30  6  8 1 2
-debond   adaptive     60 12  8 1 10
 CalculiX C3D8         15  6  2 1 1.3
 CalculiX C3D8         30 12  2 1 5
 CalculiX C3D8         30 12  4 1 12
 CalculiX C3D8         30 24  4 1 21
+CalculiX C3D8         60 24  4 1 86
 CalculiX C3D8-round   15  6  2 1 1.3
 CalculiX C3D8-round   30 12  2 1 5
 CalculiX C3D8-round   30 12  4 1 12
 CalculiX C3D8-round   30 12  8 1 50
 CalculiX C3D8-round   30 12  8 2 55
+CalculiX C3D8-round   60 24  8 1 230
 CalculiX C3D20R       15  6  2 1 11
 CalculiX C3D20R       15 12  2 1 22
 CalculiX C3D20R       15 12  2 2 24
@@ -75,11 +78,13 @@ at_most=1e9
 only=
 list=false
 clock=wall
+factors=false
 while [ $# -gt 0 ]; do
   case $1 in
     --help) echo "$usage"; exit 0 ;;
     --list) list=true ;;
     --processor) clock=processor ;;
+    --factors) factors=true ;;
     --at-most | --only)
       [ $# -ge 2 ] || fail "$1 needs a value (see work_precision.sh --help)"
       case $1 in
@@ -97,6 +102,44 @@ for code in $only; do
   [[ $code =~ ^(debond|CalculiX|GetFEM)$ ]] || fail "--only: expected debond, CalculiX or GetFEM, got '$code'"
 done
 $list || [ -n "$output" ] || fail "no file to write is given (see work_precision.sh --help)"
+
+# For each run of another code its seconds over those that debond (nurbs) needs
+# for the same error, logarithms linear between its runs. An error larger than
+# debond's largest is given debond's least seconds; a smaller one no factor.
+print_factors() {
+  awk -F, '
+    FNR == 1 { next }
+    $1 == "debond" && $2 ~ /^nurbs/ { ++n; seconds[n] = $3; error[n] = $4; next }
+    $1 != "debond" { ++m; row[m] = $0 }
+    function at(e,     i, w) {
+      if (e >= error[1]) return seconds[1]
+      for (i = 1; i < n; ++i)
+        if (error[i + 1] <= e && e <= error[i])
+          {
+            if (error[i] == error[i + 1]) return seconds[i]
+            w = log(e / error[i]) / log(error[i + 1] / error[i])
+            return exp((1 - w) * log(seconds[i]) + w * log(seconds[i + 1]))
+          }
+      return 0
+    }
+    END {
+      if (!n || !m) exit
+      printf "%-9s %-45s %9s %9s %9s %7s\n", "code", "label", "error", "seconds", "debond", "factor"
+      for (k = 1; k <= m; ++k)
+        {
+          split(row[k], part, ",")
+          own = at(part[4])
+          printf "%-9s %-45s %9.2e %9.2f %9s %7s\n", part[1], part[2], part[4], part[3],
+            own ? sprintf("%.2f", own) : "-", own ? sprintf("%.1f", part[3] / own) : "-"
+        }
+    }' "$1"
+}
+
+if $factors; then
+  [ -f "$output" ] || fail "--factors: no file '$output'"
+  print_factors "$output"
+  exit
+fi
 
 has() { # whether the programs of a code are there; says what is not
   case $1 in
@@ -124,7 +167,7 @@ $list && { grep . <<< "$chosen"; exit 0; }
 
 directory=$(mktemp -d)
 trap 'rm -rf "$directory"' EXIT
-ccx=$(command -v "$ccx" && true) || ccx=
+ccx=$(realpath "$(command -v "$ccx" || echo .)") # it runs elsewhere
 
 # timed COMMAND...: sets $seconds to the seconds of the command; of one that takes
 # less than two seconds to the least of three runs.
@@ -212,3 +255,4 @@ while read -r code method bone implant layers threads _; do
 done <<< "$chosen"
 mkdir -p "$(dirname "$output")"
 mv "$directory/table" "$output"
+print_factors "$output"

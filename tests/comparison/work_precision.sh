@@ -46,7 +46,7 @@ CalculiX C3D8-round   30 12  2 1 5
 CalculiX C3D8-round   30 12  4 1 12
 CalculiX C3D8-round   30 12  8 1 50
 CalculiX C3D8-round   30 12  8 2 55
-CalculiX C3D8-round   60 24  8 1 230
+CalculiX C3D8-round   45 18  8 1 150
 CalculiX C3D20R       15  6  2 1 11
 CalculiX C3D20R       15 12  2 1 22
 CalculiX C3D20R       15 12  2 2 24

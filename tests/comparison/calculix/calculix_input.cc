@@ -15,8 +15,10 @@
 #include <exception>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace
@@ -29,7 +31,8 @@ namespace
 Writes a scene of debond as an input of CalculiX.
 
   --set ENTRY=VALUE   override an entry of the scene; may be repeated
-  --element TYPE      element of CalculiX: C3D8 (default), C3D8I or C3D8R
+  --element TYPE      element of CalculiX: C3D8 (default), C3D8I, C3D8R, or
+                      with quadratic edges, C3D20 or C3D20R
   --help              print this text
 )";
 
@@ -77,6 +80,85 @@ Writes a scene of debond as an input of CalculiX.
 
 
 
+  /**
+   * The nodes of a body and its elements in CalculiX's order, both counted from
+   * 0. Quadratic elements have a node on the middle of each edge, and that of
+   * an edge along a coin's rim lies on the circle: then the disk is round.
+   */
+  class Nodes
+  {
+  public:
+    std::vector<Eigen::Vector3d>           positions; // mm
+    std::vector<std::vector<unsigned int>> elements;
+
+    Nodes(const BodyMesh &body, const bool quadratic)
+    {
+      for (unsigned int vertex = 0; vertex < body.n_vertices(); ++vertex)
+        positions.push_back(body.reference_position(vertex));
+
+      // deal.II counts vertices lexicographically, CalculiX around the lower
+      // and then around the upper face, which are its faces S1 and S2
+      constexpr std::array<unsigned int, 8> order{{0, 1, 3, 2, 4, 5, 7, 6}};
+      for (const auto &cell : body.cells())
+        {
+          elements.emplace_back();
+          for (const unsigned int v : order)
+            elements.back().push_back(cell.vertices[v]);
+        }
+
+      if (quadratic)
+        for (std::vector<unsigned int> &element : elements)
+          add_midpoints(element, body);
+    }
+
+  private:
+    std::map<std::pair<unsigned int, unsigned int>, unsigned int> midpoints;
+
+    void
+    add_midpoints(std::vector<unsigned int> &element, const BodyMesh &body)
+    {
+      constexpr std::array<std::array<unsigned int, 2>, 12> edges{{{{0, 1}},
+                                                                   {{1, 2}},
+                                                                   {{2, 3}},
+                                                                   {{3, 0}},
+                                                                   {{4, 5}},
+                                                                   {{5, 6}},
+                                                                   {{6, 7}},
+                                                                   {{7, 4}},
+                                                                   {{0, 4}},
+                                                                   {{1, 5}},
+                                                                   {{2, 6}},
+                                                                   {{3, 7}}}};
+      for (const auto &edge : edges)
+        {
+          const unsigned int a = element[edge[0]], b = element[edge[1]];
+          const auto [known, is_new] =
+            midpoints.emplace(std::minmax(a, b), positions.size());
+          if (is_new)
+            positions.push_back(midpoint(positions[a], positions[b], body));
+          element.push_back(known->second);
+        }
+    }
+
+    static Eigen::Vector3d
+    midpoint(const Eigen::Vector3d &a,
+             const Eigen::Vector3d &b,
+             const BodyMesh        &body)
+    {
+      Eigen::Vector3d       middle    = (a + b) / 2;
+      const BodyParameters &coin      = body.parameters();
+      const auto            is_on_rim = [&coin](const Eigen::Vector3d &X) {
+        return std::abs(X.head<2>().norm() - coin.radius) < 1e-9 * coin.radius;
+      };
+      if (body.side() == BodySide::implant && coin.shape == BodyShape::coin &&
+          is_on_rim(a) && is_on_rim(b))
+        middle.head<2>() *= coin.radius / middle.head<2>().norm();
+      return middle;
+    }
+  };
+
+
+
   /** Both bodies in one numbering: CalculiX counts from 1, bone first. */
   class Input
   {
@@ -86,6 +168,8 @@ Writes a scene of debond as an input of CalculiX.
       , element(element)
       , bone(scene.bone, BodySide::bone)
       , implant(scene.implant, BodySide::implant)
+      , bone_nodes(bone, is_quadratic(element))
+      , implant_nodes(implant, is_quadratic(element))
       , chuck(scene.chuck,
               {0, 0, scene.implant.thickness()},
               scene.implant.characteristic_radius())
@@ -123,27 +207,40 @@ Writes a scene of debond as an input of CalculiX.
     }
 
   private:
-    unsigned int
-    number(const BodyMesh &body, const unsigned int vertex) const
+    static bool
+    is_quadratic(const std::string &element)
     {
-      return 1 + vertex + (&body == &implant ? bone.n_vertices() : 0);
+      return element == "C3D20" || element == "C3D20R";
     }
 
-    bool
-    is_at(const BodyMesh &body, const unsigned int vertex, const double z) const
+    const Nodes &
+    nodes(const BodyMesh &body) const
     {
-      return std::abs(body.reference_position(vertex)[2] - z) <
-             1e-9 * body.parameters().thickness();
+      return &body == &implant ? implant_nodes : bone_nodes;
+    }
+
+    unsigned int
+    number(const BodyMesh &body, const unsigned int node) const
+    {
+      return 1 + node + (&body == &implant ? bone_nodes.positions.size() : 0);
+    }
+
+    static bool
+    is_at(const BodyMesh &body, const Eigen::Vector3d &X, const double z)
+    {
+      return std::abs(X[2] - z) < 1e-9 * body.parameters().thickness();
     }
 
     std::vector<unsigned int>
     top_of_implant() const
     {
-      std::vector<unsigned int> vertices;
-      for (unsigned int vertex = 0; vertex < implant.n_vertices(); ++vertex)
-        if (is_at(implant, vertex, scene.implant.thickness()))
-          vertices.push_back(vertex);
-      return vertices;
+      std::vector<unsigned int> top;
+      for (unsigned int n = 0; n < implant_nodes.positions.size(); ++n)
+        if (is_at(implant,
+                  implant_nodes.positions[n],
+                  scene.implant.thickness()))
+          top.push_back(n);
+      return top;
     }
 
     void
@@ -151,32 +248,31 @@ Writes a scene of debond as an input of CalculiX.
     {
       out << "*NODE\n";
       for (const BodyMesh *body : {&bone, &implant})
-        for (unsigned int vertex = 0; vertex < body->n_vertices(); ++vertex)
+        for (unsigned int n = 0; n < nodes(*body).positions.size(); ++n)
           {
-            const Eigen::Vector3d &X = body->reference_position(vertex);
-            out << number(*body, vertex) << ", " << to_text(X[0]) << ", "
+            const Eigen::Vector3d &X = nodes(*body).positions[n];
+            out << number(*body, n) << ", " << to_text(X[0]) << ", "
                 << to_text(X[1]) << ", " << to_text(X[2]) << '\n';
           }
       out << "*NSET, NSET=TOP\n";
-      for (const unsigned int vertex : top_of_implant())
-        out << number(implant, vertex) << '\n';
+      for (const unsigned int n : top_of_implant())
+        out << number(implant, n) << '\n';
     }
 
-    // deal.II counts vertices lexicographically, CalculiX around the lower
-    // and then around the upper face, which are its faces S1 and S2
+    // A line holds 16 numbers at most.
     void
     write_elements(std::ostream      &out,
                    const BodyMesh    &body,
                    const std::string &name,
                    const unsigned int n_before) const
     {
-      constexpr std::array<unsigned int, 8> order{{0, 1, 3, 2, 4, 5, 7, 6}};
       out << "*ELEMENT, TYPE=" << element << ", ELSET=" << name << '\n';
       for (unsigned int cell = 0; cell < body.cells().size(); ++cell)
         {
           out << 1 + n_before + cell;
-          for (const unsigned int v : order)
-            out << ", " << number(body, body.cells()[cell].vertices[v]);
+          const std::vector<unsigned int> &of_cell = nodes(body).elements[cell];
+          for (unsigned int i = 0; i < of_cell.size(); ++i)
+            out << (i == 12 ? ",\n" : ", ") << number(body, of_cell[i]);
           out << '\n';
         }
       out << "*SURFACE, TYPE=ELEMENT, NAME=FACE_OF_" << name << '\n';
@@ -222,17 +318,17 @@ Writes a scene of debond as an input of CalculiX.
                                  "FACE_OF_BONE, FACE_OF_IMPLANT\n");
     }
 
-    // As BodyMesh does, but for the vertices of the contact face themselves.
+    // As BodyMesh does, but for the nodes of the contact face themselves.
     void
     write_fixed_nodes(std::ostream &out) const
     {
       const double height = scene.bone.thickness();
       out << "*BOUNDARY\n";
-      for (unsigned int vertex = 0; vertex < bone.n_vertices(); ++vertex)
+      for (unsigned int node = 0; node < bone_nodes.positions.size(); ++node)
         {
-          const Eigen::Vector3d &X = bone.reference_position(vertex);
-          const unsigned int     n = number(bone, vertex);
-          if (is_at(bone, vertex, -height))
+          const Eigen::Vector3d &X = bone_nodes.positions[node];
+          const unsigned int     n = number(bone, node);
+          if (is_at(bone, X, -height))
             out << n << ", 1, 3\n";
           else
             for (unsigned int d = 0; d < 2; ++d)
@@ -254,13 +350,13 @@ Writes a scene of debond as an input of CalculiX.
           << "*STEP, NLGEOM, INC=10000\n"
              "*STATIC\n"
           << to_text(duration) << ", " << to_text(duration) << "\n*BOUNDARY\n";
-      for (const unsigned int vertex : top_of_implant())
+      for (const unsigned int n : top_of_implant())
         {
-          const Eigen::Vector3d &X = implant.reference_position(vertex);
+          const Eigen::Vector3d &X = implant_nodes.positions[n];
           const Eigen::Vector3d  u = chuck.map(X, Eigen::Vector3d::Zero()) - X;
           for (unsigned int d = 0; d < 3; ++d)
-            out << number(implant, vertex) << ", " << d + 1 << ", " << d + 1
-                << ", " << to_text(u[d]) << '\n';
+            out << number(implant, n) << ", " << d + 1 << ", " << d + 1 << ", "
+                << to_text(u[d]) << '\n';
         }
       out << "*NODE PRINT, NSET=TOP, FREQUENCY=10000\nRF\n*END STEP\n";
     }
@@ -268,6 +364,7 @@ Writes a scene of debond as an input of CalculiX.
     const Scene        scene;
     const std::string  element;
     const BodyMesh     bone, implant;
+    const Nodes        bone_nodes, implant_nodes;
     Chuck              chuck;
     const LoadStepping stepping;
   };

@@ -11,7 +11,8 @@ Runs a scene with CalculiX (ccx) and with debond, and compares force and torque.
   --set ENTRY=VALUE    override an entry of the scene; may be repeated
   --directory PATH     keep all files there (default: a temporary directory,
                        which is removed)
-  --element TYPE       element of CalculiX: C3D8 (default), C3D8I or C3D8R
+  --element TYPE       element of CalculiX: C3D8 (default), C3D8I, C3D8R, C3D20
+                       or C3D20R
   --within PERCENT     fail if debond with bilinear surfaces is further away
                        from CalculiX
   --nurbs-within PERCENT  the same for NURBS
@@ -25,7 +26,8 @@ fail() {
   exit 1
 }
 
-source_directory=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+source_directory=$(cd "$here/../../.." && pwd)
 build=$source_directory/build/release
 debond=${DEBOND:-$build/debond}
 calculix_input=${CALCULIX_INPUT:-$build/tests/comparison/calculix/calculix_input}
@@ -96,31 +98,7 @@ all_seconds=$seconds
 
 version=$("$ccx" -v | awk '{ for (i = 1; i < NF; ++i) if ($i == "Version") print $(i + 1) }') || true
 
-# Force and torque from the reactions of the top nodes. The first file gives
-# their places and, in a comment before each step, time and angle.
-awk '
-  FNR == 1 { ++file }
-  file == 1 && /^\*NODE$/ { block = "node"; next }
-  file == 1 && /^\*NSET/ { block = "top"; next }
-  file == 1 && /^\*\* step/ { split($0, part, ":"); split(part[2], value, " ")
-                              time[value[1]] = value[2]; angle[value[1]] = value[3]; n_steps = value[1]; next }
-  file == 1 && /^\*/ { block = ""; next }
-  file == 1 && block == "node" { split($0, value, /, */); X[value[1]] = value[2]; Y[value[1]] = value[3] }
-  file == 1 && block == "top" { ++n_top }
-  file == 2 && /^ forces/ { ++step; next }
-  file == 2 && NF == 4 && step {
-    c = cos(angle[step] * atan2(0, -1) / 180); s = sin(angle[step] * atan2(0, -1) / 180)
-    x = c * X[$1] - s * Y[$1]; y = s * X[$1] + c * Y[$1]
-    torque[step] += x * $3 - y * $2; force[step] -= $4; ++n[step]
-  }
-  END {
-    for (i = 1; i <= n_steps; ++i)
-      {
-        if (n[i] != n_top) exit 1
-        printf "%.10g,%.10g,%.10g,%.10g\n", time[i], angle[i], force[i], torque[i]
-      }
-    if (step != n_steps) exit 1
-  }' "$directory/calculix.inp" "$directory/calculix.dat" > "$directory/calculix.csv" || {
+awk -f "$here/reactions.awk" "$directory/calculix.inp" "$directory/calculix.dat" > "$directory/calculix.csv" || {
   tail -n 20 "$directory/calculix.log" >&2
   fail "CalculiX did not finish all steps; its last lines are above"
 }

@@ -59,10 +59,13 @@ FNR == 1 {
   }
   points = value("Interface / Quadrature points"); surface = value("Bone / Contact surface"); slave = value("Interface / Slave")
   # what differs from the usual choice
-  label = tier (closed || tier == "rigid" ? "" : " " mesh " " layers) (closed ? "" : " " steps)
-  if (!closed && points != 5) label = label " " points "x" points " points"
-  if (surface != "nurbs") label = label " " surface
-  if (slave != "implant") label = label " slave " slave
+  label = tier
+  if (tier == "analytical") label = label (value("Closed form / Linear limit angle") == 0.13 ? "; printed angles" : "; own angles")
+  if (!closed && tier != "rigid") label = label "; " mesh "; " layers " layers"
+  label = label "; " steps
+  if (!closed && points != 5) label = label "; " points "x" points " points"
+  if (surface != "nurbs") label = label "; " surface
+  if (slave != "implant") label = label "; slave: " slave
   printf "%s,%s,%s,%s,%s,%s,%s,%s,%s,%s,%s,%s,%s,%s,%s,%s\n", tier, mesh, layers, steps, points, surface, slave,
     value("wall_seconds"), value("seconds_before_steps"), value("seconds_stepping"), value("unknowns"),
     value("difference_max"), value("difference_mean"), value("pressure_difference_rms"), value("slip_difference_rms"), label

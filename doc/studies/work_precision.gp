@@ -23,29 +23,25 @@ set tics nomirror
 # ---- the torque curve
 set terminal pngcairo size 1700,1000 enhanced font "Sans,17" linewidth 1.5
 set output dir . "work_precision.png"
-set rmargin 62
-set key at graph 1.03, 1.0 left top Left reverse samplen 1.5 spacing 1.15
+set rmargin 56
+set key at graph 1.03, 1.0 left top Left reverse samplen 1.5 spacing 1.1
 set ylabel "Largest error of the torque curve / {/:Italic T}_{max}"
 set xrange [5e-3:200]
 set yrange [5e-5:1]
 front = dir . "front_torque.csv"
-set label 1 "Front, from fast to accurate:" at graph 1.04, 0.42 front
-n = 0
-stats front using (n = n + 1, column("seconds")) nooutput
-do for [i=1:n] {
-  stats front using (column("seconds")) every ::(i - 1)::(i - 1) nooutput
-}
-array text[n]
-k = 0
-stats front using (k = k + 1, text[k] = strcol("label"), 1) nooutput
-do for [i=1:n] { set label (10 + i) sprintf("%d  %s", i, text[i]) at graph 1.04, 0.42 - 0.036 * i font "Sans,14" noenhanced front }
+load dir . "front_labels.gp"
+# what the reference is known to
+floor = 7e-5
+set arrow 1 from graph 0, first floor to graph 1, first floor nohead dashtype 2 linecolor rgb "#888888"
+set label 2 "error of the reference" at graph 0.01, first floor * 1.15 font "Sans,13" textcolor rgb "#666666"
 plot for [tier in tiers] for [m=1:5] table using (is(tier, word(meshes, m)) ? column("seconds") : NaN):"error_torque" \
-    with points pointtype symbol[m] pointsize 1.4 linecolor rgb (colour(tier) + 0x60000000) notitle, \
+    with points pointtype symbol[m] pointsize 1.5 linecolor rgb (colour(tier) + 0x60000000) notitle, \
   front using "seconds":"error_torque" with steps linewidth 1.5 linecolor rgb "#000000" title "best in its time", \
-  front using "seconds":"error_torque":(sprintf("%d", $0 + 1)) with labels offset -0.6, -0.7 right font "Sans,14" notitle, \
+  front using "seconds":"error_torque":(sprintf("%d", $0 + 1)) with labels offset -0.6, -0.7 right font "Sans,15" notitle, \
   for [tier in tiers] NaN with points pointtype 7 pointsize 1.6 linecolor rgb colour(tier) title tier, \
   for [m=1:5] NaN with points pointtype symbol[m] pointsize 1.6 linecolor rgb "#444444" title (m == 1 ? "closed form" : spaced(word(meshes, m)) . " mesh")
 unset label
+unset arrow
 
 # ---- local values
 set output dir . "work_precision_local.png"

@@ -7,7 +7,7 @@
 # Other codes: OTHER_CODES=FILE.csv (default prm/studies/data/other_codes.csv, if it is there) with the columns
 # code,label,seconds,error_torque for the scene of prm/studies/work_precision_coulomb.prm.
 set -euo pipefail
-export LC_ALL=C
+export LC_ALL=C.UTF-8
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 debond=${DEBOND:-build/release/debond}
 other_codes=${OTHER_CODES:-prm/studies/data/other_codes.csv}
@@ -34,20 +34,28 @@ fi
 awk -f doc/studies/gather.awk $results/work_precision{_closed_forms,_ends,}/study.csv > $results/work_precision.csv
 awk -f doc/studies/gather.awk $results/work_precision_coulomb/study.csv > $results/work_precision_coulomb.csv
 
-# Rows for which no other is both faster and closer: pareto TABLE COLUMN_OF_SECONDS COLUMN_OF_ERROR
+# Rows for which no other is both faster and closer, and that are closer by at least a tenth than the one before:
+# pareto TABLE COLUMN_OF_SECONDS COLUMN_OF_ERROR
 pareto() {
   head -n 1 "$1"
   tail -n +2 "$1" | awk -F, -v k="$3" '$k != "nan" && $k > 0' | sort -t, -g -k"$2,$2" |
-    awk -F, -v k="$3" 'NR == 1 || $k + 0 < best { print; best = $k + 0 }'
+    awk -F, -v k="$3" 'NR == 1 || $k + 0 < 0.9 * best { print; best = $k + 0 }'
 }
 pareto $results/work_precision.csv 8 12 > $results/front_torque.csv
 pareto $results/work_precision.csv 8 14 > $results/front_pressure.csv
 pareto $results/work_precision.csv 8 15 > $results/front_slip.csv
 pareto $results/work_precision_coulomb.csv 8 12 > $results/front_coulomb.csv
 
+# a list of the first front beside its picture
+awk -F, 'BEGIN { print "set label 1 \"Best in their time:\" at graph 1.04, 0.46" }
+  NR > 1 { printf "set label %d \"%2d %6.2g s  %.1e  %s\" at graph 1.03, %.3f font \"DejaVu Sans Mono,11\" noenhanced\n",
+    NR + 8, NR - 1, $8, $12, $16, 0.46 - 0.034 * (NR - 1) }' $results/front_torque.csv > $results/front_labels.gp
+
 codes=""
 if [[ -f $other_codes ]]; then codes=$other_codes; else echo "No $other_codes: the picture of codes shows this one alone"; fi
 gnuplot -e "codes='$codes'" doc/studies/work_precision.gp
 echo "On the front of torque curves (seconds, largest error relative to T_max):"
 awk -F, 'NR > 1 { printf "%9.3f  %.1e  %s\n", $8, $12, $16 }' $results/front_torque.csv
-echo "Pictures: $results/work_precision.png, work_precision_local.png, work_precision_codes.png; table: $results/work_precision.csv"
+awk -f doc/studies/tables.awk $results/work_precision.csv > $results/work_precision.md
+echo "Tables: $results/work_precision.md
+Pictures: $results/work_precision.png, work_precision_local.png, work_precision_codes.png; all rows: $results/work_precision.csv"

@@ -23,7 +23,7 @@ set tics nomirror
 # ---- the torque curve
 set terminal pngcairo size 1700,1000 enhanced font "Sans,17" linewidth 1.5
 set output dir . "work_precision.png"
-set rmargin 56
+set rmargin 58
 set key at graph 1.03, 1.0 left top Left reverse samplen 1.5 spacing 1.1
 set ylabel "Largest error of the torque curve / {/:Italic T}_{max}"
 set xrange [5e-3:200]

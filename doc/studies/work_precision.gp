@@ -26,7 +26,7 @@ set output dir . "work_precision.png"
 set rmargin 58
 set key at graph 1.03, 1.0 left top Left reverse samplen 1.5 spacing 1.1
 set ylabel "Largest error of the torque curve / {/:Italic T}_{max}"
-set xrange [5e-3:200]
+set xrange [5e-3:500]
 set yrange [5e-5:1]
 front = dir . "front_torque.csv"
 load dir . "front_labels.gp"
@@ -48,12 +48,12 @@ set output dir . "work_precision_local.png"
 set terminal pngcairo size 1700,800 enhanced font "Sans,17" linewidth 1.5
 set multiplot layout 1, 2
 set rmargin 2
-set yrange [1e-4:2]
+set yrange [1e-5:3]
 array what[2] = ["pressure", "slip"]
 array name[2] = ["local pressure", "local sliding distance {/:Italic g}_s"]
 do for [i=1:2] {
   set ylabel "RMS error of the " . name[i] . " / its mean"
-  if (i == 1) { unset key } else { set key inside top right Left reverse samplen 1 spacing 1.05 maxrows 6 font "Sans,15" }
+  if (i == 2) { unset key } else { set key inside top right Left reverse samplen 1 spacing 1.05 maxrows 6 font "Sans,15" }
   error = "error_" . what[i]
   plot for [tier in tiers] for [m=1:5] table using (is(tier, word(meshes, m)) ? column("seconds") : NaN):(best(column(error))) \
       with points pointtype symbol[m] pointsize 1.3 linecolor rgb (colour(tier) + 0x60000000) notitle, \

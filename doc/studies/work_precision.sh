@@ -50,7 +50,7 @@ pareto $results/work_precision_coulomb.csv 8 12 > $results/front_coulomb.csv
 
 # a list of the first front beside its picture
 awk -F, 'BEGIN { print "set label 1 \"Best in their time:\" at graph 1.04, 0.46" }
-  NR > 1 { printf "set label %d \"%2d %6.2g s  %.1e  %s\" at graph 1.03, %.3f font \"DejaVu Sans Mono,12\" noenhanced\n",
+  NR > 1 { printf "set label %d \"%2d %6.3g s  %.1e  %s\" at graph 1.03, %.3f font \"DejaVu Sans Mono,11\" noenhanced\n",
     NR + 8, NR - 1, $8, $12, $16, 0.46 - 0.034 * (NR - 1) }' $results/front_torque.csv > $results/front_labels.gp
 
 codes=""

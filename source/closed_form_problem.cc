@@ -3,7 +3,6 @@
 #include <debond/energy_balance.h>
 #include <debond/foundation.h>
 #include <debond/input_error.h>
-#include <debond/profile_output.h>
 #include <debond/runtime.h>
 
 #include <algorithm>
@@ -320,6 +319,7 @@ namespace Debond
     TorqueCurveWriter     writer(directory);
     ProfileOutput         profiles(scene, directory);
     EnergyBalance         energy;
+    const double          seconds_before_steps = clock.wall_time();
     if (!scene.title.empty())
       console.headline(scene.title);
     for (unsigned int step = 0; step < loads.size(); ++step)
@@ -332,17 +332,19 @@ namespace Debond
         profiles.write(next.angle_deg, *model);
       }
     console.warn("profile", profiles.finish());
-    write_summary(directory, console, clock.wall_time());
+    write_summary(directory, profiles, console, seconds_before_steps);
   }
 
 
 
   void
   ClosedFormProblem::write_summary(const ResultDirectory &directory,
+                                   const ProfileOutput   &profiles,
                                    Console               &console,
-                                   const double           wall_seconds) const
+                                   const double seconds_before_steps) const
   {
-    const double  R = scene.implant.radius;
+    const double  wall_seconds = clock.wall_time();
+    const double  R            = scene.implant.radius;
     CurveSettings settings;
     settings.contact_area_mm2       = M_PI * R * R;
     settings.mean_phi_0             = scene.output.observed_bonding > 0 ?
@@ -360,12 +362,15 @@ namespace Debond
     summary.measures = measure_torque_curve(torque_rows, settings);
     console.warn("reference",
                  warning_about_reference(summary.measures, settings));
-    summary.steps          = torque_rows.size() - 1;
-    summary.converged      = true;
-    summary.reason         = "all planned steps are done";
-    summary.warnings       = console.warnings();
-    summary.wall_seconds   = wall_seconds;
-    summary.peak_memory_MB = peak_memory_MB();
+    summary.steps            = torque_rows.size() - 1;
+    summary.converged        = true;
+    summary.reason           = "all planned steps are done";
+    summary.warnings         = console.warnings();
+    summary.wall_seconds     = wall_seconds;
+    summary.seconds          = {{"before steps", seconds_before_steps},
+                                {"stepping", wall_seconds - seconds_before_steps}};
+    summary.profile_measures = profiles.measures();
+    summary.peak_memory_MB   = peak_memory_MB();
     JsonObject json;
     add_summary(summary, json);
     json.add("normal_stiffness_MPa_per_mm",

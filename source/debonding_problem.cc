@@ -47,10 +47,11 @@ namespace Debond
     double                    reaction_defect = 0;
 
     std::vector<TorqueRow> rows;
-    double                 time              = 0; ///< of the accepted state
-    unsigned int           accepted_steps    = 0; ///< sub-steps included
-    unsigned int           newton_iterations = 0;
-    unsigned int           step              = 0; ///< planned step at work
+    double                 time                 = 0; ///< of the accepted state
+    unsigned int           accepted_steps       = 0; ///< sub-steps included
+    unsigned int           newton_iterations    = 0;
+    unsigned int           step                 = 0; ///< planned step at work
+    double                 seconds_before_steps = 0;
     std::string            last_failure;
   };
 
@@ -75,6 +76,7 @@ namespace Debond
   DebondingProblem::run()
   {
     set_up();
+    state->seconds_before_steps = state->wall_clock.wall_time();
     try
       {
         solve_first_row();
@@ -449,6 +451,8 @@ namespace Debond
   void
   DebondingProblem::finish(const bool converged, const std::string &reason)
   {
+    const double seconds_stepping =
+      state->wall_clock.wall_time() - state->seconds_before_steps;
     if (converged &&
         std::all_of(state->rows.begin(),
                     state->rows.end(),
@@ -488,8 +492,11 @@ namespace Debond
     for (const auto &[section, seconds] :
          state->timer.get_summary_data(dealii::TimerOutput::total_wall_time))
       summary.seconds.emplace_back(section, seconds);
-    summary.wall_seconds   = state->wall_clock.wall_time();
-    summary.peak_memory_MB = peak_memory_MB();
+    summary.seconds.emplace_back("before steps", state->seconds_before_steps);
+    summary.seconds.emplace_back("stepping", seconds_stepping);
+    summary.wall_seconds     = state->wall_clock.wall_time();
+    summary.profile_measures = state->profiles->measures();
+    summary.peak_memory_MB   = peak_memory_MB();
 
     JsonObject json;
     add_summary(summary, json);

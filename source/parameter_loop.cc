@@ -145,6 +145,19 @@ namespace Debond
         return variant / stride % n;
       }
 
+      /** Number of factors, that is entries or named groups of entries, that
+       *  differ from their first value. */
+      unsigned int
+      n_changed(const unsigned int variant) const
+      {
+        return std::count_if(strides.begin(),
+                             strides.end(),
+                             [variant](const auto &axis) {
+                               const auto [stride, n] = axis.second;
+                               return variant / stride % n != 0;
+                             });
+      }
+
     private:
       unsigned int n_combinations = 1;
       /** Name of the axis -> {variants between two values, number of values}.
@@ -177,29 +190,42 @@ namespace Debond
 
 
   std::vector<StudyVariant>
-  study_variants(const std::vector<SceneEntry> &entries)
+  study_variants(const std::vector<SceneEntry> &entries,
+                 const unsigned int             factors_at_once)
   {
     std::map<std::string, Choice> choices;
     Axes                          axes;
     for (const SceneEntry &entry : varied_entries(entries))
       {
-        choices[entry.full_name()] = read_choice(entry);
-        axes.add(entry, choices[entry.full_name()]);
+        const Choice &choice = choices[entry.full_name()] = read_choice(entry);
+        if (choice.by_run && factors_at_once > 0)
+          refuse(entry,
+                 "{{a||b}} has a value for every variant and cannot be one of "
+                 "the factors of Study / Factors varied at once: expected "
+                 "{{a|b|c}} or {{name: a|b|c}}");
+        axes.add(entry, choice);
       }
 
-    std::vector<StudyVariant> variants(axes.n_variants());
-    for (unsigned int i = 0; i < variants.size(); ++i)
-      for (SceneEntry entry : entries)
-        {
-          const auto choice = choices.find(entry.full_name());
-          if (choice != choices.end())
-            {
-              entry.value =
-                choice->second.values[axes.index(entry, choice->second, i)];
-              variants[i].values.push_back(entry.value);
-            }
-          variants[i].entries.push_back(entry);
-        }
+    std::vector<StudyVariant> variants;
+    const unsigned int        n_combinations = axes.n_variants();
+    for (unsigned int i = 0; i < n_combinations; ++i)
+      {
+        if (factors_at_once > 0 && axes.n_changed(i) > factors_at_once)
+          continue;
+        StudyVariant variant;
+        for (SceneEntry entry : entries)
+          {
+            const auto choice = choices.find(entry.full_name());
+            if (choice != choices.end())
+              {
+                entry.value =
+                  choice->second.values[axes.index(entry, choice->second, i)];
+                variant.values.push_back(entry.value);
+              }
+            variant.entries.push_back(entry);
+          }
+        variants.push_back(std::move(variant));
+      }
     return variants;
   }
 } // namespace Debond

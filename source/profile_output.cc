@@ -58,9 +58,10 @@ namespace Debond
                                const ResultDirectory &directory)
     : directory(directory)
     , angles_to_come(scene.output.profile_angles)
+    , reference(read_profiles(scene.output.reference_profiles))
     , wanted(!angles_to_come.empty())
     , table("angle_deg,x_mm,y_mm,r_mm,pressure_MPa,traction_MPa,slip_mm,phi,mu,"
-            "state\n")
+            "state,area_mm2\n")
   {
     std::sort(angles_to_come.begin(), angles_to_come.end());
     if (scene.output.friction_law_curve)
@@ -78,7 +79,7 @@ namespace Debond
            std::abs(angle_deg) >= angles_to_come.front() * (1. - 1e-9))
       {
         angles_to_come.erase(angles_to_come.begin());
-        reached = true;
+        reached = has_points = true;
       }
     return reached;
   }
@@ -105,7 +106,8 @@ namespace Debond
                              point.trial.state.slip,
                              coefficient.phi,
                              coefficient.mu,
-                             double(point.trial.state.status)});
+                             double(point.trial.state.status),
+                             point.JxW});
         }
   }
 
@@ -134,7 +136,8 @@ namespace Debond
            point.slip,
            point.phi,
            point.mu,
-           double(point.sticks ? PointStatus::stick : PointStatus::slip)});
+           double(point.sticks ? PointStatus::stick : PointStatus::slip),
+           2. * M_PI * r * model.radius() / n});
       }
   }
 
@@ -152,5 +155,16 @@ namespace Debond
     warning << "Output / Profile angles: " << angles_to_come.front()
             << " deg was never reached";
     return warning.str();
+  }
+
+
+
+  ProfileMeasures
+  ProfileOutput::measures() const
+  {
+    if (reference.empty() || !has_points)
+      return {};
+    return compare_profiles(read_profiles(directory.file("profiles.csv")),
+                            reference);
   }
 } // namespace Debond

@@ -36,6 +36,13 @@ namespace Debond
                       Allowed::optional_text("the name of a CSV file"),
                       "CSV file with the columns angle_deg,torque_Nmm to "
                       "compare the torque curve with; empty: none.");
+    prm.declare_entry("Reference profiles",
+                      "",
+                      Allowed::optional_text("the name of a CSV file"),
+                      "CSV file with the columns angle_deg, x_mm, y_mm, "
+                      "area_mm2, pressure_MPa and slip_mm, as profiles.csv of "
+                      "another run, to compare local values with at those of "
+                      "its angles that Profile angles has; empty: none.");
     prm.declare_entry("Full sliding angle",
                       "0",
                       Allowed::number_from(0, "deg"),
@@ -82,6 +89,7 @@ namespace Debond
     directory          = prm.get("Directory");
     fields_every       = prm.get_integer("Fields every");
     reference_curve    = prm.get("Reference curve");
+    reference_profiles = prm.get("Reference profiles");
     full_sliding_angle = prm.get_double("Full sliding angle");
     observed_bonding   = prm.get_double("Observed bonding");
     profile_angles     = to_numbers(prm.get("Profile angles"));

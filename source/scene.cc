@@ -27,6 +27,20 @@ namespace Debond
                       "torque curves are compared with in study.csv. 0: "
                       "they are compared with Output / Reference curve, if "
                       "there is one.");
+    prm.declare_entry("Factors varied at once",
+                      "0",
+                      Allowed::whole_number(0, 1000),
+                      "Of all combinations, only those in which at most this "
+                      "many factors differ from their first value: 1 varies "
+                      "one factor at a time, 2 also every pair. A factor is an "
+                      "entry {{a|b|c}}, or all entries {{name: a|b|c}} with "
+                      "one name. 0: all combinations.");
+    prm.declare_entry("Repetitions",
+                      "1",
+                      Allowed::whole_number(1, 1000),
+                      "Number of runs of each variant. In study.csv seconds "
+                      "are then medians; all else is that of the last run. "
+                      "Seconds mean something with --jobs 1 only.");
     prm.leave_subsection();
   }
 
@@ -37,6 +51,8 @@ namespace Debond
   {
     prm.enter_subsection("Study");
     reference_variant = prm.get_integer("Reference variant");
+    factors_at_once   = prm.get_integer("Factors varied at once");
+    repetitions       = prm.get_integer("Repetitions");
     prm.leave_subsection();
   }
 
@@ -358,11 +374,16 @@ namespace Debond
     void
     check_output(const OutputParameters &output)
     {
-      if (!output.reference_curve.empty() &&
-          !std::ifstream(output.reference_curve))
-        throw InputError("Output / Reference curve = '" +
-                         output.reference_curve +
-                         "': this file cannot be opened");
+      for (const auto &[name, file] :
+           {std::make_pair("Reference curve", output.reference_curve),
+            std::make_pair("Reference profiles", output.reference_profiles)})
+        if (!file.empty() && !std::ifstream(file))
+          throw InputError("Output / " + std::string(name) + " = '" + file +
+                           "': this file cannot be opened");
+      if (!output.reference_profiles.empty() && output.profile_angles.empty())
+        throw InputError("Output / Reference profiles = '" +
+                         output.reference_profiles +
+                         "' needs Output / Profile angles to compare at");
     }
   } // namespace
 

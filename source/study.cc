@@ -65,6 +65,28 @@ namespace Debond
 
 
     std::string
+    to_text(const double number)
+    {
+      std::ostringstream text;
+      text.precision(12);
+      text << number;
+      return text.str();
+    }
+
+
+
+    /** Of an even number of values the mean of the two in the middle. */
+    double
+    median(std::vector<double> values)
+    {
+      std::sort(values.begin(), values.end());
+      const std::size_t n = values.size();
+      return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+    }
+
+
+
+    std::string
     member(const StudyRow &members, const std::string &name)
     {
       for (const auto &[other, value] : members)
@@ -83,6 +105,22 @@ namespace Debond
       for (auto &[other, text] : members)
         if (other == name)
           text = value;
+    }
+
+
+
+    /** Gives the members that are seconds the medians over all runs. */
+    void
+    take_medians(StudyRow &summary, const std::vector<StudyRow> &repetitions)
+    {
+      for (auto &[name, text] : summary)
+        if (name == "wall_seconds" || name.rfind("seconds_", 0) == 0)
+          {
+            std::vector<double> seconds;
+            for (const StudyRow &repetition : repetitions)
+              seconds.push_back(std::atof(member(repetition, name).c_str()));
+            text = to_text(median(std::move(seconds)));
+          }
     }
 
 
@@ -112,9 +150,17 @@ namespace Debond
 
 
 
+    std::string
+    repetition_file(const std::string &directory, const unsigned int number)
+    {
+      return directory + "/repetition-" + std::to_string(number) + ".json";
+    }
+
+
+
     /** Distance of one torque curve from another, both from files. */
     CurveMeasures
-    compare(const std::string &file, const std::string &reference_file)
+    compare_curves(const std::string &file, const std::string &reference_file)
     {
       std::vector<TorqueRow> rows;
       for (const auto &[angle, torque] : read_reference_curve(file))
@@ -126,6 +172,36 @@ namespace Debond
       CurveSettings settings;
       settings.reference = read_reference_curve(reference_file);
       return measure_torque_curve(rows, settings);
+    }
+
+
+
+    using NamedNumbers = std::vector<std::pair<std::string, double>>;
+
+    NamedNumbers
+    all_measures(const CurveMeasures &curve, const ProfileMeasures &local)
+    {
+      NamedNumbers measures = error_measures(curve);
+      for (const auto &measure : error_measures(local))
+        measures.push_back(measure);
+      return measures;
+    }
+
+
+
+    /** Columns of study.csv that compare the results in one directory with
+     *  those in another: torque curve and, if both have them, profiles. */
+    NamedNumbers
+    compare(const std::string &directory, const std::string &reference)
+    {
+      ProfileMeasures   local;
+      const std::string own      = directory + "/profiles.csv",
+                        expected = reference + "/profiles.csv";
+      if (std::filesystem::exists(own) && std::filesystem::exists(expected))
+        local = compare_profiles(read_profiles(own), read_profiles(expected));
+      return all_measures(compare_curves(directory + "/torque.csv",
+                                         reference + "/torque.csv"),
+                          local);
     }
   } // namespace
 
@@ -142,10 +218,13 @@ namespace Debond
                            "a directory of its own below this one: expected "
                            "one value");
       }
-    std::vector<StudyVariant> combinations = study_variants(entries);
-    const Scene first = Scene::from_entries(combinations[0].entries, name);
-    directory         = first.output.directory;
-    reference         = first.study.reference_variant;
+    const Scene first =
+      Scene::from_entries(study_variants(entries)[0].entries, name);
+    directory     = first.output.directory;
+    reference     = first.study.reference_variant;
+    n_repetitions = first.study.repetitions;
+    std::vector<StudyVariant> combinations =
+      study_variants(entries, first.study.factors_at_once);
     if (reference > combinations.size())
       throw InputError(
         first.with_place("Study / Reference variant: this study has " +
@@ -158,6 +237,8 @@ namespace Debond
         next.scene =
           Scene::from_entries(with_overrides(std::move(combination.entries),
                                              {"Study/Reference variant=0",
+                                              "Study/Factors varied at once=0",
+                                              "Study/Repetitions=1",
                                               "Output/Console=quiet",
                                               "Output/Directory=" + directory +
                                                 "/" +
@@ -198,7 +279,7 @@ namespace Debond
 
 
   void
-  Study::look_up(Variant &variant)
+  Study::look_up(Variant &variant) const
   {
     const OutputParameters &output = variant.scene.output;
     variant.content =
@@ -207,6 +288,67 @@ namespace Debond
       variant.summary = read_summary(output.directory + "/summary.json");
     variant.done = member(variant.summary, "converged") == "true" &&
                    std::filesystem::exists(output.directory + "/torque.csv");
+    if (n_repetitions == 1)
+      return;
+    variant.repetitions.clear();
+    while (variant.repetitions.size() < n_repetitions)
+      {
+        const StudyRow next = read_summary(
+          repetition_file(output.directory, variant.repetitions.size() + 1));
+        if (next.empty())
+          break;
+        variant.repetitions.push_back(next);
+      }
+    if (!variant.repetitions.empty())
+      take_medians(variant.summary, variant.repetitions);
+    variant.done = variant.done && variant.repetitions.size() == n_repetitions;
+  }
+
+
+
+  // The next run writes a new summary in the place of this one.
+  void
+  Study::keep_repetition(Variant &variant) const
+  {
+    const std::string &place = variant.scene.output.directory;
+    std::filesystem::copy_file(
+      place + "/summary.json",
+      repetition_file(place, variant.repetitions.size() + 1),
+      std::filesystem::copy_options::overwrite_existing);
+  }
+
+
+
+  void
+  Study::forget_repetitions(Variant &variant)
+  {
+    const std::string &place = variant.scene.output.directory;
+    for (unsigned int i = 1; std::filesystem::remove(repetition_file(place, i));
+         ++i)
+      ;
+    variant.repetitions.clear();
+  }
+
+
+
+  bool
+  Study::wants_another_run(const Variant &variant) const
+  {
+    return n_repetitions > 1 && variant.failure.empty() &&
+           member(variant.summary, "converged") == "true" &&
+           variant.repetitions.size() < n_repetitions;
+  }
+
+
+
+  void
+  Study::end_run(Variant &variant, const std::string &failure)
+  {
+    variant.failure = failure;
+    if (n_repetitions > 1 && failure.empty())
+      keep_repetition(variant);
+    look_up(variant);
+    variant.done = variant.done && failure.empty();
   }
 
 
@@ -227,6 +369,9 @@ namespace Debond
                            "parameters.prm): choose another directory, or "
                            "overwrite them with --force");
         variant.done = variant.done && !force;
+        // what is left over from another scene, or not wanted any more
+        if (force || variant.content != DirectoryContent::same_scene)
+          forget_repetitions(variant);
       }
     std::error_code error;
     std::filesystem::create_directories(directory, error);
@@ -295,8 +440,11 @@ namespace Debond
 
 
 
-    pid_t
-    start_job(const Scene &scene, Job &job)
+    /** Starts a variant as a process and adds it to @p jobs. */
+    void
+    start_job(const Scene          &scene,
+              const unsigned int    variant,
+              std::map<pid_t, Job> &jobs)
     {
       int pipe_ends[2];
       if (pipe(pipe_ends) != 0)
@@ -310,8 +458,7 @@ namespace Debond
           run_in_child(scene, pipe_ends[1]);
         }
       close(pipe_ends[1]);
-      job.read_end = pipe_ends[0];
-      return process;
+      jobs[process] = {variant, pipe_ends[0]};
     }
   } // namespace
 
@@ -337,12 +484,7 @@ namespace Debond
       {
         for (; next < variants.size() && jobs.size() < n_jobs; ++next)
           if (!variants[next].done)
-            {
-              Job job;
-              job.variant         = next;
-              const pid_t process = start_job(variants[next].scene, job);
-              jobs[process]       = job;
-            }
+            start_job(variants[next].scene, next, jobs);
         if (jobs.empty())
           break;
 
@@ -354,16 +496,20 @@ namespace Debond
         const auto job = jobs.find(process);
         if (job == jobs.end())
           continue; // not one of ours
-        Variant &variant = variants[job->second.variant];
-        variant.failure  = read_to_end(job->second.read_end);
+        const Job   ended   = job->second;
+        Variant    &variant = variants[ended.variant];
+        std::string failure = read_to_end(ended.read_end);
         if (WIFSIGNALED(status))
-          variant.failure =
-            std::string("the process was ended by the system: ") +
-            strsignal(WTERMSIG(status));
-        look_up(variant);
-        variant.done = variant.done && variant.failure.empty();
-        report(job->second.variant, out);
+          failure = std::string("the process was ended by the system: ") +
+                    strsignal(WTERMSIG(status));
         jobs.erase(job);
+        end_run(variant, failure);
+        if (wants_another_run(variant))
+          {
+            start_job(variant.scene, ended.variant, jobs);
+            continue;
+          }
+        report(ended.variant, out);
         write_table();
       }
     write_table();
@@ -404,18 +550,12 @@ namespace Debond
     for (Variant &variant : variants)
       if (!variant.compared)
         {
-          CurveMeasures measures;
           variant.compared = variant.done && other.done;
-          if (variant.compared)
-            measures = compare(variant.scene.output.directory + "/torque.csv",
-                               other.scene.output.directory + "/torque.csv");
-          for (const auto &[name, value] : error_measures(measures))
-            {
-              std::ostringstream text;
-              text.precision(12);
-              text << value;
-              set_member(variant.summary, name, text.str());
-            }
+          for (const auto &[name, value] :
+               variant.compared ? compare(variant.scene.output.directory,
+                                          other.scene.output.directory) :
+                                  all_measures({}, {}))
+            set_member(variant.summary, name, to_text(value));
         }
   }
 

@@ -1,10 +1,9 @@
-#include <debond/allowed_values.h>
+#include <debond/csv_table.h>
 #include <debond/input_error.h>
 #include <debond/result_files.h>
 #include <debond/torque_curve.h>
 
 #include <deal.II/base/numbers.h>
-#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cctype>
@@ -111,98 +110,14 @@ namespace Debond
 
 
 
-  namespace
-  {
-    /** Where in a file we are, for messages. */
-    struct LineOfReference
-    {
-      const std::string &filename;
-      unsigned int       number;
-
-      [[noreturn]] void
-      refuse(const std::string &message) const
-      {
-        throw InputError("Output / Reference curve = '" + filename +
-                         "', line " + std::to_string(number) + ": " + message);
-      }
-    };
-
-
-
-    /** Number of the column called @p name; refuses the line if there is none.
-     */
-    unsigned int
-    column_called(const std::string              &name,
-                  const std::vector<std::string> &header,
-                  const LineOfReference          &line)
-    {
-      const auto found = std::find(header.begin(), header.end(), name);
-      if (found == header.end())
-        line.refuse("the first line must name the columns, angle_deg and "
-                    "torque_Nmm among them; there is no '" +
-                    name + "'");
-      return found - header.begin();
-    }
-
-
-
-    double
-    number_in(const std::vector<std::string> &items,
-              const unsigned int              column,
-              const std::string              &name,
-              const LineOfReference          &line)
-    {
-      if (column >= items.size())
-        line.refuse("no value for " + name);
-      double value = 0;
-      if (!read_number(items[column], value))
-        line.refuse("'" + items[column] + "' is no number (" + name + ")");
-      return value;
-    }
-  } // namespace
-
-
-
   ReferenceCurve
   read_reference_curve(const std::string &filename)
   {
     ReferenceCurve curve;
-    if (filename.empty())
-      return curve;
-    const std::string entry = "Output / Reference curve = '" + filename + "'";
-    std::ifstream     file(filename);
-    if (!file)
-      throw InputError(entry +
-                       ": this file cannot be read: " + std::strerror(errno));
-
-    LineOfReference line{filename, 0};
-    std::string     text;
-    bool            has_header   = false;
-    unsigned int    angle_column = 0, torque_column = 0;
-    while (std::getline(file, text))
-      {
-        ++line.number;
-        if (line.number == 1 && text.compare(0, 3, "\xEF\xBB\xBF") == 0)
-          text.erase(0, 3); // the mark that spreadsheets begin a file with
-        text = dealii::Utilities::trim(text);
-        if (text.empty() || text[0] == '#')
-          continue;
-        const std::vector<std::string> items = split_list(text);
-        if (!has_header)
-          {
-            angle_column  = column_called("angle_deg", items, line);
-            torque_column = column_called("torque_Nmm", items, line);
-            has_header    = true;
-          }
-        else
-          curve.emplace_back(
-            number_in(items, angle_column, "angle_deg", line),
-            number_in(items, torque_column, "torque_Nmm", line));
-      }
-    if (curve.empty())
-      throw InputError(entry +
-                       ": this file holds no row of numbers; expected "
-                       "are a line angle_deg,torque_Nmm and rows below");
+    if (!filename.empty())
+      for (const std::vector<double> &row : read_csv_columns(
+             filename, "Output / Reference curve", {"angle_deg", "torque_Nmm"}))
+        curve.emplace_back(row[0], row[1]);
     return curve;
   }
 
@@ -538,6 +453,8 @@ namespace Debond
     json.add("E_interface_Nm", m.E_interface_Nm);
     json.add("largest_energy_defect", m.largest_energy_defect);
     json.add("largest_reaction_defect", m.largest_reaction_defect);
+    for (const auto &[name, value] : error_measures(summary.profile_measures))
+      json.add(name, value);
     for (const auto &[name, seconds] : summary.seconds)
       json.add("seconds_" + with_underscores(name), seconds);
   }

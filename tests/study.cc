@@ -1,10 +1,13 @@
-// A study: its variants, how entries vary together, one that fails, what is
-// skipped when it is run again, and the comparison of its curves; and that the
-// foundation model with the stiffness of the bodies is close to them.
+// A study: its variants, how entries vary together and how many at once, one
+// that fails, what is skipped when it is run again, repetitions and their
+// medians, and the comparison of its curves; and that the foundation model with
+// the stiffness of the bodies is close to them.
 
 #include <debond/input_error.h>
 #include <debond/study.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -29,12 +32,16 @@ entries(const std::string &text, const std::vector<std::string> &more = {})
 
 
 void
-print_variants(const std::string &text)
+print_variants(const std::string &text, const unsigned int factors_at_once = 0)
 {
   std::cout << text << std::endl;
+  if (factors_at_once > 0)
+    std::cout << "  at most " << factors_at_once
+              << " factors differ from their first value" << std::endl;
   try
     {
-      for (const StudyVariant &variant : study_variants(entries(text)))
+      for (const StudyVariant &variant :
+           study_variants(entries(text), factors_at_once))
         {
           std::cout << " ";
           for (const std::string &value : variant.values)
@@ -102,6 +109,73 @@ end
 
 
 
+/** wall_seconds of a summary. */
+double
+seconds_in(const std::string &filename)
+{
+  std::ostringstream text;
+  text << std::ifstream(filename).rdbuf();
+  const std::string name = "\"wall_seconds\": ";
+  return std::atof(text.str().c_str() + text.str().find(name) + name.size());
+}
+
+
+
+// Every variant is run three times; seconds are the middle ones. A repetition
+// that is missing is made up for, and no other.
+void
+check_repetitions()
+{
+  const auto study_entries =
+    entries(scene_text,
+            {"Model=foundation",
+             "Interface/Friction coefficient broken={{0.3|0.4}}",
+             "Study/Repetitions=3",
+             "Output/Directory=results/repetitions"});
+  std::filesystem::remove_all("results/repetitions");
+  std::ostringstream log;
+  Study(study_entries, "study").run(2, false, log);
+  const std::string place = "results/repetitions/variant-002/";
+  const auto        file  = [&](const unsigned int number) {
+    return place + "repetition-" + std::to_string(number) + ".json";
+  };
+  report("three repetitions are kept",
+         std::filesystem::exists(file(3)) && !std::filesystem::exists(file(4)));
+
+  const auto check_median = [&] {
+    std::vector<double> seconds;
+    for (unsigned int i = 1; i <= 3; ++i)
+      seconds.push_back(seconds_in(file(i)));
+    std::sort(seconds.begin(), seconds.end());
+    auto table = read_study("results/repetitions/study.csv");
+    report("seconds are medians",
+           std::abs(std::atof(table["wall_seconds"][1].c_str()) - seconds[1]) <
+             1e-9 * seconds[1]);
+  };
+  check_median();
+
+  std::filesystem::remove(file(3));
+  const auto first  = std::filesystem::last_write_time(file(1));
+  const auto others = std::filesystem::last_write_time(
+    "results/repetitions/variant-001/summary.json");
+  Study(study_entries, "study").run(2, false, log);
+  report("a missing repetition is made up for",
+         std::filesystem::exists(file(3)));
+  report("and no other run is made",
+         first == std::filesystem::last_write_time(file(1)) &&
+           others == std::filesystem::last_write_time(
+                       "results/repetitions/variant-001/summary.json"));
+  check_median();
+  auto table = read_study("results/repetitions/study.csv");
+  report("set-up and stepping are not more than the whole",
+         std::atof(table["seconds_before_steps"][0].c_str()) > 0 &&
+           std::atof(table["seconds_stepping"][0].c_str()) > 0 &&
+           std::atof(table["seconds_before_steps"][0].c_str()) <
+             std::atof(table["wall_seconds"][0].c_str()));
+}
+
+
+
 void
 test()
 {
@@ -113,6 +187,16 @@ test()
   print_variants("set A = {{m: 1|2}}\nset B = {{m: x|y|z}}");
   print_variants("set A = {{1|2");
   print_variants("set A = {{1|2}} {{3|4}}");
+  const std::string four =
+    "set A = {{1|2|3}}\nset B = {{m: x|y}}\nset C = {{m: p|q}}\n"
+    "set D = {{u|v}}";
+  print_variants(four, 1);
+  print_variants(four, 2);
+  report("as many factors as there are give all combinations",
+         study_variants(entries(four), 3).size() ==
+           study_variants(entries(four)).size());
+  print_variants("set A = {{1|2}}\nset B = {{x||y}}", 1);
+  check_repetitions();
 
   const auto study_entries = entries(scene_text,
                                      {"Model={{finite elements|foundation}}",

@@ -4,6 +4,7 @@
 #include <debond/closed_forms.h>
 #include <debond/console.h>
 #include <debond/problem.h>
+#include <debond/profile_output.h>
 
 #include <deal.II/base/timer.h>
 
@@ -57,8 +58,9 @@ namespace Debond
     row(unsigned int step);
     void
     write_summary(const ResultDirectory &directory,
+                  const ProfileOutput   &profiles,
                   Console               &console,
-                  double                 wall_seconds) const;
+                  double                 seconds_before_steps) const;
 
     const dealii::Timer           clock;
     const Scene                   scene;

@@ -37,10 +37,14 @@ namespace Debond
    *                     position, in every combination with the others
    *
    * Text around the braces belongs to every value. Each entry may be there once
-   * only. Throws InputError with place and entry if braces
-   * do not match or numbers of values disagree.
+   * only. With @p factors_at_once > 0 only those combinations remain in which
+   * at most that many factors, which are entries or named groups of entries,
+   * differ from their first value; {{a||b||c}} is then refused. Throws
+   * InputError with place and entry if braces do not match or numbers of values
+   * disagree.
    */
   std::vector<StudyVariant>
-  study_variants(const std::vector<SceneEntry> &entries);
+  study_variants(const std::vector<SceneEntry> &entries,
+                 unsigned int                   factors_at_once = 0);
 } // namespace Debond
 #endif

@@ -3,6 +3,7 @@
 
 #include <debond/closed_forms.h>
 #include <debond/contact_interface.h>
+#include <debond/profile_comparison.h>
 #include <debond/result_files.h>
 #include <debond/scene.h>
 
@@ -17,7 +18,8 @@ namespace Debond
    * profiles.csv holds every slave point (of closed forms: points along a
    * radius) at the rows whose angle first reaches one of `Output / Profile
    * angles`: reference position, pressure, magnitude of the tangential
-   * traction, sliding distance, bonding state, friction coefficient, state.
+   * traction, sliding distance, bonding state, friction coefficient, state,
+   * area that the point stands for.
    *
    * friction_law.csv holds phi and mu over the sliding distance g_s, if
    * `Output / Friction law curve` asks for it.
@@ -38,13 +40,20 @@ namespace Debond
     std::string
     finish();
 
+    /** Distance of the written profiles from `Output / Reference profiles`;
+     *  undefined without any. To be called after finish(). */
+    ProfileMeasures
+    measures() const;
+
   private:
     bool
     reaches(double angle_deg);
 
     const ResultDirectory &directory;
     std::vector<double>    angles_to_come; ///< ascending [deg]
+    const Profiles         reference;      ///< empty: none
     bool                   wanted;
+    bool                   has_points = false;
     std::string            table;
   };
 } // namespace Debond

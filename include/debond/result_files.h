@@ -27,6 +27,7 @@ namespace Debond
     unsigned int fields_every =
       50;                        ///< planned steps between VTU files, 0: none
     std::string reference_curve; ///< CSV angle_deg,torque_Nmm, or empty
+    std::string reference_profiles;     ///< a profiles.csv, or empty
     double      full_sliding_angle = 0; ///< [deg], 0: from the curve
     double      observed_bonding   = 0; ///< mean phi_0 of w_adh, 0: the scene's
     std::vector<double> profile_angles; ///< [deg]

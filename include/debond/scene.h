@@ -30,6 +30,8 @@ namespace Debond
   struct StudyParameters
   {
     unsigned int reference_variant = 0; ///< 0: none
+    unsigned int factors_at_once   = 0; ///< 0: all combinations
+    unsigned int repetitions       = 1; ///< runs of each variant
 
     static void
     declare(dealii::ParameterHandler &prm);

@@ -21,6 +21,10 @@ namespace Debond
    * Variants are processes of their own, so that one that fails leaves the
    * others alone. A variant whose directory holds the finished results of the
    * same scene is not run again.
+   *
+   * With `Study / Repetitions` every variant is run several times, one after
+   * the other in its directory, which keeps the summary of each run as
+   * repetition-1.json and so on; seconds in study.csv are medians over them.
    */
   class Study
   {
@@ -55,7 +59,8 @@ namespace Debond
       StudyRow                 summary;          ///< its summary.json
       bool                     compared = false; ///< with the reference variant
       bool                     done     = false;
-      std::string              failure; ///< why it failed, if it did
+      std::string              failure;     ///< why it failed, if it did
+      std::vector<StudyRow>    repetitions; ///< summaries of all its runs
     };
 
     std::string
@@ -64,8 +69,16 @@ namespace Debond
     prepare(bool force);
     void
     report(unsigned int variant, std::ostream &out) const;
+    void
+    look_up(Variant &variant) const;
+    void
+    keep_repetition(Variant &variant) const;
+    void
+    end_run(Variant &variant, const std::string &failure);
     static void
-    look_up(Variant &variant);
+    forget_repetitions(Variant &variant);
+    bool
+    wants_another_run(const Variant &variant) const;
     void
     compare_with_reference();
     StudyRow
@@ -77,6 +90,7 @@ namespace Debond
     std::vector<Variant>     variants;
     std::string              directory;
     unsigned int             reference = 0; ///< number of a variant, 0: none
+    unsigned int             n_repetitions = 1;
   };
 } // namespace Debond
 #endif

@@ -1,6 +1,8 @@
 #ifndef debond_torque_curve_h
 #define debond_torque_curve_h
 
+#include <debond/profile_comparison.h>
+
 #include <array>
 #include <fstream>
 #include <limits>
@@ -167,16 +169,17 @@ namespace Debond
   /** Everything summary.json tells. */
   struct RunSummary
   {
-    CurveMeasures measures;
-    unsigned int  steps              = 0; ///< accepted, sub-steps included
-    unsigned int  newton_iterations  = 0;
-    unsigned int  dofs               = 0; ///< as the paper counts them
-    unsigned int  unknowns           = 0; ///< dofs less tied surface vertices
-    unsigned int  condensed_unknowns = 0; ///< of the coupled system at the end
-    double        wall_seconds       = 0;
-    double        peak_memory_MB     = 0; ///< of the process
-    bool          converged          = false;
-    std::string   reason; ///< why the run ended
+    CurveMeasures   measures;
+    ProfileMeasures profile_measures;
+    unsigned int    steps             = 0; ///< accepted, sub-steps included
+    unsigned int    newton_iterations = 0;
+    unsigned int    dofs              = 0; ///< as the paper counts them
+    unsigned int    unknowns          = 0; ///< dofs less tied surface vertices
+    unsigned int condensed_unknowns   = 0; ///< of the coupled system at the end
+    double       wall_seconds         = 0;
+    double       peak_memory_MB       = 0; ///< of the process
+    bool         converged            = false;
+    std::string  reason; ///< why the run ended
     std::vector<std::string> warnings;
     /** Parts of the wall time; {"dense solve", 1.5} becomes
      *  "seconds_dense_solve": 1.5. */

@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# Speed and accuracy in one picture: runs the studies prm/studies/work_precision*.prm one variant at a time, so that seconds
+# mean something, and draws output/studies/work_precision.png, work_precision_local.png and work_precision_codes.png.
+#   doc/studies/work_precision.sh [--force] [--draw] [--publish]
+#     --force   run again what is there already (without it an interrupted study goes on where it was)
+#     --draw    run nothing, draw what is there
+#     --publish copy the pictures to doc/images and the tables into doc/speed_and_accuracy.md
+# Other codes: OTHER_CODES=FILE.csv (default prm/studies/data/other_codes.csv, if it is there) with the columns
+# code,label,seconds,error_torque for the scene of prm/studies/work_precision_coulomb.prm.
+set -euo pipefail
+export LC_ALL=C.UTF-8
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+debond=${DEBOND:-build/release/debond}
+other_codes=${OTHER_CODES:-prm/studies/data/other_codes.csv}
+results=output/studies
+force=() draw_only=false publish=false
+for option in "$@"; do
+  case $option in
+    --force) force=(--force) ;;
+    --draw) draw_only=true ;;
+    --publish) publish=true ;;
+    *) sed -n '2,9s/^# //p' "$0"; exit 1 ;;
+  esac
+done
+command -v gnuplot > /dev/null || { echo "work_precision.sh: gnuplot is needed to draw" >&2; exit 1; }
+
+if [[ $draw_only == false ]]; then
+  [[ -x $debond ]] || { echo "work_precision.sh: there is no $debond: build the program first, or set DEBOND" >&2; exit 1; }
+  echo "Some 20 minutes if the machine is quiet, which it should be; one run needs 75 s and 4 GB. Each line below is a variant."
+  for study in closed_forms coulomb ends ""; do
+    echo "== $(date +%H:%M) work_precision${study:+_$study}"
+    "$debond" "prm/studies/work_precision${study:+_$study}.prm" --jobs 1 "${force[@]}"
+  done
+fi
+
+awk -f doc/studies/gather.awk $results/work_precision{_closed_forms,_ends,}/study.csv > $results/work_precision.csv
+awk -f doc/studies/gather.awk $results/work_precision_coulomb/study.csv > $results/work_precision_coulomb.csv
+
+# Rows for which no other is both faster and closer, and that are closer by at least a tenth than the one before:
+# pareto TABLE COLUMN_OF_SECONDS COLUMN_OF_ERROR
+pareto() {
+  head -n 1 "$1"
+  tail -n +2 "$1" | awk -F, -v k="$3" '$k != "nan" && $k > 0' | sort -t, -g -k"$2,$2" |
+    awk -F, -v k="$3" 'NR == 1 || $k + 0 < 0.9 * best { print; best = $k + 0 }'
+}
+pareto $results/work_precision.csv 8 12 > $results/front_torque.csv
+pareto $results/work_precision.csv 8 14 > $results/front_pressure.csv
+pareto $results/work_precision.csv 8 15 > $results/front_slip.csv
+pareto $results/work_precision_coulomb.csv 8 12 > $results/front_coulomb.csv
+
+# a list of the first front beside its picture
+awk -F, 'BEGIN { print "set label 1 \"Best in their time:\" at graph 1.04, 0.46" }
+  NR > 1 { printf "set label %d \"%2d %6.3g s  %.1e  %s\" at graph 1.03, %.3f font \"DejaVu Sans Mono,11\" noenhanced\n",
+    NR + 8, NR - 1, $8, $12, $16, 0.46 - 0.034 * (NR - 1) }' $results/front_torque.csv > $results/front_labels.gp
+
+codes=""
+if [[ -f $other_codes ]]; then codes=$other_codes; else echo "No $other_codes: the picture of codes shows this one alone"; fi
+gnuplot -e "codes='$codes'" doc/studies/work_precision.gp
+echo "On the front of torque curves (seconds, largest error relative to T_max):"
+awk -F, 'NR > 1 { printf "%9.3f  %.1e  %s\n", $8, $12, $16 }' $results/front_torque.csv
+awk -f doc/studies/tables.awk $results/work_precision.csv > $results/work_precision.md
+echo "Tables: $results/work_precision.md
+Pictures: $results/work_precision.png, work_precision_local.png, work_precision_codes.png; all rows: $results/work_precision.csv"
+if [[ $publish == true ]]; then
+  cp $results/work_precision.png $results/work_precision_local.png $results/work_precision_codes.png doc/images/
+  page=doc/speed_and_accuracy.md
+  awk -v tables=$results/work_precision.md '
+    /^<!-- tables/ { print; while ((getline line < tables) > 0) print line; skip = 1 }
+    /^<!-- end of tables/ { skip = 0 }
+    !skip { if ($0 !~ /^<!-- tables/) print }' $page > $page.partial
+  mv $page.partial $page
+  echo "Published in doc/images and $page"
+fi

@@ -1,0 +1,25 @@
+#ifndef debond_csv_table_h
+#define debond_csv_table_h
+
+#include <string>
+#include <vector>
+
+namespace Debond
+{
+  /**
+   * Reads columns of a CSV file whose first line names them. Others than
+   * @p names are ignored, as are empty lines and lines that begin with `#`.
+   * The result has a row for each row of the file, with the values in the order
+   * of @p names.
+   *
+   * Throws InputError that names the @p entry of the scene which gave the file,
+   * the file, the line and what was expected. Numbers are finite; with
+   * @p nan_is_allowed `nan` is read as such.
+   */
+  std::vector<std::vector<double>>
+  read_csv_columns(const std::string              &filename,
+                   const std::string              &entry,
+                   const std::vector<std::string> &names,
+                   bool                            nan_is_allowed = false);
+} // namespace Debond
+#endif

@@ -1,0 +1,138 @@
+#include <debond/allowed_values.h>
+#include <debond/csv_table.h>
+#include <debond/input_error.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <limits>
+
+namespace Debond
+{
+  namespace
+  {
+    /** Where in a file we are, for messages. */
+    struct Line
+    {
+      const std::string &entry;
+      const std::string &filename;
+      unsigned int       number;
+
+      [[noreturn]] void
+      refuse(const std::string &message) const
+      {
+        throw InputError(entry + " = '" + filename + "', line " +
+                         std::to_string(number) + ": " + message);
+      }
+    };
+
+
+
+    /** "a, b and c" */
+    std::string
+    enumerate(const std::vector<std::string> &names)
+    {
+      std::string text;
+      for (std::size_t i = 0; i < names.size(); ++i)
+        text += (i == 0                ? "" :
+                 i + 1 == names.size() ? " and " :
+                                         ", ") +
+                names[i];
+      return text;
+    }
+
+
+
+    /** Numbers of the columns called @p names; refuses the line if one is
+     *  missing. */
+    std::vector<unsigned int>
+    columns_called(const std::vector<std::string> &names,
+                   const std::vector<std::string> &header,
+                   const Line                     &line)
+    {
+      std::vector<unsigned int> columns;
+      for (const std::string &name : names)
+        {
+          const auto found = std::find(header.begin(), header.end(), name);
+          if (found == header.end())
+            line.refuse("the first line must name the columns, " +
+                        enumerate(names) + " among them; there is no '" + name +
+                        "'");
+          columns.push_back(found - header.begin());
+        }
+      return columns;
+    }
+
+
+
+    double
+    number_in(const std::vector<std::string> &items,
+              const unsigned int              column,
+              const std::string              &name,
+              const bool                      nan_is_allowed,
+              const Line                     &line)
+    {
+      if (column >= items.size())
+        line.refuse("no value for " + name);
+      if (nan_is_allowed && items[column] == "nan")
+        return std::numeric_limits<double>::quiet_NaN();
+      double value = 0;
+      if (!read_number(items[column], value))
+        line.refuse("'" + items[column] + "' is no number (" + name + ")");
+      return value;
+    }
+  } // namespace
+
+
+
+  std::vector<std::vector<double>>
+  read_csv_columns(const std::string              &filename,
+                   const std::string              &entry,
+                   const std::vector<std::string> &names,
+                   const bool                      nan_is_allowed)
+  {
+    std::ifstream file(filename);
+    if (!file)
+      throw InputError(entry + " = '" + filename +
+                       "': this file cannot be read: " + std::strerror(errno));
+
+    std::vector<std::vector<double>> rows;
+    std::vector<unsigned int>        columns;
+    Line                             line{entry, filename, 0};
+    std::string                      text;
+    while (std::getline(file, text))
+      {
+        ++line.number;
+        if (line.number == 1 && text.compare(0, 3, "\xEF\xBB\xBF") == 0)
+          text.erase(0, 3); // the mark that spreadsheets begin a file with
+        text = dealii::Utilities::trim(text);
+        if (text.empty() || text[0] == '#')
+          continue;
+        const std::vector<std::string> items = split_list(text);
+        if (columns.empty())
+          {
+            columns = columns_called(names, items, line);
+            continue;
+          }
+        std::vector<double> row;
+        for (std::size_t i = 0; i < names.size(); ++i)
+          row.push_back(
+            number_in(items, columns[i], names[i], nan_is_allowed, line));
+        rows.push_back(std::move(row));
+      }
+    if (rows.empty())
+      {
+        std::string header;
+        for (const std::string &name : names)
+          header += (header.empty() ? "" : ",") + name;
+        throw InputError(entry + " = '" + filename +
+                         "': this file holds no row of numbers; expected are "
+                         "a line " +
+                         header + " and rows below");
+      }
+    return rows;
+  }
+} // namespace Debond

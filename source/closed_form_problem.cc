@@ -32,6 +32,7 @@ namespace Debond
           case ModelKind::mathieu:
             return "mathieu";
           case ModelKind::finite_elements:
+          case ModelKind::automatic:
             break;
         }
       return "finite elements";
@@ -166,7 +167,7 @@ namespace Debond
     if ((normal_stiffness == 0. && !pressure_is_given) ||
         (lambda == 0. && turns_on_foundation))
       {
-        const FoundationStiffness bulk = foundation_stiffness(scene);
+        bulk = foundation_stiffness(scene);
         if (normal_stiffness == 0.)
           normal_stiffness = bulk.normal;
         if (lambda == 0.)

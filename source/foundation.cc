@@ -1,10 +1,13 @@
+#include <debond/closed_forms.h>
 #include <debond/coupled_system.h>
 #include <debond/foundation.h>
 #include <debond/input_error.h>
 #include <debond/newton.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
 
 namespace Debond
 {
@@ -47,6 +50,25 @@ namespace Debond
                                              ": " + result.why));
       system.commit(time);
     }
+
+
+
+    /** Traction about the axis at each point [MPa], with the sign that a
+     *  positive rotation gives the implant's. */
+    std::vector<double>
+    traction_about_axis(const ContactInterface &interface)
+    {
+      const double        sign = interface.slave_side() == 1 ? 1. : -1.;
+      std::vector<double> tractions;
+      for (const ContactInterface::Point &point : interface.get_points())
+        {
+          const Eigen::Vector3d &X = point.X, &t = point.accepted_traction;
+          const double           r = std::hypot(X[0], X[1]);
+          tractions.push_back(r > 0. ? sign * (X[0] * t[1] - X[1] * t[0]) / r :
+                                       0.);
+        }
+      return tractions;
+    }
   } // namespace
 
 
@@ -65,9 +87,57 @@ namespace Debond
     FoundationStiffness stiffness;
     stiffness.normal =
       system.chuck_resultant()[2] / (-depth * system.interface.implant_area());
+    for (const ContactInterface::Point &point : system.interface.get_points())
+      stiffness.points.push_back(
+        {std::hypot(point.X[0], point.X[1]),
+         point.faces_implant ? point.JxW : 0.,
+         point.phi_0,
+         point.accepted_pressure / (stiffness.normal * depth),
+         0.});
+    const std::vector<double> pressed = traction_about_axis(system.interface);
     solve(system, 2.);
     stiffness.torsional =
       system.chuck_forces()[5] / (0.5 * M_PI * std::pow(R, 4) * angle);
+    const std::vector<double> turned = traction_about_axis(system.interface);
+    for (std::size_t i = 0; i < turned.size(); ++i)
+      stiffness.points[i].stiffness =
+        (turned[i] - pressed[i]) / (stiffness.points[i].radius * angle);
     return stiffness;
+  }
+
+
+
+  std::vector<double>
+  torque_of_points(const FoundationStiffness &stiffness,
+                   const FrictionParameters  &friction,
+                   const double               pressure,
+                   const std::vector<double> &angles)
+  {
+    double largest_radius = 0.;
+    for (const FoundationStiffness::Point &point : stiffness.points)
+      largest_radius = std::max(largest_radius, point.radius);
+    const double        tiny = 1e-6 * largest_radius;
+    std::vector<double> torques(angles.size(), 0.);
+    for (const FoundationStiffness::Point &point : stiffness.points)
+      {
+        if (point.area == 0. || point.radius < tiny)
+          continue; // nothing to add to the torque
+        RigidBodiesTorsion::Parameters parameters;
+        parameters.radius             = 2. * point.radius; // anything larger
+        parameters.push_in            = 1.;
+        parameters.normal_penalty     = pressure * point.pressure;
+        parameters.tangential_penalty = point.stiffness;
+        parameters.phi_0              = point.phi_0;
+        parameters.friction           = friction;
+        if (!(point.pressure > 0. && point.stiffness > 0.) ||
+            !RigidBodiesTorsion::has_unique_solution(parameters))
+          return std::vector<double>(angles.size(),
+                                     std::numeric_limits<double>::quiet_NaN());
+        const RigidBodiesTorsion model(parameters);
+        for (std::size_t i = 0; i < angles.size(); ++i)
+          torques[i] +=
+            point.area * point.radius * model.traction(point.radius, angles[i]);
+      }
+    return torques;
   }
 } // namespace Debond

@@ -3,6 +3,7 @@
 
 #include <debond/closed_forms.h>
 #include <debond/console.h>
+#include <debond/foundation.h>
 #include <debond/problem.h>
 
 #include <deal.II/base/timer.h>
@@ -36,6 +37,12 @@ namespace Debond
     {
       return torque_rows;
     }
+    /** The linear solution that the stiffness is from, if it was needed. */
+    const FoundationStiffness &
+    linear_solution() const
+    {
+      return bulk;
+    }
 
   private:
     struct Load
@@ -63,6 +70,7 @@ namespace Debond
     const dealii::Timer           clock;
     const Scene                   scene;
     std::vector<Load>             loads; ///< one per row
+    FoundationStiffness           bulk;
     double                        normal_stiffness = 0, lambda = 0; // [MPa/mm]
     std::unique_ptr<TorsionModel> model;
     std::vector<TorqueRow>        torque_rows;

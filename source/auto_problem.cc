@@ -10,7 +10,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
-#include <numeric>
 #include <sstream>
 
 namespace Debond
@@ -33,7 +32,9 @@ namespace Debond
      *  as what it shows. */
     constexpr double reserve_of_foundation = 2.;
 
-    constexpr unsigned int most_rows_of_foundation = 5000;
+    /** A mesh tells something of another one if its cells are that much larger.
+     */
+    constexpr double smallest_cell_ratio = 1.4;
 
 
 
@@ -145,34 +146,18 @@ namespace Debond
 
 
 
-  // Rows of the foundation cost next to nothing: they are doubled until they
-  // tell the curve.
   void
   AutoProblem::try_foundation()
   {
     const dealii::Timer timer;
-    Rung                rung = ladder.foundation(1, 1);
+    Rung                rung = ladder.foundation(1, step_tolerance);
     try
       {
-        double sampling_error = 1.;
-        auto   problem        = std::make_unique<ClosedFormProblem>(rung.scene);
-        // its linear solution is not needed again and again
-        const FoundationStiffness stiffness = problem->linear_solution();
-        problem->run();
-        for (unsigned int n = 2;
-             sampling_error > step_tolerance &&
-             problem->rows().size() < most_rows_of_foundation;
-             n *= 2)
-          {
-            rung.rows  = problem->rows();
-            rung.scene = ladder.foundation(1, n, &stiffness).scene;
-            problem    = std::make_unique<ClosedFormProblem>(rung.scene);
-            problem->run();
-            sampling_error = largest_difference(rung.rows, problem->rows());
-          }
-        rung.rows     = problem->rows();
+        ClosedFormProblem problem(rung.scene);
+        problem.run();
+        rung.rows     = problem.rows();
         rung.done     = true;
-        rung.estimate = foundation_estimate(rung, stiffness, sampling_error);
+        rung.estimate = foundation_estimate(rung, problem.linear_solution());
       }
     catch (const InputError &error)
       {
@@ -187,32 +172,6 @@ namespace Debond
 
   namespace
   {
-    /** Some of the rows, more of them at small angles, where the curve bends;
-     *  those that have not turned are left out. */
-    std::vector<TorqueRow>
-    choice_of_rows(const std::vector<TorqueRow> &rows)
-    {
-      constexpr unsigned int n     = 150;
-      const double           first = rows.front().angle_deg;
-      std::size_t            begin = 0;
-      while (begin + 1 < rows.size() && rows[begin].angle_deg == first)
-        ++begin;
-      const std::size_t      left = rows.size() - 1 - begin;
-      std::vector<TorqueRow> choice;
-      std::size_t            last = rows.size();
-      for (unsigned int i = 0; i <= n; ++i)
-        {
-          const std::size_t row =
-            begin + static_cast<std::size_t>(left * std::pow(double(i) / n, 3));
-          if (row != last)
-            choice.push_back(rows[row]);
-          last = row;
-        }
-      return choice;
-    }
-
-
-
     /** Bound of what large strains change of the stiffness: the largest strain
      *  times the share that the bodies have in the compliance. */
     double
@@ -239,47 +198,47 @@ namespace Debond
 
   double
   AutoProblem::foundation_estimate(const Rung                &rung,
-                                   const FoundationStiffness &stiffness,
-                                   const double sampling_error) const
+                                   const FoundationStiffness &stiffness) const
   {
-    double              cell_ratio = 0.;
-    const Scene         coarser    = ladder.below_coarsest(cell_ratio);
-    std::vector<double> angles;
-    for (const TorqueRow &row : choice_of_rows(rung.rows))
-      angles.push_back(row.angle_deg * M_PI / 180.);
-    if (cell_ratio < 1.4)
+    double      cell_ratio = 0.;
+    const Scene coarser    = ladder.below_coarsest(cell_ratio);
+    if (cell_ratio < smallest_cell_ratio)
       return Rung::undefined; // nothing to compare the mesh with
-
     const FoundationStiffness coarse   = foundation_stiffness(coarser);
     const double              pressure = rung.rows.back().pressure_MPa;
     const double              coarse_pressure =
       scene.chuck.component[2].loaded ?
                      pressure :
                      pressure * coarse.normal / stiffness.normal;
+
+    std::vector<double> angles;
+    for (const TorqueRow &row : rung.rows)
+      angles.push_back(row.angle_deg * M_PI / 180.);
     const auto &friction = scene.interface.friction;
     const auto  fine_torques =
       torque_of_points(stiffness, friction, pressure, angles);
     const auto coarse_torques =
       torque_of_points(coarse, friction, coarse_pressure, angles);
-    const double T_max        = largest_torque(rung.rows);
-    double       from_uniform = 0., from_mesh = 0.;
-    const auto   grow = [&](double &largest, const double difference) {
-      if (!(std::abs(difference) / T_max <= largest)) // keeps a NaN
-        largest = std::abs(difference) / T_max;
+    double     from_uniform = 0., from_mesh = 0.;
+    const auto grow = [](double &largest, const double difference) {
+      if (!(std::abs(difference) <= largest)) // keeps a NaN
+        largest = std::abs(difference);
     };
-    const std::vector<TorqueRow> rows = choice_of_rows(rung.rows);
     for (std::size_t i = 0; i < angles.size(); ++i)
       {
-        grow(from_uniform, fine_torques[i] - rows[i].torque_Nmm);
+        grow(from_uniform, fine_torques[i] - rung.rows[i].torque_Nmm);
         grow(from_mesh, fine_torques[i] - coarse_torques[i]);
       }
+    const double T_max = largest_torque(rung.rows);
     if (std::getenv("DEBOND_TRACE"))
-      std::cerr << "uniform " << from_uniform << " mesh " << from_mesh
+      std::cerr << "rows " << rung.rows.size() << "uniform "
+                << from_uniform / T_max << " mesh " << from_mesh / T_max
                 << " ratio " << cell_ratio << " strain "
                 << share_of_strains(scene, stiffness, pressure) << std::endl;
-    return reserve_of_foundation * from_uniform +
-           from_mesh / (cell_ratio - 1.) +
-           share_of_strains(scene, stiffness, pressure) + sampling_error;
+    return (reserve_of_foundation * from_uniform +
+            from_mesh / (cell_ratio - 1.)) /
+             T_max +
+           share_of_strains(scene, stiffness, pressure) + step_error;
   }
 
 
@@ -575,7 +534,7 @@ namespace Debond
       out << "  " << ++number << " " << rung.description() << ", "
           << rung.unknowns() << " unknowns" << remark << '\n';
     };
-    Rung closed_form = ladder.foundation(1, 1);
+    Rung closed_form = ladder.foundation(1, step_tolerance);
     try
       {
         ClosedFormProblem problem(closed_form.scene);

@@ -185,24 +185,17 @@ namespace Debond
 
 
   Rung
-  ModelLadder::foundation(const unsigned int               number,
-                          const unsigned int               refinement,
-                          const FoundationStiffness *const stiffness) const
+  ModelLadder::foundation(const unsigned int number,
+                          const double       step_tolerance) const
   {
-    std::string steps;
-    for (const unsigned int n : scene.load_steps.steps)
-      steps += (steps.empty() ? "" : ", ") + std::to_string(refinement * n);
     std::vector<std::string> overrides = cells(0);
     overrides.insert(overrides.end(),
                      {"Model=foundation",
-                      "Load steps/Adaptive=false",
-                      "Load steps/Steps=" + steps,
+                      "Load steps/Adaptive=true",
+                      "Load steps/Tolerance=" + to_text(step_tolerance),
                       "Closed form/Pressure=0",
-                      "Closed form/Normal stiffness=" +
-                        to_text(stiffness == nullptr ? 0. : stiffness->normal),
-                      "Closed form/Torsional stiffness=" +
-                        to_text(stiffness == nullptr ? 0. :
-                                                       stiffness->torsional)});
+                      "Closed form/Normal stiffness=0",
+                      "Closed form/Torsional stiffness=0"});
     Rung rung;
     rung.model     = "foundation";
     rung.materials = linear_materials();

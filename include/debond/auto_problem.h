@@ -52,8 +52,7 @@ namespace Debond
     try_foundation();
     double
     foundation_estimate(const Rung                &rung,
-                        const FoundationStiffness &stiffness,
-                        double                     sampling_error) const;
+                        const FoundationStiffness &stiffness) const;
     void
     try_finite_elements(const Materials &materials, unsigned int mesh);
     void

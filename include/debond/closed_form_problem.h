@@ -52,8 +52,14 @@ namespace Debond
       double angle = 0; ///< [rad]
     };
 
+    Load
+    load_at(double time) const;
     void
     find_loads();
+    void
+    check_loads() const;
+    void
+    refine_loads();
     void
     find_stiffness();
     double

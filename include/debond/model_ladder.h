@@ -1,7 +1,6 @@
 #ifndef debond_model_ladder_h
 #define debond_model_ladder_h
 
-#include <debond/foundation.h>
 #include <debond/scene.h>
 #include <debond/torque_curve.h>
 
@@ -80,12 +79,9 @@ namespace Debond
                     unsigned int     mesh,
                     double           step_tolerance) const;
 
-    /** The closed form with the linear solution on mesh 0, or with
-     *  @p stiffness if that is known; @p refinement times the planned steps. */
+    /** The closed form with the linear solution on mesh 0. */
     Rung
-    foundation(unsigned int               number,
-               unsigned int               refinement,
-               const FoundationStiffness *stiffness = nullptr) const;
+    foundation(unsigned int number, double step_tolerance) const;
 
     /** The scene with half the cells of mesh 0, rounded up, for the linear
      *  solution only. @p ratio of cell sizes: the smallest of all directions.

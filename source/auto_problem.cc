@@ -2,7 +2,7 @@
 #include <debond/closed_form_problem.h>
 #include <debond/curve_error.h>
 #include <debond/debonding_problem.h>
-#include <debond/foundation.h>
+#include <debond/foundation_error.h>
 #include <debond/input_error.h>
 
 #include <algorithm>
@@ -27,10 +27,6 @@ namespace Debond
     /** Finer meshes may be linear if linearising costs less than this part of
      *  the tolerance. */
     constexpr double share_of_linearisation = 0.1;
-
-    /** What a foundation of its own for every point leaves out is as much again
-     *  as what it shows. */
-    constexpr double reserve_of_foundation = 2.;
 
     /** A mesh tells something of another one if its cells are that much larger.
      */
@@ -170,32 +166,6 @@ namespace Debond
 
 
 
-  namespace
-  {
-    /** Bound of what large strains change of the stiffness: the largest strain
-     *  times the share that the bodies have in the compliance. */
-    double
-    share_of_strains(const Scene               &scene,
-                     const FoundationStiffness &stiffness,
-                     const double               pressure)
-    {
-      double strain = 0., largest_ratio = 0.;
-      for (const FoundationStiffness::Point &point : stiffness.points)
-        largest_ratio = std::max(largest_ratio, point.pressure);
-      for (const BodyParameters *const body : {&scene.bone, &scene.implant})
-        if (body->material == Material::neo_hookean)
-          strain =
-            std::max(strain,
-                     2. * largest_ratio * pressure / body->young_modulus);
-      return strain *
-             (1. - std::min(stiffness.normal / scene.interface.normal_penalty,
-                            stiffness.torsional /
-                              scene.interface.tangential_penalty));
-    }
-  } // namespace
-
-
-
   double
   AutoProblem::foundation_estimate(const Rung                &rung,
                                    const FoundationStiffness &stiffness) const
@@ -204,41 +174,12 @@ namespace Debond
     const Scene coarser    = ladder.below_coarsest(cell_ratio);
     if (cell_ratio < smallest_cell_ratio)
       return Rung::undefined; // nothing to compare the mesh with
-    const FoundationStiffness coarse   = foundation_stiffness(coarser);
-    const double              pressure = rung.rows.back().pressure_MPa;
-    const double              coarse_pressure =
-      scene.chuck.component[2].loaded ?
-                     pressure :
-                     pressure * coarse.normal / stiffness.normal;
-
-    std::vector<double> angles;
-    for (const TorqueRow &row : rung.rows)
-      angles.push_back(row.angle_deg * M_PI / 180.);
-    const auto &friction = scene.interface.friction;
-    const auto  fine_torques =
-      torque_of_points(stiffness, friction, pressure, angles);
-    const auto coarse_torques =
-      torque_of_points(coarse, friction, coarse_pressure, angles);
-    double     from_uniform = 0., from_mesh = 0.;
-    const auto grow = [](double &largest, const double difference) {
-      if (!(std::abs(difference) <= largest)) // keeps a NaN
-        largest = std::abs(difference);
-    };
-    for (std::size_t i = 0; i < angles.size(); ++i)
-      {
-        grow(from_uniform, fine_torques[i] - rung.rows[i].torque_Nmm);
-        grow(from_mesh, fine_torques[i] - coarse_torques[i]);
-      }
-    const double T_max = largest_torque(rung.rows);
-    if (std::getenv("DEBOND_TRACE"))
-      std::cerr << "rows " << rung.rows.size() << "uniform "
-                << from_uniform / T_max << " mesh " << from_mesh / T_max
-                << " ratio " << cell_ratio << " strain "
-                << share_of_strains(scene, stiffness, pressure) << std::endl;
-    return (reserve_of_foundation * from_uniform +
-            from_mesh / (cell_ratio - 1.)) /
-             T_max +
-           share_of_strains(scene, stiffness, pressure) + step_error;
+    return foundation_error(rung.scene,
+                            rung.rows,
+                            stiffness,
+                            foundation_stiffness(coarser),
+                            cell_ratio) +
+           step_error;
   }
 
 
@@ -468,9 +409,11 @@ namespace Debond
   {
     if (answer->estimate <= tolerance)
       return "the estimated error is within the tolerance";
-    return "the tolerance of " + percent(tolerance) +
-           " was not reached: the estimated error is " +
-           percent(answer->estimate) + "; " + why_no_further;
+    return "the tolerance of " + percent(tolerance) + " was not reached: " +
+           (std::isnan(answer->estimate) ?
+              "there is no second mesh to estimate the error with" :
+              "the estimated error is " + percent(answer->estimate)) +
+           "; " + why_no_further;
   }
 
 

@@ -1,13 +1,10 @@
-#include <debond/closed_forms.h>
 #include <debond/coupled_system.h>
 #include <debond/foundation.h>
 #include <debond/input_error.h>
 #include <debond/newton.h>
 
-#include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <limits>
 
 namespace Debond
 {
@@ -103,41 +100,5 @@ namespace Debond
       stiffness.points[i].stiffness =
         (turned[i] - pressed[i]) / (stiffness.points[i].radius * angle);
     return stiffness;
-  }
-
-
-
-  std::vector<double>
-  torque_of_points(const FoundationStiffness &stiffness,
-                   const FrictionParameters  &friction,
-                   const double               pressure,
-                   const std::vector<double> &angles)
-  {
-    double largest_radius = 0.;
-    for (const FoundationStiffness::Point &point : stiffness.points)
-      largest_radius = std::max(largest_radius, point.radius);
-    const double        tiny = 1e-6 * largest_radius;
-    std::vector<double> torques(angles.size(), 0.);
-    for (const FoundationStiffness::Point &point : stiffness.points)
-      {
-        if (point.area == 0. || point.radius < tiny)
-          continue; // nothing to add to the torque
-        RigidBodiesTorsion::Parameters parameters;
-        parameters.radius             = 2. * point.radius; // anything larger
-        parameters.push_in            = 1.;
-        parameters.normal_penalty     = pressure * point.pressure;
-        parameters.tangential_penalty = point.stiffness;
-        parameters.phi_0              = point.phi_0;
-        parameters.friction           = friction;
-        if (!(point.pressure > 0. && point.stiffness > 0.) ||
-            !RigidBodiesTorsion::has_unique_solution(parameters))
-          return std::vector<double>(angles.size(),
-                                     std::numeric_limits<double>::quiet_NaN());
-        const RigidBodiesTorsion model(parameters);
-        for (std::size_t i = 0; i < angles.size(); ++i)
-          torques[i] +=
-            point.area * point.radius * model.traction(point.radius, angles[i]);
-      }
-    return torques;
   }
 } // namespace Debond

@@ -10,6 +10,8 @@ namespace Debond
   {
     constexpr unsigned int largest_mesh            = 4; // doublings
     constexpr double       largest_number_of_cells = 1e6;
+    /** The coupled system is a dense matrix of this size, 0.8 GB. */
+    constexpr double largest_number_of_contact_unknowns = 1e4;
 
     using Cells = std::array<unsigned int, 3>;
 
@@ -229,7 +231,13 @@ namespace Debond
     if (mesh > largest_mesh)
       return "the mesh has been refined " + std::to_string(largest_mesh) +
              " times";
-    double unknowns = 0., n_cells = 0.;
+    const bool   is_round = scene.implant.is_round();
+    const double share    = // of the bone's face that contact reaches
+      is_round ? 4. * std::pow(scene.implant.radius, 2) /
+                   (scene.bone.size[0] * scene.bone.size[1]) :
+                    scene.implant.size[0] * scene.implant.size[1] /
+                   (scene.bone.size[0] * scene.bone.size[1]);
+    double unknowns = 0., n_cells = 0., contact_unknowns = 0.;
     for (unsigned int b = 0; b < 2; ++b)
       {
         BodyParameters body = b == 0 ? scene.bone : scene.implant;
@@ -238,6 +246,9 @@ namespace Debond
         for (unsigned int &n : body.cells)
           n <<= mesh;
         unknowns += predicted_unknowns(body);
+        if (body.material != Material::rigid)
+          contact_unknowns +=
+            3. * (b == 0 ? share : 1.) * body.cells[0] * double(body.cells[1]);
         n_cells += double(body.cells[0]) * body.cells[1] * body.cells[2];
       }
     std::ostringstream text;
@@ -245,6 +256,10 @@ namespace Debond
       text << "the next mesh has " << unknowns << " unknowns, more than "
            << scene.automatic.largest_number_of_unknowns
            << " (Auto / Largest number of unknowns)";
+    else if (contact_unknowns > largest_number_of_contact_unknowns)
+      text << "the next mesh has some " << contact_unknowns
+           << " unknowns on the contact surfaces, more than "
+           << largest_number_of_contact_unknowns;
     else if (n_cells > largest_number_of_cells)
       text << "the next mesh has " << n_cells << " cells";
     return text.str();

@@ -24,7 +24,7 @@ namespace Debond
                       Allowed::whole_number(1, 100000000),
                       "With Model = auto: unknowns of both bodies up to which "
                       "meshes are refined. The memory needed goes with it: "
-                      "some 0.6 GB for 47 000, 3 GB for 250 000.");
+                      "1 GB for 105 000, some 3 GB for 250 000.");
     prm.leave_subsection();
   }
 

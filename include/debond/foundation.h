@@ -36,19 +36,5 @@ namespace Debond
    */
   FoundationStiffness
   foundation_stiffness(const Scene &scene);
-
-  /**
-   * Torques [N mm] at @p angles [rad] if every point had a foundation of its
-   * own, with the pressure and the stiffness of the linear solution there. That
-   * this differs from one foundation for all is the reason why `Model =
-   * foundation` is not exact; what it leaves out itself is that sliding points
-   * load their neighbours. @p pressure is the mean one [MPa]. Not a number
-   * where a point has no stiffness or softens faster than it is stiff.
-   */
-  std::vector<double>
-  torque_of_points(const FoundationStiffness &stiffness,
-                   const FrictionParameters  &friction,
-                   double                     pressure,
-                   const std::vector<double> &angles);
 } // namespace Debond
 #endif

@@ -306,7 +306,9 @@ namespace Debond
         {
           rung.difference =
             &rung == finest ? 0. : largest_difference(rung.rows, finest->rows);
-          rung.estimate = rung.difference + error;
+          // the largest torque may itself be less by the error
+          rung.estimate = error < 1. ? rung.difference / (1. - error) + error :
+                                       Rung::undefined;
         }
   }
 

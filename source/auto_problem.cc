@@ -245,16 +245,17 @@ namespace Debond
 
 
 
-  // The finest mesh of the richest materials so far.
+  // The finest mesh of the materials that are refined; if these could not be
+  // solved for, the richest model that could.
   const Rung *
   AutoProblem::best() const
   {
-    const Rung *best = nullptr;
-    for (unsigned int mesh = 0; find(refined, mesh) != nullptr; ++mesh)
-      best = find(refined, mesh);
+    const bool  is_solved = find(refined, 0) != nullptr;
+    const Rung *best      = nullptr;
     for (const Rung &rung : rungs)
-      if (best == nullptr || find(refined, 0) == nullptr)
-        best = rung.done ? &rung : best;
+      if (rung.done && (!is_solved || (rung.materials == refined &&
+                                       rung.model != "foundation")))
+        best = &rung;
     return best;
   }
 

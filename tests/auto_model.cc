@@ -3,6 +3,7 @@
 // the estimates bound the error is tested by prm/verification/auto.prm.
 
 #include <debond/auto_problem.h>
+#include <debond/closed_forms.h>
 #include <debond/curve_error.h>
 #include <debond/foundation_error.h>
 #include <debond/input_error.h>
@@ -98,6 +99,21 @@ summary(const std::string &name)
 
 
 
+/** The closed form of the scene with rigid bodies, or with another @p pressure
+ *  [MPa]. */
+RigidBodiesTorsion
+rigid_bodies(const double pressure)
+{
+  RigidBodiesTorsion::Parameters parameters;
+  parameters.radius             = 2.5;
+  parameters.push_in            = 1.;
+  parameters.normal_penalty     = pressure;
+  parameters.tangential_penalty = 585.;
+  return RigidBodiesTorsion(parameters);
+}
+
+
+
 // Two rigid bodies on their interface: the closed form is exact.
 void
 test_chain_that_ends_at_once()
@@ -107,7 +123,7 @@ test_chain_that_ends_at_once()
          run({"Bone/Material=rigid", "Implant/Material=rigid"}).empty());
   std::cout << summary("answer") << ", rungs " << summary("rungs")
             << ", converged " << summary("converged") << std::endl;
-  const RigidBodiesTorsion exact({2.5, 0.0049, 585., 585., 1.});
+  const RigidBodiesTorsion exact = rigid_bodies(0.0049 * 585.);
   const ReferenceCurve curve = read_reference_curve("results/auto/torque.csv");
   double               largest = 0., difference = 0.;
   for (const auto &[angle, torque] : curve)
@@ -196,7 +212,7 @@ test_estimates()
                                 1.,
                                 585.});
   const std::vector<double> angles{0.0005, 0.002, 0.01, 0.1};
-  const RigidBodiesTorsion  exact({2.5, 1., 2.9, 585., 1.});
+  const RigidBodiesTorsion  exact = rigid_bodies(2.9);
   const std::vector<double> torques =
     torque_of_points(stiffness, FrictionParameters(), 2.9, angles);
   double difference = 0.;

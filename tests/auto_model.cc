@@ -31,7 +31,7 @@ subsection Load steps
   set Tolerance = 0.005
 end
 subsection Output
-  set Fields every = 1
+  set Fields every = 20
   set Directory    = results/auto
   set Console      = quiet
 end
@@ -164,7 +164,7 @@ test_tolerance_not_reached()
   std::string        line;
   while (std::getline(table, line))
     std::cout << line.substr(0, line.find(',', line.find(',') + 1)) << ": "
-              << line.substr(line.rfind(',') + 1) << std::endl;
+              << line.substr(line.rfind(",\"") + 1) << std::endl;
 }
 
 

@@ -31,6 +31,7 @@ namespace Debond
           case ModelKind::mathieu:
             return "mathieu";
           case ModelKind::finite_elements:
+          case ModelKind::automatic:
             break;
         }
       return "finite elements";
@@ -71,11 +72,6 @@ namespace Debond
                  std::string("Chuck / ") + ChuckParameters::names[k] +
                    " / Control",
                  "closed forms take this motion as prescribed");
-      if (scene.load_steps.adaptive)
-        refuse(scene,
-               "Load steps / Adaptive",
-               "closed forms cost next to nothing a row and take the planned "
-               "steps");
       for (unsigned int k = 0; k < 6; ++k)
         if (scene.chuck.component[k].stiffness != 0)
           refuse(scene,
@@ -94,32 +90,46 @@ namespace Debond
     find_loads();
     find_stiffness();
     make_model();
+    if (scene.load_steps.adaptive)
+      refine_loads();
   }
 
   ClosedFormProblem::~ClosedFormProblem() = default;
 
 
 
+  ClosedFormProblem::Load
+  ClosedFormProblem::load_at(const double time) const
+  {
+    const Chuck          chuck(scene.chuck,
+                      Eigen::Vector3d::Zero(),
+                      scene.implant.radius);
+    const Chuck::Vector6 q = chuck.values(time);
+    for (const unsigned int k : {0, 1, 3, 4})
+      if (q[k] != 0.)
+        refuse(scene,
+               std::string("Chuck / ") + ChuckParameters::names[k] + " / Value",
+               "closed forms know Translation z and Rotation z only");
+    return {time, -q[2], q[5]};
+  }
+
+
+
   void
   ClosedFormProblem::find_loads()
   {
-    const Chuck        chuck(scene.chuck,
-                      Eigen::Vector3d::Zero(),
-                      scene.implant.radius);
     const LoadStepping stepping(scene.load_steps);
     for (unsigned int step = 0; step <= stepping.n_steps(); ++step)
-      {
-        const double         time = stepping.time(step);
-        const Chuck::Vector6 q    = chuck.values(time);
-        for (const unsigned int k : {0, 1, 3, 4})
-          if (q[k] != 0.)
-            refuse(scene,
-                   std::string("Chuck / ") + ChuckParameters::names[k] +
-                     " / Value",
-                   "closed forms know Translation z and Rotation z only");
-        loads.push_back({time, -q[2], q[5]});
-      }
+      loads.push_back(load_at(stepping.time(step)));
 
+    check_loads();
+  }
+
+
+
+  void
+  ClosedFormProblem::check_loads() const
+  {
     if (loads.front().angle != 0.)
       refuse(scene,
              "Chuck / Rotation z / Value",
@@ -152,6 +162,52 @@ namespace Debond
 
 
 
+  // With adaptive steps: halves steps until the curve drawn as straight lines
+  // keeps the tolerance at the quarters of each of them.
+  void
+  ClosedFormProblem::refine_loads()
+  {
+    double T_max = 0.;
+    for (const Load &load : loads)
+      T_max = std::max(T_max, std::abs(model->torque(load.angle)));
+    const double smallest = scene.load_steps.smallest_step_fraction *
+                            (loads.back().time - loads.front().time) /
+                            loads.size();
+    std::vector<Load> refined{loads.front()};
+    std::vector<Load> to_come(loads.rbegin(), loads.rend() - 1); // next: last
+    while (!to_come.empty())
+      {
+        const Load  &begin = refined.back(), &end = to_come.back();
+        const double T_begin = model->torque(begin.angle);
+        const double T_end   = model->torque(end.angle);
+        double       error   = 0.;
+        for (const double part : {0.25, 0.5, 0.75})
+          {
+            const Load load =
+              load_at(begin.time + part * (end.time - begin.time));
+            const double turned =
+              end.angle == begin.angle ?
+                0. :
+                (load.angle - begin.angle) / (end.angle - begin.angle);
+            error = std::max(error,
+                             std::abs(model->torque(load.angle) - T_begin -
+                                      turned * (T_end - T_begin)));
+          }
+        if (error > 0.5 * scene.load_steps.tolerance * T_max &&
+            end.time - begin.time > 2. * smallest)
+          to_come.push_back(load_at(0.5 * (begin.time + end.time)));
+        else
+          {
+            refined.push_back(end);
+            to_come.pop_back();
+          }
+      }
+    loads = refined;
+    check_loads();
+  }
+
+
+
   void
   ClosedFormProblem::find_stiffness()
   {
@@ -165,7 +221,7 @@ namespace Debond
     if ((normal_stiffness == 0. && !pressure_is_given) ||
         (lambda == 0. && turns_on_foundation))
       {
-        const FoundationStiffness bulk = foundation_stiffness(scene);
+        bulk = foundation_stiffness(scene);
         if (normal_stiffness == 0.)
           normal_stiffness = bulk.normal;
         if (lambda == 0.)

@@ -47,6 +47,25 @@ namespace Debond
                                              ": " + result.why));
       system.commit(time);
     }
+
+
+
+    /** Traction about the axis at each point [MPa], with the sign that a
+     *  positive rotation gives the implant's. */
+    std::vector<double>
+    traction_about_axis(const ContactInterface &interface)
+    {
+      const double        sign = interface.slave_side() == 1 ? 1. : -1.;
+      std::vector<double> tractions;
+      for (const ContactInterface::Point &point : interface.get_points())
+        {
+          const Eigen::Vector3d &X = point.X, &t = point.accepted_traction;
+          const double           r = std::hypot(X[0], X[1]);
+          tractions.push_back(r > 0. ? sign * (X[0] * t[1] - X[1] * t[0]) / r :
+                                       0.);
+        }
+      return tractions;
+    }
   } // namespace
 
 
@@ -65,9 +84,21 @@ namespace Debond
     FoundationStiffness stiffness;
     stiffness.normal =
       system.chuck_resultant()[2] / (-depth * system.interface.implant_area());
+    for (const ContactInterface::Point &point : system.interface.get_points())
+      stiffness.points.push_back(
+        {std::hypot(point.X[0], point.X[1]),
+         point.faces_implant ? point.JxW : 0.,
+         point.phi_0,
+         point.accepted_pressure / (stiffness.normal * depth),
+         0.});
+    const std::vector<double> pressed = traction_about_axis(system.interface);
     solve(system, 2.);
     stiffness.torsional =
       system.chuck_forces()[5] / (0.5 * M_PI * std::pow(R, 4) * angle);
+    const std::vector<double> turned = traction_about_axis(system.interface);
+    for (std::size_t i = 0; i < turned.size(); ++i)
+      stiffness.points[i].stiffness =
+        (turned[i] - pressed[i]) / (stiffness.points[i].radius * angle);
     return stiffness;
   }
 } // namespace Debond

@@ -33,8 +33,11 @@ namespace Debond
     prm.declare_entry("Tolerance",
                       "1e-3",
                       Allowed::number_above(0, ""),
-                      "Relative accuracy wanted of the torque curve; used only "
-                      "with Adaptive.");
+                      "Relative accuracy wanted of the torque curve. With "
+                      "Adaptive that of drawing it as straight lines between "
+                      "the steps; with Model = auto the largest difference, "
+                      "relative to the largest torque, from the curve of the "
+                      "scene's bodies on a converged mesh. Else not used.");
     prm.declare_entry("Smallest step fraction",
                       "1e-4",
                       Allowed::number_between_excluding_lower(0, 1, ""),

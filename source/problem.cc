@@ -1,3 +1,4 @@
+#include <debond/auto_problem.h>
 #include <debond/closed_form_problem.h>
 #include <debond/debonding_problem.h>
 #include <debond/input_error.h>
@@ -12,6 +13,8 @@ namespace Debond
       return std::make_unique<DebondingProblem>(scene);
     try
       {
+        if (scene.model == ModelKind::automatic)
+          return std::make_unique<AutoProblem>(scene);
         return std::make_unique<ClosedFormProblem>(scene);
       }
     catch (const InputError &error)

@@ -241,7 +241,48 @@ namespace Debond
   void
   JsonObject::add_text(const std::string &name, const std::string &json)
   {
-    members += (members.empty() ? "  " : ",\n  ") + quoted(name) + ": " + json;
+    for (auto &[other, value] : members)
+      if (other == name)
+        {
+          value = json;
+          return;
+        }
+    members.emplace_back(name, json);
+  }
+
+
+
+  JsonObject
+  JsonObject::from_file(const std::string &filename)
+  {
+    std::ifstream file(filename);
+    if (!file)
+      throw InputError("cannot read '" + filename +
+                       "': " + std::strerror(errno));
+    JsonObject  object;
+    std::string line;
+    while (std::getline(file, line))
+      {
+        // as text() writes it: "name": value, with a comma but in the last
+        const std::size_t colon = line.find("\": ");
+        if (line.compare(0, 3, "  \"") != 0 || colon == std::string::npos)
+          continue;
+        if (line.back() == ',')
+          line.pop_back();
+        object.add_text(line.substr(3, colon - 3), line.substr(colon + 3));
+      }
+    return object;
+  }
+
+
+
+  std::string
+  JsonObject::value(const std::string &name) const
+  {
+    for (const auto &[other, value] : members)
+      if (other == name)
+        return value;
+    return "null";
   }
 
 
@@ -249,6 +290,9 @@ namespace Debond
   std::string
   JsonObject::text() const
   {
-    return "{\n" + members + "\n}\n";
+    std::string lines;
+    for (const auto &[name, value] : members)
+      lines += (lines.empty() ? "  " : ",\n  ") + quoted(name) + ": " + value;
+    return "{\n" + lines + "\n}\n";
   }
 } // namespace Debond

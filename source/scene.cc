@@ -16,6 +16,31 @@
 namespace Debond
 {
   void
+  AutoParameters::declare(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Auto");
+    prm.declare_entry("Largest number of unknowns",
+                      "250000",
+                      Allowed::whole_number(1, 100000000),
+                      "With Model = auto: unknowns of both bodies up to which "
+                      "meshes are refined. The memory needed goes with it: "
+                      "1 GB for 105 000, some 3 GB for 250 000.");
+    prm.leave_subsection();
+  }
+
+
+
+  void
+  AutoParameters::parse(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Auto");
+    largest_number_of_unknowns = prm.get_integer("Largest number of unknowns");
+    prm.leave_subsection();
+  }
+
+
+
+  void
   StudyParameters::declare(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Study");
@@ -68,8 +93,7 @@ namespace Debond
     prm.declare_entry("Model",
                       "finite elements",
                       Allowed::choice("finite elements | foundation | "
-                                      "analytical | mathieu",
-                                      "auto"),
+                                      "analytical | mathieu | auto"),
                       "Model that is solved. `finite elements': two bodies "
                       "with an interface between them. The others are closed "
                       "forms for a coin that is pressed down and then turned: "
@@ -77,7 +101,12 @@ namespace Debond
                       "stiffness of interface and bodies in series, and the "
                       "full friction law. `analytical': Eq. (18) of the "
                       "paper. `mathieu': Eqs. (14) to (16). See subsection "
-                      "Closed form.");
+                      "Closed form. `auto': climbs from the cheapest of "
+                      "`foundation', rigid, linear and the scene's own bodies "
+                      "on finer and finer meshes until the error of the torque "
+                      "curve is estimated to be within Load steps / Tolerance, "
+                      "and answers with the cheapest model that is; the "
+                      "program chooses the steps.");
     prm.declare_entry("Task",
                       "simulate",
                       Allowed::choice("simulate", "calibrate"),
@@ -88,6 +117,7 @@ namespace Debond
     ChuckParameters::declare(prm);
     LoadSteppingParameters::declare(prm);
     ClosedFormParameters::declare(prm);
+    AutoParameters::declare(prm);
     StudyParameters::declare(prm);
     OutputParameters::declare(prm);
   }
@@ -102,13 +132,17 @@ namespace Debond
     model = model_name == "foundation" ? ModelKind::foundation :
             model_name == "analytical" ? ModelKind::analytical :
             model_name == "mathieu"    ? ModelKind::mathieu :
+            model_name == "auto"       ? ModelKind::automatic :
                                          ModelKind::finite_elements;
     bone.parse_bone(prm);
     implant.parse_implant(prm);
     interface.parse(prm);
     chuck.parse(prm);
     load_steps.parse(prm);
+    if (model == ModelKind::automatic)
+      load_steps.adaptive = true;
     closed_form.parse(prm);
+    automatic.parse(prm);
     study.parse(prm);
     output.parse(prm);
   }

@@ -3,6 +3,7 @@
 
 #include <debond/closed_forms.h>
 #include <debond/console.h>
+#include <debond/foundation.h>
 #include <debond/problem.h>
 #include <debond/profile_output.h>
 
@@ -37,6 +38,12 @@ namespace Debond
     {
       return torque_rows;
     }
+    /** The linear solution that the stiffness is from, if it was needed. */
+    const FoundationStiffness &
+    linear_solution() const
+    {
+      return bulk;
+    }
 
   private:
     struct Load
@@ -46,8 +53,14 @@ namespace Debond
       double angle = 0; ///< [rad]
     };
 
+    Load
+    load_at(double time) const;
     void
     find_loads();
+    void
+    check_loads() const;
+    void
+    refine_loads();
     void
     find_stiffness();
     double
@@ -65,6 +78,7 @@ namespace Debond
     const dealii::Timer           clock;
     const Scene                   scene;
     std::vector<Load>             loads; ///< one per row
+    FoundationStiffness           bulk;
     double                        normal_stiffness = 0, lambda = 0; // [MPa/mm]
     std::unique_ptr<TorsionModel> model;
     std::vector<TorqueRow>        torque_rows;

@@ -3,6 +3,8 @@
 
 #include <debond/scene.h>
 
+#include <vector>
+
 namespace Debond
 {
   /** Stiffness of interface and bodies in series, lumped into the interface of
@@ -11,6 +13,19 @@ namespace Debond
   {
     double normal    = 0; ///< mean pressure per depth of push-in
     double torsional = 0; ///< lambda, with a torque pi/2 R^4 lambda theta
+
+    /** What the solution says of one point of the interface, where a foundation
+     *  has the same everywhere. */
+    struct Point
+    {
+      double radius   = 0; ///< [mm]
+      double area     = 0; ///< [mm^2]
+      double phi_0    = 0; ///< initial bonding
+      double pressure = 0; ///< over the mean pressure
+      /** Traction about the axis per path radius * angle [MPa/mm]. */
+      double stiffness = 0;
+    };
+    std::vector<Point> points;
   };
 
   /**

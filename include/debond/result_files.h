@@ -3,6 +3,7 @@
 
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace dealii
@@ -91,11 +92,17 @@ namespace Debond
     std::string directory;
   };
 
-  /** A flat JSON object whose members keep the order in which they are added.
-   */
+  /** A flat JSON object whose members keep the order in which they are added;
+   *  one that is added again gets a new value in its old place. */
   class JsonObject
   {
   public:
+    JsonObject() = default;
+    /** Reads a file that text() has written, for instance a summary.json.
+     *  Throws InputError if it cannot be read. */
+    static JsonObject
+    from_file(const std::string &filename);
+
     /** Twelve significant digits; `null` if not finite. */
     void
     add(const std::string &name, double value);
@@ -118,6 +125,11 @@ namespace Debond
                  std::to_string(value));
     }
 
+    /** The value of a member as it stands in the file; `null` if there is
+     *  none. */
+    std::string
+    value(const std::string &name) const;
+
     /** The whole object, one member in a line. */
     std::string
     text() const;
@@ -126,7 +138,7 @@ namespace Debond
     void
     add_text(const std::string &name, const std::string &json);
 
-    std::string members;
+    std::vector<std::pair<std::string, std::string>> members; ///< name, JSON
   };
 } // namespace Debond
 #endif

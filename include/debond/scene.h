@@ -16,14 +16,27 @@
 
 namespace Debond
 {
-  /** What is solved: two bodies of finite elements, or one of the closed forms
-   *  of closed_forms.h. */
+  /** What is solved: two bodies of finite elements, one of the closed forms of
+   *  closed_forms.h, or the cheapest of these models that is accurate enough.
+   */
   enum class ModelKind
   {
     finite_elements,
     foundation,
     analytical,
-    mathieu
+    mathieu,
+    automatic ///< `auto`
+  };
+
+  /** The subsection `Auto`, for `Model = auto`. */
+  struct AutoParameters
+  {
+    unsigned int largest_number_of_unknowns = 250000;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
   };
 
   /** The subsection `Study`, for scenes whose entries hold several values. */
@@ -51,6 +64,7 @@ namespace Debond
     ChuckParameters        chuck;
     LoadSteppingParameters load_steps;
     ClosedFormParameters   closed_form;
+    AutoParameters         automatic;
     StudyParameters        study;
     OutputParameters       output;
 

@@ -5,6 +5,7 @@
 //   # expect: converged = 1 within 0
 //   # expect: T_max_Nmm below 60
 //   # expect: T_max_Nmm above 40
+//   # expect: difference_max below error_estimate
 //   # expect: torque_Nmm at angle_deg 0.05 = 31.32 within 0.15 %
 //   # expect: torque_Nmm at angle_deg 0.05 above 31
 //   # expect: energy_defect max below 1e-3
@@ -13,9 +14,10 @@
 //   # run: --set "Implant/Cells=12, 2" --set "Bone/Material=rigid"
 //
 // A name alone is a key of summary.json (true counts as 1), in a study a column
-// of study.csv. `at COLUMN VALUE` is the last row of torque.csv with that value
-// in that column, `max` the largest absolute value in a column. A tolerance
-// without % is absolute. Prints a line for each expectation.
+// of study.csv; so may the bound of `below' and `above' be. `at COLUMN VALUE`
+// is the last row of torque.csv with that value in that column, `max` the
+// largest absolute value in a column. A tolerance without % is absolute. Prints
+// a line for each expectation.
 //
 //   check_scene SCENE.prm              exit code 0 if the scene could be run
 //   check_scene SCENE.prm DIRECTORY    results go there; exit code 0 only if
@@ -252,15 +254,18 @@ namespace
 
 
   /** Reads the part of an expectation that names a value. @p variants: one for
-   *  each variant of a study, or one alone. */
+   *  each variant of a study, or one alone; @p variant becomes the number of
+   *  the one that is meant, from 0. */
   double
-  value_of(std::istream &words, const std::vector<Results> &variants)
+  value_of(std::istream               &words,
+           const std::vector<Results> &variants,
+           std::size_t                &variant)
   {
     std::string name, next, where, position;
     words >> name;
     auto beginning = words.tellg();
     words >> next;
-    std::size_t variant = 0;
+    variant = 0;
     if (next == "of")
       {
         words >> where >> position;
@@ -286,14 +291,18 @@ namespace
 
 
 
-  /** Whether @p value is as the rest of the expectation says. */
+  /** Whether @p value is as the rest of the expectation says; @p summary of
+   *  the same scene or variant. */
   bool
-  is_met(const double value, std::istream &words)
+  is_met(const double                         value,
+         std::istream                        &words,
+         const std::map<std::string, double> &summary)
   {
     std::string relation, bound, within, tolerance, percent, rest;
     words >> relation >> bound;
-    const double number = to_number(bound);
-    bool         result = false;
+    const double number =
+      summary.count(bound) > 0 ? summary.at(bound) : to_number(bound);
+    bool result = false;
     if (relation == "below")
       result = value < number;
     else if (relation == "above")
@@ -323,8 +332,9 @@ namespace
     std::istringstream words(expectation.substr(0, expectation.find('(')));
     try
       {
-        const double value = value_of(words, results);
-        if (is_met(value, words))
+        std::size_t  variant = 0;
+        const double value   = value_of(words, results, variant);
+        if (is_met(value, words, results[variant].summary))
           return "ok: " + expectation;
         std::ostringstream line;
         line.precision(8);

@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+"""Makes prm/verification/data/auto_*.csv: runs prm/verification/auto_reference.prm (about half an hour on two cores), whose
+meshes have 2, 3 and 4 times the cells of the main scene in every direction, finds the order at which the torque curves converge
+and takes them to their limit. Run it at the top of the project. An argument names another directory of results."""
+import csv
+import subprocess
+import sys
+
+PROGRAM = 'build/release/debond'
+STUDY = 'prm/verification/auto_reference.prm'
+NAMES = ['main', 'disk', 'near_edge', 'penalty_1800', 'penalty_18000', 'penalty_180000', 'soft_interface', 'soft_implant',
+         'tilted', 'force', 'brittle']
+REFINEMENTS = [2, 3, 4]
+STEP_TOLERANCE = 3e-4
+
+
+def read_curve(filename):
+    with open(filename) as file:
+        rows = [(float(row['angle_deg']), float(row['torque_Nmm'])) for row in csv.DictReader(file)]
+    first = max(i for i, row in enumerate(rows) if row[0] == rows[0][0])  # the push-in has no angle
+    return rows[first:]
+
+
+def torque_at(curve, angle):
+    for (a, t), (b, u) in zip(curve, curve[1:]):
+        if a <= angle <= b:
+            return t + (u - t) * (angle - a) / (b - a)
+    raise ValueError(angle)
+
+
+def largest_difference(curve, other):
+    angles = sorted({a for a, _ in curve} | {a for a, _ in other})
+    return max(abs(torque_at(curve, a) - torque_at(other, a)) for a in angles)
+
+
+def observed_order(coarse, fine):
+    """p with errors C/n^p, n the refinements, from the differences of the first two and the last two meshes."""
+    def ratio(p):
+        e = [n ** -p for n in REFINEMENTS]
+        return (e[0] - e[1]) / (e[1] - e[2])
+    low, high = 1., 2.  # no other order is trusted
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if ratio(middle) < coarse / fine else (low, middle)
+    return low
+
+
+directory = sys.argv[1] if len(sys.argv) > 1 else 'output/verification/auto_reference'
+if len(sys.argv) == 1:
+    subprocess.run([PROGRAM, STUDY, '--set', 'Output/Directory=' + directory], check=True)
+for i, name in enumerate(NAMES):
+    curves = [read_curve('%s/variant-%03d/torque.csv' % (directory, i + 1 + len(NAMES) * k)) for k in range(3)]
+    differences = [largest_difference(curves[k], curves[k + 1]) for k in range(2)]
+    order = observed_order(*differences)
+    factor = 1 / ((REFINEMENTS[2] / REFINEMENTS[1]) ** order - 1)
+    if differences[1] < 2 * STEP_TOLERANCE * max(abs(t) for _, t in curves[2]):
+        order, factor = 0, 0  # that is the steps, not the mesh
+    limit = [(a, t + factor * (t - torque_at(curves[1], a))) for a, t in curves[2]]
+    T_max = max(abs(t) for _, t in limit)
+    with open('prm/verification/data/auto_%s.csv' % name, 'w') as file:
+        file.write('# Torque of scene %d of prm/verification/auto_scenes.prm, Neo-Hookean bodies, made by\n'
+                   '# doc/verification/auto_reference.py: ' % (i + 1))
+        if factor == 0:
+            file.write('60 x 60 x 8 cells in the bone, %.1g of T_max from 45 x 45 x 6 cells;\n'
+                       % (differences[1] / T_max))
+        else:
+            file.write('meshes of 45 x 45 x 6 and 60 x 60 x 8 cells in the bone, taken to the limit with\n'
+                       '# the order %.2f, from which the finer one is %.2g of T_max away;\n'
+                       % (order, factor * differences[1] / T_max))
+        file.write('# steps that keep 3e-4.\nangle_deg,torque_Nmm\n')
+        for a, t in limit:
+            file.write('%.9g,%.8g\n' % (a, t))
+    print('%-15s differences %.2e %.2e order %.2f limit %.2e away, rows %d' %
+          (name, differences[0] / T_max, differences[1] / T_max, order, factor * differences[1] / T_max, len(limit)))

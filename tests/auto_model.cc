@@ -1,0 +1,245 @@
+// Model = auto: scenes that it refuses, a chain that ends at once, one that
+// ends without reaching the tolerance, and the parts of its estimates. That
+// the estimates bound the error is tested by prm/verification/auto.prm.
+
+#include <debond/auto_problem.h>
+#include <debond/closed_forms.h>
+#include <debond/curve_error.h>
+#include <debond/foundation_error.h>
+#include <debond/input_error.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "driven_scene.h"
+
+using namespace Debond;
+
+const char *const scene_text = R"(
+set Model = auto
+subsection Chuck
+  subsection Translation z
+    set Value = -0.0049 * min(t, 1)
+  end
+  subsection Rotation z
+    set Value = 10 * max(t - 1, 0)
+  end
+end
+subsection Load steps
+  set Steps     = 1, 10
+  set Tolerance = 0.005
+end
+subsection Output
+  set Fields every = 20
+  set Directory    = results/auto
+  set Console      = quiet
+end
+)";
+
+std::string
+contents_of(const std::string &filename)
+{
+  std::ostringstream text;
+  text << std::ifstream(filename).rdbuf();
+  return text.str();
+}
+
+
+
+bool
+contains(const std::string &text, const std::string &part)
+{
+  return text.find(part) != std::string::npos;
+}
+
+
+
+void
+show_refusal(const std::vector<std::string> &overrides)
+{
+  try
+    {
+      Problem::create(Scene::from_text(scene_text, overrides));
+      report("refused", false);
+    }
+  catch (const InputError &error)
+    {
+      std::cout << error.what() << std::endl;
+    }
+}
+
+
+
+/** Runs the scene; what it ends with if it fails. */
+std::string
+run(const std::vector<std::string> &overrides)
+{
+  Scene scene = Scene::from_text(scene_text, overrides);
+  scene.output.overwrite_other_results = true;
+  std::filesystem::remove_all("results/auto");
+  try
+    {
+      Problem::create(scene)->run();
+    }
+  catch (const RunError &error)
+    {
+      return error.what();
+    }
+  return "";
+}
+
+
+
+std::string
+summary(const std::string &name)
+{
+  return JsonObject::from_file("results/auto/summary.json").value(name);
+}
+
+
+
+/** The closed form of the scene with rigid bodies, or with another @p pressure
+ *  [MPa]. */
+RigidBodiesTorsion
+rigid_bodies(const double pressure)
+{
+  RigidBodiesTorsion::Parameters parameters;
+  parameters.radius             = 2.5;
+  parameters.push_in            = 1.;
+  parameters.normal_penalty     = pressure;
+  parameters.tangential_penalty = 585.;
+  return RigidBodiesTorsion(parameters);
+}
+
+
+
+// Two rigid bodies on their interface: the closed form is exact.
+void
+test_chain_that_ends_at_once()
+{
+  std::cout << "rigid bodies" << std::endl;
+  report("no error",
+         run({"Bone/Material=rigid", "Implant/Material=rigid"}).empty());
+  std::cout << summary("answer") << ", rungs " << summary("rungs")
+            << ", converged " << summary("converged") << std::endl;
+  const RigidBodiesTorsion exact = rigid_bodies(0.0049 * 585.);
+  const ReferenceCurve curve = read_reference_curve("results/auto/torque.csv");
+  double               largest = 0., difference = 0.;
+  for (const auto &[angle, torque] : curve)
+    {
+      const double T = exact.torque(angle * M_PI / 180.);
+      grow(largest, T);
+      grow(difference, std::abs(T - torque));
+    }
+  report("its torques against two rigid bodies", difference / largest, 1e-9);
+}
+
+
+
+void
+test_tolerance_not_reached()
+{
+  std::cout << "a limit to the mesh" << std::endl;
+  const std::string message = run({"Auto/Largest number of unknowns=16000"});
+  report("the tolerance is not reached",
+         contains(message, "the tolerance of 0.5 % was not reached"));
+  report("why it went no further",
+         contains(message,
+                  "the next mesh has 105480 unknowns, more than 16000 (Auto / "
+                  "Largest number of unknowns)"));
+  std::cout << summary("answer") << ", rungs " << summary("rungs")
+            << ", converged " << summary("converged") << std::endl;
+  report("the reason is in the summary",
+         contains(summary("reason"), "was not reached"));
+  report("the answer's curve is there",
+         contents_of("results/auto/torque.csv") ==
+           contents_of("results/auto/rung-5/torque.csv"));
+  report("its fields are there",
+         std::filesystem::exists("results/auto/interface.pvd"));
+  report("and those of no other rung",
+         !std::filesystem::exists("results/auto/rung-3/interface.pvd"));
+
+  std::istringstream table(contents_of("results/auto/auto.csv"));
+  std::string        line;
+  std::getline(table, line);
+  std::cout << line << std::endl;
+  while (std::getline(table, line))
+    std::cout << line.substr(0, line.find(',', line.find(',') + 1)) << ": "
+              << line.substr(line.rfind(",\"") + 1) << std::endl;
+}
+
+
+
+void
+test_estimates()
+{
+  std::cout << "estimates" << std::endl;
+  // errors C h^p with h halved: the finest of them is known
+  for (const double p : {0.75, 1., 1.5, 2.})
+    {
+      const double e[] = {1., std::exp2(-p), std::exp2(-2. * p)};
+      report("order found from three meshes",
+             std::abs(discretisation_error({e[0] - e[1], e[1] - e[2]}) /
+                        (1.25 * e[2]) -
+                      1.),
+             1e-12);
+    }
+  report("order one is assumed of two",
+         std::abs(discretisation_error({0.5}) / (1.25 * 0.5) - 1.),
+         1e-12);
+  report("no order above two is trusted",
+         discretisation_error({1., 0.01}) > 0.01 / 3.);
+
+  // a triangle against a line: they differ most at its tip
+  std::vector<TorqueRow> tip(3), line(2);
+  tip[1].angle_deg = 0.3;
+  tip[2].angle_deg = line[1].angle_deg = 1.;
+  tip[1].torque_Nmm                    = 1.;
+  tip[2].torque_Nmm = line[1].torque_Nmm = 2.;
+  report("largest difference of two polygons",
+         std::abs(largest_difference(tip, line) - 0.2),
+         1e-12);
+  report("the same the other way round",
+         std::abs(largest_difference(line, tip) - 0.2),
+         1e-12);
+
+  // points that are all alike are the foundation itself
+  FoundationStiffness    stiffness;
+  constexpr unsigned int n = 2000;
+  for (unsigned int i = 0; i < n; ++i)
+    stiffness.points.push_back({2.5 * (i + 0.5) / n,
+                                2. * M_PI * 2.5 * 2.5 * (i + 0.5) / n / n,
+                                1.,
+                                1.,
+                                585.});
+  const std::vector<double> angles{0.0005, 0.002, 0.01, 0.1};
+  const RigidBodiesTorsion  exact = rigid_bodies(2.9);
+  const std::vector<double> torques =
+    torque_of_points(stiffness, FrictionParameters(), 2.9, angles);
+  double difference = 0.;
+  for (unsigned int i = 0; i < angles.size(); ++i)
+    grow(difference, std::abs(torques[i] / exact.torque(angles[i]) - 1.));
+  report("points that are all alike against the closed form", difference, 1e-5);
+}
+
+
+
+void
+test()
+{
+  show_refusal({"Chuck/Rotation z/Value=0"});
+  show_refusal({"Chuck/Rotation z/Value=sin(3 * t)"});
+  show_refusal({"Chuck/Rotation z/Control=moment"});
+  test_estimates();
+  test_chain_that_ends_at_once();
+  test_tolerance_not_reached();
+}
+
+
+
+int
+main()
+{
+  return run_test(&test);
+}

@@ -329,6 +329,8 @@ namespace Debond
   Eigen::VectorXd
   Condensation::schur_solve(const Eigen::VectorXd &b) const
   {
+    if (n_c == 0)
+      return b;
     Eigen::VectorXd x = b;
     solve_large_lower(L_cc, x);
     solve_large_upper(L_cc, x);

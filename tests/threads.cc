@@ -11,7 +11,7 @@ subsection Chuck
     set Value = -0.0049 * min(t, 1)
   end
   subsection Rotation x
-    set Value = 0.02 * max(t - 1, 0)
+    set Value = 0.002 * max(t - 1, 0)
   end
   subsection Rotation z
     set Value = 2 * max(t - 1, 0)

@@ -7,10 +7,16 @@ export LC_ALL=C
 usage="usage: work_precision.sh [OPTIONS] OUTPUT.csv
 
 Solves coin.prm with debond, CalculiX (ccx) and GetFEM on several meshes and
-writes a row for each run: code, label, wall seconds of the whole process, error
-(largest difference of the torque from work_precision_reference.csv over the
-largest torque), unknowns, increments. A code that is not installed is left out.
+writes a row for each run: code, label, wall seconds of the whole process less
+those of an empty one (debond --version, ccx -v, import getfem), error (largest
+difference of the torque from the reference over the largest torque), unknowns,
+increments. A code that is not installed is left out.
 
+  --curve             a torque curve with a value every 0.05 degrees (debond and
+                      CalculiX only) instead of four angles, one step to each;
+                      references are
+                      prm/studies/data/work_precision_coulomb.csv and
+                      work_precision_reference.csv
   --at-most SECONDS   leave out runs that need more processor seconds
   --only CODE         debond, CalculiX or GetFEM; may be repeated
   --processor         seconds of the processors instead of the wall, for a
@@ -23,41 +29,44 @@ largest torque), unknowns, increments. A code that is not installed is left out.
 Environment: DEBOND, CALCULIX_INPUT, CCX, PYTHON name the programs; by default
 those of build/release, ccx and /usr/bin/python3."
 
-# code | method | bone across | implant across | layers | threads | processor
-# seconds (rough). The method is the element and, with 'round', a polygon of the
-# same area as the disk: what a careful user of straight elements would take.
+# code | method | bone across | implant across | layers (bone+implant if they
+# differ) | threads | processor seconds (rough), for the curve (-: left out).
+# The method is the element and, with 'round', a polygon of the same area as the
+# disk: what a careful user of straight elements would take.
 runs="
-debond   nurbs        15  3  2 1 0.3
-debond   nurbs        15  3  4 1 0.3
-debond   nurbs        30  6  4 1 0.6
-debond   nurbs        30  6  8 1 1.1
-debond   nurbs        30  6 12 1 2
-debond   nurbs        45  9 12 1 5
-debond   nurbs        60 12 16 1 20
-debond   adaptive     15  3  4 1 0.4
-debond   adaptive     30  6  8 1 2
-CalculiX C3D8         15  6  2 1 1.3
-CalculiX C3D8         30 12  2 1 5
-CalculiX C3D8         30 12  4 1 12
-CalculiX C3D8         30 24  4 1 21
-CalculiX C3D8         60 24  4 1 86
-CalculiX C3D8-round   15  6  2 1 1.3
-CalculiX C3D8-round   30 12  2 1 5
-CalculiX C3D8-round   30 12  4 1 12
-CalculiX C3D8-round   30 12  8 1 50
-CalculiX C3D8-round   30 12  8 2 55
-CalculiX C3D8-round   45 18  8 1 150
-CalculiX C3D20R       15  6  2 1 11
-CalculiX C3D20R       15 12  2 1 22
-CalculiX C3D20R       15 12  2 2 24
-CalculiX C3D20R       15 12  4 1 42
-GetFEM   Q1           15  6  2 1 0.7
-GetFEM   Q1           30 12  4 1 5
-GetFEM   Q1-round     15  6  2 1 0.7
-GetFEM   Q1-round     30 12  4 1 5
-GetFEM   Q2           15  3  2 1 9
-GetFEM   Q2           15  6  2 1 10
-GetFEM   Q2           15  6  4 1 24
+debond   nurbs        15  3  2   2 0.1  0.15
+debond   nurbs        15  3  4   2 0.1  0.15
+debond   nurbs        20  4  4+2 2 0.2  0.2
+debond   nurbs        20  4  6+2 2 0.2  0.3
+debond   nurbs        20  4  8+3 2 0.3  0.4
+debond   nurbs        30  6  4   2 0.3  0.4
+debond   nurbs        30  6  8   2 0.6  0.8
+debond   nurbs        40  8 12+6 2 2    3
+debond   nurbs        45  9 12   2 4    5
+debond   nurbs        60 12 16   2 15   20
+debond   adaptive     20  4  6+2 2 0.3  -
+debond   adaptive     30  6  8   2 1    -
+CalculiX C3D8         15  6  2   1 1.3  6
+CalculiX C3D8         30 12  2   1 5    20
+CalculiX C3D8         30 12  4   1 12   50
+CalculiX C3D8         30 24  4   1 21   -
+CalculiX C3D8         60 24  4   1 86   -
+CalculiX C3D8-round   15  6  2   1 1.3  6
+CalculiX C3D8-round   30 12  2   1 5    20
+CalculiX C3D8-round   30 12  4   1 12   50
+CalculiX C3D8-round   30 12  8   1 40   150
+CalculiX C3D8-round   30 12  8   2 45   -
+CalculiX C3D20R       15  6  2   1 11   55
+CalculiX C3D20R       15 12  2   1 22   95
+CalculiX C3D20R       15 12  2   2 24   -
+CalculiX C3D20R       15 12  4   1 42   -
+GetFEM   Q1           15  6  2   1 0.7  -
+GetFEM   Q1           30 12  4   1 5    -
+GetFEM   Q1-round     15  6  2   1 0.7  -
+GetFEM   Q1-round     30 12  4   1 5    -
+GetFEM   Q2           15  3  2   1 9    -
+GetFEM   Q2           15  6  2   1 10   -
+GetFEM   Q2           15  6  4   1 24   -
 "
 
 fail() {
@@ -72,6 +81,8 @@ calculix_input=${CALCULIX_INPUT:-$build/tests/comparison/calculix/calculix_input
 ccx=${CCX:-ccx}
 python=${PYTHON:-/usr/bin/python3}
 reference=$here/work_precision_reference.csv
+steps=(1 1 1 1 1) # of coin.prm's phases
+curve=false
 
 output=
 at_most=1e9
@@ -84,6 +95,7 @@ while [ $# -gt 0 ]; do
     --help) echo "$usage"; exit 0 ;;
     --list) list=true ;;
     --processor) clock=processor ;;
+    --curve) curve=true; steps=(1 1 1 4 14); reference=$here/../../prm/studies/data/work_precision_coulomb.csv ;;
     --factors) factors=true ;;
     --at-most | --only)
       [ $# -ge 2 ] || fail "$1 needs a value (see work_precision.sh --help)"
@@ -104,26 +116,37 @@ done
 $list || [ -n "$output" ] || fail "no file to write is given (see work_precision.sh --help)"
 
 # For each run of another code its seconds over those that debond (nurbs) needs
-# for the same error, logarithms linear between its runs. An error larger than
-# debond's largest is given debond's least seconds; a smaller one no factor.
+# for the same error, logarithms linear between the best of its runs. An error
+# larger than debond's largest is given debond's least seconds; a smaller one no
+# factor.
 print_factors() {
   awk -F, '
     FNR == 1 { next }
-    $1 == "debond" && $2 ~ /^nurbs/ { ++n; seconds[n] = $3; error[n] = $4; next }
+    $1 == "debond" && $2 ~ /^nurbs/ { ++all; s[all] = $3; e[all] = $4; next }
     $1 != "debond" { ++m; row[m] = $0 }
+    function front(     i, k, best) { # faster runs first, each closer than the last
+      for (best = 1e9; ; best = e[k])
+        {
+          k = 0
+          for (i = 1; i <= all; ++i)
+            if (e[i] < best && (!k || s[i] < s[k])) k = i
+          if (!k) return
+          ++n; seconds[n] = s[k]; error[n] = e[k]
+        }
+    }
     function at(e,     i, w) {
       if (e >= error[1]) return seconds[1]
       for (i = 1; i < n; ++i)
         if (error[i + 1] <= e && e <= error[i])
           {
-            if (error[i] == error[i + 1]) return seconds[i]
             w = log(e / error[i]) / log(error[i + 1] / error[i])
             return exp((1 - w) * log(seconds[i]) + w * log(seconds[i + 1]))
           }
       return 0
     }
     END {
-      if (!n || !m) exit
+      if (!all || !m) exit
+      front()
       printf "%-9s %-45s %9s %9s %9s %7s\n", "code", "label", "error", "seconds", "debond", "factor"
       for (k = 1; k <= m; ++k)
         {
@@ -158,7 +181,9 @@ chosen=
 for code in debond CalculiX GetFEM; do
   [[ -n $only && " $only " != *" $code "* ]] && continue
   $list || has "$code" || continue
-  chosen+=$(awk -v code="$code" -v most="$at_most" '$1 == code && $7 <= most' <<< "$runs")$'\n'
+  chosen+=$(awk -v code="$code" -v most="$at_most" -v curve="$curve" '
+    curve == "true" { $7 = $8 }
+    $1 == code && $7 != "-" && $7 + 0 <= most + 0' <<< "$runs")$'\n'
 done
 # Runs below two seconds are repeated.
 awk 'NF { s += $7 * ($7 < 2 ? 3 : 1); n++ }
@@ -185,6 +210,24 @@ timed() {
   done
 }
 
+# Seconds that a code takes for nothing, once it has been loaded.
+declare -A empty
+measure_empty() {
+  [ -n "${empty[$1]:-}" ] && return
+  local command=("$debond" --version)
+  case $1 in
+    CalculiX) command=("$ccx" -v) ;;
+    GetFEM) command=("$python" -c "import getfem") ;;
+  esac
+  label="an empty run of $1"
+  empty[$1]=0
+  timed may_fail "${command[@]}"
+  empty[$1]=$seconds
+}
+may_fail() { # ccx -v says its version and fails
+  "$@" || true
+}
+
 equal_area_radius() { # of a polygon with four times as many sides as cells across
   awk -v n="$((4 * $1))" 'BEGIN { pi = atan2(0, -1); printf "%.8f", 2.5 * sqrt(2 * pi / (n * sin(2 * pi / n))) }'
 }
@@ -192,7 +235,8 @@ equal_area_radius() { # of a polygon with four times as many sides as cells acro
 # Each of these runs a code and sets $seconds, $unknowns and $increments; rows
 # "angle,torque" go to the file curve.
 cells_of_scene() {
-  echo "--set" "Bone/Cells=$bone,$bone,$layers" "--set" "Implant/Cells=$implant,$layers" "--set" "Implant/Radius=$radius"
+  echo "--set Bone/Cells=$bone,$bone,${layers%+*} --set Implant/Cells=$implant,${layers#*+}" \
+    "--set Implant/Radius=$radius"
 }
 
 run_debond() {
@@ -200,7 +244,8 @@ run_debond() {
   [ "$method" = adaptive ] && adaptive=true
   # shellcheck disable=SC2046 # no value has a blank
   timed "$debond" "$here/coin.prm" $(cells_of_scene) --force --set "Output/Directory=$directory/debond" \
-    --set Output/Console=quiet --set "Load steps/Adaptive=$adaptive"
+    --set Output/Console=quiet --set "Load steps/Adaptive=$adaptive" --set "Load steps/Steps=$steps_of_scene" \
+    --threads "$threads"
   awk -F, 'FNR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i; next }
            { print $column["angle_deg"] "," $column["torque_Nmm"] }' "$directory/debond/torque.csv" > "$directory/curve"
   unknowns=$(awk -F'[:,]' '$1 ~ /"unknowns"/ { print $2 + 0 }' "$directory/debond/summary.json")
@@ -214,7 +259,8 @@ calculix_in_directory() (
 run_CalculiX() {
   rm -f "$directory"/calculix.*
   # shellcheck disable=SC2046
-  "$calculix_input" "$here/coin.prm" "$directory/calculix.inp" --element "${method%-round}" $(cells_of_scene)
+  "$calculix_input" "$here/coin.prm" "$directory/calculix.inp" --element "${method%-round}" $(cells_of_scene) \
+    --set "Load steps/Steps=$steps_of_scene"
   timed calculix_in_directory
   awk -f "$here/calculix/reactions.awk" "$directory/calculix.inp" "$directory/calculix.dat" |
     awk -F, '{ print $2 "," $4 }' > "$directory/curve" || fail "$label did not finish all steps"
@@ -242,14 +288,17 @@ error_of_curve() {
           printf "%.3g", worst / largest }' "$reference" "$directory/curve"
 }
 
+steps_of_scene=$(IFS=,; echo "${steps[*]}")
 echo "code,label,seconds,error_torque,unknowns,increments" > "$directory/table"
 while read -r code method bone implant layers threads _; do
   [ -n "$code" ] || continue
-  label="$method $bone x $bone x $layers / $implant x $implant x $layers"
-  [ "$threads" = 1 ] || label+=" $threads threads"
+  measure_empty "$code"
+  label="$method $bone x $bone x ${layers%+*} / $implant x $implant x ${layers#*+}"
+  [ "$threads" = 1 ] || [ "$code" = debond ] || label+=" $threads threads"
   radius=2.5
   [[ $method == *-round ]] && radius=$(equal_area_radius "$implant")
   "run_$code" < /dev/null
+  seconds=$(awk "BEGIN { print $seconds - ${empty[$code]} }")
   error=$(error_of_curve) || fail "$code $label: an angle of $reference is missing"
   echo "$code,$label,$seconds,$error,$unknowns,$increments" | tee -a "$directory/table" >&2
 done <<< "$chosen"

@@ -91,8 +91,7 @@ namespace Debond
         if (scale > 0.)
           error = std::max(error, std::abs(difference[k]) / scale);
       }
-    // twice: the curve need not be a parabola
-    return 2. * error / parameters.tolerance;
+    return error / parameters.tolerance;
   }
 
 
@@ -100,18 +99,19 @@ namespace Debond
   double
   AdaptiveStepping::error(const Forces &forces) const
   {
-    const double h = target_time() - time;
-    if (has_previous)
-      {
-        // F'' h^2 / 8, with F'' from the distance to the extrapolated line,
-        // F'' h (h + h_0) / 2
-        const double h_0          = time - previous_time;
-        const Forces extrapolated = current + h / h_0 * (current - previous);
-        return relative_to_tolerance((forces - extrapolated) * h /
-                                       (4. * (h + h_0)),
-                                     forces);
-      }
-    return relative_to_tolerance(middle - 0.5 * (current + forces), forces);
+    if (!has_previous) // twice: the curve need not be a parabola
+      return 2. *
+             relative_to_tolerance(middle - 0.5 * (current + forces), forces);
+    // from the straight line through the step before
+    const Forces line = current + (target_time() - time) /
+                                    (time - previous_time) *
+                                    (current - previous);
+    const double deviation = relative_to_tolerance(forces - line, forces);
+    // A parabola that begins to bend with this step would leave its chord by a
+    // quarter of that. Where the curve was straight before it may have a kink
+    // anywhere in this step, and leave its chord by nearly all of it.
+    const double bent = 0.25 * deviation;
+    return bent > 10. * previous_error ? deviation : bent;
   }
 
 
@@ -126,9 +126,10 @@ namespace Debond
     current           = forces;
     time              = target_time();
     greatest          = greatest.cwiseMax(forces.cwiseAbs());
-    // the error goes with the square of the step; towards 0.6 of the tolerance
+    // the error goes with the square of the step; towards 0.8 of the tolerance
+    previous_error = error;
     set_size(step *
-             std::clamp(std::sqrt(0.6 / std::max(error, 1e-12)), 0.5, 2.));
+             std::clamp(std::sqrt(0.8 / std::max(error, 1e-12)), 0.5, 2.));
   }
 
 
@@ -139,7 +140,7 @@ namespace Debond
     const double step = target_time() - time;
     if (step <= smallest() * (1. + 1e-9))
       return false;
-    set_size(step * std::clamp(std::sqrt(0.6 / error), 0.1, 0.7));
+    set_size(step * std::clamp(std::sqrt(0.8 / error), 0.1, 0.7));
     return true;
   }
 

@@ -39,11 +39,6 @@ namespace Debond
 
 
 
-    // More iterations than this with the bulk as preconditioner, and those
-    // with a factorisation, which cost twice as much each but are fewer, are
-    // cheaper in the long run.
-    constexpr unsigned int max_bulk_iterations = 12;
-
     // Iterations that are cheaper than a new factorisation: n^3 against n^2
     // work, with a floor for small systems where overheads count.
     unsigned int
@@ -83,8 +78,9 @@ namespace Debond
           return y + A.interface_product(A.solve_bulk(y));
         return A.product(lu.solve(y));
       }};
-    const unsigned int    max_iterations = affordable_iterations(b.size());
-    dealii::SolverControl control(max_iterations,
+    const unsigned int max_iterations =
+      with_bulk ? max_bulk_iterations : affordable_iterations(b.size());
+    dealii::SolverControl           control(max_iterations,
                                   relative_tolerance * b.norm(),
                                   false,
                                   false);

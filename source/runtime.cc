@@ -4,9 +4,15 @@
 #include <deal.II/base/multithread_info.h>
 #include <deal.II/base/utilities.h>
 
-// Declared here because the headers of OpenBLAS declare LAPACK, too.
-extern "C" void
-openblas_set_num_threads(int n_threads);
+// Declared here because the headers of OpenBLAS declare LAPACK, too, and because
+// this program does not use OpenMP itself.
+extern "C"
+{
+  void
+  openblas_set_num_threads(int n_threads);
+  void
+  omp_set_max_active_levels(int n_levels);
+}
 
 namespace Debond
 {
@@ -15,6 +21,9 @@ namespace Debond
   {
     dealii::deal_II_exceptions::disable_abort_on_exception();
     dealii::deal_II_exceptions::suppress_stacktrace_in_exceptions();
+    // CHOLMOD divides small loops among four threads, however few processors
+    // there are: that costs a quarter of a factorisation
+    omp_set_max_active_levels(0);
     set_number_of_threads(1);
   }
 

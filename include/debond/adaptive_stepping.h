@@ -13,9 +13,9 @@ namespace Debond
    * states at these ends are nearly exact whatever the step; what a large step
    * loses is the shape of the curve in between.
    *
-   * The error of a step is that of a parabola drawn as a straight line: for the
-   * first step of a phase from a trial in its middle, for later ones from the
-   * distance of their end from the straight line through the step before.
+   * The error of a step is estimated from the distance of its end from the
+   * straight line through the step before, in the first step of a phase from a
+   * trial in its middle.
    */
   class AdaptiveStepping
   {
@@ -79,7 +79,8 @@ namespace Debond
     Forces current       = Forces::Zero(); ///< at the beginning of the step
     Forces previous      = Forces::Zero(); ///< one step before
     Forces middle        = Forces::Zero();
-    double previous_time = 0;
+    double previous_time  = 0;
+    double previous_error = 0; ///< of the step before
     bool   has_previous = false, has_middle = false;
     Forces greatest = Forces::Zero(); ///< so far
   };

@@ -39,6 +39,11 @@ namespace Debond
 
 
 
+    // More iterations than this with the bulk as preconditioner, and those
+    // with a factorisation, which cost twice as much each but are fewer, are
+    // cheaper in the long run.
+    constexpr unsigned int max_bulk_iterations = 12;
+
     // Iterations that are cheaper than a new factorisation: n^3 against n^2
     // work, with a floor for small systems where overheads count.
     unsigned int

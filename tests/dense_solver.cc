@@ -79,9 +79,11 @@ private:
 
 /** Solves with several matrices in turn. */
 void
-check(const std::string &name, const double spring, const bool fixed)
+check(const std::string &name,
+      const double       spring,
+      const bool         fixed,
+      const int          n = 200)
 {
-  const int   n = 200;
   DenseSolver solver;
   double      deviation = 0;
   for (const double variation : {0., 0.01, 0.012, 0.015, 0.01})
@@ -103,6 +105,9 @@ main()
   check("Soft interface", 0.05, true);
   check("Stiff interface", 1e5, true);
   check("Singular bulk", 5., false);
+  // some twenty iterations with the bulk: fewer than this size affords with a
+  // factorisation, but too many
+  check("Stiff interface of a large surface", 1., true, 1000);
   DenseSolver   solver;
   const Surface A(10, 1., 0., true);
   report("Nothing to solve for",

@@ -3,6 +3,8 @@
 // one, two and three threads and from run to run. The factorisation of a large
 // bulk alone may round differently.
 
+#include <limits>
+
 #include "driven_scene.h"
 
 const char *const scene_text = R"(
@@ -46,7 +48,9 @@ difference(const Rows &a, const Rows &b)
   for (unsigned int i = 0; i < std::min(a.size(), b.size()); ++i)
     {
       grow(largest, std::abs(a[i].torque_Nmm - b[i].torque_Nmm) / T);
-      grow(largest, std::abs(a[i].force_N - b[i].force_N));
+      grow(largest,
+           std::abs(a[i].force_N - b[i].force_N) /
+             (1. + std::abs(a[i].force_N)));
       grow(largest, std::abs(a[i].dissipation_Nmm - b[i].dissipation_Nmm) / E);
       grow(largest, std::abs(a[i].energy_bulk_Nmm - b[i].energy_bulk_Nmm) / E);
       if (a[i].newton_iterations != b[i].newton_iterations)
@@ -58,14 +62,16 @@ difference(const Rows &a, const Rows &b)
 
 
 void
-check(const std::string &name, const std::vector<std::string> &overrides)
+check(const std::string              &name,
+      const double                    limit,
+      const std::vector<std::string> &overrides)
 {
   std::cout << name << std::endl;
   const Rows one = run(1, overrides);
   for (const unsigned int n : {1, 2, 3})
     report("  " + std::to_string(n) + " threads against one, difference",
            difference(one, run(n, overrides)),
-           1e-10);
+           limit);
 }
 
 
@@ -73,10 +79,13 @@ check(const std::string &name, const std::vector<std::string> &overrides)
 void
 test()
 {
-  check("Neo-Hookean bodies", {});
+  const double to_the_last_digit = std::numeric_limits<double>::min();
+  check("Neo-Hookean bodies", to_the_last_digit, {});
   check("bone as slave",
+        to_the_last_digit,
         {"Interface/Slave=bone", "Interface/Friction law=coulomb"});
   check("more than 20000 unknowns, whose factorisation is threaded",
+        1e-10,
         {"Bone/Material=linear",
          "Implant/Material=linear",
          "Bone/Cells=44, 44, 3",

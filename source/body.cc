@@ -123,12 +123,9 @@ namespace Debond
   {
     if (!deformable())
       return;
-    // what was interior may become a contact unknown: its values must be there
-    for (Eigen::VectorXd *state : {&v, &accepted.value, &accepted.before})
-      *state = full_displacement(*state);
+    complete_surface(); // what was interior may become a contact unknown
     is_contact           = contact;
     surface_is_condensed = false;
-    surface_is_stale     = false;
     contact_unknowns.clear();
     for (unsigned int A = 0; A < is_contact.size(); ++A)
       for (unsigned int c = 0; c < 3; ++c)
@@ -162,6 +159,16 @@ namespace Debond
                   "The stiffness of a body is not positive definite."));
     if (material() == Material::linear)
       compute_reaction_operator();
+  }
+
+
+
+  void
+  Body::complete_surface()
+  {
+    for (Eigen::VectorXd *state : {&v, &accepted.value, &accepted.before})
+      *state = full_displacement(*state);
+    surface_is_stale = false;
   }
 
 
@@ -284,11 +291,7 @@ namespace Debond
   Body::commit(const double time, const bool surface_is_seen)
   {
     if (surface_is_condensed && surface_is_seen)
-      {
-        if (surface_is_stale) // the state to extrapolate from
-          accepted.value = full_displacement(accepted.value);
-        v = full_displacement(v);
-      }
+      v = full_displacement(v);
     surface_is_stale = surface_is_condensed && !surface_is_seen;
     accepted.commit(v, time);
   }

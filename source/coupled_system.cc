@@ -131,6 +131,22 @@ namespace Debond
 
 
 
+  // Open points may face what lies beside the contact unknowns.
+  bool
+  CoupledSystem::complete_surfaces()
+  {
+    if (!bone.surface_was_left_behind() && !implant.surface_was_left_behind())
+      return false;
+    if (!interface.has_open_points())
+      return false;
+    const dealii::TimerOutput::Scope t(timer, "bulk");
+    bone.complete_surface();
+    implant.complete_surface();
+    return true;
+  }
+
+
+
   void
   CoupledSystem::predict(const double time, const bool extrapolate)
   {
@@ -192,7 +208,7 @@ namespace Debond
             return result;
           }
       }
-    while (extend_contact_unknowns());
+    while (extend_contact_unknowns() || complete_surfaces());
 
     const dealii::TimerOutput::Scope t(timer, "bulk");
     double                           norm_squared = 0., interior_squared = 0.;

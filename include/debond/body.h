@@ -132,10 +132,20 @@ namespace Debond
     Eigen::Map<const ControlNet>
     contact_displacement() const;
     /** Accepts the trial state. @p surface_is_seen: whether anybody needs what
-     *  lies beside the contact unknowns; a linear body whose surface is seen
-     *  gives it its equilibrium shape. */
+     *  lies beside the contact unknowns of a linear body; only then it is given
+     *  its equilibrium shape. */
     void
     commit(double time, bool surface_is_seen);
+    /** Whether what lies beside the contact unknowns has been left behind by
+     *  commit(), and giving it, in trial and accepted states, the equilibrium
+     *  shape that belongs to them: no history is changed. */
+    bool
+    surface_was_left_behind() const
+    {
+      return surface_is_stale;
+    }
+    void
+    complete_surface();
     void
     rollback();
     /** Starts a step from the accepted state, extrapolated linearly to @p time
@@ -186,8 +196,8 @@ namespace Debond
     std::vector<int>          contact_unknowns; ///< free numbers, in order
     /** Linear bodies: some of the contact surface's control points are no
      *  contact unknowns. */
-    bool         surface_is_condensed = false;
-    /** Those control points have not followed at the last commit(). */
+    bool surface_is_condensed = false;
+    /** Those control points did not follow at the last commit(). */
     bool         surface_is_stale = false;
     Condensation condensation;
 

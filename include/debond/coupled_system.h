@@ -130,6 +130,8 @@ namespace Debond
     number_unknowns();
     bool
     extend_contact_unknowns();
+    bool
+    complete_surfaces();
     Eigen::VectorXd
     interface_product(const Eigen::VectorXd &x) const override;
     bool

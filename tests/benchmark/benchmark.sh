@@ -42,6 +42,7 @@ while [[ $# -gt 0 && $1 == -* ]]; do
   shift
 done
 [[ $# -eq 3 ]] || { echo "$usage" >&2; exit 1; }
+[[ -f $baseline ]] || { echo "benchmark.sh: there is no baseline $baseline" >&2; exit 1; }
 debond=$1
 machine_speed=$2
 scene=$3
@@ -79,7 +80,7 @@ time_run() { # STEPS BODIES MESH BONE IMPLANT THREADS
     --set "Bone/Material=$2" --set "Implant/Material=$2" "${stepping[@]}")
   seconds=$(awk "BEGIN { print $seconds - $empty }")
   ratio=$(awk -F, -v key="$1,$3,$2,$6" -v s="$seconds" -v u="$unit" \
-    '$1 "," $2 "," $3 "," $4 == key { printf "%.2f", (s / u) / ($5 / $6) }' "$baseline" 2> /dev/null || true)
+    '$1 "," $2 "," $3 "," $4 == key { printf "%.2f", (s / u) / ($5 / $6) }' "$baseline")
   printf '%-8s %-9s %-11s %7s | %8.2f %5d %6d | %6.2f %8.2f %7.2f %6.2f %6.2f | %7.0f %6s\n' \
     "$1" "$3" "$2" "$6" "$seconds" "$(value_of steps)" "$(value_of newton_iterations)" "$(value_of seconds_bulk)" \
     "$(value_of seconds_condensation)" "$(value_of seconds_contact)" "$(value_of seconds_dense_solve)" \

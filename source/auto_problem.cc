@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <regex>
 #include <sstream>
 
 namespace Debond
@@ -17,7 +18,7 @@ namespace Debond
   namespace
   {
     /** Adaptive steps take a tenth of the tolerance. Their own estimate holds
-     *  approximately: the measured error is up to 1.7 times their tolerance. */
+     *  approximately: the measured error is up to 1.5 times their tolerance. */
     constexpr double share_of_steps = 0.1, reserve_of_steps = 2.;
 
     /** The linearisation is measured on the coarsest mesh, which sees less of
@@ -34,6 +35,56 @@ namespace Debond
 
 
 
+    /** What the scene prescribes, densely: expressions may do anything between
+     *  planned steps. Each phase has at least a thousand points, the ends of
+     *  planned steps among them. */
+    std::vector<Chuck::Vector6>
+    prescribed_values(const Scene &scene)
+    {
+      const Chuck                 chuck(scene.chuck,
+                        Eigen::Vector3d::Zero(),
+                        scene.implant.characteristic_radius());
+      const std::vector<double>  &times = scene.load_steps.times;
+      std::vector<Chuck::Vector6> values{chuck.values(times.front())};
+      for (std::size_t p = 0; p + 1 < times.size(); ++p)
+        {
+          const unsigned int steps = scene.load_steps.steps[p],
+                             n     = steps * ((999 + steps) / steps);
+          for (unsigned int i = 1; i <= n; ++i)
+            values.push_back(chuck.values(
+              i == n ? times[p + 1] :
+                       times[p] + (times[p + 1] - times[p]) * i / n));
+        }
+      return values;
+    }
+
+
+
+    /** The component of the chuck that changes while the angle holds and after
+     *  the rotation began, where torque is no function of the angle; 5 if there
+     *  is none. */
+    unsigned int
+    component_that_changes_in_a_hold(const std::vector<Chuck::Vector6> &values)
+    {
+      Chuck::Vector6 scale = Chuck::Vector6::Zero();
+      for (const Chuck::Vector6 &value : values)
+        scale = scale.cwiseMax(value.cwiseAbs());
+      const auto changes = [&](const unsigned int k, const std::size_t i) {
+        return std::abs(values[i][k] - values[i - 1][k]) > 1e-12 * scale[k];
+      };
+      bool began = false;
+      for (std::size_t i = 1; i < values.size(); ++i)
+        {
+          began = began || changes(5, i);
+          for (unsigned int k = 0; k < 5; ++k)
+            if (began && !changes(5, i) && changes(k, i))
+              return k;
+        }
+      return 5;
+    }
+
+
+
     void
     refuse_what_has_no_curve(const Scene &scene)
     {
@@ -41,27 +92,26 @@ namespace Debond
       if (scene.chuck.component[5].loaded)
         throw InputError(entry + "Control: Model = auto compares torques and "
                                  "takes this rotation as prescribed");
-      const Chuck        chuck(scene.chuck,
-                        Eigen::Vector3d::Zero(),
-                        scene.implant.characteristic_radius());
-      const LoadStepping stepping(scene.load_steps);
-      double             first = 0., last = 0., turned = 0.;
-      for (unsigned int step = 0; step <= stepping.n_steps(); ++step)
-        {
-          const double angle = chuck.values(stepping.time(step))[5];
-          turned += step == 0 ? 0. : std::abs(angle - last);
-          first = step == 0 ? angle : first;
-          last  = angle;
-        }
+      const std::vector<Chuck::Vector6> values = prescribed_values(scene);
+      double                            turned = 0.;
+      for (std::size_t i = 1; i < values.size(); ++i)
+        turned += std::abs(values[i][5] - values[i - 1][5]);
       if (turned == 0.)
         throw InputError(entry +
                          "Value: Model = auto judges a model by its torque "
                          "curve, and nothing rotates about z in this scene: "
                          "choose a model with Model");
-      if (turned > std::abs(last - first) * (1. + 1e-9))
+      if (turned > std::abs(values.back()[5] - values.front()[5]) * (1. + 1e-9))
         throw InputError(entry +
                          "Value: Model = auto compares torques over the angle "
                          "and knows no rotation that reverses");
+      const unsigned int k = component_that_changes_in_a_hold(values);
+      if (k < 5)
+        throw InputError(std::string("Chuck / ") + ChuckParameters::names[k] +
+                         " / Value: Model = auto compares torques over the "
+                         "angle and would not see what this does while the "
+                         "rotation about z pauses or has ended; it may change "
+                         "before the rotation begins and during it");
     }
 
 
@@ -80,6 +130,24 @@ namespace Debond
     largest_torque(const std::vector<TorqueRow> &rows)
     {
       return measure_torque_curve(rows, CurveSettings()).T_max_Nmm;
+    }
+
+
+
+    /** Directories `rung-NUMBER` of a run; what else has such a name is not
+     *  ours. */
+    void
+    remove_earlier_rungs(const std::string &path)
+    {
+      const std::regex                   name("rung-[0-9]+");
+      std::vector<std::filesystem::path> rungs;
+      for (const auto &entry : std::filesystem::directory_iterator(path))
+        if (std::regex_match(entry.path().filename().string(), name) &&
+            entry.is_directory() &&
+            std::filesystem::exists(entry.path() / "parameters.prm"))
+          rungs.push_back(entry.path());
+      for (const auto &rung : rungs)
+        std::filesystem::remove_all(rung);
     }
   } // namespace
 
@@ -114,10 +182,7 @@ namespace Debond
   AutoProblem::run()
   {
     const ResultDirectory directory(scene.output, scene.completed_parameters);
-    for (const auto &entry :
-         std::filesystem::directory_iterator(directory.path()))
-      if (entry.path().filename().string().compare(0, 5, "rung-") == 0)
-        std::filesystem::remove_all(entry.path());
+    remove_earlier_rungs(directory.path());
     if (!scene.title.empty())
       console.headline(scene.title);
     climb();
@@ -412,11 +477,17 @@ namespace Debond
   {
     if (answer->estimate <= tolerance)
       return "the estimated error is within the tolerance";
-    return "the tolerance of " + percent(tolerance) + " was not reached: " +
-           (std::isnan(answer->estimate) ?
-              "there is no second mesh to estimate the error with" :
-              "the estimated error is " + percent(answer->estimate)) +
-           "; " + why_no_further;
+    std::string estimate;
+    if (!std::isnan(answer->estimate))
+      estimate = "the estimated error is " + percent(answer->estimate);
+    else if (find(refined, 0) == nullptr || find(refined, 1) == nullptr)
+      estimate = "there is no second mesh to estimate the error with";
+    else
+      estimate = "the curves of its meshes give no estimate of the error: they "
+                 "do not converge, are off by more than the largest torque or "
+                 "have no angle in common";
+    return "the tolerance of " + percent(tolerance) +
+           " was not reached: " + estimate + "; " + why_no_further;
   }
 
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace Debond
 {
@@ -37,9 +38,10 @@ namespace Debond
       return 0.;
     double order = 1.;
     if (differences.size() > 1)
-      order = std::clamp(std::log2(differences[differences.size() - 2] / last),
-                         lowest_order,
-                         highest_order);
+      order = std::min(std::log2(differences[differences.size() - 2] / last),
+                       highest_order);
+    if (!(order >= lowest_order))
+      return std::numeric_limits<double>::quiet_NaN();
     return reserve * last / (std::exp2(order) - 1.);
   }
 } // namespace Debond

@@ -71,6 +71,50 @@ show_refusal(const std::vector<std::string> &overrides)
 
 
 
+void
+report_accepted(const std::string              &what,
+                const std::vector<std::string> &overrides)
+{
+  bool accepted = true;
+  try
+    {
+      Problem::create(Scene::from_text(scene_text, overrides));
+    }
+  catch (const InputError &)
+    {
+      accepted = false;
+    }
+  report(what, accepted);
+}
+
+
+
+// Where the angle holds and something else moves, torque is no function of it.
+void
+test_holds()
+{
+  const std::string times = "Load steps/Times=0, 1, 2, 3, 4",
+                    steps = "Load steps/Steps=1, 2, 2, 2",
+                    twist_hold_twist =
+                      "Chuck/Rotation z/Value="
+                      "5 * (min(max(t - 1, 0), 1) + max(t - 3, 0))";
+  show_refusal({times,
+                steps,
+                twist_hold_twist,
+                "Chuck/Translation z/Value="
+                "-0.0049 * (min(t, 1) + 0.2 * min(max(t - 2, 0), 1))"});
+  show_refusal({times,
+                steps,
+                "Chuck/Rotation z/Value=5 * min(max(t - 1, 0), 1)",
+                "Chuck/Rotation x/Value=0.01 * max(t - 3, 0)"});
+  report_accepted("a hold in which nothing moves",
+                  {times, steps, twist_hold_twist});
+  report_accepted("pressed deeper during the rotation",
+                  {"Chuck/Translation z/Value=-0.0049 * t"});
+}
+
+
+
 /** Runs the scene; what it ends with if it fails. */
 std::string
 run(const std::vector<std::string> &overrides)
@@ -110,6 +154,30 @@ rigid_bodies(const double pressure)
   parameters.normal_penalty     = pressure;
   parameters.tangential_penalty = 585.;
   return RigidBodiesTorsion(parameters);
+}
+
+
+
+// A run begins anew without the rungs of the one before and leaves the rest.
+void
+test_other_results_stay()
+{
+  const std::vector<std::string> rigid{"Bone/Material=rigid",
+                                       "Implant/Material=rigid"};
+  run(rigid);
+  std::filesystem::create_directory("results/auto/rung-7");
+  std::filesystem::copy_file("results/auto/parameters.prm",
+                             "results/auto/rung-7/parameters.prm");
+  std::filesystem::create_directory("results/auto/rung-8");
+  std::filesystem::create_directory("results/auto/rung-notes");
+  Scene scene                          = Scene::from_text(scene_text, rigid);
+  scene.output.overwrite_other_results = true;
+  Problem::create(scene)->run();
+  report("a rung of an earlier run is gone",
+         !std::filesystem::exists("results/auto/rung-7"));
+  report("what only has the name of a rung stays",
+         std::filesystem::exists("results/auto/rung-8") &&
+           std::filesystem::exists("results/auto/rung-notes"));
 }
 
 
@@ -190,6 +258,12 @@ test_estimates()
          1e-12);
   report("no order above two is trusted",
          discretisation_error({1., 0.01}) > 0.01 / 3.);
+  report("order 0.6 is",
+         std::isfinite(discretisation_error({1., std::exp2(-0.6)})));
+  report("none from order 0.4",
+         std::isnan(discretisation_error({1., std::exp2(-0.4)})));
+  report("none from meshes that part",
+         std::isnan(discretisation_error({0.01, 0.02})));
 
   // a triangle against a line: they differ most at its tip
   std::vector<TorqueRow> tip(3), line(2);
@@ -230,7 +304,12 @@ test()
 {
   show_refusal({"Chuck/Rotation z/Value=0"});
   show_refusal({"Chuck/Rotation z/Value=sin(3 * t)"});
+  // turns back between the ends of planned steps only
+  show_refusal({"Chuck/Rotation z/Value=2 * sin(pi * 4.5 * (t - 1))",
+                "Load steps/Steps=1, 1"});
   show_refusal({"Chuck/Rotation z/Control=moment"});
+  test_holds();
+  test_other_results_stay();
   test_estimates();
   test_chain_that_ends_at_once();
   test_tolerance_not_reached();

@@ -7,10 +7,11 @@
 
 namespace Debond
 {
-  /** Largest |T - T_reference| over all angles that both curves have, relative
-   *  to the largest |T_reference|: the `difference_max` of summary.json at the
-   *  rows of both. NaN if they have no angle in common or if one of them turns
-   *  back. */
+  /** Largest |T - T_reference| relative to the largest |T_reference|: the
+   *  `difference_max` of summary.json, at the rows of both curves. Only angles
+   *  that both have and that are beyond zero in the sense of the rotation, and
+   *  only rows with more than 1 % of their curve's largest torque. NaN if no
+   *  such row is left or if one of the curves turns back. */
   double
   largest_difference(const std::vector<TorqueRow> &rows,
                      const std::vector<TorqueRow> &reference);
@@ -19,8 +20,8 @@ namespace Debond
    * Error of the finest of several meshes, each of which has half the cell size
    * of the one before, from the @p differences between neighbours, coarsest
    * first: that of order one, and from the second difference on of the order
-   * that is observed, but at most two and at least one half; 1.25 times as a
-   * reserve.
+   * that is observed, but at most two; 1.25 times as a reserve. NaN if the
+   * observed order is below one half: meshes that do not converge tell nothing.
    */
   double
   discretisation_error(const std::vector<double> &differences);

@@ -11,12 +11,15 @@
 //   # expect: energy_defect max below 1e-3
 //   # expect: T_max_Nmm of variant 3 = 50.32 within 0.1 %
 //   # expect: torque_Nmm of variant 3 at angle_deg 0.05 above 31
+//   # expect: difference_max of every rung below estimate
 //   # run: --set "Implant/Cells=12, 2" --set "Bone/Material=rigid"
 //
 // A name alone is a key of summary.json (true counts as 1), in a study a column
 // of study.csv; so may the bound of `below' and `above' be. `at COLUMN VALUE`
 // is the last row of torque.csv with that value in that column, `max` the
-// largest absolute value in a column. A tolerance without % is absolute. Prints
+// largest absolute value in a column. Rungs are those of Model = auto, in all
+// variants, and the estimate that of auto.csv. A tolerance without % is
+// absolute. Prints
 // a line for each expectation.
 //
 //   check_scene SCENE.prm              exit code 0 if the scene could be run
@@ -157,6 +160,7 @@ namespace
 
   struct Results
   {
+    std::string                   directory;
     Table                         table;
     std::map<std::string, double> summary;
   };
@@ -217,6 +221,7 @@ namespace
           }
         catch (const Problem &) // a variant that failed
           {}
+        results.directory = directory + name;
         variants.push_back(results);
       }
     return variants;
@@ -325,6 +330,47 @@ namespace
 
 
 
+  /** Rungs of Model = auto that were run and are further from the reference
+   *  curve than auto.csv estimates, or have no estimate; "" if all is well. */
+  std::string
+  rungs_beyond_estimate(const std::vector<Results> &variants)
+  {
+    std::ostringstream beyond;
+    unsigned int       n = 0;
+    for (const Results &variant : variants)
+      {
+        std::istringstream lines(contents_of(variant.directory + "/auto.csv"));
+        std::string        line;
+        std::getline(lines, line);
+        const std::vector<std::string> columns = csv_fields(line);
+        const std::size_t              estimate =
+          std::find(columns.begin(), columns.end(), "estimate") -
+          columns.begin();
+        while (std::getline(lines, line))
+          {
+            const std::vector<std::string> fields  = csv_fields(line);
+            const std::string              verdict = fields.back();
+            if (verdict.rfind("refused", 0) == 0 ||
+                verdict.rfind("failed", 0) == 0)
+              continue;
+            const std::map<std::string, double> summary = read_summary(
+              variant.directory + "/rung-" + fields[0] + "/summary.json");
+            if (summary.count("difference_max") == 0)
+              throw Problem("a rung has no difference_max");
+            const double error = summary.at("difference_max");
+            ++n;
+            if (!(error < to_number(fields.at(estimate))))
+              beyond << " " << variant.directory << " rung " << fields[0]
+                     << " is off by " << error << ";";
+          }
+      }
+    if (n == 0)
+      throw Problem("there are no rungs");
+    return beyond.str();
+  }
+
+
+
   /** The line about one expectation. */
   std::string
   verdict(const std::string &expectation, const std::vector<Results> &results)
@@ -332,6 +378,12 @@ namespace
     std::istringstream words(expectation.substr(0, expectation.find('(')));
     try
       {
+        if (expectation == "difference_max of every rung below estimate")
+          {
+            const std::string beyond = rungs_beyond_estimate(results);
+            return beyond.empty() ? "ok: " + expectation :
+                                    "FAILED: " + expectation + ":" + beyond;
+          }
         std::size_t  variant = 0;
         const double value   = value_of(words, results, variant);
         if (is_met(value, words, results[variant].summary))
@@ -409,7 +461,8 @@ namespace
     Debond::Scene scene = Debond::Scene::from_entries(entries, scene_file);
     scene.output.overwrite_other_results = true;
     Debond::Problem::create(scene)->run();
-    return {{read_table(scene.output.directory + "/torque.csv"),
+    return {{scene.output.directory,
+             read_table(scene.output.directory + "/torque.csv"),
              read_summary(scene.output.directory + "/summary.json")}};
   }
 

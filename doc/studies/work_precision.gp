@@ -83,11 +83,12 @@ others = codes eq "" ? ours : codes
 code(m) = m[1:strstrt(m, "/") - 1]
 method(m) = m[strstrt(m, "/") + 1:]
 of(m) = strcol("code") eq code(m) && word(strcol("label"), 1) eq method(m)
-cells(label) = label[strlen(word(label, 1)) + 2:]
+# bone over implant
+cells(label) = label[strlen(word(label, 1)) + 2:strstrt(label, " / ") + 1] . "\n" . label[strstrt(label, " / ") + 3:]
 code_colour(m) = code(m) eq "CalculiX" ? 0xd62728 : 0xff7f0e
 array open_symbol[6] = [4, 6, 8, 10, 12, 14]
-# cells of one method are written above, of the next below, since points of C3D8 and C3D8-round lie close
-above(k) = k % 2 == 1 ? 0.5 : -0.5
+# cells of the first method are written above, of others below, since points of C3D8 and C3D8-round lie close
+above(k) = k == 1 ? 0.9 : -0.1
 plot for [s=1:2] for [m=2:6] ours using (strcol("surface") eq word(surfaces, s) && is("linear", word(meshes, m)) ? column("seconds") : NaN):"error_torque" \
     with points pointtype symbol[m] pointsize 1.5 linecolor rgb (surface_colour[s] + 0x40000000) notitle, \
   front using "seconds":"error_torque" with steps linewidth 1.5 linecolor rgb "#000000" title "debond, best in its time", \

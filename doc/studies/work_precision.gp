@@ -82,7 +82,7 @@ others = codes eq "" ? ours : codes
 # "CalculiX/C3D8" of methods and its rows: code "CalculiX", label "C3D8 30 x 30 x 4 / 12 x 12 x 4", which ends with the cells
 code(m) = m[1:strstrt(m, "/") - 1]
 method(m) = m[strstrt(m, "/") + 1:]
-of(m) = strcol("code") eq code(m) && word(strcol("label"), 1) eq method(m)
+of(m) = codes eq "" ? 0 : strcol("code") eq code(m) && word(strcol("label"), 1) eq method(m)
 # bone over implant
 cells(label) = label[strlen(word(label, 1)) + 2:strstrt(label, " / ") + 1] . "\n" . label[strstrt(label, " / ") + 3:]
 code_colour(m) = code(m) eq "CalculiX" ? 0xd62728 : 0xff7f0e
@@ -97,5 +97,5 @@ plot for [s=1:2] for [m=2:6] ours using (strcol("surface") eq word(surfaces, s) 
   for [k=1:words(methods)] others using (of(word(methods, k)) ? column("seconds") : NaN):"error_torque" \
     with points pointtype open_symbol[k] pointsize 2 linewidth 1.5 linecolor rgb code_colour(word(methods, k)) \
     title code(word(methods, k)) . " " . method(word(methods, k)), \
-  for [k=1:words(methods)] others using (of(word(methods, k)) ? column("seconds") : NaN):"error_torque":(cells(strcol("label"))) \
+  for [k=1:words(methods)] others using (of(word(methods, k)) ? column("seconds") : NaN):"error_torque":(codes eq "" ? "" : cells(strcol("label"))) \
     with labels offset 1, above(k) left font "Sans,11" textcolor rgb code_colour(word(methods, k)) noenhanced notitle

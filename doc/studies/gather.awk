@@ -11,7 +11,7 @@ BEGIN {
   chosen["Load steps / Steps"] = "1, 10, 10"
   chosen["Load steps / Adaptive"] = "true"
   chosen["Load steps / Tolerance"] = "1e-3"
-  mesh_name[15] = "coarse"; mesh_name[30] = "medium"; mesh_name[60] = "fine"; mesh_name[120] = "very fine"
+  mesh_name[15] = "coarse"; mesh_name[20] = "lean"; mesh_name[30] = "medium"; mesh_name[60] = "fine"; mesh_name[120] = "very fine"
   print "tier,mesh,layers,steps,points,surface,slave,seconds,seconds_before_steps,seconds_stepping,unknowns," \
     "error_torque,error_torque_mean,error_pressure,error_slip,label"
 }

@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
-# Speed and accuracy in one picture: runs the studies prm/studies/work_precision*.prm one variant at a time, so that seconds
-# mean something, and draws output/studies/work_precision.png, work_precision_local.png and work_precision_codes.png.
+# Speed and accuracy in one picture: runs the studies prm/studies/work_precision*.prm one variant at a time, each with two
+# threads whatever the number of processors (--jobs 1 alone would give a run as many as there are), so that seconds mean
+# something, and draws output/studies/work_precision.png, work_precision_local.png and work_precision_codes.png.
 #   doc/studies/work_precision.sh [--force] [--draw] [--publish]
 #     --force   run again what is there already (without it an interrupted study goes on where it was)
 #     --draw    run nothing, draw what is there
 #     --publish copy the pictures to doc/images and the tables into doc/speed_and_accuracy.md
 # Other codes: OTHER_CODES=FILE.csv (default prm/studies/data/other_codes.csv, if it is there) with the columns
-# code,label,seconds,error_torque for the scene of prm/studies/work_precision_coulomb.prm.
+# code,label,seconds,error_torque for the scene of prm/studies/work_precision_coulomb.prm, which
+# tests/comparison/work_precision.sh --curve FILE.csv writes; its rows of debond are not drawn.
 set -euo pipefail
 export LC_ALL=C.UTF-8
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -19,17 +21,18 @@ for option in "$@"; do
     --force) force=(--force) ;;
     --draw) draw_only=true ;;
     --publish) publish=true ;;
-    *) sed -n '2,9s/^# //p' "$0"; exit 1 ;;
+    *) sed -n '2,11s/^# //p' "$0"; exit 1 ;;
   esac
 done
 command -v gnuplot > /dev/null || { echo "work_precision.sh: gnuplot is needed to draw" >&2; exit 1; }
 
 if [[ $draw_only == false ]]; then
   [[ -x $debond ]] || { echo "work_precision.sh: there is no $debond: build the program first, or set DEBOND" >&2; exit 1; }
-  echo "Some 20 minutes if the machine is quiet, which it should be; one run needs 75 s and 4 GB. Each line below is a variant."
+  echo "Some 20 minutes if the machine is quiet, which it should be; one run needs 75 s and 4 GB. Each line below is a variant,
+run with two threads."
   for study in closed_forms coulomb ends ""; do
     echo "== $(date +%H:%M) work_precision${study:+_$study}"
-    "$debond" "prm/studies/work_precision${study:+_$study}.prm" --jobs 1 "${force[@]}"
+    "$debond" "prm/studies/work_precision${study:+_$study}.prm" --jobs 1 --threads 2 "${force[@]}"
   done
 fi
 
@@ -53,9 +56,14 @@ awk -F, 'BEGIN { print "set label 1 \"Best in their time:\" at graph 1.04, 0.46"
   NR > 1 { printf "set label %d \"%2d %6.3g s  %.1e  %s\" at graph 1.03, %.3f font \"DejaVu Sans Mono,11\" noenhanced\n",
     NR + 8, NR - 1, $8, $12, $16, 0.46 - 0.034 * (NR - 1) }' $results/front_torque.csv > $results/front_labels.gp
 
-codes=""
-if [[ -f $other_codes ]]; then codes=$other_codes; else echo "No $other_codes: the picture of codes shows this one alone"; fi
-gnuplot -e "codes='$codes'" doc/studies/work_precision.gp
+# the methods in the file of other codes, CODE/METHOD: the first word of a label; the rest of it are the cells
+codes="" methods=""
+if [[ -f $other_codes ]]; then
+  codes=$other_codes
+  methods=$(awk -F, 'NR > 1 && $1 != "debond" { split($2, part, " "); m = $1 "/" part[1]; if (!seen[m]++) printf "%s ", m }' "$codes")
+else echo "No $other_codes: the picture of codes shows this one alone"
+fi
+gnuplot -e "codes='$codes'; methods='$methods'" doc/studies/work_precision.gp
 echo "On the front of torque curves (seconds, largest error relative to T_max):"
 awk -F, 'NR > 1 { printf "%9.3f  %.1e  %s\n", $8, $12, $16 }' $results/front_torque.csv
 awk -f doc/studies/tables.awk $results/work_precision.csv > $results/work_precision.md

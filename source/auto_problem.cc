@@ -121,7 +121,7 @@ namespace Debond
     {
       char text[32];
       std::snprintf(text, sizeof(text), "%.2g %%", 100. * ratio);
-      return std::isnan(ratio) ? "?" : text;
+      return std::isnan(ratio) ? "unknown" : text;
     }
 
 

@@ -192,6 +192,11 @@ Exit codes: 0 success, 1 wrong usage or scene, 2 the run failed, 3 internal erro
 
     Debond::set_number_of_threads(
       arguments.n_threads > 0 ? arguments.n_threads : n_processors());
+    if (scene.study.repetitions > 1 || scene.study.factors_at_once > 0)
+      throw Debond::InputError(
+        scene.with_place("Study / Repetitions and Factors varied at once are "
+                         "for studies: no entry of this scene holds several "
+                         "values, {{a|b}}"));
     scene.output.overwrite_other_results = arguments.force;
     const auto problem                   = Debond::Problem::create(scene);
     if (arguments.action == Action::check)

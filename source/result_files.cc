@@ -11,6 +11,8 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <regex>
+#include <set>
 #include <sstream>
 
 namespace Debond
@@ -136,6 +138,47 @@ namespace Debond
 
 
 
+  namespace
+  {
+    /** Whether debond writes a file or directory of this name; images that
+     *  others made of the results are not among them. */
+    bool
+    is_result(const std::filesystem::path &path)
+    {
+      static const std::set<std::string> names{"summary.json",
+                                               "torque.csv",
+                                               "auto.csv",
+                                               "profiles.csv",
+                                               "friction_law.csv",
+                                               "bulk.pvd",
+                                               "interface.pvd"};
+      static const std::regex            patterns(
+        "(bulk|interface)-[0-9]+\\.vtu|repetition-[0-9]+\\.json");
+      static const std::regex rung("rung-[0-9]+");
+      const std::string       name = path.filename().string();
+      return names.count(name) > 0 || std::regex_match(name, patterns) ||
+             (std::regex_match(name, rung) &&
+              std::filesystem::exists(path / "parameters.prm"));
+    }
+
+
+
+    /** Removes the results of another scene, so that nobody takes them for
+     *  those of the scene whose parameters.prm is written next. */
+    void
+    remove_results(const std::string &directory)
+    {
+      std::vector<std::filesystem::path> results;
+      for (const auto &entry : std::filesystem::directory_iterator(directory))
+        if (is_result(entry.path()))
+          results.push_back(entry.path());
+      for (const auto &path : results)
+        std::filesystem::remove_all(path);
+    }
+  } // namespace
+
+
+
   ResultDirectory::ResultDirectory(const OutputParameters &output,
                                    const std::string      &completed_parameters)
     : directory(output.directory)
@@ -150,9 +193,10 @@ namespace Debond
       throw InputError(
         entry + ": this directory cannot be created: " + error.message());
 
-    if (!output.overwrite_other_results &&
-        content_of_result_directory(output, completed_parameters) ==
-          DirectoryContent::other_scene)
+    const bool is_of_other_scene =
+      content_of_result_directory(output, completed_parameters) ==
+      DirectoryContent::other_scene;
+    if (is_of_other_scene && !output.overwrite_other_results)
       throw InputError(entry +
                        ": this directory holds results of another scene "
                        "(compare its parameters.prm): choose another one, "
@@ -160,9 +204,11 @@ namespace Debond
 
     try
       {
+        if (is_of_other_scene)
+          remove_results(directory);
         write_file(file("parameters.prm"), completed_parameters);
       }
-    catch (const InputError &reason)
+    catch (const std::exception &reason)
       {
         throw InputError(entry + ": " + reason.what());
       }

@@ -107,7 +107,7 @@ main()
   check("Singular bulk", 5., false);
   // some twenty iterations with the bulk: fewer than this size affords with a
   // factorisation, but too many
-  check("Stiff interface of a large surface", 1., true, 1000);
+  check("Stiff interface of a large surface", 10., true, 1000);
   DenseSolver   solver;
   const Surface A(10, 1., 0., true);
   report("Nothing to solve for",

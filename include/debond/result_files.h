@@ -70,7 +70,8 @@ namespace Debond
     /** Creates the directory and writes parameters.prm, the text of
      *  @p completed_parameters, into it. Throws InputError that begins with the
      *  name of the entry if this is impossible, or if there is a parameters.prm
-     *  with another text and @p output does not allow to overwrite it. */
+     *  with another text and @p output does not allow to overwrite it. If it
+     *  does, the results of that other scene are removed first. */
     ResultDirectory(const OutputParameters &output,
                     const std::string      &completed_parameters);
 

@@ -485,7 +485,7 @@ namespace Debond
     else
       estimate = "the curves of its meshes give no estimate of the error: they "
                  "do not converge, are off by more than the largest torque or "
-                 "have no angle in common";
+                 "have no angle beyond zero in common";
     return "the tolerance of " + percent(tolerance) +
            " was not reached: " + estimate + "; " + why_no_further;
   }

@@ -32,7 +32,7 @@ namespace Debond
                       "that does not converge is halved in any case.");
     prm.declare_entry("Tolerance",
                       "1e-3",
-                      Allowed::number_between(1e-7, 0.5, ""),
+                      Allowed::number_between(1e-7, 1, ""),
                       "Relative accuracy wanted of the torque curve. With "
                       "Adaptive that of drawing it as straight lines between "
                       "the steps; with Model = auto the largest difference, "

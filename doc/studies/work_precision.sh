@@ -36,6 +36,10 @@ run with two threads."
   done
 fi
 
+for study in work_precision{_closed_forms,_coulomb,_ends,}; do
+  [[ -f $results/$study/study.csv ]] ||
+    { echo "work_precision.sh: nothing to draw yet: there is no $results/$study/study.csv; run without --draw first" >&2; exit 1; }
+done
 awk -f doc/studies/gather.awk $results/work_precision{_closed_forms,_ends,}/study.csv > $results/work_precision.csv
 awk -f doc/studies/gather.awk $results/work_precision_coulomb/study.csv > $results/work_precision_coulomb.csv
 

@@ -50,14 +50,12 @@ CalculiX C3D8         15  6  2   1 1.3  6
 CalculiX C3D8         30 12  2   1 5    20
 CalculiX C3D8         30 12  4   1 12   50
 CalculiX C3D8         30 24  4   1 21   -
-CalculiX C3D8         60 24  4   1 86   -
 CalculiX C3D8-round   15  6  2   1 1.3  6
 CalculiX C3D8-round   30 12  2   1 5    20
 CalculiX C3D8-round   30 12  4   1 12   50
 CalculiX C3D8-round   30 12  8   1 40   150
-CalculiX C3D8-round   30 12  8   2 45   -
 CalculiX C3D20R       15  6  2   1 11   55
-CalculiX C3D20R       15 12  2   1 22   95
+CalculiX C3D20R       15 12  2   1 22   -
 CalculiX C3D20R       15 12  2   2 24   -
 CalculiX C3D20R       15 12  4   1 42   -
 GetFEM   Q1           15  6  2   1 0.7  -

@@ -70,8 +70,8 @@ set terminal pngcairo size 1300,900 enhanced font "Sans,17" linewidth 1.5
 set rmargin 2
 set key top right Left reverse samplen 1.5
 set ylabel "Largest error of the torque at 0.05, 0.1, ... 1° / {/:Italic T}_{max}"
-set xrange [0.05:1000]
-set yrange [3e-5:0.1]
+set xrange [0.02:1000]
+set yrange [1e-4:1]
 ours = dir . "work_precision_coulomb.csv"
 front = dir . "front_coulomb.csv"
 set datafile missing "nan"

@@ -1,4 +1,5 @@
 #include <debond/allowed_values.h>
+#include <debond/number_text.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -108,17 +109,6 @@ namespace Debond
 
   namespace
   {
-    std::string
-    to_text(const double number)
-    {
-      std::ostringstream out;
-      out.precision(12);
-      out << number;
-      return out.str();
-    }
-
-
-
     std::string
     in_unit(const std::string &unit)
     {

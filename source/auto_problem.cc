@@ -2,6 +2,7 @@
 #include <debond/closed_form_problem.h>
 #include <debond/curve_error.h>
 #include <debond/debonding_problem.h>
+#include <debond/earlier_results.h>
 #include <debond/foundation_error.h>
 #include <debond/input_error.h>
 
@@ -10,7 +11,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
-#include <regex>
 #include <sstream>
 
 namespace Debond
@@ -132,23 +132,6 @@ namespace Debond
       return measure_torque_curve(rows, CurveSettings()).T_max_Nmm;
     }
 
-
-
-    /** Directories `rung-NUMBER` of a run; what else has such a name is not
-     *  ours. */
-    void
-    remove_earlier_rungs(const std::string &path)
-    {
-      const std::regex                   name("rung-[0-9]+");
-      std::vector<std::filesystem::path> rungs;
-      for (const auto &entry : std::filesystem::directory_iterator(path))
-        if (std::regex_match(entry.path().filename().string(), name) &&
-            entry.is_directory() &&
-            std::filesystem::exists(entry.path() / "parameters.prm"))
-          rungs.push_back(entry.path());
-      for (const auto &rung : rungs)
-        std::filesystem::remove_all(rung);
-    }
   } // namespace
 
 
@@ -182,7 +165,7 @@ namespace Debond
   AutoProblem::run()
   {
     const ResultDirectory directory(scene.output, scene.completed_parameters);
-    remove_earlier_rungs(directory.path());
+    remove_rungs(directory.path());
     if (!scene.title.empty())
       console.headline(scene.title);
     climb();

@@ -1,4 +1,5 @@
 #include <debond/model_ladder.h>
+#include <debond/number_text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -47,16 +48,6 @@ namespace Debond
              std::min(cells[0], cells[1]) >= 2 * fewest_across && cells[2] >= 4;
     }
 
-
-
-    std::string
-    to_text(const double number)
-    {
-      std::ostringstream text;
-      text.precision(17);
-      text << number;
-      return text.str();
-    }
   } // namespace
 
 
@@ -173,7 +164,7 @@ namespace Debond
     overrides.insert(overrides.end(),
                      {"Model=finite elements",
                       "Load steps/Adaptive=true",
-                      "Load steps/Tolerance=" + to_text(step_tolerance),
+                      "Load steps/Tolerance=" + to_text(step_tolerance, 17),
                       "Bone/Material=" + name_of(materials[0]),
                       "Implant/Material=" + name_of(materials[1])});
     Rung rung;
@@ -194,7 +185,7 @@ namespace Debond
     overrides.insert(overrides.end(),
                      {"Model=foundation",
                       "Load steps/Adaptive=true",
-                      "Load steps/Tolerance=" + to_text(step_tolerance),
+                      "Load steps/Tolerance=" + to_text(step_tolerance, 17),
                       "Closed form/Pressure=0",
                       "Closed form/Normal stiffness=0",
                       "Closed form/Torsional stiffness=0"});

@@ -1,4 +1,5 @@
 #include <debond/allowed_values.h>
+#include <debond/earlier_results.h>
 #include <debond/input_error.h>
 #include <debond/result_files.h>
 
@@ -11,8 +12,6 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <regex>
-#include <set>
 #include <sstream>
 
 namespace Debond
@@ -138,47 +137,6 @@ namespace Debond
 
 
 
-  namespace
-  {
-    /** Whether debond writes a file or directory of this name; images that
-     *  others made of the results are not among them. */
-    bool
-    is_result(const std::filesystem::path &path)
-    {
-      static const std::set<std::string> names{"summary.json",
-                                               "torque.csv",
-                                               "auto.csv",
-                                               "profiles.csv",
-                                               "friction_law.csv",
-                                               "bulk.pvd",
-                                               "interface.pvd"};
-      static const std::regex            patterns(
-        "(bulk|interface)-[0-9]+\\.vtu|repetition-[0-9]+\\.json");
-      static const std::regex rung("rung-[0-9]+");
-      const std::string       name = path.filename().string();
-      return names.count(name) > 0 || std::regex_match(name, patterns) ||
-             (std::regex_match(name, rung) &&
-              std::filesystem::exists(path / "parameters.prm"));
-    }
-
-
-
-    /** Removes the results of another scene, so that nobody takes them for
-     *  those of the scene whose parameters.prm is written next. */
-    void
-    remove_results(const std::string &directory)
-    {
-      std::vector<std::filesystem::path> results;
-      for (const auto &entry : std::filesystem::directory_iterator(directory))
-        if (is_result(entry.path()))
-          results.push_back(entry.path());
-      for (const auto &path : results)
-        std::filesystem::remove_all(path);
-    }
-  } // namespace
-
-
-
   ResultDirectory::ResultDirectory(const OutputParameters &output,
                                    const std::string      &completed_parameters)
     : directory(output.directory)
@@ -204,7 +162,7 @@ namespace Debond
 
     try
       {
-        if (is_of_other_scene)
+        if (is_of_other_scene) // nobody must take them for this scene's
           remove_results(directory);
         write_file(file("parameters.prm"), completed_parameters);
       }

@@ -1,4 +1,5 @@
 #include <debond/allowed_values.h>
+#include <debond/number_text.h>
 #include <debond/scene.h>
 #include <debond/scene_entries.h>
 #include <debond/scene_file.h>
@@ -151,17 +152,6 @@ namespace Debond
 
   namespace
   {
-    std::string
-    to_text(const double number)
-    {
-      std::ostringstream out;
-      out.precision(12);
-      out << number;
-      return out.str();
-    }
-
-
-
     void
     check_cells(const BodyParameters &body, const std::string &name)
     {

@@ -1,4 +1,5 @@
 #include <debond/input_error.h>
+#include <debond/number_text.h>
 #include <debond/problem.h>
 #include <debond/study.h>
 #include <debond/torque_curve.h>
@@ -60,17 +61,6 @@ namespace Debond
           members.emplace_back(name, value);
         }
       return members;
-    }
-
-
-
-    std::string
-    to_text(const double number)
-    {
-      std::ostringstream text;
-      text.precision(12);
-      text << number;
-      return text.str();
     }
 
 

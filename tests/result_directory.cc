@@ -1,13 +1,18 @@
-// A directory with results of another scene is only used when this is wanted;
-// JSON files keep their order, escape text and know no infinities.
+// A directory with results of another scene is only used when this is wanted,
+// and what that scene left is gone then, but nothing that is not ours; JSON
+// files keep their order, escape text and know no infinities.
 
 #include <debond/input_error.h>
 #include <debond/result_files.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <limits>
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace
 {
@@ -29,6 +34,35 @@ namespace
         std::cout << error.what() << '\n';
       }
   }
+
+  /** Leaves files as runs do, and some of others. */
+  void
+  leave_results(const std::string &path)
+  {
+    for (const std::string directory : {"rung-1", "rung-old", "rung-2"})
+      std::filesystem::create_directories(path + "/" + directory);
+    for (const std::string file : {"summary.json",
+                                   "torque.csv",
+                                   "auto.csv",
+                                   "bulk.pvd",
+                                   "interface-0012.vtu",
+                                   "repetition-2.json",
+                                   "rung-1/parameters.prm",
+                                   "torque.png",
+                                   "bulk-notes.txt"})
+      std::ofstream(path + "/" + file) << "left\n";
+  }
+
+  void
+  list(const std::string &path)
+  {
+    std::vector<std::string> names;
+    for (const auto &entry : std::filesystem::directory_iterator(path))
+      names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    for (const std::string &name : names)
+      std::cout << "  " << name << '\n';
+  }
 } // namespace
 
 
@@ -36,10 +70,14 @@ namespace
 int
 main()
 {
+  std::filesystem::remove_all("results/a");
   open("results/a/", "one scene", true);
+  leave_results("results/a");
   open("results/a", "one scene", false);
   open("results/a", "another scene", false);
+  list("results/a");
   open("results/a", "another scene", true);
+  list("results/a");
   open("results/a/parameters.prm", "a file is no directory", false);
 
   Debond::JsonObject object;

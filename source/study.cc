@@ -303,7 +303,9 @@ namespace Debond
   Study::forget_repetitions(Variant &variant)
   {
     const std::string &place = variant.scene.output.directory;
-    for (unsigned int i = 1; std::filesystem::remove(repetition_file(place, i));
+    std::error_code    none;
+    for (unsigned int i = 1;
+         std::filesystem::remove(repetition_file(place, i), none);
          ++i)
       ;
     variant.repetitions.clear();

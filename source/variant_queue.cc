@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <thread>
 
 namespace Debond
 {
@@ -55,11 +56,9 @@ namespace Debond
     /** The bodies of a scene, condensed on what contact reaches at first; none
      *  if that is impossible. */
     std::shared_ptr<BodyPair>
-    condensed_bodies(const Scene &scene)
+    condensed_bodies(Scene scene)
     {
-      const unsigned int n_threads = dealii::MultithreadInfo::n_threads();
-      set_number_of_threads(1);
-      std::shared_ptr<BodyPair> bodies;
+      scene.interface.bonding = {}; // that is not the bodies'
       try
         {
           dealii::Timer       clock;
@@ -68,13 +67,27 @@ namespace Debond
                                     dealii::TimerOutput::wall_times);
           CoupledSystem       system(scene, timer);
           system.start(scene.load_steps.times.front());
-          bodies                 = system.bodies();
-          bodies->seconds_shared = clock.wall_time();
+          system.bodies()->seconds_shared = clock.wall_time();
+          return system.bodies();
         }
       catch (const std::exception &)
         {
-          // of the variants, which will meet it again, not of the study
+          return nullptr; // the variants will meet it again, and say so
         }
+    }
+
+
+
+    /** The same in a thread of its own that has ended: what TBB keeps for a
+     *  thread, here that there is but one, would stay with this one and go on
+     *  in the processes that it starts. */
+    std::shared_ptr<BodyPair>
+    condensed_bodies_in_one_thread(const Scene &scene)
+    {
+      const unsigned int n_threads = dealii::MultithreadInfo::n_threads();
+      set_number_of_threads(1);
+      std::shared_ptr<BodyPair> bodies;
+      std::thread([&] { bodies = condensed_bodies(scene); }).join();
       set_number_of_threads(n_threads);
       return bodies;
     }
@@ -117,7 +130,7 @@ namespace Debond
       {
         bodies.reset(); // before there are others
         if (group.may_share && group.variants.size() >= std::max(2U, n_jobs))
-          bodies = condensed_bodies(*scene);
+          bodies = condensed_bodies_in_one_thread(*scene);
         group.is_begun = true;
       }
     group.variants.pop_front();

@@ -469,7 +469,7 @@ namespace Debond
 
 
     /** Fields of a quadrature point that are continuous over the patch, one
-     *  after the other; the sliding distance is the last. */
+     *  after the other. */
     std::vector<double>
     continuous_values(const ContactInterface::Point &point)
     {
@@ -482,22 +482,44 @@ namespace Debond
 
 
 
+    /** Sliding distance [mm] from those points that face the implant: the
+     *  others of a bone have never slid and would heal its bond at the rim. */
+    double
+    slip_under_implant(const ContactInterface        &interface,
+                       const QuadratureGrid::Stencil &stencil)
+    {
+      double slip = 0., weight = 0.;
+      for (unsigned int a = 0; a < 4; ++a)
+        {
+          const auto &point = interface.get_points()[stencil.point[a]];
+          if (!point.faces_implant)
+            continue;
+          slip += stencil.weight[a] * point.trial.state.slip;
+          weight += stencil.weight[a];
+        }
+      return weight > 0. ? slip / weight : 0.;
+    }
+
+
+
     /**
-     * phi_0, phi and mu at @p slip [mm]. Patterns jump from element to element,
-     * so phi_0 is that of the element's own points; phi and mu follow from it
-     * and the sliding distance, which does not jump, by the friction law: they
-     * are as sharp as the pattern where it jumps, and smooth elsewhere.
+     * phi_0, phi and mu at a point of @p element. Patterns jump from element to
+     * element, so phi_0 is that of the element's own points; phi and mu follow
+     * from it and the sliding distance, which does not jump, by the friction
+     * law: they are as sharp as the pattern where it jumps, smooth elsewhere.
      */
     std::array<double, 3>
-    bonding_values(const ContactInterface        &interface,
-                   const QuadratureGrid::Stencil &within_element,
-                   const double                   slip)
+    bonding_values(const ContactInterface &interface,
+                   const QuadratureGrid   &grid,
+                   const unsigned int      element,
+                   const Eigen::Vector2d  &xi)
     {
+      const QuadratureGrid::Stencil own = grid.within(element, xi);
       double phi_0 = 0., phi_0_left = 0.; // without bonds that opening broke
       for (unsigned int a = 0; a < 4; ++a)
         {
-          const auto  &point = interface.get_points()[within_element.point[a]];
-          const double part  = within_element.weight[a] * point.phi_0;
+          const auto  &point = interface.get_points()[own.point[a]];
+          const double part  = own.weight[a] * point.phi_0;
           phi_0 += part;
           if (!point.trial.state.broken)
             phi_0_left += part;
@@ -505,7 +527,8 @@ namespace Debond
       const FrictionCoefficient friction =
         friction_coefficient(interface.get_parameters().friction,
                              phi_0_left,
-                             slip);
+                             slip_under_implant(interface,
+                                                grid.across_elements(xi)));
       return {{phi_0, friction.phi, friction.mu}};
     }
 
@@ -571,9 +594,7 @@ namespace Debond
                 for (unsigned int f = 0; f < values.size(); ++f)
                   values[f] +=
                     stencil.weight[a] * at_points[stencil.point[a]][f];
-              const auto bonding = bonding_values(interface,
-                                                  grid.within(element, xi),
-                                                  values.back());
+              const auto bonding = bonding_values(interface, grid, element, xi);
               values.insert(values.end(), bonding.begin(), bonding.end());
               values.push_back(static_cast<double>(
                 interface.get_points()[stencil.nearest].trial.state.status));

@@ -317,7 +317,7 @@ class Picture:
 
 
 def round_numbers(low, high):
-    """Three to six multiples of 1, 2 or 5 times a power of ten."""
+    """Two to six multiples of 1, 2 or 5 times a power of ten."""
     step = 10 ** math.floor(math.log10(high - low))
     step = next(step * part for part in (0.1, 0.2, 0.5, 1) if (high - low) / (step * part) < 6)
     numbers = range(math.ceil(low / step - 1e-6), math.floor(high / step + 1e-6) + 1)
@@ -337,7 +337,7 @@ def main():
     labels, frames = choose_columns(arguments)
     if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
         sys.exit(run_with_a_screen())
-    global simple, vtkTextActor
+    global simple, vtkTextActor  # not at the top: it takes seconds, and mistakes are to be named at once
     from paraview import simple
     from vtkmodules.vtkRenderingCore import vtkTextActor
     simple._DisableFirstRenderCameraReset()

@@ -9,29 +9,26 @@
 
 namespace Debond
 {
-  namespace
+  NurbsSurface
+  make_contact_surface(const BodyParameters &parameters)
   {
-    NurbsSurface
-    make_contact_surface(const BodyParameters &parameters)
-    {
-      const NurbsSurface exact =
-        parameters.shape == BodyShape::coin ?
-          NurbsSurface::disk(parameters.radius, parameters.cells[0]) :
-        parameters.shape == BodyShape::cap ?
-          NurbsSurface::cap(parameters.radius,
-                            parameters.cap_radius,
-                            parameters.cells[0]) :
-          NurbsSurface::rectangle(parameters.size[0],
-                                  parameters.size[1],
-                                  parameters.cells[0],
-                                  parameters.cells[1],
-                                  2,
-                                  parameters.lateral_grading);
-      return parameters.contact_surface == SurfaceKind::nurbs ?
-               exact :
-               exact.bilinear_interpolant();
-    }
-  } // namespace
+    const NurbsSurface exact =
+      parameters.shape == BodyShape::coin ?
+        NurbsSurface::disk(parameters.radius, parameters.cells[0]) :
+      parameters.shape == BodyShape::cap ?
+        NurbsSurface::cap(parameters.radius,
+                          parameters.cap_radius,
+                          parameters.cells[0]) :
+        NurbsSurface::rectangle(parameters.size[0],
+                                parameters.size[1],
+                                parameters.cells[0],
+                                parameters.cells[1],
+                                2,
+                                parameters.lateral_grading);
+    return parameters.contact_surface == SurfaceKind::nurbs ?
+             exact :
+             exact.bilinear_interpolant();
+  }
 
 
 

@@ -1,236 +1,250 @@
-#include <debond/allowed_values.h>
+#include <debond/body_parameters.h>
 #include <debond/bonding_pattern.h>
-
-#include <deal.II/base/parameter_handler.h>
-
-#include <Eigen/Geometry>
-
-namespace Debond
-{
-  namespace
-  {
-    /** Entries of patterns that a later version brings: known, so that their
-     *  defaults may be written down, but refused with any other value. */
-    void
-    declare_reserved_entries(dealii::ParameterHandler &prm)
-    {
-      prm.declare_entry("Seed",
-                        "1",
-                        Allowed::only("1"),
-                        "Reserved: seed of the pattern random.");
-      prm.declare_entry("Correlation length",
-                        "0",
-                        Allowed::only("0"),
-                        "Reserved: correlation length [mm] of the pattern "
-                        "random.");
-      prm.declare_entry("Expression",
-                        "1",
-                        Allowed::only("1"),
-                        "Reserved: phi_0 as an expression in x, y, r [mm] and "
-                        "angle for the pattern expression.");
-      prm.declare_entry("File",
-                        "",
-                        Allowed::only(""),
-                        "Reserved: image or CSV file of the patterns image and "
-                        "file.");
-      prm.declare_entry("Threshold",
-                        "-1",
-                        Allowed::only("-1"),
-                        "Reserved: grey level above which a pixel of the "
-                        "pattern image is bonded.");
-    }
-  } // namespace
-
-
-
-  void
-  BondingParameters::declare(dealii::ParameterHandler &prm)
-  {
-    prm.enter_subsection("Bonding");
-    prm.declare_entry(
-      "Pattern",
-      "homogeneous",
-      Allowed::choice("homogeneous | disk",
-                      "annulus | random | expression | image | file"),
-      "Where the implant's contact face is bonded at the start (phi_0, in "
-      "reference coordinates). `homogeneous': everywhere. `disk': inside the "
-      "concentric disk that holds Bonded fraction of the area of a coin or a cap.");
-    prm.declare_entry("Initial bonding",
-                      "1",
-                      Allowed::number_between(0, 1, ""),
-                      "Degree of osseointegration phi_0 of bonded points, "
-                      "dimensionless: multiplies every pattern.");
-    prm.declare_entry("Bonded fraction",
-                      "1",
-                      Allowed::number_between(0, 1, ""),
-                      "Bonded part f of the area, dimensionless. Pattern disk: "
-                      "r <= R sqrt(f). Must be 1 for the pattern homogeneous.");
-    prm.declare_entry("Resolution",
-                      "element",
-                      Allowed::choice("element | quadrature point"),
-                      "phi_0 is constant on each surface element of the "
-                      "implant, or evaluated at each quadrature point.");
-    declare_reserved_entries(prm);
-    prm.leave_subsection();
-  }
-
-
-
-  void
-  BondingParameters::parse(dealii::ParameterHandler &prm)
-  {
-    prm.enter_subsection("Bonding");
-    pattern         = prm.get("Pattern") == "disk" ? BondingPatternKind::disk :
-                                                     BondingPatternKind::homogeneous;
-    initial_bonding = prm.get_double("Initial bonding");
-    bonded_fraction = prm.get_double("Bonded fraction");
-    resolution      = prm.get("Resolution") == "element" ?
-                        BondingResolution::element :
-                        BondingResolution::quadrature_point;
-    prm.leave_subsection();
-  }
-} // namespace Debond
+#include <debond/bonding_source.h>
+#include <debond/number_text.h>
+#include <debond/random_field.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
 namespace Debond
 {
-  std::vector<SurfaceQuadraturePoint>
-  surface_quadrature(const NurbsSurface &surface, const unsigned int n)
+  BondingPattern::BondingPattern(const BondingParameters &parameters,
+                                 const BodyParameters    &implant,
+                                 const NurbsSurface      &surface,
+                                 const unsigned int       n)
+    : surface(surface)
+    , n(n)
+    , by_element(parameters.resolution == BondingResolution::element)
   {
-    const dealii::QGauss<2>             gauss(n);
-    std::vector<SurfaceQuadraturePoint> points;
-    points.reserve(surface.n_elements() * gauss.size());
-    for (unsigned int element = 0; element < surface.n_elements(); ++element)
+    make_parts();
+    fill(parameters, implant);
+    for (Part &part : all_parts)
       {
-        const auto            bounds = surface.element_bounds(element);
-        const Eigen::Vector2d size   = bounds[1] - bounds[0];
-        for (unsigned int q = 0; q < gauss.size(); ++q)
-          {
-            SurfaceQuadraturePoint point;
-            point.element = element;
-            point.xi =
-              bounds[0] + size.cwiseProduct(Eigen::Vector2d(gauss.point(q)[0],
-                                                            gauss.point(q)[1]));
-            surface.evaluate_in_element(element, point.xi, point.basis, false);
-            Eigen::Vector3d a1 = Eigen::Vector3d::Zero(), a2 = a1;
-            point.X = Eigen::Vector3d::Zero();
-            for (unsigned int a = 0; a < point.basis.size; ++a)
-              {
-                const auto P =
-                  surface.control_points().col(point.basis.control_point[a]);
-                point.X += point.basis.N[a] * P;
-                a1 += point.basis.N_1[a] * P;
-                a2 += point.basis.N_2[a] * P;
-              }
-            point.JxW = a1.cross(a2).norm() * size.prod() * gauss.weight(q);
-            points.push_back(point);
-          }
+        part.phi_0 *= parameters.initial_bonding;
+        summary.area += part.area;
+        summary.bonded_area += part.phi_0 * part.area;
       }
-    return points;
+    summary.mean = summary.bonded_area / summary.area;
+    count_patches();
+
+    const dealii::QGauss<1> gauss(n);
+    for (unsigned int q = 0; q < n; ++q)
+      shares.push_back((q == 0 ? 0. : shares.back()) + gauss.weight(q));
+  }
+
+
+
+  void
+  BondingPattern::make_parts()
+  {
+    const auto points = surface_quadrature(surface, n);
+    all_parts.resize(part_of(points.size() - 1) + 1);
+    for (unsigned int q = 0; q < points.size(); ++q)
+      {
+        Part &part = all_parts[part_of(q)];
+        part.area += points[q].JxW;
+        part.centre += points[q].JxW * points[q].X.head<2>();
+      }
+    for (Part &part : all_parts)
+      part.centre /= part.area;
+  }
+
+
+
+  void
+  BondingPattern::fill(const BondingParameters &parameters,
+                       const BodyParameters    &implant)
+  {
+    std::vector<double> radius;
+    for (const Part &part : all_parts)
+      radius.push_back(part.centre.norm());
+    const double equal = 1e-9 * *std::max_element(radius.begin(), radius.end());
+
+    switch (parameters.pattern)
+      {
+        case BondingPatternKind::homogeneous:
+          for (Part &part : all_parts)
+            part.phi_0 = 1.;
+          break;
+        case BondingPatternKind::disk:
+          bond_in_order(radius, equal, parameters.bonded_fraction);
+          break;
+        case BondingPatternKind::annulus:
+          for (double &r : radius)
+            r = -r;
+          bond_in_order(radius, equal, parameters.bonded_fraction);
+          break;
+        case BondingPatternKind::random:
+          bond_at_random(parameters);
+          break;
+        case BondingPatternKind::expression:
+        case BondingPatternKind::image:
+          {
+            const auto values =
+              by_element ?
+                element_means(place_function(parameters, implant), surface, n) :
+                point_values(place_function(parameters, implant), surface, n);
+            for (unsigned int i = 0; i < all_parts.size(); ++i)
+              all_parts[i].phi_0 = values[i];
+          }
+          break;
+        case BondingPatternKind::file:
+          {
+            std::vector<Eigen::Vector2d> centres;
+            for (const Part &part : all_parts)
+              centres.push_back(part.centre);
+            const auto values = values_from_file(parameters, surface, centres);
+            for (unsigned int i = 0; i < all_parts.size(); ++i)
+              all_parts[i].phi_0 = values[i];
+          }
+          break;
+      }
+  }
+
+
+
+  void
+  BondingPattern::bond_in_order(const std::vector<double> &rank,
+                                const double               tolerance,
+                                const double               bonded_fraction)
+  {
+    std::vector<unsigned int> order(all_parts.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(),
+                     order.end(),
+                     [&](const unsigned int a, const unsigned int b) {
+                       return rank[a] < rank[b];
+                     });
+    double remaining = 0.;
+    for (const Part &part : all_parts)
+      remaining += bonded_fraction * part.area;
+    for (unsigned int first = 0; first < order.size();)
+      {
+        unsigned int last = first;
+        double       area = 0.;
+        for (; last < order.size() &&
+               rank[order[last]] - rank[order[first]] <= tolerance;
+             ++last)
+          area += all_parts[order[last]].area;
+        const double share = std::clamp(remaining / area, 0., 1.);
+        for (; first < last; ++first)
+          all_parts[order[first]].phi_0 = share;
+        remaining -= area;
+      }
+  }
+
+
+
+  // Parts drawn one by one, or the highest places of a smooth random field.
+  void
+  BondingPattern::bond_at_random(const BondingParameters &parameters)
+  {
+    std::vector<double> rank(all_parts.size());
+    if (parameters.correlation_length > 0.)
+      {
+        const RandomField field(parameters.seed, parameters.correlation_length);
+        for (unsigned int i = 0; i < rank.size(); ++i)
+          rank[i] = -field(all_parts[i].centre);
+      }
+    else
+      {
+        const auto order = random_order(all_parts.size(), parameters.seed);
+        for (unsigned int i = 0; i < rank.size(); ++i)
+          rank[order[i]] = i;
+      }
+    bond_in_order(rank, 0., parameters.bonded_fraction);
   }
 
 
 
   namespace
   {
-    // A part of the surface that has one phi_0: an element or a quadrature
-    // point.
-    struct Part
+    /** Numbers of the parts of a patch, which form a grid, that share a side
+     *  with part @p i. */
+    class PartGrid
     {
-      double          area   = 0;
-      double          radius = 0; ///< of the centroid
-      double          phi_0  = 0;
-      Eigen::Vector2d moment = Eigen::Vector2d::Zero();
+    public:
+      /** @p n_elements per direction, each of @p n x @p n parts. */
+      PartGrid(const std::array<unsigned int, 2> &n_elements,
+               const unsigned int                 n)
+        : n(n)
+        , size{{n_elements[0] * n, n_elements[1] * n}}
+      {}
+
+      std::vector<unsigned int>
+      neighbours(const unsigned int part) const
+      {
+        const unsigned int element = part / (n * n), local = part % (n * n);
+        const unsigned int columns = size[0] / n;
+        const int          i       = element % columns * n + local % n;
+        const int          j       = element / columns * n + local / n;
+
+        std::vector<unsigned int> result;
+        for (const auto &[di, dj] : {std::pair(1, 0),
+                                     std::pair(-1, 0),
+                                     std::pair(0, 1),
+                                     std::pair(0, -1)})
+          if (i + di >= 0 && i + di < int(size[0]) && j + dj >= 0 &&
+              j + dj < int(size[1]))
+            result.push_back(number(i + di, j + dj));
+        return result;
+      }
+
+    private:
+      unsigned int
+      number(const unsigned int i, const unsigned int j) const
+      {
+        return (j / n * (size[0] / n) + i / n) * n * n + j % n * n + i % n;
+      }
+
+      const unsigned int                n;
+      const std::array<unsigned int, 2> size; ///< parts per direction
     };
-
-
-
-    // phi_0 = 1 for the parts nearest to the centre that make up the bonded
-    // fraction of the area.
-    void
-    bond_disk(std::vector<Part> &parts, const double bonded_fraction)
-    {
-      std::vector<unsigned int> order(parts.size());
-      std::iota(order.begin(), order.end(), 0);
-      std::stable_sort(order.begin(),
-                       order.end(),
-                       [&](unsigned int a, unsigned int b) {
-                         return parts[a].radius < parts[b].radius;
-                       });
-      double remaining = 0., size = 0.;
-      for (const Part &part : parts)
-        {
-          remaining += bonded_fraction * part.area;
-          size = std::max(size, part.radius);
-        }
-      for (unsigned int first = 0; first < order.size();)
-        {
-          unsigned int last = first;
-          double       area = 0.;
-          for (; last < order.size() &&
-                 parts[order[last]].radius - parts[order[first]].radius <=
-                   1e-9 * size;
-               ++last)
-            area += parts[order[last]].area;
-          const double share = std::clamp(remaining / area, 0., 1.);
-          for (; first < last; ++first)
-            parts[order[first]].phi_0 = share;
-          remaining -= area;
-        }
-    }
   } // namespace
 
 
 
-  BondingPattern::BondingPattern(const BondingParameters &parameters,
-                                 const NurbsSurface      &implant,
-                                 const unsigned int       n)
-    : surface(implant)
-    , n(n)
+  // Connected sets of parts, side by side, that are bonded at least half as
+  // well as the best: what is bonded less is the border of a patch, or its
+  // blurred edge in a picture.
+  void
+  BondingPattern::count_patches()
   {
-    const auto points  = surface_quadrature(surface, n);
-    const auto part_of = [&](const unsigned int point) {
-      return parameters.resolution == BondingResolution::element ?
-               points[point].element :
-               point;
-    };
-    std::vector<Part> parts(part_of(points.size() - 1) + 1);
-    for (unsigned int q = 0; q < points.size(); ++q)
-      {
-        Part &part = parts[part_of(q)];
-        part.area += points[q].JxW;
-        part.moment += points[q].JxW * points[q].X.head<2>();
-      }
-    for (Part &part : parts)
-      part.radius = part.moment.norm() / part.area;
+    double best = 0.;
+    for (const Part &part : all_parts)
+      best = std::max(best, part.phi_0);
+    const PartGrid grid(surface.n_elements_per_direction(), by_element ? 1 : n);
+    std::vector<bool> to_visit;
+    for (const Part &part : all_parts)
+      to_visit.push_back(best > 0. && part.phi_0 >= 0.5 * best);
 
-    switch (parameters.pattern)
+    for (unsigned int seed = 0; seed < all_parts.size(); ++seed)
       {
-        case BondingPatternKind::homogeneous:
-          for (Part &part : parts)
-            part.phi_0 = 1.;
-          break;
-        case BondingPatternKind::disk:
-          bond_disk(parts, parameters.bonded_fraction);
-          break;
+        if (!to_visit[seed])
+          continue;
+        ++summary.patches;
+        double                    area = 0.;
+        std::vector<unsigned int> front{seed};
+        to_visit[seed] = false;
+        while (!front.empty())
+          {
+            const unsigned int part = front.back();
+            front.pop_back();
+            area += all_parts[part].area;
+            for (const unsigned int neighbour : grid.neighbours(part))
+              if (to_visit[neighbour])
+                {
+                  to_visit[neighbour] = false;
+                  front.push_back(neighbour);
+                }
+          }
+        summary.largest_patch = std::max(summary.largest_patch, area);
       }
-
-    for (unsigned int q = 0; q < points.size(); ++q)
-      {
-        phi_0.push_back(parameters.initial_bonding * parts[part_of(q)].phi_0);
-        total_area += points[q].JxW;
-        area_mean += phi_0[q] * points[q].JxW;
-      }
-    area_mean /= total_area;
-
-    const dealii::QGauss<1> gauss(n);
-    for (unsigned int q = 0; q < n; ++q)
-      shares.push_back((q == 0 ? 0. : shares.back()) + gauss.weight(q));
   }
 
 
@@ -251,6 +265,41 @@ namespace Debond
                                                            local) -
                                             shares.begin());
       }
-    return phi_0[element * n * n + index[1] * n + index[0]];
+    return at(element * n * n + index[1] * n + index[0]);
+  }
+
+
+
+  std::string
+  BondingPattern::description() const
+  {
+    return "mean phi_0 " + to_text(summary.mean, 6) + ", bonded area " +
+           to_text(summary.bonded_area, 6) + " of " + to_text(summary.area, 6) +
+           " mm^2 in " + std::to_string(summary.patches) +
+           (summary.patches == 1 ? " patch" : " connected patches") +
+           (summary.patches > 1 ?
+              ", the largest of " + to_text(summary.largest_patch, 6) +
+                " mm^2" :
+              "");
+  }
+
+
+
+  std::string
+  BondingPattern::table() const
+  {
+    std::string text = std::string(by_element ? "element" : "point") +
+                       ",x_mm,y_mm,area_mm2,phi_0\n";
+    for (unsigned int i = 0; i < all_parts.size(); ++i)
+      {
+        text += std::to_string(i + 1);
+        for (const double value : {all_parts[i].centre[0],
+                                   all_parts[i].centre[1],
+                                   all_parts[i].area,
+                                   all_parts[i].phi_0})
+          text += "," + to_text(value, 17);
+        text += "\n";
+      }
+    return text;
   }
 } // namespace Debond

@@ -160,19 +160,19 @@ namespace Debond
   void
   ContactInterface::assign_bonding()
   {
-    const BondingPattern pattern(parameters.bonding,
-                                 mesh[1]->surface(),
-                                 parameters.quadrature_points);
-    phi_0_mean = pattern.mean();
+    pattern = std::make_unique<BondingPattern>(parameters.bonding,
+                                               mesh[1]->parameters(),
+                                               mesh[1]->surface(),
+                                               parameters.quadrature_points);
     for (unsigned int q = 0; q < points.size(); ++q)
       if (slave == 1)
-        points[q].phi_0 = pattern.at(q);
+        points[q].phi_0 = pattern->at(q);
       else
         {
           // the master is the implant
           points[q].faces_implant = points[q].accepted.has_partner;
           points[q].phi_0 =
-            points[q].faces_implant ? pattern.at(points[q].accepted.xi) : 0.;
+            points[q].faces_implant ? pattern->at(points[q].accepted.xi) : 0.;
         }
   }
 

@@ -84,7 +84,56 @@ namespace Debond
         line.refuse("'" + items[column] + "' is no number (" + name + ")");
       return value;
     }
+
+
+
+    std::ifstream
+    open_table(const std::string &filename, const std::string &entry)
+    {
+      std::ifstream file(filename);
+      if (!file)
+        throw InputError(
+          entry + " = '" + filename +
+          "': this file cannot be read: " + std::strerror(errno));
+      return file;
+    }
+
+
+
+    /** The items of the next line that is neither empty nor a comment; false at
+     *  the end of the file. */
+    bool
+    next_items(std::ifstream            &file,
+               unsigned int             &line_number,
+               std::vector<std::string> &items)
+    {
+      std::string text;
+      while (std::getline(file, text))
+        {
+          ++line_number;
+          if (line_number == 1 && text.compare(0, 3, "\xEF\xBB\xBF") == 0)
+            text.erase(0, 3); // the mark that spreadsheets begin a file with
+          text = dealii::Utilities::trim(text);
+          if (text.empty() || text[0] == '#')
+            continue;
+          items = split_list(text);
+          return true;
+        }
+      return false;
+    }
   } // namespace
+
+
+
+  std::vector<std::string>
+  read_csv_header(const std::string &filename, const std::string &entry)
+  {
+    std::ifstream            file        = open_table(filename, entry);
+    unsigned int             line_number = 0;
+    std::vector<std::string> items;
+    next_items(file, line_number, items);
+    return items;
+  }
 
 
 
@@ -94,24 +143,14 @@ namespace Debond
                    const std::vector<std::string> &names,
                    const bool                      nan_is_allowed)
   {
-    std::ifstream file(filename);
-    if (!file)
-      throw InputError(entry + " = '" + filename +
-                       "': this file cannot be read: " + std::strerror(errno));
+    std::ifstream file = open_table(filename, entry);
 
     std::vector<std::vector<double>> rows;
     std::vector<unsigned int>        columns;
     Line                             line{entry, filename, 0};
-    std::string                      text;
-    while (std::getline(file, text))
+    std::vector<std::string>         items;
+    while (next_items(file, line.number, items))
       {
-        ++line.number;
-        if (line.number == 1 && text.compare(0, 3, "\xEF\xBB\xBF") == 0)
-          text.erase(0, 3); // the mark that spreadsheets begin a file with
-        text = dealii::Utilities::trim(text);
-        if (text.empty() || text[0] == '#')
-          continue;
-        const std::vector<std::string> items = split_list(text);
         if (columns.empty())
           {
             columns = columns_called(names, items, line);

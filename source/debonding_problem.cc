@@ -147,6 +147,19 @@ namespace Debond
     if (!scene.title.empty())
       state->console.headline(scene.title);
     state->console.headline(unknowns_of(*state->system));
+    write_bonding();
+  }
+
+
+
+  void
+  DebondingProblem::write_bonding()
+  {
+    const BondingPattern &bonding = state->system->interface.bonding();
+    if (scene.interface.bonding.pattern == BondingPatternKind::homogeneous)
+      return;
+    write_file(state->directory->file("bonding.csv"), bonding.table());
+    state->console.headline("Initial bonding: " + bonding.description());
   }
 
 
@@ -448,6 +461,20 @@ namespace Debond
 
 
 
+  namespace
+  {
+    void
+    add_bonding(const BondingPattern::Report &bonding, JsonObject &json)
+    {
+      json.add("phi_0_mean", bonding.mean);
+      json.add("bonded_area_mm2", bonding.bonded_area);
+      json.add("bonded_patches", bonding.patches);
+      json.add("largest_bonded_patch_mm2", bonding.largest_patch);
+    }
+  } // namespace
+
+
+
   void
   DebondingProblem::finish(const bool converged, const std::string &reason)
   {
@@ -469,7 +496,7 @@ namespace Debond
         system.interface.implant_area();
     settings.mean_phi_0             = scene.output.observed_bonding > 0 ?
                                         scene.output.observed_bonding :
-                                        system.interface.mean_initial_bonding();
+                                        system.interface.bonding().report().mean;
     settings.full_sliding_angle_deg = scene.output.full_sliding_angle;
     settings.phase_times            = scene.load_steps.times;
     settings.reference              = state->reference;
@@ -500,6 +527,7 @@ namespace Debond
 
     JsonObject json;
     add_summary(summary, json);
+    add_bonding(system.interface.bonding().report(), json);
     write_file(state->directory->file("summary.json"), json.text());
     if (converged)
       {
@@ -610,8 +638,9 @@ namespace Debond
     system.start(state->stepping.time(0));
     out << unknowns_of(system) << '\n'
         << system.interface.n_points() << " slave quadrature points on the "
-        << (system.interface.slave_side() == 1 ? "implant" : "bone")
-        << ", mean phi_0 " << system.interface.mean_initial_bonding() << '\n'
+        << (system.interface.slave_side() == 1 ? "implant" : "bone") << '\n'
+        << "initial bonding " << name_of(scene.interface.bonding.pattern)
+        << ": " << system.interface.bonding().description() << '\n'
         << state->stepping.n_steps() << " planned steps from time "
         << scene.load_steps.times.front() << " to "
         << scene.load_steps.times.back() << '\n';

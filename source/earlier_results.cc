@@ -26,6 +26,7 @@ namespace Debond
       static const std::set<std::string> names{"summary.json",
                                                "torque.csv",
                                                "auto.csv",
+                                               "bonding.csv",
                                                "profiles.csv",
                                                "friction_law.csv",
                                                "bulk.pvd",

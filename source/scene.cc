@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <numeric>
 #include <ostream>
@@ -235,24 +236,6 @@ namespace Debond
 
 
     void
-    check_bonding(const BondingParameters &bonding,
-                  const BodyParameters    &implant)
-    {
-      if (bonding.pattern == BondingPatternKind::homogeneous &&
-          bonding.bonded_fraction != 1)
-        throw InputError("Interface / Bonding / Bonded fraction = " +
-                         to_text(bonding.bonded_fraction) +
-                         " contradicts Pattern = homogeneous, which is bonded "
-                         "everywhere: use Pattern = disk, or Initial bonding "
-                         "for a lower degree of bonding");
-      if (bonding.pattern == BondingPatternKind::disk && !implant.is_round())
-        throw InputError("Interface / Bonding / Pattern = 'disk' is defined "
-                         "for Implant / Shape = coin and cap only");
-    }
-
-
-
-    void
     check_times(const LoadSteppingParameters &load_steps)
     {
       const std::vector<double> &times = load_steps.times;
@@ -409,6 +392,21 @@ namespace Debond
                          output.reference_profiles +
                          "' needs Output / Profile angles to compare at");
     }
+
+
+
+    /** The results of an earlier run may be removed before the next begins. */
+    void
+    check_bonding_file(const std::string &file, const std::string &directory)
+    {
+      namespace fs = std::filesystem;
+      if (!file.empty() && fs::weakly_canonical(file).parent_path() ==
+                             fs::weakly_canonical(directory))
+        throw InputError("Interface / Bonding / File = '" + file +
+                         "' is in the directory that this scene writes its "
+                         "results to (Output / Directory): copy it elsewhere "
+                         "first");
+    }
   } // namespace
 
 
@@ -420,11 +418,12 @@ namespace Debond
     check_cells(implant, "Implant");
     check_cap(implant);
     check_faces(bone, implant);
-    check_bonding(interface.bonding, implant);
+    interface.bonding.check(implant);
     check_times(load_steps);
     check_friction(interface.friction, load_steps);
     check_chuck(*this);
     check_output(output);
+    check_bonding_file(interface.bonding.file, output.directory);
   }
 
 

@@ -1,97 +1,16 @@
+#include <debond/expression_parser.h>
 #include <debond/input_error.h>
+#include <debond/number_text.h>
 #include <debond/time_function.h>
 
-#include <deal.II/base/function_parser.h>
-#include <deal.II/base/numbers.h>
-
 #include <cmath>
-#include <iostream>
-#include <sstream>
 
 namespace Debond
 {
-  namespace
-  {
-    /** deal.II's parser writes its complaints to the error stream, too. */
-    class SilentErrorStream
-    {
-    public:
-      SilentErrorStream()
-        : original(std::cerr.rdbuf(nullptr))
-      {}
-
-      ~SilentErrorStream()
-      {
-        std::cerr.rdbuf(original);
-        std::cerr.clear();
-      }
-
-    private:
-      std::streambuf *const original;
-    };
-
-
-
-    /** What muParser says of an expression, taken out of the lines that
-     *  deal.II's exception puts around it. */
-    std::string
-    words_of_parser(const std::string &message)
-    {
-      const std::string            key   = "The parser said: ";
-      const std::string::size_type begin = message.find(key);
-      if (begin == std::string::npos)
-        return "it is no valid expression";
-      // Long sentences are wrapped; an empty line ends them.
-      std::istringstream words(
-        message.substr(begin, message.find("\n\n", begin) - begin)
-          .substr(key.size()));
-      std::string result, word;
-      while (words >> word && word.compare(0, 2, "--") != 0)
-        result += (result.empty() ? "" : " ") + word;
-      return result;
-    }
-
-
-
-    /** The parser takes `0,5 * t` for two expressions and returns the last. */
-    bool
-    has_comma_outside_parentheses(const std::string &expression)
-    {
-      int depth = 0;
-      for (const char c : expression)
-        {
-          depth += (c == '(') - (c == ')');
-          if (c == ',' && depth == 0)
-            return true;
-        }
-      return false;
-    }
-  } // namespace
-
-
-
   TimeFunction::TimeFunction(const std::string &expression, const double radius)
     : expression(expression)
-    , parser(std::make_unique<dealii::FunctionParser<1>>())
-  {
-    const std::string complaint =
-      "the expression '" + expression + "' in t cannot be read: ";
-    if (has_comma_outside_parentheses(expression))
-      throw InputError(complaint + "decimals are written with a point");
-    try
-      {
-        const SilentErrorStream silence;
-        parser->initialize("t",
-                           expression,
-                           {{"pi", dealii::numbers::PI}, {"R", radius}});
-        // The parser reads the expression only when it is first evaluated.
-        parser->value(dealii::Point<1>(0.));
-      }
-    catch (const std::exception &error)
-      {
-        throw InputError(complaint + words_of_parser(error.what()));
-      }
-  }
+    , parser(make_parser<1>("t", expression, radius))
+  {}
 
 
 
@@ -108,11 +27,8 @@ namespace Debond
     const double value = parser->value(dealii::Point<1>(t));
     if (!std::isfinite(value))
       {
-        std::ostringstream message;
-        message.precision(12);
-        message << "the expression '" << expression
-                << "' has no finite value at t = " << t;
-        throw InputError(message.str());
+        throw InputError("the expression '" + expression +
+                         "' has no finite value at t = " + to_text(t));
       }
     return value;
   }

@@ -2,6 +2,7 @@
 // and by quadrature point, bonds what is nearest to the centre, keeps the
 // symmetry of the mesh, and says the same at quadrature points and between.
 
+#include <debond/body_parameters.h>
 #include <debond/bonding_pattern.h>
 
 #include <algorithm>
@@ -12,6 +13,11 @@
 #include "checks.h"
 
 using namespace Debond;
+
+// of radius 2.5 mm
+const BodyParameters coin;
+
+
 
 struct Deviation
 {
@@ -95,7 +101,7 @@ check(const unsigned int n, const BondingResolution resolution)
       parameters.bonded_fraction = fraction;
       parameters.initial_bonding = (fraction == 0.5 ? 0.6 : 1.);
       parameters.resolution      = resolution;
-      const BondingPattern pattern(parameters, surface, n_q);
+      const BondingPattern pattern(parameters, coin, surface, n_q);
 
       double bonded = 0, area = 0;
       for (unsigned int q = 0; q < points.size(); ++q)
@@ -107,8 +113,8 @@ check(const unsigned int n, const BondingResolution resolution)
         }
       const double expected = fraction * parameters.initial_bonding;
       grow(deviation.fraction, std::abs(bonded / area - expected));
-      grow(deviation.mean, std::abs(pattern.mean() - expected));
-      grow(deviation.mean, std::abs(pattern.area() / area - 1.));
+      grow(deviation.mean, std::abs(pattern.report().mean - expected));
+      grow(deviation.mean, std::abs(pattern.report().area / area - 1.));
 
       for (unsigned int j = 0; j < n * n_q; ++j)
         for (unsigned int i = 0; i < n * n_q; ++i)
@@ -156,12 +162,12 @@ main()
   const NurbsSurface surface = NurbsSurface::disk(2.5, 3);
   BondingParameters  parameters;
   parameters.initial_bonding = 0.4;
-  const BondingPattern homogeneous(parameters, surface, 5);
+  const BondingPattern homogeneous(parameters, coin, surface, 5);
   report("Homogeneous: mean, deviation",
-         std::abs(homogeneous.mean() - 0.4),
+         std::abs(homogeneous.report().mean - 0.4),
          1e-14);
   report("Area of the disk by quadrature, relative deviation",
-         std::abs(homogeneous.area() / (M_PI * 2.5 * 2.5) - 1.),
+         std::abs(homogeneous.report().area / (M_PI * 2.5 * 2.5) - 1.),
          1e-6);
 
   // between quadrature points each stands for a share of its element, so that
@@ -169,7 +175,7 @@ main()
   parameters.pattern         = BondingPatternKind::disk;
   parameters.bonded_fraction = 0.3;
   parameters.resolution      = BondingResolution::quadrature_point;
-  const BondingPattern pattern(parameters, surface, 5);
+  const BondingPattern pattern(parameters, coin, surface, 5);
   double               mean    = 0;
   const unsigned int   samples = 400;
   for (unsigned int j = 0; j < samples; ++j)

@@ -4,8 +4,8 @@
 // should be, an affine map, and closest points that are found.
 
 #include <debond/body_mesh.h>
-#include <debond/bonding_pattern.h>
 #include <debond/closest_point.h>
+#include <debond/surface_quadrature.h>
 
 #include <Eigen/Geometry>
 

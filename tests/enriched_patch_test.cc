@@ -4,8 +4,8 @@
 // leave an error of a known size, which falls with the mesh, and so does that
 // of the volume of the coin.
 
-#include <debond/bonding_pattern.h>
 #include <debond/enriched_cells.h>
+#include <debond/surface_quadrature.h>
 
 #include <Eigen/Geometry>
 

@@ -19,6 +19,12 @@ namespace Debond
     implant
   };
 
+  /** The contact face of a body in its reference configuration. */
+  NurbsSurface
+  make_contact_surface(const BodyParameters &parameters);
+
+
+
   /**
    * Mesh, numbering and boundary conditions of one body.
    *

@@ -6,6 +6,7 @@
 #include <debond/friction_law.h>
 
 #include <array>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -168,11 +169,11 @@ namespace Debond
     /** phi and mu of a point in its trial state. */
     FrictionCoefficient
     friction(const Point &point) const;
-    /** Area mean of phi_0 over the implant's contact face. */
-    double
-    mean_initial_bonding() const
+    /** phi_0 over the implant's contact face; known from initialise() on. */
+    const BondingPattern &
+    bonding() const
     {
-      return phi_0_mean;
+      return *pattern;
     }
     const InterfaceParameters &
     get_parameters() const
@@ -257,13 +258,14 @@ namespace Debond
     MasterSurface
     master(const InterfaceConfiguration &configuration) const;
 
-    const InterfaceParameters       parameters;
-    const unsigned int              slave; ///< 0: bone, 1: implant
-    std::array<const BodyMesh *, 2> mesh;
-    ContactPointLaw                 law;
-    std::vector<Point>              points;
-    double                          area_of_implant = 0, phi_0_mean = 0;
-    NodalSums                       forces, accepted_positions;
+    const InterfaceParameters             parameters;
+    const unsigned int                    slave; ///< 0: bone, 1: implant
+    std::array<const BodyMesh *, 2>       mesh;
+    ContactPointLaw                       law;
+    std::vector<Point>                    points;
+    double                                area_of_implant = 0;
+    std::unique_ptr<const BondingPattern> pattern;
+    NodalSums                             forces, accepted_positions;
     double accepted_dissipation = 0, accepted_adhesive_work = 0;
     int    failed_point     = -1;
     bool   frictionless_now = false;

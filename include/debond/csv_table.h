@@ -21,5 +21,10 @@ namespace Debond
                    const std::string              &entry,
                    const std::vector<std::string> &names,
                    bool                            nan_is_allowed = false);
+
+  /** The names of the columns, from the first line that is no comment; empty
+   *  if there is none. Throws InputError if the file cannot be read. */
+  std::vector<std::string>
+  read_csv_header(const std::string &filename, const std::string &entry);
 } // namespace Debond
 #endif

@@ -58,6 +58,8 @@ namespace Debond
     void
     check_accepted_state();
     void
+    write_bonding();
+    void
     write_row(unsigned int step, unsigned int iterations);
     void
     write_fields(unsigned int step);

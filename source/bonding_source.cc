@@ -1,0 +1,336 @@
+#include <debond/body_parameters.h>
+#include <debond/bonding_source.h>
+#include <debond/closest_point.h>
+#include <debond/csv_table.h>
+#include <debond/expression_parser.h>
+#include <debond/grey_image.h>
+#include <debond/input_error.h>
+#include <debond/number_text.h>
+#include <debond/surface_quadrature.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <boost/geometry.hpp>
+#include <boost/geometry/index/rtree.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace Debond
+{
+  namespace
+  {
+    const std::string section = "Interface / Bonding / ";
+
+
+
+    PlaceFunction
+    function_of_expression(const std::string &expression, const double radius)
+    {
+      std::shared_ptr<dealii::FunctionParser<3>> parser;
+      try
+        {
+          parser = make_parser<3>("x,y,r,angle", expression, radius);
+        }
+      catch (const InputError &error)
+        {
+          throw InputError(section + "Expression: " + error.what());
+        }
+      return [parser, expression](const Eigen::Vector2d &place) {
+        const double r = place.norm();
+        parser->set_time(std::atan2(place[1], place[0]) * 180. / M_PI);
+        const double value =
+          parser->value(dealii::Point<3>(place[0], place[1], r));
+        // rounding may exceed the bounds by its own size
+        if (!(value >= -1e-12 && value <= 1. + 1e-12))
+          throw InputError(section + "Expression = '" + expression +
+                           "': phi_0 = " + to_text(value, 6) +
+                           " at x = " + to_text(place[0], 6) + " mm, y = " +
+                           to_text(place[1], 6) + " mm: expected 0 to 1");
+        return std::clamp(value, 0., 1.);
+      };
+    }
+
+
+
+    PlaceFunction
+    function_of_image(const BondingParameters &parameters,
+                      const BodyParameters    &implant)
+    {
+      const auto image = std::make_shared<const GreyImage>(
+        read_grey_image(parameters.file, section + "File"));
+      Eigen::Array2d size;
+      for (unsigned int d = 0; d < 2; ++d)
+        size[d] = implant.is_round() ? 2. * implant.radius : implant.size[d];
+      const double threshold = parameters.threshold;
+      return [image, size, threshold](const Eigen::Vector2d &place) {
+        const Eigen::Array2d uv    = place.array() / size + 0.5;
+        const double         level = image->at(uv[0], uv[1]);
+        return threshold < 0. ? level : level > threshold ? 1. : 0.;
+      };
+    }
+  } // namespace
+
+
+
+  PlaceFunction
+  place_function(const BondingParameters &parameters,
+                 const BodyParameters    &implant)
+  {
+    return parameters.pattern == BondingPatternKind::image ?
+             function_of_image(parameters, implant) :
+             function_of_expression(parameters.expression,
+                                    implant.characteristic_radius());
+  }
+
+
+
+  std::vector<double>
+  element_means(const PlaceFunction &function,
+                const NurbsSurface  &surface,
+                const unsigned int   n)
+  {
+    const auto         n_elements = surface.n_elements_per_direction();
+    const unsigned int across =
+      n * std::min(n_elements[0], n_elements[1]); // points of one copy
+    const dealii::QIterated<2> quadrature(dealii::QGauss<1>(n),
+                                          (200 + across - 1) / across);
+    std::vector<double>        means;
+    for (unsigned int element = 0; element < surface.n_elements(); ++element)
+      {
+        double sum = 0., area = 0.;
+        for (const auto &point :
+             element_quadrature(surface, element, quadrature))
+          {
+            sum += point.JxW * function(point.X.head<2>());
+            area += point.JxW;
+          }
+        means.push_back(sum / area);
+      }
+    return means;
+  }
+
+
+
+  std::vector<double>
+  point_values(const PlaceFunction &function,
+               const NurbsSurface  &surface,
+               const unsigned int   n)
+  {
+    std::vector<double> values;
+    for (const auto &point : surface_quadrature(surface, n))
+      values.push_back(function(point.X.head<2>()));
+    return values;
+  }
+
+
+
+  namespace
+  {
+    /** Points of a CSV file with their phi_0. */
+    struct DataPoint
+    {
+      Eigen::Vector2d place; ///< [mm]
+      double          phi_0;
+    };
+
+
+
+    [[noreturn]] void
+    refuse_file(const std::string &filename, const std::string &why)
+    {
+      throw InputError(section + "File = '" + filename + "': " + why);
+    }
+
+
+
+    void
+    check_phi_0(const std::string &filename,
+                const double       phi_0,
+                const std::size_t  row)
+    {
+      if (!(phi_0 >= 0. && phi_0 <= 1.))
+        refuse_file(filename,
+                    "phi_0 = " + to_text(phi_0, 6) + " in row " +
+                      std::to_string(row + 1) +
+                      " below the header: expected 0 to 1");
+    }
+
+
+
+    std::vector<double>
+    values_by_element(const std::string                      &filename,
+                      const std::vector<std::vector<double>> &rows,
+                      const bool                              numbered,
+                      const unsigned int                      n_elements)
+    {
+      if (rows.size() != n_elements)
+        refuse_file(filename,
+                    "it has " + std::to_string(rows.size()) +
+                      " rows, but the contact face has " +
+                      std::to_string(n_elements) +
+                      " elements: expected a row for each");
+      std::vector<double> values(n_elements, -1.);
+      for (unsigned int i = 0; i < n_elements; ++i)
+        {
+          check_phi_0(filename, rows[i].back(), i);
+          const double number = numbered ? rows[i][0] : i + 1.;
+          if (!(number >= 1. && number <= n_elements) ||
+              number != std::floor(number))
+            refuse_file(filename,
+                        "there is no element " + to_text(number) +
+                          ": they are numbered from 1 to " +
+                          std::to_string(n_elements));
+          double &value = values[static_cast<unsigned int>(number) - 1];
+          if (value >= 0.)
+            refuse_file(filename,
+                        "element " + to_text(number) + " is there twice");
+          value = rows[i].back();
+        }
+      return values;
+    }
+
+
+
+    /** The contact face seen from above: of a cap what its border encloses. */
+    ControlNet
+    seen_from_above(const NurbsSurface &surface)
+    {
+      ControlNet net = surface.control_points();
+      net.row(2).setZero();
+      return net;
+    }
+
+
+
+    /** The mean over the points inside every element, where there are any; -1
+     *  elsewhere. Points beside the face belong to no element. */
+    std::vector<double>
+    means_of_points(const std::vector<DataPoint> &points,
+                    const NurbsSurface           &surface,
+                    const double                  size)
+    {
+      const ControlNet          net = seen_from_above(surface);
+      std::vector<double>       sums(surface.n_elements(), 0.);
+      std::vector<unsigned int> counts(surface.n_elements(), 0);
+      for (const DataPoint &point : points)
+        {
+          const ClosestPoint closest =
+            closest_point(surface, net, {point.place[0], point.place[1], 0.});
+          if (closest.distance > 1e-9 * size)
+            continue;
+          const unsigned int element = surface.element_of(closest.xi);
+          sums[element] += point.phi_0;
+          ++counts[element];
+        }
+      for (unsigned int e = 0; e < sums.size(); ++e)
+        sums[e] = counts[e] > 0 ? sums[e] / counts[e] : -1.;
+      return sums;
+    }
+
+
+
+    /** phi_0 of the data point nearest to a place. */
+    class NearestPoint
+    {
+    public:
+      explicit NearestPoint(const std::vector<DataPoint> &points)
+        : points(points)
+      {
+        std::vector<std::pair<Place, unsigned int>> entries;
+        for (unsigned int i = 0; i < points.size(); ++i)
+          entries.emplace_back(Place(points[i].place[0], points[i].place[1]),
+                               i);
+        tree = Tree(entries);
+      }
+
+      double
+      operator()(const Eigen::Vector2d &place) const
+      {
+        std::vector<std::pair<Place, unsigned int>> nearest;
+        tree.query(boost::geometry::index::nearest(Place(place[0], place[1]),
+                                                   1),
+                   std::back_inserter(nearest));
+        return points[nearest[0].second].phi_0;
+      }
+
+    private:
+      using Place = boost::geometry::model::
+        point<double, 2, boost::geometry::cs::cartesian>;
+      using Tree =
+        boost::geometry::index::rtree<std::pair<Place, unsigned int>,
+                                      boost::geometry::index::quadratic<16>>;
+
+      const std::vector<DataPoint> &points;
+      Tree                          tree;
+    };
+
+
+
+    std::vector<double>
+    values_of_points(const std::vector<DataPoint>       &points,
+                     const bool                          by_element,
+                     const NurbsSurface                 &surface,
+                     const std::vector<Eigen::Vector2d> &centres)
+    {
+      double size = 0.;
+      for (const Eigen::Vector2d &centre : centres)
+        size = std::max(size, centre.norm());
+      std::vector<double> values(centres.size(), -1.);
+      if (by_element)
+        values = means_of_points(points, surface, size);
+      const NearestPoint nearest(points);
+      for (unsigned int i = 0; i < values.size(); ++i)
+        if (values[i] < 0.)
+          values[i] = nearest(centres[i]);
+      return values;
+    }
+  } // namespace
+
+
+
+  std::vector<double>
+  values_from_file(const BondingParameters            &parameters,
+                   const NurbsSurface                 &surface,
+                   const std::vector<Eigen::Vector2d> &centres)
+  {
+    const std::string &filename = parameters.file;
+    const std::string  entry    = section + "File";
+    const auto         columns  = read_csv_header(filename, entry);
+    const auto         has      = [&columns](const std::string &name) {
+      return std::find(columns.begin(), columns.end(), name) != columns.end();
+    };
+    const bool by_element = parameters.resolution == BondingResolution::element;
+    const bool has_places =
+      (has("x") && has("y")) || (has("x_mm") && has("y_mm"));
+    if (has("element") || !has_places)
+      {
+        if (!by_element)
+          refuse_file(filename,
+                      "a value for every element needs Resolution = element; "
+                      "with Resolution = quadrature point columns x,y,phi_0 "
+                      "are expected");
+        return values_by_element(filename,
+                                 has("element") ?
+                                   read_csv_columns(filename,
+                                                    entry,
+                                                    {"element", "phi_0"}) :
+                                   read_csv_columns(filename, entry, {"phi_0"}),
+                                 has("element"),
+                                 surface.n_elements());
+      }
+
+    const bool             with_unit = has("x_mm");
+    std::vector<DataPoint> points;
+    for (const auto &row : read_csv_columns(
+           filename,
+           entry,
+           {with_unit ? "x_mm" : "x", with_unit ? "y_mm" : "y", "phi_0"}))
+      {
+        check_phi_0(filename, row[2], points.size());
+        points.push_back({{row[0], row[1]}, row[2]});
+      }
+    return values_of_points(points, by_element, surface, centres);
+  }
+} // namespace Debond

@@ -1,0 +1,108 @@
+#include <debond/expression_parser.h>
+#include <debond/input_error.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <algorithm>
+#include <iostream>
+#include <sstream>
+
+namespace Debond
+{
+  namespace
+  {
+    /** deal.II's parser writes its complaints to the error stream, too. */
+    class SilentErrorStream
+    {
+    public:
+      SilentErrorStream()
+        : original(std::cerr.rdbuf(nullptr))
+      {}
+
+      ~SilentErrorStream()
+      {
+        std::cerr.rdbuf(original);
+        std::cerr.clear();
+      }
+
+    private:
+      std::streambuf *const original;
+    };
+
+
+
+    /** What muParser says of an expression, taken out of the lines that
+     *  deal.II's exception puts around it. */
+    std::string
+    words_of_parser(const std::string &message)
+    {
+      const std::string            key   = "The parser said: ";
+      const std::string::size_type begin = message.find(key);
+      if (begin == std::string::npos)
+        return "it is no valid expression";
+      // Long sentences are wrapped; an empty line ends them.
+      std::istringstream words(
+        message.substr(begin, message.find("\n\n", begin) - begin)
+          .substr(key.size()));
+      std::string result, word;
+      while (words >> word && word.compare(0, 2, "--") != 0)
+        result += (result.empty() ? "" : " ") + word;
+      return result;
+    }
+
+
+
+    /** The parser takes `0,5 * t` for two expressions and returns the last. */
+    bool
+    has_comma_outside_parentheses(const std::string &expression)
+    {
+      int depth = 0;
+      for (const char c : expression)
+        {
+          depth += (c == '(') - (c == ')');
+          if (c == ',' && depth == 0)
+            return true;
+        }
+      return false;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::unique_ptr<dealii::FunctionParser<dim>>
+  make_parser(const std::string &variables,
+              const std::string &expression,
+              const double       radius)
+  {
+    const std::string complaint = "the expression '" + expression + "' in " +
+                                  variables + " cannot be read: ";
+    if (has_comma_outside_parentheses(expression))
+      throw InputError(complaint + "decimals are written with a point");
+    auto       parser = std::make_unique<dealii::FunctionParser<dim>>();
+    const bool last_is_time =
+      std::count(variables.begin(), variables.end(), ',') == dim;
+    try
+      {
+        const SilentErrorStream silence;
+        parser->initialize(variables,
+                           expression,
+                           {{"pi", dealii::numbers::PI}, {"R", radius}},
+                           last_is_time);
+        // The parser reads the expression only when it is first evaluated.
+        parser->value(dealii::Point<dim>());
+      }
+    catch (const std::exception &error)
+      {
+        throw InputError(complaint + words_of_parser(error.what()));
+      }
+    return parser;
+  }
+
+
+
+  template std::unique_ptr<dealii::FunctionParser<1>>
+  make_parser<1>(const std::string &, const std::string &, double);
+  template std::unique_ptr<dealii::FunctionParser<3>>
+  make_parser<3>(const std::string &, const std::string &, double);
+} // namespace Debond

@@ -1,0 +1,215 @@
+#include <debond/grey_image.h>
+#include <debond/input_error.h>
+
+#define BOOST_GIL_IO_ENABLE_GRAY_ALPHA
+#include <boost/gil.hpp>
+#include <boost/gil/extension/io/png.hpp>
+#include <boost/gil/extension/toolbox/color_spaces/gray_alpha.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+namespace Debond
+{
+  double
+  GreyImage::at(const double u, const double v) const
+  {
+    const auto pixel = [](const double t, const unsigned int n) {
+      return static_cast<unsigned int>(std::clamp(t * n, 0., n - 1.));
+    };
+    return levels[static_cast<std::size_t>(pixel(1. - v, height)) * width +
+                  pixel(u, width)];
+  }
+
+
+
+  namespace
+  {
+    constexpr unsigned int largest_side = 20000; ///< pixels
+
+
+
+    /** For messages about one file. */
+    struct ImageFile
+    {
+      const std::string &name, &entry;
+
+      [[noreturn]] void
+      refuse(const std::string &why) const
+      {
+        throw InputError(entry + " = '" + name + "': " + why);
+      }
+
+      void
+      check_size(const double width, const double height) const
+      {
+        if (width < 1 || height < 1 || width > largest_side ||
+            height > largest_side)
+          {
+            std::ostringstream why;
+            why << "this picture has " << width << " x " << height
+                << " pixels: expected 1 to " << largest_side
+                << " in each direction";
+            refuse(why.str());
+          }
+      }
+    };
+
+
+
+    std::string
+    read_whole_file(const ImageFile &image)
+    {
+      std::ifstream      file(image.name, std::ios::binary);
+      std::ostringstream bytes;
+      if (!file || !(bytes << file.rdbuf()))
+        image.refuse("this file cannot be read: " +
+                     std::string(std::strerror(errno)));
+      return bytes.str();
+    }
+
+
+
+    GreyImage
+    read_png(const ImageFile &file, const std::string &bytes)
+    {
+      namespace gil = boost::gil;
+      gil::gray16_image_t pixels;
+      try
+        {
+          std::istringstream header(bytes), data(bytes);
+          const auto info = gil::read_image_info(header, gil::png_tag())._info;
+          file.check_size(info._width, info._height);
+          if (info._interlace_method != PNG_INTERLACE_NONE)
+            file.refuse("interlaced PNG files are not read: save it without "
+                        "interlacing");
+          gil::read_and_convert_image(data, pixels, gil::png_tag());
+        }
+      catch (const std::ios_base::failure &)
+        {
+          file.refuse("this file is damaged: it begins like a PNG file but "
+                      "cannot be read as one");
+        }
+
+      GreyImage image;
+      image.width     = pixels.width();
+      image.height    = pixels.height();
+      const auto view = gil::const_view(pixels);
+      image.levels.reserve(std::size_t(image.width) * image.height);
+      for (const auto &pixel : view)
+        image.levels.push_back(gil::at_c<0>(pixel) / 65535.f);
+      return image;
+    }
+
+
+
+    /** The numbers in the header of a PGM file, or all of a plain one. */
+    class PgmNumbers
+    {
+    public:
+      PgmNumbers(const ImageFile &file, const std::string &bytes)
+        : file(file)
+        , bytes(bytes)
+      {}
+
+      /** The next number, at most @p largest; comments from # to the end of
+       *  the line are passed over. */
+      unsigned int
+      next(const std::string &what, const unsigned int largest)
+      {
+        while (position < bytes.size() &&
+               (std::isspace(static_cast<unsigned char>(bytes[position])) ||
+                bytes[position] == '#'))
+          position = bytes[position] == '#' ?
+                       std::min(bytes.find('\n', position), bytes.size()) :
+                       position + 1;
+        unsigned int value = 0;
+        const auto   begin = position;
+        for (; position < bytes.size() && bytes[position] >= '0' &&
+               bytes[position] <= '9';
+             ++position)
+          {
+            value = 10 * value + (bytes[position] - '0');
+            if (value > largest)
+              file.refuse(what + " is more than " + std::to_string(largest));
+          }
+        if (position == begin)
+          file.refuse("this PGM file is damaged or cut off: " + what +
+                      " is missing");
+        return value;
+      }
+
+      /** Where the pixels of a raw file begin: after one white space. */
+      std::size_t
+      end_of_header() const
+      {
+        return position + 1;
+      }
+
+    private:
+      const ImageFile   &file;
+      const std::string &bytes;
+      std::size_t        position = 2; ///< after P2 or P5
+    };
+
+
+
+    // Boost.GIL reads PGM as well, but up to 8 bits only, does not scale levels
+    // to the largest one, inverts those whose largest is 1, and takes a plain
+    // file that is cut off for a whole one.
+    GreyImage
+    read_pgm(const ImageFile &file, const std::string &bytes)
+    {
+      PgmNumbers numbers(file, bytes);
+      GreyImage  image;
+      image.width  = numbers.next("the width", 1000000);
+      image.height = numbers.next("the height", 1000000);
+      file.check_size(image.width, image.height);
+      const unsigned int largest = numbers.next("the largest level", 65535);
+      if (largest == 0)
+        file.refuse("the largest level of this PGM file is 0: expected 1 to "
+                    "65535");
+
+      const std::size_t n     = std::size_t(image.width) * image.height;
+      const bool        plain = bytes[1] == '2';
+      const std::size_t size  = largest > 255 ? 2 : 1; // bytes of a pixel
+      const std::size_t begin = numbers.end_of_header();
+      if (plain ? bytes.size() < n : bytes.size() < begin + n * size)
+        file.refuse("this PGM file is cut off: it has fewer pixels than its "
+                    "header says");
+      image.levels.reserve(n);
+      for (std::size_t i = 0; i < n; ++i)
+        {
+          unsigned int level = 0;
+          if (plain)
+            level = numbers.next("a level", largest);
+          else
+            for (std::size_t b = 0; b < size; ++b)
+              level = 256 * level +
+                      static_cast<unsigned char>(bytes[begin + i * size + b]);
+          if (level > largest)
+            file.refuse("a level of this PGM file is more than its largest, " +
+                        std::to_string(largest));
+          image.levels.push_back(static_cast<float>(level) / largest);
+        }
+      return image;
+    }
+  } // namespace
+
+
+
+  GreyImage
+  read_grey_image(const std::string &filename, const std::string &entry)
+  {
+    const ImageFile   file{filename, entry};
+    const std::string bytes = read_whole_file(file);
+    if (bytes.compare(0, 4, "\x89PNG") == 0)
+      return read_png(file, bytes);
+    if (bytes.compare(0, 2, "P2") == 0 || bytes.compare(0, 2, "P5") == 0)
+      return read_pgm(file, bytes);
+    file.refuse("this is neither a PNG nor a PGM file");
+  }
+} // namespace Debond

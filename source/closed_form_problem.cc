@@ -56,11 +56,14 @@ namespace Debond
         refuse(scene,
                "Implant / Shape",
                "closed forms are for the flat disk of a coin");
-      if (scene.interface.bonding.pattern == BondingPatternKind::disk &&
-          scene.model != ModelKind::foundation)
+      const BondingPatternKind pattern = scene.interface.bonding.pattern;
+      const bool knows_disk            = scene.model == ModelKind::foundation;
+      if (pattern != BondingPatternKind::homogeneous &&
+          !(pattern == BondingPatternKind::disk && knows_disk))
         refuse(scene,
-               "Interface / Bonding / Pattern",
-               "this closed form knows homogeneous bonding only");
+               "Interface / Bonding / Pattern = '" + name_of(pattern) + "'",
+               std::string("this closed form knows homogeneous bonding ") +
+                 (knows_disk ? "and the disk only" : "only"));
       if (scene.model == ModelKind::mathieu &&
           scene.interface.bonding.initial_bonding != 1)
         refuse(scene,

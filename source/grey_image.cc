@@ -65,9 +65,10 @@ namespace Debond
     {
       std::ifstream      file(image.name, std::ios::binary);
       std::ostringstream bytes;
-      if (!file || !(bytes << file.rdbuf()))
+      if (!file)
         image.refuse("this file cannot be read: " +
                      std::string(std::strerror(errno)));
+      bytes << file.rdbuf();
       return bytes.str();
     }
 

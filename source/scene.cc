@@ -407,6 +407,26 @@ namespace Debond
                          "results to (Output / Directory): copy it elsewhere "
                          "first");
     }
+
+
+
+    /** Such patterns are others on other meshes. */
+    void
+    check_pattern_of_auto(const BondingParameters &bonding)
+    {
+      const bool is_independent_of_mesh =
+        bonding.pattern != BondingPatternKind::file &&
+        (bonding.pattern != BondingPatternKind::random ||
+         bonding.correlation_length > 0.);
+      if (!is_independent_of_mesh)
+        throw InputError(
+          "Interface / Bonding / Pattern = '" + name_of(bonding.pattern) +
+          "' belongs to one mesh, but Model = auto compares several: use Model = "
+          "finite elements, or " +
+          (bonding.pattern == BondingPatternKind::random ?
+             "give a Correlation length" :
+             "another pattern"));
+    }
   } // namespace
 
 
@@ -419,6 +439,8 @@ namespace Debond
     check_cap(implant);
     check_faces(bone, implant);
     interface.bonding.check(implant);
+    if (model == ModelKind::automatic)
+      check_pattern_of_auto(interface.bonding);
     check_times(load_steps);
     check_friction(interface.friction, load_steps);
     check_chuck(*this);

@@ -1,0 +1,363 @@
+// Bonding patterns that are given place by place: expressions with their area
+// means over elements, the orientation of images, values from CSV files, and
+// what is said of those that are wrong.
+
+#include <debond/body_mesh.h>
+#include <debond/bonding_pattern.h>
+#include <debond/input_error.h>
+
+#include <fstream>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "checks.h"
+
+using namespace Debond;
+
+const double R = 2.5;
+
+// of radius 2.5 mm
+BodyParameters
+coin(const unsigned int n)
+{
+  BodyParameters implant;
+  implant.shape = BodyShape::coin;
+  implant.cells = {{n, n, 2}};
+  return implant;
+}
+
+
+
+BondingPattern
+make_pattern(const BondingParameters &parameters, const BodyParameters &implant)
+{
+  // the pattern refers to the surface
+  static std::vector<std::unique_ptr<NurbsSurface>> surfaces;
+  surfaces.push_back(
+    std::make_unique<NurbsSurface>(make_contact_surface(implant)));
+  return {parameters, implant, *surfaces.back(), 3};
+}
+
+
+
+BondingParameters
+expression(const std::string      &text,
+           const BondingResolution resolution = BondingResolution::element)
+{
+  BondingParameters parameters;
+  parameters.pattern    = BondingPatternKind::expression;
+  parameters.expression = text;
+  parameters.resolution = resolution;
+  return parameters;
+}
+
+
+
+BondingParameters
+from_file(const BondingPatternKind kind,
+          const std::string       &name,
+          const std::string       &content,
+          const BondingResolution  resolution = BondingResolution::element)
+{
+  std::ofstream(name, std::ios::binary) << content;
+  BondingParameters parameters;
+  parameters.pattern    = kind;
+  parameters.file       = name;
+  parameters.resolution = resolution;
+  return parameters;
+}
+
+
+
+// Integrals over the disk in closed form.
+void
+check_means()
+{
+  const auto mean = [](const std::string &text) {
+    return make_pattern(expression(text), coin(6)).report().mean;
+  };
+  std::cout << "Expressions" << std::endl;
+  report("  r^2/R^2, deviation of the mean",
+         std::abs(mean("r^2/R^2") - 0.5),
+         1e-8);
+  report("  (x/R + 1)/2, deviation of the mean",
+         std::abs(mean("(x/R + 1)/2") - 0.5),
+         1e-12);
+  report("  1 - r/R, deviation of the mean",
+         std::abs(mean("1 - r/R") - 1. / 3.),
+         1e-6);
+  report("  a quarter by angle, deviation of the mean",
+         std::abs(mean("angle > 0 && angle < 90") - 0.25),
+         1e-12);
+  report("  r < R/2, deviation of the mean",
+         std::abs(mean("r < R/2") - 0.25),
+         1e-3); // quadrature of a jump
+
+  // the mean over an element, with a fine quadrature of its own
+  const BodyParameters implant = coin(3);
+  const NurbsSurface   surface = make_contact_surface(implant);
+  const auto           pattern =
+    make_pattern(expression("0.5 + 0.2 * x * y / r"), implant);
+  std::vector<double> sum(9), area(9);
+  for (const auto &point : surface_quadrature(surface, 40))
+    {
+      sum[point.element] += point.JxW * (0.5 + 0.2 * point.X[0] * point.X[1] /
+                                                 point.X.head<2>().norm());
+      area[point.element] += point.JxW;
+    }
+  double largest = 0.;
+  for (unsigned int e = 0; e < 9; ++e)
+    grow(largest, std::abs(pattern.parts()[e].phi_0 - sum[e] / area[e]));
+  report("  means of elements, deviation", largest, 1e-5);
+
+  const auto by_point =
+    make_pattern(expression("0.5 + 0.2 * x * y / r",
+                            BondingResolution::quadrature_point),
+                 implant);
+  const auto points = surface_quadrature(surface, 3);
+  largest           = 0.;
+  for (unsigned int q = 0; q < points.size(); ++q)
+    grow(largest,
+         std::abs(by_point.at(q) - 0.5 -
+                  0.2 * points[q].X[0] * points[q].X[1] /
+                    points[q].X.head<2>().norm()));
+  report("  values at quadrature points, deviation", largest, 1e-14);
+
+  report(
+    "  two patches",
+    make_pattern(expression("abs(x) > 0.3 * R"), coin(20)).report().patches ==
+      2);
+  report("  four patches",
+         make_pattern(expression("abs(x) > 0.2 * R && abs(y) > 0.2 * R",
+                                 BondingResolution::quadrature_point),
+                      coin(20))
+             .report()
+             .patches == 4);
+}
+
+
+
+// A picture of two by two pixels: the mean over each quarter of the disk. With
+// an even number of elements none lies in two quarters.
+void
+check_image(const std::string       &what,
+            const BondingParameters &parameters,
+            const double (&expected)[4])
+{
+  double largest = 0.;
+  for (const BondingResolution resolution :
+       {BondingResolution::element, BondingResolution::quadrature_point})
+    {
+      BondingParameters with_resolution = parameters;
+      with_resolution.resolution        = resolution;
+      const auto pattern = make_pattern(with_resolution, coin(6));
+      for (const auto &part : pattern.parts())
+        grow(largest,
+             std::abs(part.phi_0 - expected[(part.centre[1] > 0 ? 0 : 2) +
+                                            (part.centre[0] > 0 ? 1 : 0)]));
+    }
+  report("  " + what + ", deviation", largest, 1e-7); // levels are floats
+}
+
+
+
+void
+check_images()
+{
+  std::cout << "Images: top left, top right, bottom left, bottom right"
+            << std::endl;
+  const auto image = [](const std::string &content) {
+    return from_file(BondingPatternKind::image, "image", content);
+  };
+  const double grey[4] = {1., 128 / 255., 64 / 255., 0.};
+  check_image("raw PGM",
+              image("P5 2 2 255\n\xff\x80\x40" + std::string(1, 0)),
+              grey);
+  check_image("plain PGM with a comment",
+              image("P2\n# four pixels\n2 2\n255\n255 128\n64 0\n"),
+              grey);
+  check_image("raw PGM of 16 bits",
+              image("P5\n2 2\n510\n" +
+                    std::string("\x01\xfe\x01\x00\x00\x80\x00\x00", 8)),
+              grey);
+  const double quarters[4] = {1., 0.75, 0.25, 0.};
+  check_image("plain PGM whose largest level is 4",
+              image("P2 2 2 4 4 3 1 0"),
+              quarters);
+  const double whites[4] = {0., 1., 0., 0.};
+  check_image("plain PGM whose largest level is 1",
+              image("P2 2 2 1 0 1 0 0"),
+              whites);
+
+  // the four grey levels as PNG, 8 bits
+  const unsigned char png[] = {0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a,
+                               0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52,
+                               0x00, 0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x02,
+                               0x08, 0x00, 0x00, 0x00, 0x00, 0x57, 0xdd, 0x52,
+                               0xf8, 0x00, 0x00, 0x00, 0x0e, 0x49, 0x44, 0x41,
+                               0x54, 0x78, 0x9c, 0x63, 0xf8, 0xdf, 0xc0, 0xe0,
+                               0xc0, 0x00, 0x00, 0x07, 0x81, 0x01, 0xc0, 0x12,
+                               0x4a, 0x7b, 0xcc, 0x00, 0x00, 0x00, 0x00, 0x49,
+                               0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+  const std::string   bytes(reinterpret_cast<const char *>(png), sizeof(png));
+  check_image("PNG", image(bytes), grey);
+
+  BondingParameters with_threshold = image(bytes);
+  with_threshold.threshold         = 0.4;
+  const double above[4]            = {1., 1., 0., 0.};
+  check_image("PNG with a threshold", with_threshold, above);
+
+  // a block takes the picture over its whole face
+  BodyParameters block;
+  block.size               = {{4, 2, 1}};
+  block.cells              = {{2, 2, 1}};
+  const auto   pattern     = make_pattern(image("P2 2 2 4 4 3 1 0"), block);
+  const double expected[4] = {0.25, 0., 1., 0.75};
+  double       largest     = 0.;
+  for (unsigned int e = 0; e < 4; ++e)
+    grow(largest, std::abs(pattern.parts()[e].phi_0 - expected[e]));
+  report("  a block, the first row at its top, deviation", largest, 1e-7);
+}
+
+
+
+double
+difference(const BondingPattern &a, const BondingPattern &b)
+{
+  double largest = a.parts().size() == b.parts().size() ? 0. : 1.;
+  for (unsigned int i = 0; i < a.parts().size(); ++i)
+    grow(largest, std::abs(a.parts()[i].phi_0 - b.parts()[i].phi_0));
+  return largest;
+}
+
+
+
+// What bonding.csv says gives the pattern again.
+void
+check_files()
+{
+  std::cout << "Files" << std::endl;
+  for (const BondingResolution resolution :
+       {BondingResolution::element, BondingResolution::quadrature_point})
+    {
+      const auto pattern =
+        make_pattern(expression("0.5 + 0.15 * x + 0.1 * y", resolution),
+                     coin(6));
+      const auto again = make_pattern(from_file(BondingPatternKind::file,
+                                                "again.csv",
+                                                pattern.table(),
+                                                resolution),
+                                      coin(6));
+      report("  the table of a pattern gives it again, deviation",
+             difference(pattern, again),
+             1e-15);
+    }
+
+  // elements of the coarsest disk, by number in any order, and in order
+  const auto by_number = make_pattern(
+    from_file(BondingPatternKind::file,
+              "number.csv",
+              "phi_0,element\n0.9,9\n0.1,1\n0.2,2\n0.3,3\n0.4,4\n0.5,5\n"
+              "0.6,6\n0.7,7\n0.8,8\n"),
+    coin(3));
+  const auto in_order =
+    make_pattern(from_file(BondingPatternKind::file,
+                           "order.csv",
+                           "# in order\nphi_0\n0.1\n0.2\n0.3\n0.4\n0.5\n0.6\n"
+                           "0.7\n0.8\n0.9\n"),
+                 coin(3));
+  report("  numbered elements and elements in order, deviation",
+         difference(by_number, in_order),
+         1e-15);
+  report("  the fifth is in the middle",
+         in_order.parts()[4].centre.norm() < 1e-12 &&
+           in_order.parts()[4].phi_0 == 0.5);
+
+  // three points in the middle element, one beside the disk, one at the right
+  const auto points =
+    make_pattern(from_file(BondingPatternKind::file,
+                           "points.csv",
+                           "x,y,phi_0\n0,0,0.3\n0.1,0,0.6\n0,0.1,0.9\n"
+                           "9,9,1\n1.6,0,0.2\n"),
+                 coin(3));
+  double others = 0.;
+  for (const unsigned int e : {1, 3, 7})
+    grow(others, std::abs(points.parts()[e].phi_0 - 0.6));
+  report("  an element with points takes their mean",
+         std::abs(points.parts()[4].phi_0 - 0.6),
+         1e-15);
+  report("  the right one has a point", points.parts()[5].phi_0 == 0.2);
+  // the corner towards (9, 9) is nearer to (1.6, 0) than to that point
+  report("  one without takes the nearest", points.parts()[8].phi_0 == 0.2);
+}
+
+
+
+void
+say(const BondingParameters &parameters)
+{
+  try
+    {
+      make_pattern(parameters, coin(3));
+      std::cout << "  no message" << std::endl;
+    }
+  catch (const InputError &error)
+    {
+      std::cout << "  " << error.what() << std::endl;
+    }
+}
+
+
+
+void
+check_messages()
+{
+  std::cout << "Messages" << std::endl;
+  say(expression("1.5 * r/R"));
+  say(expression("-x"));
+  say(expression("1/0"));
+  say(expression("t"));
+  say(expression("sin(x"));
+  say(expression("0,5"));
+  const auto image = [](const std::string &content) {
+    return from_file(BondingPatternKind::image, "bad_image", content);
+  };
+  say(image(""));
+  say(image("GIF89a"));
+  say(image("P2 2 2 255 1 2 3"));
+  say(image("P2 2 2 255 1 2 3 256"));
+  say(image("P2 2 0 255"));
+  say(image("P2 2 2 0 0 0 0 0"));
+  say(image("P5 2 2 255\nabc"));
+  say(image("P5 99999999999999999999 2 255\nabc"));
+  say(image("P2 300000 2 255 1"));
+  say(image("\x89PNG and nothing else"));
+  BondingParameters missing = image("");
+  missing.file              = "not_there.png";
+  say(missing);
+  const auto file = [](const std::string &content) {
+    return from_file(BondingPatternKind::file, "bad.csv", content);
+  };
+  say(file(""));
+  say(file("phi_0\n1\n1\n"));
+  say(file("phi_0\n1\n1\n1\n1\n1\n1\n1\n1\n1.1\n"));
+  say(file("element,phi_0\n1,1\n2,1\n3,1\n4,1\n5,1\n6,1\n7,1\n8,1\n8,1\n"));
+  say(file("element,phi_0\n1,1\n2,1\n3,1\n4,1\n5,1\n6,1\n7,1\n8,1\n10,1\n"));
+  say(file("x,y\n1,1\n"));
+  say(file("x,y,phi_0\n1,1,high\n"));
+  BondingParameters by_point = file("element,phi_0\n1,1\n");
+  by_point.resolution        = BondingResolution::quadrature_point;
+  say(by_point);
+}
+
+
+
+int
+main()
+{
+  check_means();
+  check_images();
+  check_files();
+  check_messages();
+}

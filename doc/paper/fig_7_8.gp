@@ -33,13 +33,13 @@ unset cblabel
 do for [quantity in "mu slip_mm"] {
   set output dir . (quantity eq "mu" ? "fig_8.png" : "fig_8_slip.png")
   set terminal pngcairo size 1400,940
-  set multiplot layout 4, 6 margins 0.04, 0.9, 0.02, 0.95 spacing 0.005, 0.01
+  set multiplot layout 4, 6 margins 0.04, 0.89, 0.02, 0.95 spacing 0.005, 0.01
   if (quantity eq "mu") { set cbrange [0.4:0.97] } else { set cbrange [0:0.15] }
   do for [row=1:4] {
     do for [i=1:6] {
       angle = word(angles, i) + 0.
       if (i == 6 && row == 4) {
-        set colorbox user origin 0.92, 0.1 size 0.012, 0.75
+        set colorbox user origin 0.905, 0.1 size 0.012, 0.75
         set cblabel (quantity eq "mu" ? "μ" : "g_s [mm]")
       } else { unset colorbox; unset cblabel }
       if (row == 1) { set title word(angles, i) . "°" } else { unset title }

@@ -15,8 +15,11 @@ namespace Debond
 
 
   void
-  AdaptiveStepping::begin_phase(const unsigned int phase, const Forces &forces)
+  AdaptiveStepping::begin_phase(const unsigned int phase,
+                                const Forces      &forces,
+                                const Forces      &drive)
   {
+    note_drive(drive);
     time         = parameters.times[phase];
     end          = parameters.times[phase + 1];
     largest      = (end - time) / parameters.steps[phase];
@@ -24,6 +27,18 @@ namespace Debond
     greatest     = greatest.cwiseMax(forces.cwiseAbs());
     has_previous = false; // a new phase is not the continuation of the last one
     set_size(largest);
+  }
+
+
+
+  void
+  AdaptiveStepping::note_drive(const Forces &drive)
+  {
+    if (!has_first_drive)
+      first_drive = drive;
+    has_first_drive = true;
+    for (unsigned int k = 0; k < 6; ++k)
+      is_driven[k] = is_driven[k] || drive[k] != first_drive[k];
   }
 
 
@@ -81,13 +96,14 @@ namespace Debond
     Forces largest_so_far = greatest.cwiseMax(forces.cwiseAbs());
     Forces in_newton      = largest_so_far;
     in_newton.tail<3>() /= radius;
-    // A component next to nothing, for instance by symmetry, has no curve, and
-    // a small one, for instance the sideways force of a bond that is not quite
-    // symmetric, changes in many small jumps that nobody asks for.
-    const double floor = 0.1 * in_newton.maxCoeff();
-    double       error = 0;
+    // A component next to nothing, for instance by symmetry, has no curve.
+    // Small reactions to patterns beside the axis have a kink wherever a few
+    // points begin to slide: in proportion to themselves they would take three
+    // times as many steps as the torque.
+    double error = 0;
     for (unsigned int k = 0; k < 6; ++k)
       {
+        const double floor = (is_driven[k] ? 1e-3 : 0.1) * in_newton.maxCoeff();
         const double scale =
           std::max(largest_so_far[k], floor * (k < 3 ? 1. : radius));
         if (scale > 0.)
@@ -99,8 +115,9 @@ namespace Debond
 
 
   double
-  AdaptiveStepping::error(const Forces &forces) const
+  AdaptiveStepping::error(const Forces &forces, const Forces &drive)
   {
+    note_drive(drive);
     if (!has_previous) // twice: the curve need not be a parabola
       return 2. *
              relative_to_tolerance(middle - 0.5 * (current + forces), forces);

@@ -221,7 +221,9 @@ namespace Debond
     AdaptiveStepping &stepping    = *state->adaptive_stepping;
     unsigned int      iterations  = 0;
     bool              extrapolate = false;
-    stepping.begin_phase(phase, system.chuck_forces());
+    stepping.begin_phase(phase,
+                         system.chuck_forces(),
+                         system.chuck.values(state->time));
     while (!stepping.phase_is_finished())
       {
         const double time = stepping.target_time();
@@ -232,7 +234,8 @@ namespace Debond
               give_up(state->step + 1, time);
             continue;
           }
-        const double error = stepping.error(system.chuck_forces());
+        const double error =
+          stepping.error(system.chuck_forces(), system.chuck.values(time));
         if (error > 1. && stepping.shrink(error))
           {
             system.rollback(); // the curve bends too much for this step

@@ -2,6 +2,7 @@
 #include <debond/chuck.h>
 #include <debond/contact_interface.h>
 #include <debond/field_output.h>
+#include <debond/friction_law.h>
 #include <debond/result_files.h>
 #include <debond/vertex_stress.h>
 
@@ -386,33 +387,57 @@ namespace Debond
         unsigned int                nearest;
       };
 
+      /** For fields that are continuous over the whole patch. */
       Stencil
-      at(const Eigen::Vector2d &xi) const
+      across_elements(const Eigen::Vector2d &xi) const
+      {
+        const std::array<std::size_t, 2> ends{
+          {coordinates[0].size(), coordinates[1].size()}};
+        return stencil(xi, {{0, 0}}, ends);
+      }
+
+      /** For fields that may jump at its borders: points of @p element only. */
+      Stencil
+      within(const unsigned int element, const Eigen::Vector2d &xi) const
+      {
+        const std::size_t i = n * (element % n_elements_1);
+        const std::size_t j = n * (element / n_elements_1);
+        return stencil(xi, {{i, j}}, {{i + n, j + n}});
+      }
+
+    private:
+      /** Between the points from @p begin to before @p end in each direction;
+       *  constant beyond these. */
+      Stencil
+      stencil(const Eigen::Vector2d            &xi,
+              const std::array<std::size_t, 2> &begin,
+              const std::array<std::size_t, 2> &end) const
       {
         std::array<unsigned int, 2> first, second;
         std::array<double, 2>       share; // of the second
         for (unsigned int d = 0; d < 2; ++d)
           {
-            const auto        &x = coordinates[d];
-            const unsigned int upper =
-              std::upper_bound(x.begin(), x.end(), xi[d]) - x.begin();
-            first[d]  = std::max(upper, 1u) - 1;
-            second[d] = std::min<unsigned int>(upper, x.size() - 1);
+            const auto       &x     = coordinates[d];
+            const std::size_t upper = std::upper_bound(x.begin() + begin[d],
+                                                       x.begin() + end[d],
+                                                       xi[d]) -
+                                      x.begin();
+            first[d]  = std::max(upper, begin[d] + 1) - 1;
+            second[d] = std::min(upper, end[d] - 1);
             share[d]  = first[d] == second[d] ?
                           0. :
                           (xi[d] - x[first[d]]) / (x[second[d]] - x[first[d]]);
           }
-        Stencil stencil;
-        stencil.weight = bilinear(share[0], share[1]);
+        Stencil result;
+        result.weight = bilinear(share[0], share[1]);
         for (unsigned int a = 0; a < 4; ++a)
-          stencil.point[a] = index(a % 2 == 0 ? first[0] : second[0],
-                                   a / 2 == 0 ? first[1] : second[1]);
-        stencil.nearest = index(share[0] < 0.5 ? first[0] : second[0],
-                                share[1] < 0.5 ? first[1] : second[1]);
-        return stencil;
+          result.point[a] = index(a % 2 == 0 ? first[0] : second[0],
+                                  a / 2 == 0 ? first[1] : second[1]);
+        result.nearest = index(share[0] < 0.5 ? first[0] : second[0],
+                               share[1] < 0.5 ? first[1] : second[1]);
+        return result;
       }
 
-    private:
       /** Points are numbered element by element, the first parameter fastest in
        *  both; @p i and @p j count over the whole patch. */
       unsigned int
@@ -443,21 +468,68 @@ namespace Debond
 
 
 
-    /** All interpolated fields of a quadrature point, one after the other. */
+    /** Fields of a quadrature point that are continuous over the patch, one
+     *  after the other. */
     std::vector<double>
-    point_values(const ContactInterface        &interface,
-                 const ContactInterface::Point &point)
+    continuous_values(const ContactInterface::Point &point)
     {
-      const FrictionCoefficient friction = interface.friction(point);
-      std::vector<double>       values{point.trial.pressure};
+      std::vector<double> values{point.trial.pressure};
       append_values(values, -point.trial.tangential_traction);
-      values.insert(values.end(),
-                    {gap_to_partner(point.trial),
-                     point.trial.state.slip,
-                     point.phi_0,
-                     friction.phi,
-                     friction.mu});
+      values.push_back(gap_to_partner(point.trial));
+      values.push_back(point.trial.state.slip);
       return values;
+    }
+
+
+
+    /** Sliding distance [mm] from those points that face the implant: the
+     *  others of a bone have never slid and would heal its bond at the rim. */
+    double
+    slip_under_implant(const ContactInterface        &interface,
+                       const QuadratureGrid::Stencil &stencil)
+    {
+      double slip = 0., weight = 0.;
+      for (unsigned int a = 0; a < 4; ++a)
+        {
+          const auto &point = interface.get_points()[stencil.point[a]];
+          if (!point.faces_implant)
+            continue;
+          slip += stencil.weight[a] * point.trial.state.slip;
+          weight += stencil.weight[a];
+        }
+      return weight > 0. ? slip / weight : 0.;
+    }
+
+
+
+    /**
+     * phi_0, phi and mu at a point of @p element. Patterns jump from element to
+     * element, so phi_0 is that of the element's own points; phi and mu follow
+     * from it and the sliding distance, which does not jump, by the friction
+     * law: they are as sharp as the pattern where it jumps, smooth elsewhere.
+     */
+    std::array<double, 3>
+    bonding_values(const ContactInterface &interface,
+                   const QuadratureGrid   &grid,
+                   const unsigned int      element,
+                   const Eigen::Vector2d  &xi)
+    {
+      const QuadratureGrid::Stencil own = grid.within(element, xi);
+      double phi_0 = 0., phi_0_left = 0.; // without bonds that opening broke
+      for (unsigned int a = 0; a < 4; ++a)
+        {
+          const auto  &point = interface.get_points()[own.point[a]];
+          const double part  = own.weight[a] * point.phi_0;
+          phi_0 += part;
+          if (!point.trial.state.broken)
+            phi_0_left += part;
+        }
+      const FrictionCoefficient friction =
+        friction_coefficient(interface.get_parameters().friction,
+                             phi_0_left,
+                             slip_under_implant(interface,
+                                                grid.across_elements(xi)));
+      return {{phi_0, friction.phi, friction.mu}};
     }
 
 
@@ -496,7 +568,7 @@ namespace Debond
     const QuadratureGrid grid(interface, surface);
     std::vector<std::vector<double>> at_points;
     for (const auto &point : interface.get_points())
-      at_points.push_back(point_values(interface, point));
+      at_points.push_back(continuous_values(point));
 
     const unsigned int  n = n_pieces(surface, 96, 4, 16);
     SurfaceBasis        basis;
@@ -516,12 +588,14 @@ namespace Debond
               contract(basis, surface.control_points(), false, position);
               contract(basis, u, false, displacement);
 
-              const QuadratureGrid::Stencil stencil = grid.at(xi);
+              const QuadratureGrid::Stencil stencil = grid.across_elements(xi);
               values.assign(at_points[0].size(), 0.);
               for (unsigned int a = 0; a < 4; ++a)
                 for (unsigned int f = 0; f < values.size(); ++f)
                   values[f] +=
                     stencil.weight[a] * at_points[stencil.point[a]][f];
+              const auto bonding = bonding_values(interface, grid, element, xi);
+              values.insert(values.end(), bonding.begin(), bonding.end());
               values.push_back(static_cast<double>(
                 interface.get_points()[stencil.nearest].trial.state.status));
               append_values(values, displacement.y);

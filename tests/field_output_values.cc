@@ -1,13 +1,14 @@
 // What the VTU files hold, read back: two rigid bodies, pressed and turned. The
 // disk is round, warping gives the turned implant, the interface arrays are
-// those of the closed form; the series names files and times; nothing depends
-// on the date.
+// those of the closed form; a bonding pattern is as sharp as the elements; the
+// series names files and times; nothing depends on the date.
 
 #include <debond/body.h>
 #include <debond/chuck.h>
 #include <debond/closed_forms.h>
 #include <debond/contact_interface.h>
 #include <debond/field_output.h>
+#include <debond/friction_law.h>
 #include <debond/result_files.h>
 
 #include <deal.II/base/numbers.h>
@@ -113,13 +114,23 @@ struct Model
   Chuck               chuck;
   ContactInterface    interface;
 
-  explicit Model(const std::array<BodyParameters, 2> &bodies)
-    : bone(bodies[0], BodySide::bone)
+  explicit Model(const std::array<BodyParameters, 2> &bodies,
+                 const BondingParameters &bonding = BondingParameters())
+    : interface_parameters(with(bonding))
+    , bone(bodies[0], BodySide::bone)
     , implant(bodies[1], BodySide::implant)
     , chuck(motion(), Eigen::Vector3d(0, 0, bodies[1].height), 2.5)
     , interface(interface_parameters, bone.mesh(), implant.mesh())
   {
     interface.initialise(configuration());
+  }
+
+  static InterfaceParameters
+  with(const BondingParameters &bonding)
+  {
+    InterfaceParameters parameters;
+    parameters.bonding = bonding;
+    return parameters;
   }
 
   static ChuckParameters
@@ -297,6 +308,19 @@ check_interface(const std::string &vtu)
                      .norm();
                  }),
          0.1);
+  report("interface: deviation of phi",
+         largest(n_points,
+                 [&](const unsigned int i) {
+                   const double r = vector_at(X, i).norm();
+                   double       derivative;
+                   if (r > 2.4) // beyond the outermost quadrature points
+                     return 0.;
+                   return std::abs(phi.at(i) -
+                                   bonding_decay(FrictionParameters(),
+                                                 exact.slip(r, angle),
+                                                 derivative));
+                 }),
+         0.005);
   report("interface: deviation of mu from 0.4 + 0.18 phi",
          largest(n_points,
                  [&](const unsigned int i) {
@@ -312,6 +336,70 @@ check_interface(const std::string &vtu)
     }
   std::cout << "interface: points that stick, if any, are near the axis: "
             << (n_stick > 0 && wrong == 0 ? "yes" : "NO") << std::endl;
+}
+
+
+
+/** A pattern of 1 and 0, and in one ring of elements a share, on 6 x 6
+ *  elements, which are drawn as 16 x 16 pieces each. */
+void
+check_pattern(const BondingResolution resolution)
+{
+  BondingParameters bonding;
+  bonding.pattern         = BondingPatternKind::disk;
+  bonding.bonded_fraction = 0.5;
+  bonding.resolution      = resolution;
+  Model            model(rigid_bodies(), bonding);
+  OutputParameters output;
+  output.overwrite_other_results = true;
+  output.directory               = "results/pattern";
+  const ResultDirectory directory(output, "");
+  model.move_to(1);
+  FieldOutput(
+    directory, model.bone, model.implant, model.interface, model.chuck)
+    .write(1);
+  const std::string vtu = contents("results/pattern/interface-0000.vtu");
+  const auto phi_0 = read_array(vtu, "phi_0"), phi = read_array(vtu, "phi");
+  const auto mu = read_array(vtu, "mu"), slip = read_array(vtu, "slip_mm");
+
+  // first and last drawn point of an element next to its first and last
+  // quadrature point; with one value per element so are all others
+  constexpr unsigned int n_drawn = 17 * 17, n_q = 5 * 5;
+  const auto            &points    = model.interface.get_points();
+  double                 deviation = 0;
+  unsigned int           n_bonded = 0, n_free = 0;
+  for (unsigned int i = 0; i < phi_0.size(); ++i)
+    {
+      const unsigned int in_element = i % n_drawn, first = i / n_drawn * n_q;
+      const bool         is_last = in_element == n_drawn - 1;
+      if (resolution == BondingResolution::quadrature_point &&
+          in_element != 0 && !is_last)
+        continue;
+      const double expected = points.at(first + (is_last ? n_q - 1 : 0)).phi_0;
+      deviation = std::max(deviation, std::abs(phi_0[i] - expected));
+      n_bonded += (expected == 1.);
+      n_free += (expected == 0.);
+    }
+  std::cout << "pattern: drawn points of the bonded and the free part: "
+            << n_bonded << ", " << n_free << " of " << phi_0.size()
+            << std::endl;
+  report("pattern: deviation of phi_0 from the element's own", deviation, 1e-6);
+  report("pattern: deviation of phi from phi_0 s(slip)",
+         largest(phi_0.size(),
+                 [&](const unsigned int i) {
+                   double derivative;
+                   return std::abs(
+                     phi.at(i) - phi_0[i] * bonding_decay(FrictionParameters(),
+                                                          slip.at(i),
+                                                          derivative));
+                 }),
+         1e-5);
+  report("pattern: deviation of mu from 0.4 + 0.18 phi",
+         largest(phi_0.size(),
+                 [&](const unsigned int i) {
+                   return std::abs(mu.at(i) - 0.4 - 0.18 * phi.at(i));
+                 }),
+         1e-6);
 }
 
 
@@ -341,6 +429,9 @@ main()
 
   check_bulk(contents("results/fields/bulk-0001.vtu"));
   check_interface(contents("results/fields/interface-0001.vtu"));
+
+  check_pattern(BondingResolution::element);
+  check_pattern(BondingResolution::quadrature_point);
 
   bool equal = true, dated = false;
   for (const std::string &name : names)

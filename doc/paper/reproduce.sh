@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Makes tables and figures of the paper again: doc/paper/reproduce.sh [--jobs N] [--force] NAME...
 #   NAME: calibrated contradictions table_3 table_4_set_1 table_4_set_2 table_5 table_7 table_7_meshes table_7_steps table_7_layers
-#         table_7_layers_printed fig_1 fig_3_12 fig_4 fig_5_6 fig_13 all
+#         table_7_layers_printed fig_1 fig_3_12 fig_4 fig_5_6 fig_7_8 fig_9 fig_10 fig_13
+#         partial_equal_parameters partial_fitted_parameters all
 # Results go to output/paper. Variants of studies that are there already are not run again. Pictures need gnuplot.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -18,11 +19,14 @@ reproduce() {
     fig_3_12) run fig_3_12; picture fig_3_12 fig_3_12/fig_3_12.png ;;
     fig_4) run table_5; picture fig_4 table_5/fig_4.png ;;
     fig_5_6) run fig_5_6; picture fig_5_6 "fig_5_6/fig_5.png and fig_6.png" ;;
+    fig_7_8) run partial_fitted_parameters; picture fig_7_8 "partial_fitted_parameters/fig_7.png, fig_8.png and fig_8_slip.png" ;;
+    fig_9) run partial_fitted_parameters; picture fig_9 partial_fitted_parameters/fig_9.png ;;
+    fig_10) run partial_equal_parameters; picture fig_10 partial_equal_parameters/fig_10.png ;;
     fig_13) run table_7; picture fig_13 table_7/fig_13.png ;;
     all)
       local name
-      for name in calibrated contradictions table_3 table_4_set_1 table_4_set_2 fig_4 fig_1 fig_3_12 fig_5_6 table_7_meshes \
-        table_7_steps table_7_layers table_7_layers_printed fig_13; do
+      for name in calibrated contradictions table_3 table_4_set_1 table_4_set_2 fig_4 fig_1 fig_3_12 fig_5_6 fig_7_8 fig_9 fig_10 \
+        table_7_meshes table_7_steps table_7_layers table_7_layers_printed fig_13; do
         reproduce "$name"
       done
       ;;
@@ -41,5 +45,5 @@ while [[ "${1:-}" == --* ]]; do
   if [[ $1 == --jobs ]]; then options+=("${2:-}"); shift; fi
   shift
 done
-if (($# == 0)); then sed -n '2,5s/^# //p' "$0"; exit 1; fi
+if (($# == 0)); then sed -n '2,6s/^# //p' "$0"; exit 1; fi
 for name in "$@"; do reproduce "$name"; done

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include <array>
+
 namespace Debond
 {
   /**
@@ -12,6 +14,11 @@ namespace Debond
    * straight lines between the ends of the steps, within a tolerance. The
    * states at these ends are nearly exact whatever the step; what a large step
    * loses is the shape of the curve in between.
+   *
+   * The tolerance is relative to the largest value of each curve; where the
+   * machine holds still, for instance against the lateral forces of a bond on
+   * one side, it is relative to a tenth of the largest of all forces if that is
+   * more.
    *
    * The error of a step is estimated from the distance of its end from the
    * straight line through the step before, in the first step of a phase from a
@@ -25,9 +32,10 @@ namespace Debond
     /** @p radius makes forces of moments, to compare them with [mm]. */
     AdaptiveStepping(const LoadSteppingParameters &parameters, double radius);
 
-    /** Goes to the beginning of a phase, where the chuck exerts @p forces. */
+    /** Goes to the beginning of a phase, where the chuck exerts @p forces and
+     *  the scene prescribes @p drive, displacements and angles or loads. */
     void
-    begin_phase(unsigned int phase, const Forces &forces);
+    begin_phase(unsigned int phase, const Forces &forces, const Forces &drive);
     bool
     phase_is_finished() const
     {
@@ -49,10 +57,10 @@ namespace Debond
     void
     note_middle(const Forces &forces);
 
-    /** The error of the curves in the step relative to the tolerance, given the
-     *  forces at its end. */
+    /** The error of the curves in the step relative to the tolerance, given
+     *  forces and drive at its end. */
     double
-    error(const Forces &forces) const;
+    error(const Forces &forces, const Forces &drive);
     /** Takes the step; @p error is the above. */
     void
     accept(const Forces &forces, double error);
@@ -72,17 +80,22 @@ namespace Debond
     relative_to_tolerance(const Forces &difference, const Forces &forces) const;
     void
     set_size(double new_size);
+    void
+    note_drive(const Forces &drive);
 
     const LoadSteppingParameters parameters;
     const double                 radius;
     double                       time = 0, end = 0, size = 0, largest = 0;
-    Forces current       = Forces::Zero(); ///< at the beginning of the step
-    Forces previous      = Forces::Zero(); ///< one step before
-    Forces middle        = Forces::Zero();
+    Forces current        = Forces::Zero(); ///< at the beginning of the step
+    Forces previous       = Forces::Zero(); ///< one step before
+    Forces middle         = Forces::Zero();
     double previous_time  = 0;
     double previous_error = 0; ///< of the step before
     bool   has_previous = false, has_middle = false;
     Forces greatest = Forces::Zero(); ///< so far
+    Forces first_drive;
+    bool   has_first_drive = false;
+    std::array<bool, 6> is_driven{}; ///< whether the drive has changed so far
   };
 } // namespace Debond
 #endif

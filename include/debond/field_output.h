@@ -42,7 +42,10 @@ namespace Debond
    * They are known at the quadrature points. Between these they are
    * interpolated bilinearly in the parameters of the surface, across the
    * borders of elements, and constant beyond the outermost points, so that
-   * nothing overshoots; `state` is that of the nearest point.
+   * nothing overshoots; `state` is that of the nearest point. phi_0, which may
+   * jump from element to element, is interpolated between the points of each
+   * element alone, and phi and mu are those of the friction law for this phi_0
+   * and the interpolated sliding distance.
    */
   class FieldOutput
   {

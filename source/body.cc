@@ -112,7 +112,8 @@ namespace Debond
     Condensation attempt;
     if (!attempt.factorise(assemble_free_tangent(), contact_unknowns))
       return false;
-    condensation = std::move(attempt);
+    condensation      = std::move(attempt);
+    condensed_at_rest = v.isZero(0.);
     return true;
   }
 
@@ -122,6 +123,9 @@ namespace Debond
   Body::set_contact_control_points(const std::vector<bool> &contact)
   {
     if (!deformable())
+      return;
+    if (condensed_at_rest && contact == is_contact && v.isZero(0.) &&
+        accepted.value.isZero(0.))
       return;
     complete_surface(); // what was interior may become a contact unknown
     is_contact           = contact;

@@ -8,9 +8,20 @@
 
 namespace Debond
 {
-  CoupledSystem::CoupledSystem(const Scene &scene, dealii::TimerOutput &timer)
+  BodyPair::BodyPair(const Scene &scene)
     : bone(scene.bone, BodySide::bone)
     , implant(scene.implant, BodySide::implant)
+  {}
+
+
+
+  CoupledSystem::CoupledSystem(const Scene              &scene,
+                               dealii::TimerOutput      &timer,
+                               std::shared_ptr<BodyPair> bodies)
+    : both_bodies(bodies ? std::move(bodies) :
+                           std::make_shared<BodyPair>(scene))
+    , bone(both_bodies->bone)
+    , implant(both_bodies->implant)
     , chuck(scene.chuck,
             Eigen::Vector3d(0, 0, scene.implant.thickness()),
             scene.implant.characteristic_radius())

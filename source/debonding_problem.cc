@@ -36,6 +36,7 @@ namespace Debond
     LoadStepping                       stepping;
     std::unique_ptr<AdaptiveStepping>  adaptive_stepping; ///< if wanted
     std::unique_ptr<ResultDirectory>   directory;
+    std::shared_ptr<BodyPair>          given_bodies; ///< if there are any
     std::unique_ptr<CoupledSystem>     system;
     std::unique_ptr<TorqueCurveWriter> torque_writer;
     std::unique_ptr<FieldOutput>       field_output;
@@ -57,10 +58,13 @@ namespace Debond
 
 
 
-  DebondingProblem::DebondingProblem(const Scene &scene)
+  DebondingProblem::DebondingProblem(const Scene              &scene,
+                                     std::shared_ptr<BodyPair> bodies)
     : scene(scene)
     , state(std::make_unique<Run>(scene))
-  {}
+  {
+    state->given_bodies = std::move(bodies);
+  }
 
   DebondingProblem::~DebondingProblem() = default;
 
@@ -131,7 +135,9 @@ namespace Debond
     state->profiles = std::make_unique<ProfileOutput>(scene, *state->directory);
     {
       const dealii::TimerOutput::Scope t(state->timer, "set-up");
-      state->system = std::make_unique<CoupledSystem>(scene, state->timer);
+      state->system = std::make_unique<CoupledSystem>(scene,
+                                                      state->timer,
+                                                      state->given_bodies);
     }
     if (scene.load_steps.adaptive)
       state->adaptive_stepping =
@@ -524,6 +530,9 @@ namespace Debond
       summary.seconds.emplace_back(section, seconds);
     summary.seconds.emplace_back("before steps", state->seconds_before_steps);
     summary.seconds.emplace_back("stepping", seconds_stepping);
+    if (state->given_bodies)
+      summary.seconds.emplace_back("shared set-up",
+                                   state->given_bodies->seconds_shared);
     summary.wall_seconds     = state->wall_clock.wall_time();
     summary.profile_measures = state->profiles->measures();
     summary.peak_memory_MB   = peak_memory_MB();

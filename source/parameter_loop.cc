@@ -15,6 +15,12 @@ namespace Debond
 
   namespace
   {
+    constexpr unsigned int most_variants = 100000;
+    const char *const      too_many =
+      "this makes a study of more than 100000 variants";
+
+
+
     std::vector<std::string>
     split_at(const std::string &text, const std::string &separator)
     {
@@ -51,6 +57,42 @@ namespace Debond
 
 
 
+    /** The whole numbers of FIRST..LAST; anything else as it is. */
+    std::vector<std::string>
+    expand_range(const SceneEntry &entry, const std::string &item)
+    {
+      static const std::regex whole("([+-]?[0-9]{1,9})\\s*\\.\\.\\s*"
+                                    "([+-]?[0-9]{1,9})");
+      // what was meant as a range; not the path ../table.csv
+      static const std::regex attempt(
+        "[-+.0-9eE]*[0-9][-+.0-9eE]*\\s*\\.\\.\\s*"
+        "[-+.0-9eE]*|"
+        "\\.\\.\\s*[-+]?[0-9]+");
+      std::smatch match;
+      if (!std::regex_match(item, match, whole))
+        {
+          if (std::regex_match(item, attempt))
+            refuse(entry,
+                   "'" + item +
+                     "' is no range: expected FIRST..LAST with whole numbers "
+                     "of at most nine digits");
+          return {item};
+        }
+      const int first = std::stoi(match[1]), last = std::stoi(match[2]);
+      if (first > last)
+        refuse(entry,
+               "the range '" + item +
+                 "' is empty: expected FIRST..LAST with FIRST <= LAST");
+      if (unsigned(last - first) >= most_variants)
+        refuse(entry, too_many);
+      std::vector<std::string> numbers;
+      for (int i = first; i <= last; ++i)
+        numbers.push_back(std::to_string(i));
+      return numbers;
+    }
+
+
+
     Choice
     read_choice(const SceneEntry &entry)
     {
@@ -83,7 +125,8 @@ namespace Debond
         {
           if (item.find('|') != std::string::npos)
             refuse(entry, "either | or || between all values");
-          choice.values.push_back(trim(prefix + item + suffix));
+          for (const std::string &one : expand_range(entry, item))
+            choice.values.push_back(trim(prefix + one + suffix));
         }
       return choice;
     }
@@ -98,6 +141,8 @@ namespace Debond
       add(const SceneEntry &entry, const Choice &choice)
       {
         const unsigned int n = choice.values.size();
+        if (n > most_variants)
+          refuse(entry, too_many);
         if (choice.by_run)
           by_run.emplace_back(entry, n);
         else if (choice.name.empty() || strides.count(choice.name) == 0)
@@ -105,6 +150,8 @@ namespace Debond
             // an entry without a name is an axis of its own
             strides[choice.name.empty() ? entry.full_name() : choice.name] = {
               n_combinations, n};
+            if (n > most_variants / n_combinations)
+              refuse(entry, too_many);
             n_combinations *= n;
           }
         else if (strides.at(choice.name).second != n)
@@ -112,8 +159,6 @@ namespace Debond
                  std::to_string(n) + " values, but an entry before has " +
                    std::to_string(strides.at(choice.name).second) + " for '" +
                    choice.name + "'");
-        if (n_combinations > 100000)
-          refuse(entry, "this makes a study of more than 100000 variants");
       }
 
       /** Variants of all; with entries {{a||b}} alone their number of values.

@@ -9,8 +9,16 @@ namespace Debond
   std::unique_ptr<Problem>
   Problem::create(const Scene &scene)
   {
+    return create(scene, nullptr);
+  }
+
+
+
+  std::unique_ptr<Problem>
+  Problem::create(const Scene &scene, std::shared_ptr<BodyPair> bodies)
+  {
     if (scene.model == ModelKind::finite_elements)
-      return std::make_unique<DebondingProblem>(scene);
+      return std::make_unique<DebondingProblem>(scene, std::move(bodies));
     try
       {
         if (scene.model == ModelKind::automatic)

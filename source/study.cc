@@ -1,8 +1,12 @@
+#include <debond/csv_table.h>
+#include <debond/ensemble.h>
 #include <debond/input_error.h>
 #include <debond/number_text.h>
 #include <debond/problem.h>
+#include <debond/sample_statistics.h>
 #include <debond/study.h>
 #include <debond/torque_curve.h>
+#include <debond/variant_queue.h>
 
 #define BOOST_BIND_GLOBAL_PLACEHOLDERS
 #include <boost/property_tree/json_parser.hpp>
@@ -65,17 +69,6 @@ namespace Debond
 
 
 
-    /** Of an even number of values the mean of the two in the middle. */
-    double
-    median(std::vector<double> values)
-    {
-      std::sort(values.begin(), values.end());
-      const std::size_t n = values.size();
-      return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
-    }
-
-
-
     std::string
     member(const StudyRow &members, const std::string &name)
     {
@@ -109,7 +102,7 @@ namespace Debond
             std::vector<double> seconds;
             for (const StudyRow &repetition : repetitions)
               seconds.push_back(std::atof(member(repetition, name).c_str()));
-            text = to_text(median(std::move(seconds)));
+            text = to_text(sample_statistics(std::move(seconds)).p50);
           }
     }
 
@@ -126,16 +119,13 @@ namespace Debond
 
 
 
-    /** A field of a CSV file. */
     std::string
-    csv_field(const std::string &text)
+    csv_line(const std::vector<std::string> &texts)
     {
-      if (text.find_first_of(",\"\n") == std::string::npos)
-        return text;
-      std::string quoted = "\"";
-      for (const char c : text)
-        quoted += (c == '"' ? std::string("\"\"") : std::string(1, c));
-      return quoted + "\"";
+      std::string line;
+      for (const std::string &text : texts)
+        line += (&text == &texts.front() ? "" : ",") + csv_field(text);
+      return line + "\n";
     }
 
 
@@ -313,7 +303,9 @@ namespace Debond
   Study::forget_repetitions(Variant &variant)
   {
     const std::string &place = variant.scene.output.directory;
-    for (unsigned int i = 1; std::filesystem::remove(repetition_file(place, i));
+    std::error_code    none;
+    for (unsigned int i = 1;
+         std::filesystem::remove(repetition_file(place, i), none);
          ++i)
       ;
     variant.repetitions.clear();
@@ -387,7 +379,9 @@ namespace Debond
     /** What a child process does: it ends with the message on the pipe, an
      *  empty one if all went well. */
     [[noreturn]] void
-    run_in_child(const Scene &scene, const int write_end)
+    run_in_child(const Scene                     &scene,
+                 const std::shared_ptr<BodyPair> &bodies,
+                 const int                        write_end)
     {
       // a variant does not outlive its study
       prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -397,7 +391,7 @@ namespace Debond
       try
         {
           if (message.empty())
-            Problem::create(scene)->run();
+            Problem::create(scene, bodies)->run();
         }
       catch (const std::exception &error)
         {
@@ -430,11 +424,13 @@ namespace Debond
 
 
 
-    /** Starts a variant as a process and adds it to @p jobs. */
+    /** Starts a variant as a process, with bodies that it shares or none, and
+     *  adds it to @p jobs. */
     void
-    start_job(const Scene          &scene,
-              const unsigned int    variant,
-              std::map<pid_t, Job> &jobs)
+    start_job(const Scene                     &scene,
+              const std::shared_ptr<BodyPair> &bodies,
+              const unsigned int               variant,
+              std::map<pid_t, Job>            &jobs)
     {
       int pipe_ends[2];
       if (pipe(pipe_ends) != 0)
@@ -445,7 +441,7 @@ namespace Debond
       if (process == 0)
         {
           close(pipe_ends[0]);
-          run_in_child(scene, pipe_ends[1]);
+          run_in_child(scene, bodies, pipe_ends[1]);
         }
       close(pipe_ends[1]);
       jobs[process] = {variant, pipe_ends[0]};
@@ -469,12 +465,21 @@ namespace Debond
     out << std::endl;
 
     std::map<pid_t, Job> jobs;
-    unsigned int         next = 0;
+    VariantQueue         waiting(n_jobs);
+    for (unsigned int i = 0; i < variants.size(); ++i)
+      if (!variants[i].done)
+        waiting.add(i, variants[i].scene, n_repetitions == 1);
+    auto n_ended = n_done;
     while (true)
       {
-        for (; next < variants.size() && jobs.size() < n_jobs; ++next)
-          if (!variants[next].done)
-            start_job(variants[next].scene, next, jobs);
+        while (!waiting.empty() && jobs.size() < n_jobs)
+          {
+            const auto next = waiting.next();
+            start_job(variants[next.variant].scene,
+                      next.bodies,
+                      next.variant,
+                      jobs);
+          }
         if (jobs.empty())
           break;
 
@@ -496,13 +501,15 @@ namespace Debond
         end_run(variant, failure);
         if (wants_another_run(variant))
           {
-            start_job(variant.scene, ended.variant, jobs);
+            start_job(variant.scene, nullptr, ended.variant, jobs);
             continue;
           }
+        out << ++n_ended << '/' << variants.size() << ' ';
         report(ended.variant, out);
-        write_table();
+        write_table_if_due();
       }
     write_table();
+    write_ensemble(out);
     const auto n_failed =
       std::count_if(variants.begin(), variants.end(), [](const Variant &v) {
         return !v.done;
@@ -584,33 +591,72 @@ namespace Debond
     for (unsigned int i = 0; i < variants.size(); ++i)
       rows.push_back(table_row(i));
 
-    std::vector<std::string> columns;
     // finished variants first: they know all columns and their order
+    std::map<std::string, std::size_t> column_of;
+    std::vector<std::string>           header;
     for (const bool done : {true, false})
       for (unsigned int i = 0; i < variants.size(); ++i)
         if (variants[i].done == done)
           for (const auto &[name, value] : rows[i])
-            if (std::find(columns.begin(), columns.end(), name) ==
-                columns.end())
-              columns.push_back(name);
-    std::string text;
-    for (const std::string &column : columns)
-      text += (text.empty() ? "" : ",") + csv_field(column);
-    text += "\n";
+            if (column_of.emplace(name, header.size()).second)
+              header.push_back(name);
+    std::string text = csv_line(header);
     for (const StudyRow &row : rows)
       {
-        std::string line;
-        for (const std::string &column : columns)
-          {
-            const auto has =
-              std::find_if(row.begin(), row.end(), [&](const auto &item) {
-                return item.first == column;
-              });
-            line += (line.empty() ? "" : ",") +
-                    (has == row.end() ? "nan" : csv_field(has->second));
-          }
-        text += line + "\n";
+        std::vector<std::string> fields(header.size(), "nan");
+        for (const auto &[name, value] : row)
+          fields[column_of.at(name)] = value;
+        text += csv_line(fields);
       }
     write_file(directory + "/study.csv", text);
+  }
+
+
+
+  // The table of a large study takes a while: most of the time is not to go
+  // into it.
+  void
+  Study::write_table_if_due()
+  {
+    if (since_table.wall_time() < time_between_tables)
+      return;
+    const dealii::Timer clock;
+    write_table();
+    time_between_tables = std::max(2., 50. * clock.wall_time());
+    since_table.restart();
+  }
+
+
+
+  // The seed is what stands for chance.
+  void
+  Study::write_ensemble(std::ostream &out) const
+  {
+    const auto seed =
+      std::find(varied.begin(), varied.end(), "Interface / Bonding / Seed");
+    if (seed == varied.end())
+      return;
+    const auto without_seed = [&](std::vector<std::string> items) {
+      items.erase(items.begin() + (seed - varied.begin()));
+      return items;
+    };
+    std::vector<EnsembleMember> members;
+    for (const Variant &variant : variants)
+      {
+        EnsembleMember next;
+        next.values    = without_seed(variant.values);
+        next.converged = variant.done;
+        for (const auto &[name, value] : variant.summary)
+          next.summary[name] = std::atof(value.c_str());
+        if (variant.done)
+          next.curve = read_reference_curve(variant.scene.output.directory +
+                                            "/torque.csv");
+        members.push_back(std::move(next));
+      }
+    const Ensemble ensemble(without_seed(varied), members);
+    write_file(directory + "/ensemble.csv", ensemble.curves());
+    write_file(directory + "/ensemble_summary.csv", ensemble.summary());
+    out << ensemble.notes() << "Statistics over all seeds are in " << directory
+        << "/ensemble.csv and ensemble_summary.csv" << std::endl;
   }
 } // namespace Debond

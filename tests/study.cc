@@ -187,6 +187,16 @@ test()
   print_variants("set A = {{m: 1|2}}\nset B = {{m: x|y|z}}");
   print_variants("set A = {{1|2");
   print_variants("set A = {{1|2}} {{3|4}}");
+  print_variants("set A = {{1..3}}\nset B = {{m: -1..0|5}}\n"
+                 "set C = {{m: x|y|z}}");
+  print_variants("set A = f{{8..10}}.csv\nset B = {{p||q||../r}}");
+  print_variants("set A = {{4..4}}");
+  print_variants("set A = {{5..1}}");
+  print_variants("set A = {{1..2.5}}");
+  print_variants("set A = {{1...5}}");
+  print_variants("set A = {{1..}}");
+  print_variants("set A = {{0..100000}}");
+  print_variants("set A = {{1..1000}}\nset B = {{1..101}}");
   const std::string four =
     "set A = {{1|2|3}}\nset B = {{m: x|y}}\nset C = {{m: p|q}}\n"
     "set D = {{u|v}}";

@@ -60,7 +60,8 @@ namespace Debond
     /** @name Contact unknowns */
     //@{
     /** Makes the given control points (by index) contact unknowns and condenses
-     *  everything else, at the accepted state. */
+     *  everything else, at the accepted state. Does nothing if that has been
+     *  done with the same ones and the body is still at rest. */
     void
     set_contact_control_points(const std::vector<bool> &is_contact);
     const std::vector<bool> &
@@ -198,7 +199,8 @@ namespace Debond
      *  contact unknowns. */
     bool surface_is_condensed = false;
     /** Those control points did not follow at the last commit(). */
-    bool         surface_is_stale = false;
+    bool         surface_is_stale  = false;
+    bool         condensed_at_rest = false;
     Condensation condensation;
 
     Eigen::VectorXd                v; ///< trial displacement, 3 n_nodes [mm]

@@ -1,6 +1,7 @@
 #ifndef debond_chunks_h
 #define debond_chunks_h
 
+#include <deal.II/base/multithread_info.h>
 #include <deal.II/base/parallel.h>
 
 namespace Debond
@@ -13,21 +14,22 @@ namespace Debond
   constexpr unsigned int n_chunks = 4;
 
   /** Calls work(chunk, first, end) for the parts [first, end) of [0, n), at the
-   *  same time as far as there are threads. */
+   *  same time as far as there are threads. With one thread it starts no thread
+   *  pool, so that the process may fork. */
   template <typename Work>
   void
   for_each_chunk(const unsigned int n, const Work &work)
   {
-    dealii::parallel::apply_to_subranges(
-      0U,
-      n_chunks,
-      [&](const unsigned int begin, const unsigned int end) {
-        for (unsigned int chunk = begin; chunk < end; ++chunk)
-          work(chunk,
-               std::size_t(n) * chunk / n_chunks,
-               std::size_t(n) * (chunk + 1) / n_chunks);
-      },
-      1);
+    const auto work_on = [&](const unsigned int begin, const unsigned int end) {
+      for (unsigned int chunk = begin; chunk < end; ++chunk)
+        work(chunk,
+             std::size_t(n) * chunk / n_chunks,
+             std::size_t(n) * (chunk + 1) / n_chunks);
+    };
+    if (dealii::MultithreadInfo::n_threads() == 1)
+      work_on(0, n_chunks);
+    else
+      dealii::parallel::apply_to_subranges(0U, n_chunks, work_on, 1);
   }
 } // namespace Debond
 #endif

@@ -9,10 +9,24 @@
 
 #include <deal.II/base/timer.h>
 
+#include <memory>
 #include <string>
 
 namespace Debond
 {
+  /** The two bodies of a scene. */
+  struct BodyPair
+  {
+    explicit BodyPair(const Scene &scene);
+
+    Body bone, implant;
+    /** Seconds that a study has spent on them for all variants that use them.
+     */
+    double seconds_shared = 0;
+  };
+
+
+
   /**
    * The two bodies, the chuck and the interface as one system of equations in
    * the unknowns that matter to friction: the contact unknowns of the bone,
@@ -24,10 +38,22 @@ namespace Debond
    */
   class CoupledSystem : private SplitMatrix
   {
+    std::shared_ptr<BodyPair> both_bodies;
+
   public:
     /** Seconds go to the sections `bulk`, `condensation`, `contact` and `dense
-     *  solve` of @p timer, which must outlive this object. */
-    CoupledSystem(const Scene &scene, dealii::TimerOutput &timer);
+     *  solve` of @p timer, which must outlive this object. @p bodies: those of
+     *  the scene if they have been built already, at rest; they are this
+     *  system's from now on. */
+    CoupledSystem(const Scene              &scene,
+                  dealii::TimerOutput      &timer,
+                  std::shared_ptr<BodyPair> bodies = nullptr);
+
+    std::shared_ptr<BodyPair>
+    bodies() const
+    {
+      return both_bodies;
+    }
 
     /** Places the implant as the scene says at @p time, undeformed, faces the
      *  slave points with the master and chooses the contact unknowns. */
@@ -110,7 +136,7 @@ namespace Debond
     double
     reaction_defect();
 
-    Body             bone, implant;
+    Body            &bone, &implant;
     Chuck            chuck;
     ContactInterface interface;
     /** Surfaces in space as of the last evaluate() or commit(). */

@@ -26,5 +26,9 @@ namespace Debond
    *  if there is none. Throws InputError if the file cannot be read. */
   std::vector<std::string>
   read_csv_header(const std::string &filename, const std::string &entry);
+
+  /** @p text as a field of a CSV file, quoted if it has to be. */
+  std::string
+  csv_field(const std::string &text);
 } // namespace Debond
 #endif

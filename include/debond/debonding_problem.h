@@ -16,7 +16,9 @@ namespace Debond
   class DebondingProblem : public Problem
   {
   public:
-    explicit DebondingProblem(const Scene &scene);
+    /** @p bodies: see CoupledSystem. */
+    explicit DebondingProblem(const Scene              &scene,
+                              std::shared_ptr<BodyPair> bodies = nullptr);
     ~DebondingProblem() override;
 
     void

@@ -36,12 +36,13 @@ namespace Debond
    *   {{name: a|b|c}}   all entries with this name take the values of the same
    *                     position, in every combination with the others
    *
+   * In all of them the item 1..200 stands for the whole numbers from 1 to 200.
    * Text around the braces belongs to every value. Each entry may be there once
    * only. With @p factors_at_once > 0 only those combinations remain in which
    * at most that many factors, which are entries or named groups of entries,
    * differ from their first value; {{a||b||c}} is then refused. Throws
-   * InputError with place and entry if braces do not match or numbers of values
-   * disagree.
+   * InputError with place and entry if braces do not match, numbers of values
+   * disagree, a range is empty or there are more than 100000 variants.
    */
   std::vector<StudyVariant>
   study_variants(const std::vector<SceneEntry> &entries,

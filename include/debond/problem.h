@@ -11,6 +11,8 @@
 
 namespace Debond
 {
+  struct BodyPair;
+
   /** A run that could not be finished; the message says where and why. */
   class RunError : public std::runtime_error
   {
@@ -26,6 +28,10 @@ namespace Debond
     /** The problem of the scene's `Model`. */
     static std::unique_ptr<Problem>
     create(const Scene &scene);
+    /** The same with bodies that are built already, see CoupledSystem. Models
+     *  other than finite elements make no use of them. */
+    static std::unique_ptr<Problem>
+    create(const Scene &scene, std::shared_ptr<BodyPair> bodies);
 
     virtual ~Problem() = default;
 

@@ -4,6 +4,8 @@
 #include <debond/parameter_loop.h>
 #include <debond/scene.h>
 
+#include <deal.II/base/timer.h>
+
 #include <iosfwd>
 #include <string>
 #include <utility>
@@ -19,8 +21,9 @@ namespace Debond
    * time, into DIR/variant-001 and so on, and gathers them in DIR/study.csv.
    *
    * Variants are processes of their own, so that one that fails leaves the
-   * others alone. A variant whose directory holds the finished results of the
-   * same scene is not run again.
+   * others alone; class VariantQueue says what they have in common. A variant
+   * whose directory holds the finished results of the same scene is not run
+   * again.
    *
    * With `Study / Repetitions` every variant is run several times, one after
    * the other in its directory, which keeps the summary of each run as
@@ -34,8 +37,9 @@ namespace Debond
     Study(const std::vector<SceneEntry> &entries, const std::string &name);
 
     /** Runs what is not there yet, @p n_jobs at a time, and writes study.csv
-     *  after every one. @p force: runs all, whatever their directories hold.
-     *  Throws RunError at the end if any of them failed. */
+     *  every few seconds and at the end, then, if seeds are varied, the
+     *  statistics of class Ensemble. @p force: runs all, whatever their
+     * directories hold. Throws RunError at the end if any of them failed. */
     void
     run(unsigned int n_jobs, bool force, std::ostream &out);
 
@@ -85,12 +89,18 @@ namespace Debond
     table_row(unsigned int variant) const;
     void
     write_table();
+    void
+    write_table_if_due();
+    void
+    write_ensemble(std::ostream &out) const;
 
     std::vector<std::string> varied; ///< full names of the varied entries
     std::vector<Variant>     variants;
     std::string              directory;
     unsigned int             reference = 0; ///< number of a variant, 0: none
     unsigned int             n_repetitions = 1;
+    dealii::Timer            since_table;
+    double                   time_between_tables = 2; ///< [s]
   };
 } // namespace Debond
 #endif

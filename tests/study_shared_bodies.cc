@@ -1,0 +1,199 @@
+// Variants of a study that have the same bodies inherit them from the study:
+// the torque curves are, digit for digit, those of variants that run alone,
+// with one thread and with two; a variant that fails leaves the others alone;
+// bodies that cannot be built are left to the variants; and only the last ones
+// are kept.
+
+#include <debond/coupled_system.h>
+#include <debond/study.h>
+#include <debond/variant_queue.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+#include "checks.h"
+#include "driven_scene.h"
+
+using namespace Debond;
+
+// The block of the implant's chuck tilts, so that the bone needs further
+// contact unknowns in the course of the run and condenses anew.
+const char *const scene_text = R"(
+subsection Interface
+  set Quadrature points = 3
+  subsection Bonding
+    set Pattern = expression
+  end
+end
+subsection Chuck
+  subsection Translation x
+    set Value = 0.9 * max(t - 1, 0)
+  end
+  subsection Translation z
+    set Value = -0.0049 * min(t, 1)
+  end
+  subsection Rotation z
+    set Value = 2 * max(t - 1, 0)
+  end
+end
+subsection Load steps
+  set Steps = 1, 6
+end
+subsection Output
+  set Fields every = 0
+end
+)";
+
+const char *const expressions[] = {"0.5 + 0.1 * x", "0.5", "y > 0 ? 1 : 0"};
+
+
+
+std::string
+content(const std::string &filename)
+{
+  std::ostringstream text;
+  text << std::ifstream(filename).rdbuf();
+  return text.str();
+}
+
+
+
+struct Case
+{
+  std::string  material;
+  unsigned int n_threads;
+
+  std::string
+  name() const
+  {
+    return material + "_" + std::to_string(n_threads);
+  }
+
+  std::vector<std::string>
+  overrides(const std::string &expression) const
+  {
+    return {"Bone/Material=" + material,
+            "Implant/Material=" + material,
+            "Interface/Bonding/Expression=" + expression};
+  }
+};
+
+
+
+// The second of three variants fails.
+void
+run_study(const Case &which)
+{
+  set_number_of_threads(which.n_threads);
+  const std::string place = "results/shared_" + which.name();
+  std::string       all;
+  for (const std::string expression : expressions)
+    all += (all.empty() ? "{{" : "|") + expression;
+  std::vector<std::string> overrides = which.overrides(all + "}}");
+  overrides.push_back("Output/Directory=" + place);
+  std::filesystem::remove_all(place);
+  std::filesystem::create_directories(place);
+  std::ofstream(place + "/variant-002") << "in the way of its directory\n";
+  std::ostringstream log;
+  try
+    {
+      Study(with_overrides(read_scene_text(scene_text, "shared"), overrides),
+            "shared")
+        .run(2, false, log);
+    }
+  catch (const RunError &error)
+    {
+      std::cout << error.what() << std::endl;
+    }
+}
+
+
+
+void
+compare_with_runs_alone(const Case &which)
+{
+  std::cout << which.material << ", threads: " << which.n_threads << std::endl;
+  set_number_of_threads(which.n_threads);
+  for (const unsigned int i : {0, 2})
+    {
+      const std::string variant = "results/shared_" + which.name() +
+                                  "/variant-00" + std::to_string(i + 1) + "/";
+      report("  bodies are inherited",
+             content(variant + "summary.json").find("shared_set_up") !=
+               std::string::npos);
+      run_scene("alone", scene_text, which.overrides(expressions[i]));
+      const std::string alone = content("results/alone/torque.csv");
+      report("  a curve of eight rows",
+             std::count(alone.begin(), alone.end(), '\n') == 9);
+      report("  the same as alone to the last digit",
+             content(variant + "torque.csv") == alone);
+      report("  and alone inherits nothing",
+             content("results/alone/summary.json").find("shared_set_up") ==
+               std::string::npos);
+    }
+}
+
+
+
+// Two groups, the second of bodies without positive stiffness, which no scene
+// file can ask for.
+void
+check_queue()
+{
+  set_number_of_threads(2);
+  std::vector<Scene> scenes;
+  for (const char *const cells : {"15, 15, 2", "13, 13, 2", "11, 11, 1"})
+    for (unsigned int i = 0; i < 2; ++i)
+      scenes.push_back(
+        Scene::from_text(scene_text, {std::string("Bone/Cells=") + cells}));
+  for (const unsigned int i : {2, 3})
+    scenes[i].bone.poisson_ratio = 0.7;
+  VariantQueue queue(2);
+  for (const unsigned int i : {0, 2, 4, 1, 3, 5})
+    queue.add(i, scenes[i], i < 4);
+
+  std::weak_ptr<BodyPair> first;
+  while (!queue.empty())
+    {
+      const auto next = queue.next();
+      std::cout << "variant " << next.variant
+                << (next.bodies ? " has" : " has no")
+                << " bodies that are built";
+      if (next.variant == 0)
+        first = next.bodies;
+      if (next.variant == 1)
+        std::cout << (next.bodies == first.lock() ? ", those of the first" :
+                                                    "");
+      std::cout << std::endl;
+    }
+  report("bodies are gone with their last variant", first.expired());
+  report("the number of threads is as before",
+         dealii::MultithreadInfo::n_threads() == 2);
+}
+
+
+
+void
+test()
+{
+  const std::vector<Case> cases = {{"linear", 1},
+                                   {"linear", 2},
+                                   {"neo-hookean", 1},
+                                   {"neo-hookean", 2}};
+  // all studies first: what runs here leaves a pool of threads behind
+  for (const Case &which : cases)
+    run_study(which);
+  for (const Case &which : cases)
+    compare_with_runs_alone(which);
+  check_queue();
+}
+
+
+
+int
+main()
+{
+  return run_test(&test);
+}

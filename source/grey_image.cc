@@ -6,8 +6,12 @@
 #include <boost/gil/extension/io/png.hpp>
 #include <boost/gil/extension/toolbox/color_spaces/gray_alpha.hpp>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <sstream>
@@ -74,6 +78,37 @@ namespace Debond
 
 
 
+    /** libpng writes its complaints to the error stream, and Boost.GIL leaves
+     *  no way to tell it otherwise. */
+    class SilentStderr
+    {
+    public:
+      SilentStderr()
+        : original(dup(STDERR_FILENO))
+      {
+        std::fflush(stderr);
+        const int nothing = open("/dev/null", O_WRONLY);
+        if (original >= 0 && nothing >= 0)
+          dup2(nothing, STDERR_FILENO);
+        if (nothing >= 0)
+          close(nothing);
+      }
+
+      ~SilentStderr()
+      {
+        if (original < 0)
+          return;
+        std::fflush(stderr);
+        dup2(original, STDERR_FILENO);
+        close(original);
+      }
+
+    private:
+      const int original;
+    };
+
+
+
     GreyImage
     read_png(const ImageFile &file, const std::string &bytes)
     {
@@ -81,6 +116,7 @@ namespace Debond
       gil::gray16_image_t pixels;
       try
         {
+          const SilentStderr silence;
           std::istringstream header(bytes), data(bytes);
           const auto info = gil::read_image_info(header, gil::png_tag())._info;
           file.check_size(info._width, info._height);

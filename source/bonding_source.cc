@@ -15,13 +15,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <utility>
 
 namespace Debond
 {
   namespace
   {
     const std::string section = "Interface / Bonding / ";
+
+    /** phi_0 as a function of the place (x, y) on the contact face [mm]. */
+    using PlaceFunction = std::function<double(const Eigen::Vector2d &)>;
 
 
 
@@ -54,74 +59,103 @@ namespace Debond
 
 
 
+    /** The picture over the square, or rectangle, around the face. */
     PlaceFunction
-    function_of_image(const BondingParameters &parameters,
-                      const BodyParameters    &implant)
+    function_of_image(GreyImage image, const BodyParameters &implant)
     {
-      const auto image = std::make_shared<const GreyImage>(
-        read_grey_image(parameters.file, section + "File"));
       Eigen::Array2d size;
       for (unsigned int d = 0; d < 2; ++d)
         size[d] = implant.is_round() ? 2. * implant.radius : implant.size[d];
-      const double threshold = parameters.threshold;
-      return [image, size, threshold](const Eigen::Vector2d &place) {
-        const Eigen::Array2d uv    = place.array() / size + 0.5;
-        const double         level = image->at(uv[0], uv[1]);
-        return threshold < 0. ? level : level > threshold ? 1. : 0.;
+      const auto shared = std::make_shared<const GreyImage>(std::move(image));
+      return [shared, size](const Eigen::Vector2d &place) {
+        const Eigen::Array2d uv = place.array() / size + 0.5;
+        return shared->at(uv[0], uv[1]);
       };
+    }
+
+
+
+    /** The area mean of @p function over every element, by at least @p n x @p n
+     *  and some @p n_across quadrature points across the face. */
+    std::vector<double>
+    element_means(const PlaceFunction &function,
+                  const NurbsSurface  &surface,
+                  const unsigned int   n,
+                  const unsigned int   n_across)
+    {
+      const auto         n_elements = surface.n_elements_per_direction();
+      const unsigned int across =
+        n * std::min(n_elements[0], n_elements[1]); // points of one copy
+      const dealii::QIterated<2> quadrature(dealii::QGauss<1>(n),
+                                            (n_across + across - 1) / across);
+      std::vector<double>        means;
+      for (unsigned int element = 0; element < surface.n_elements(); ++element)
+        {
+          double sum = 0., area = 0.;
+          for (const auto &point :
+               element_quadrature(surface, element, quadrature))
+            {
+              sum += point.JxW * function(point.X.head<2>());
+              area += point.JxW;
+            }
+          means.push_back(sum / area);
+        }
+      return means;
+    }
+
+
+
+    std::vector<double>
+    point_values(const PlaceFunction &function,
+                 const NurbsSurface  &surface,
+                 const unsigned int   n)
+    {
+      std::vector<double> values;
+      for (const auto &point : surface_quadrature(surface, n))
+        values.push_back(function(point.X.head<2>()));
+      return values;
+    }
+
+
+
+    std::vector<double>
+    values_of_image(const BondingParameters &parameters,
+                    const BodyParameters    &implant,
+                    const NurbsSurface      &surface,
+                    const unsigned int       n)
+    {
+      GreyImage image = read_grey_image(parameters.file, section + "File");
+      if (parameters.threshold >= 0.)
+        image = image.threshold_at(parameters.threshold);
+      if (parameters.resolution == BondingResolution::quadrature_point)
+        return point_values(function_of_image(std::move(image), implant),
+                            surface,
+                            n);
+      image                       = image.reduced_to(256);
+      const unsigned int n_across = 2 * std::max(image.width, image.height);
+      return element_means(function_of_image(std::move(image), implant),
+                           surface,
+                           n,
+                           std::max(200U, n_across));
     }
   } // namespace
 
 
 
-  PlaceFunction
-  place_function(const BondingParameters &parameters,
-                 const BodyParameters    &implant)
-  {
-    return parameters.pattern == BondingPatternKind::image ?
-             function_of_image(parameters, implant) :
-             function_of_expression(parameters.expression,
-                                    implant.characteristic_radius());
-  }
-
-
-
   std::vector<double>
-  element_means(const PlaceFunction &function,
-                const NurbsSurface  &surface,
-                const unsigned int   n)
+  values_by_place(const BondingParameters &parameters,
+                  const BodyParameters    &implant,
+                  const NurbsSurface      &surface,
+                  const unsigned int       n)
   {
-    const auto         n_elements = surface.n_elements_per_direction();
-    const unsigned int across =
-      n * std::min(n_elements[0], n_elements[1]); // points of one copy
-    const dealii::QIterated<2> quadrature(dealii::QGauss<1>(n),
-                                          (200 + across - 1) / across);
-    std::vector<double>        means;
-    for (unsigned int element = 0; element < surface.n_elements(); ++element)
-      {
-        double sum = 0., area = 0.;
-        for (const auto &point :
-             element_quadrature(surface, element, quadrature))
-          {
-            sum += point.JxW * function(point.X.head<2>());
-            area += point.JxW;
-          }
-        means.push_back(sum / area);
-      }
-    return means;
-  }
-
-
-
-  std::vector<double>
-  point_values(const PlaceFunction &function,
-               const NurbsSurface  &surface,
-               const unsigned int   n)
-  {
-    std::vector<double> values;
-    for (const auto &point : surface_quadrature(surface, n))
-      values.push_back(function(point.X.head<2>()));
-    return values;
+    if (parameters.pattern == BondingPatternKind::image)
+      return values_of_image(parameters, implant, surface, n);
+    const PlaceFunction function =
+      function_of_expression(parameters.expression,
+                             implant.characteristic_radius());
+    return parameters.resolution == BondingResolution::element ?
+             element_means(function, surface, n, 200) :
+             point_values(function, surface, n);
   }
 
 
@@ -133,6 +167,7 @@ namespace Debond
     {
       Eigen::Vector2d place; ///< [mm]
       double          phi_0;
+      unsigned int    element = 0; ///< that it lies in
     };
 
 
@@ -193,6 +228,41 @@ namespace Debond
 
 
 
+    double
+    size_of(const std::vector<Eigen::Vector2d> &centres)
+    {
+      double size = 0.;
+      for (const Eigen::Vector2d &centre : centres)
+        size = std::max(size, centre.norm());
+      return size;
+    }
+
+
+
+    /** Refuses a table of elements of another mesh, where it says where they
+     *  are. Rows: element, x, y. */
+    void
+    check_centres(const std::string                      &filename,
+                  const std::vector<std::vector<double>> &rows,
+                  const std::vector<Eigen::Vector2d>     &centres)
+    {
+      for (const auto &row : rows)
+        {
+          const Eigen::Vector2d &centre =
+            centres[static_cast<unsigned int>(row[0]) - 1];
+          if ((Eigen::Vector2d(row[1], row[2]) - centre).norm() >
+              1e-3 * size_of(centres))
+            refuse_file(filename,
+                        "it belongs to another mesh: element " +
+                          to_text(row[0]) + " is at x = " + to_text(row[1], 6) +
+                          " mm, y = " + to_text(row[2], 6) +
+                          " mm there and at " + to_text(centre[0], 6) + ", " +
+                          to_text(centre[1], 6) + " here");
+        }
+    }
+
+
+
     /** The contact face seen from above: of a cap what its border encloses. */
     ControlNet
     seen_from_above(const NurbsSurface &surface)
@@ -204,27 +274,49 @@ namespace Debond
 
 
 
-    /** The mean over the points inside every element, where there are any; -1
-     *  elsewhere. Points beside the face belong to no element. */
-    std::vector<double>
-    means_of_points(const std::vector<DataPoint> &points,
-                    const NurbsSurface           &surface,
-                    const double                  size)
+    /** Of the points those on the face, with the numbers of their elements;
+     *  refuses a file without any. */
+    std::vector<DataPoint>
+    points_on_face(const std::string            &filename,
+                   const std::vector<DataPoint> &points,
+                   const NurbsSurface           &surface,
+                   const double                  size)
     {
-      const ControlNet          net = seen_from_above(surface);
-      std::vector<double>       sums(surface.n_elements(), 0.);
-      std::vector<unsigned int> counts(surface.n_elements(), 0);
-      for (const DataPoint &point : points)
+      const ControlNet       net = seen_from_above(surface);
+      std::vector<DataPoint> result;
+      for (DataPoint point : points)
         {
           const ClosestPoint closest =
             closest_point(surface, net, {point.place[0], point.place[1], 0.});
           if (closest.distance > 1e-9 * size)
             continue;
-          const unsigned int element = surface.element_of(closest.xi);
-          sums[element] += point.phi_0;
-          ++counts[element];
+          point.element = surface.element_of(closest.xi);
+          result.push_back(point);
         }
-      for (unsigned int e = 0; e < sums.size(); ++e)
+      if (result.empty())
+        refuse_file(filename,
+                    "none of its " + std::to_string(points.size()) +
+                      " points lies on the contact face (x and y in mm, 0 at "
+                      "its centre)");
+      return result;
+    }
+
+
+
+    /** The mean over the points inside every element, where there are any; -1
+     *  elsewhere. */
+    std::vector<double>
+    means_of_points(const std::vector<DataPoint> &points,
+                    const unsigned int            n_elements)
+    {
+      std::vector<double>       sums(n_elements, 0.);
+      std::vector<unsigned int> counts(n_elements, 0);
+      for (const DataPoint &point : points)
+        {
+          sums[point.element] += point.phi_0;
+          ++counts[point.element];
+        }
+      for (unsigned int e = 0; e < n_elements; ++e)
         sums[e] = counts[e] > 0 ? sums[e] / counts[e] : -1.;
       return sums;
     }
@@ -274,12 +366,9 @@ namespace Debond
                      const NurbsSurface                 &surface,
                      const std::vector<Eigen::Vector2d> &centres)
     {
-      double size = 0.;
-      for (const Eigen::Vector2d &centre : centres)
-        size = std::max(size, centre.norm());
       std::vector<double> values(centres.size(), -1.);
       if (by_element)
-        values = means_of_points(points, surface, size);
+        values = means_of_points(points, surface.n_elements());
       const NearestPoint nearest(points);
       for (unsigned int i = 0; i < values.size(); ++i)
         if (values[i] < 0.)
@@ -311,14 +400,20 @@ namespace Debond
                       "a value for every element needs Resolution = element; "
                       "with Resolution = quadrature point columns x,y,phi_0 "
                       "are expected");
-        return values_by_element(filename,
-                                 has("element") ?
-                                   read_csv_columns(filename,
-                                                    entry,
-                                                    {"element", "phi_0"}) :
-                                   read_csv_columns(filename, entry, {"phi_0"}),
-                                 has("element"),
-                                 surface.n_elements());
+        const auto values = values_by_element(
+          filename,
+          has("element") ?
+            read_csv_columns(filename, entry, {"element", "phi_0"}) :
+            read_csv_columns(filename, entry, {"phi_0"}),
+          has("element"),
+          surface.n_elements());
+        if (has("element") && has("x_mm") && has("y_mm"))
+          check_centres(filename,
+                        read_csv_columns(filename,
+                                         entry,
+                                         {"element", "x_mm", "y_mm"}),
+                        centres);
+        return values;
       }
 
     const bool             with_unit = has("x_mm");
@@ -329,8 +424,12 @@ namespace Debond
            {with_unit ? "x_mm" : "x", with_unit ? "y_mm" : "y", "phi_0"}))
       {
         check_phi_0(filename, row[2], points.size());
-        points.push_back({{row[0], row[1]}, row[2]});
+        points.push_back({{row[0], row[1]}, row[2], 0});
       }
-    return values_of_points(points, by_element, surface, centres);
+    return values_of_points(
+      points_on_face(filename, points, surface, size_of(centres)),
+      by_element,
+      surface,
+      centres);
   }
 } // namespace Debond

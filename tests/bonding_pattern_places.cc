@@ -427,7 +427,7 @@ check_identity()
 {
   const auto text_of_scene = [](const std::string &content) {
     std::ofstream("identity.csv") << content;
-    return Scene::from_text("",
+    return Scene::from_text("set Title = identity\n",
                             {"Interface/Bonding/Pattern=file",
                              "Interface/Bonding/File=identity.csv",
                              "Chuck/Rotation z/Value=t"})

@@ -242,8 +242,8 @@ namespace Debond
                   pattern,
                   "image");
     if (reads_file && file.empty())
-      throw InputError(section + "File: Pattern = " + name_of(pattern) +
-                       " needs the name of a file");
+      throw InputError(section + "Pattern = '" + name_of(pattern) +
+                       "' needs the name of a file: " + section + "File");
 
     // what is given place by place shows its faults when it is used
     if (pattern == Kind::expression || reads_file)

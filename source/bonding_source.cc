@@ -59,13 +59,23 @@ namespace Debond
 
 
 
-    /** The picture over the square, or rectangle, around the face. */
-    PlaceFunction
-    function_of_image(GreyImage image, const BodyParameters &implant)
+    /** Size of the square, or rectangle, around the face [mm]. */
+    Eigen::Array2d
+    size_around(const BodyParameters &implant)
     {
       Eigen::Array2d size;
       for (unsigned int d = 0; d < 2; ++d)
         size[d] = implant.is_round() ? 2. * implant.radius : implant.size[d];
+      return size;
+    }
+
+
+
+    /** The picture over the square, or rectangle, around the face. */
+    PlaceFunction
+    function_of_image(GreyImage image, const BodyParameters &implant)
+    {
+      const Eigen::Array2d size = size_around(implant);
       const auto shared = std::make_shared<const GreyImage>(std::move(image));
       return [shared, size](const Eigen::Vector2d &place) {
         const Eigen::Array2d uv = place.array() / size + 0.5;
@@ -122,9 +132,17 @@ namespace Debond
     values_of_image(const BondingParameters &parameters,
                     const BodyParameters    &implant,
                     const NurbsSurface      &surface,
-                    const unsigned int       n)
+                    const unsigned int       n,
+                    std::string             &remark)
     {
-      GreyImage image = read_grey_image(parameters.file, section + "File");
+      GreyImage    image = read_grey_image(parameters.file, section + "File");
+      const auto   size  = size_around(implant);
+      const double ratio = image.width / size[0] / (image.height / size[1]);
+      if (std::max(ratio, 1. / ratio) > 1.02)
+        remark = "the picture of " + std::to_string(image.width) + " x " +
+                 std::to_string(image.height) +
+                 " pixels is stretched over the " + to_text(size[0], 4) +
+                 " x " + to_text(size[1], 4) + " mm of the contact face";
       if (parameters.threshold >= 0.)
         image = image.threshold_at(parameters.threshold);
       if (parameters.resolution == BondingResolution::quadrature_point)
@@ -146,10 +164,11 @@ namespace Debond
   values_by_place(const BondingParameters &parameters,
                   const BodyParameters    &implant,
                   const NurbsSurface      &surface,
-                  const unsigned int       n)
+                  const unsigned int       n,
+                  std::string             &remark)
   {
     if (parameters.pattern == BondingPatternKind::image)
-      return values_of_image(parameters, implant, surface, n);
+      return values_of_image(parameters, implant, surface, n, remark);
     const PlaceFunction function =
       function_of_expression(parameters.expression,
                              implant.characteristic_radius());
@@ -180,26 +199,46 @@ namespace Debond
 
 
 
-    void
-    check_phi_0(const std::string &filename,
-                const double       phi_0,
-                const std::size_t  row)
+    [[noreturn]] void
+    refuse_line(const std::string &filename,
+                const unsigned int line,
+                const std::string &why)
     {
-      if (!(phi_0 >= 0. && phi_0 <= 1.))
-        refuse_file(filename,
-                    "phi_0 = " + to_text(phi_0, 6) + " in row " +
-                      std::to_string(row + 1) +
-                      " below the header: expected 0 to 1");
+      throw InputError(section + "File = '" + filename + "', line " +
+                       std::to_string(line) + ": " + why);
     }
 
 
 
-    std::vector<double>
-    values_by_element(const std::string                      &filename,
-                      const std::vector<std::vector<double>> &rows,
-                      const bool                              numbered,
-                      const unsigned int                      n_elements)
+    void
+    check_phi_0(const std::string &filename,
+                const double       phi_0,
+                const unsigned int line)
     {
+      if (!(phi_0 >= 0. && phi_0 <= 1.))
+        refuse_line(filename,
+                    line,
+                    "phi_0 = " + to_text(phi_0) + ": expected 0 to 1");
+    }
+
+
+
+    /** A table with a row for each element: in order, or with the number of the
+     *  element in front. */
+    std::vector<double>
+    values_by_element(const std::string &filename,
+                      const bool         numbered,
+                      const unsigned int n_elements)
+    {
+      std::vector<unsigned int> lines;
+      const auto                rows =
+        read_csv_columns(filename,
+                         section + "File",
+                         numbered ?
+                           std::vector<std::string>{"element", "phi_0"} :
+                           std::vector<std::string>{"phi_0"},
+                         false,
+                         &lines);
       if (rows.size() != n_elements)
         refuse_file(filename,
                     "it has " + std::to_string(rows.size()) +
@@ -209,17 +248,19 @@ namespace Debond
       std::vector<double> values(n_elements, -1.);
       for (unsigned int i = 0; i < n_elements; ++i)
         {
-          check_phi_0(filename, rows[i].back(), i);
+          check_phi_0(filename, rows[i].back(), lines[i]);
           const double number = numbered ? rows[i][0] : i + 1.;
           if (!(number >= 1. && number <= n_elements) ||
               number != std::floor(number))
-            refuse_file(filename,
+            refuse_line(filename,
+                        lines[i],
                         "there is no element " + to_text(number) +
                           ": they are numbered from 1 to " +
                           std::to_string(n_elements));
           double &value = values[static_cast<unsigned int>(number) - 1];
           if (value >= 0.)
-            refuse_file(filename,
+            refuse_line(filename,
+                        lines[i],
                         "element " + to_text(number) + " is there twice");
           value = rows[i].back();
         }
@@ -379,6 +420,50 @@ namespace Debond
 
 
 
+  namespace
+  {
+    /** What the columns of a file say. */
+    enum class TableKind
+    {
+      in_order,
+      by_number,
+      points,
+      points_with_unit
+    };
+
+
+
+    TableKind
+    kind_of(const std::string &filename)
+    {
+      const auto columns = read_csv_header(filename, section + "File");
+      const auto has     = [&columns](const std::string &name) {
+        return std::find(columns.begin(), columns.end(), name) != columns.end();
+      };
+      if (has("phi_0"))
+        {
+          if (has("element"))
+            return TableKind::by_number;
+          if (has("x_mm") && has("y_mm"))
+            return TableKind::points_with_unit;
+          if (has("x") && has("y"))
+            return TableKind::points;
+          if (columns.size() == 1)
+            return TableKind::in_order;
+        }
+      std::string names;
+      for (const std::string &column : columns)
+        names += (names.empty() ? "" : ",") + column;
+      refuse_file(filename,
+                  "the first line must name the columns, separated by commas: "
+                  "element,phi_0 or phi_0 alone or x,y,phi_0 (x_mm,y_mm); it "
+                  "is '" +
+                    names.substr(0, 60) + "'");
+    }
+  } // namespace
+
+
+
   std::vector<double>
   values_from_file(const BondingParameters            &parameters,
                    const NurbsSurface                 &surface,
@@ -386,28 +471,22 @@ namespace Debond
   {
     const std::string &filename = parameters.file;
     const std::string  entry    = section + "File";
-    const auto         columns  = read_csv_header(filename, entry);
-    const auto         has      = [&columns](const std::string &name) {
-      return std::find(columns.begin(), columns.end(), name) != columns.end();
-    };
+    const TableKind    kind     = kind_of(filename);
     const bool by_element = parameters.resolution == BondingResolution::element;
-    const bool has_places =
-      (has("x") && has("y")) || (has("x_mm") && has("y_mm"));
-    if (has("element") || !has_places)
+    if (kind == TableKind::in_order || kind == TableKind::by_number)
       {
+        const bool numbered = kind == TableKind::by_number;
         if (!by_element)
           refuse_file(filename,
                       "a value for every element needs Resolution = element; "
                       "with Resolution = quadrature point columns x,y,phi_0 "
                       "are expected");
-        const auto values = values_by_element(
-          filename,
-          has("element") ?
-            read_csv_columns(filename, entry, {"element", "phi_0"}) :
-            read_csv_columns(filename, entry, {"phi_0"}),
-          has("element"),
-          surface.n_elements());
-        if (has("element") && has("x_mm") && has("y_mm"))
+        const auto values =
+          values_by_element(filename, numbered, surface.n_elements());
+        const auto columns = read_csv_header(filename, entry);
+        if (numbered &&
+            std::count(columns.begin(), columns.end(), "x_mm") == 1 &&
+            std::count(columns.begin(), columns.end(), "y_mm") == 1)
           check_centres(filename,
                         read_csv_columns(filename,
                                          entry,
@@ -416,14 +495,17 @@ namespace Debond
         return values;
       }
 
-    const bool             with_unit = has("x_mm");
-    std::vector<DataPoint> points;
+    const bool                with_unit = kind == TableKind::points_with_unit;
+    std::vector<DataPoint>    points;
+    std::vector<unsigned int> lines;
     for (const auto &row : read_csv_columns(
            filename,
            entry,
-           {with_unit ? "x_mm" : "x", with_unit ? "y_mm" : "y", "phi_0"}))
+           {with_unit ? "x_mm" : "x", with_unit ? "y_mm" : "y", "phi_0"},
+           false,
+           &lines))
       {
-        check_phi_0(filename, row[2], points.size());
+        check_phi_0(filename, row[2], lines[points.size()]);
         points.push_back({{row[0], row[1]}, row[2], 0});
       }
     return values_of_points(

@@ -166,6 +166,7 @@ namespace Debond
     if (scene.interface.bonding.pattern == BondingPatternKind::homogeneous)
       return;
     write_file(state->directory->file("bonding.csv"), bonding.table());
+    state->console.warn("picture", bonding.report().remark);
     const ContactInterface &interface = state->system->interface;
     const double            seen      = interface.mean_seen_bonding();
     if (std::abs(seen - bonding.report().mean) > 0.01 * bonding.report().mean)

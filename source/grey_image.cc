@@ -2,6 +2,7 @@
 #include <debond/input_error.h>
 
 #define BOOST_GIL_IO_ENABLE_GRAY_ALPHA
+#include <boost/crc.hpp>
 #include <boost/gil.hpp>
 #include <boost/gil/extension/io/png.hpp>
 #include <boost/gil/extension/toolbox/color_spaces/gray_alpha.hpp>
@@ -13,6 +14,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -131,6 +133,8 @@ namespace Debond
     std::string
     read_whole_file(const ImageFile &image)
     {
+      if (std::filesystem::is_directory(image.name))
+        image.refuse("this is a directory");
       std::ifstream      file(image.name, std::ios::binary);
       std::ostringstream bytes;
       if (!file)
@@ -173,6 +177,51 @@ namespace Debond
 
 
 
+    unsigned int
+    big_endian(const std::string &bytes, const std::size_t position)
+    {
+      unsigned int number = 0;
+      for (std::size_t i = position; i < position + 4; ++i)
+        number = 256 * number + static_cast<unsigned char>(bytes[i]);
+      return number;
+    }
+
+
+
+    /** A PNG file with those chunks only that make up the picture, their sums
+     *  checked: what libpng finds wrong after the last pixel takes Boost.GIL
+     *  down with it. */
+    std::string
+    essence_of_png(const ImageFile &file, const std::string &bytes)
+    {
+      const std::size_t signature = 8, around = 12; // length, type, sum
+      if (bytes.compare(0, signature, "\x89PNG\r\n\x1a\n") != 0)
+        file.refuse("this PNG file is damaged");
+      std::string result   = bytes.substr(0, signature);
+      std::size_t position = signature;
+      for (std::string type; type != "IEND";)
+        {
+          const std::size_t left = bytes.size() - position;
+          const std::size_t length =
+            left < around ? left : big_endian(bytes, position);
+          if (left < around || length > left - around)
+            file.refuse("this PNG file is cut off");
+          type = bytes.substr(position + 4, 4);
+          boost::crc_32_type sum;
+          sum.process_bytes(bytes.data() + position + 4, length + 4);
+          if (sum.checksum() != big_endian(bytes, position + 8 + length))
+            file.refuse("this PNG file is damaged");
+          for (const char *const wanted :
+               {"IHDR", "PLTE", "tRNS", "IDAT", "IEND"})
+            if (type == wanted)
+              result += bytes.substr(position, length + around);
+          position += length + around;
+        }
+      return result;
+    }
+
+
+
     GreyImage
     read_png(const ImageFile &file, const std::string &bytes)
     {
@@ -181,7 +230,8 @@ namespace Debond
       try
         {
           const SilentStderr silence;
-          std::istringstream header(bytes), data(bytes);
+          const std::string  essence = essence_of_png(file, bytes);
+          std::istringstream header(essence), data(essence);
           const auto info = gil::read_image_info(header, gil::png_tag())._info;
           file.check_size(info._width, info._height);
           if (info._interlace_method != PNG_INTERLACE_NONE)
@@ -234,7 +284,7 @@ namespace Debond
           }
         if (position == begin)
           file.refuse("this PGM file is damaged or cut off: " + what +
-                      " is missing");
+                      " is missing or no number");
         return value;
       }
 

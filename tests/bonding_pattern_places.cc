@@ -246,6 +246,24 @@ check_image(const std::string       &what,
 
 
 
+// The four grey levels as PNG, 8 bits.
+std::string
+picture_of_four()
+{
+  const unsigned char png[] = {0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a,
+                               0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52,
+                               0x00, 0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x02,
+                               0x08, 0x00, 0x00, 0x00, 0x00, 0x57, 0xdd, 0x52,
+                               0xf8, 0x00, 0x00, 0x00, 0x0e, 0x49, 0x44, 0x41,
+                               0x54, 0x78, 0x9c, 0x63, 0xf8, 0xdf, 0xc0, 0xe0,
+                               0xc0, 0x00, 0x00, 0x07, 0x81, 0x01, 0xc0, 0x12,
+                               0x4a, 0x7b, 0xcc, 0x00, 0x00, 0x00, 0x00, 0x49,
+                               0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+  return {reinterpret_cast<const char *>(png), sizeof(png)};
+}
+
+
+
 void
 check_images()
 {
@@ -274,17 +292,7 @@ check_images()
               image("P2 2 2 1 0 1 0 0"),
               whites);
 
-  // the four grey levels as PNG, 8 bits
-  const unsigned char png[] = {0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a,
-                               0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52,
-                               0x00, 0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x02,
-                               0x08, 0x00, 0x00, 0x00, 0x00, 0x57, 0xdd, 0x52,
-                               0xf8, 0x00, 0x00, 0x00, 0x0e, 0x49, 0x44, 0x41,
-                               0x54, 0x78, 0x9c, 0x63, 0xf8, 0xdf, 0xc0, 0xe0,
-                               0xc0, 0x00, 0x00, 0x07, 0x81, 0x01, 0xc0, 0x12,
-                               0x4a, 0x7b, 0xcc, 0x00, 0x00, 0x00, 0x00, 0x49,
-                               0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
-  const std::string   bytes(reinterpret_cast<const char *>(png), sizeof(png));
+  const std::string bytes = picture_of_four();
   check_image("PNG", image(bytes), grey);
 
   const auto read = [](const std::string &name, const std::string &content) {
@@ -489,6 +497,23 @@ check_messages()
   say(image("P5 99999999999999999999 2 255\nabc"));
   say(image("P2 300000 2 255 1"));
   say(image("\x89PNG and nothing else"));
+  // every cut and every changed byte of a good PNG file
+  const std::string whole = picture_of_four();
+  unsigned int      read  = 0;
+  for (std::size_t i = 0; i < whole.size(); ++i)
+    {
+      std::string changed = whole;
+      changed[i] ^= 4;
+      for (const std::string &content : {whole.substr(0, i), changed})
+        try
+          {
+            make_pattern(image(content), coin(3));
+            ++read;
+          }
+        catch (const InputError &)
+          {}
+    }
+  report("  damaged PNG files are refused", read == 0);
   BondingParameters missing = image("");
   missing.file              = "not_there.png";
   say(missing);
@@ -505,6 +530,16 @@ check_messages()
   say(file("element,x_mm,y_mm,phi_0\n1,1,1,0\n2,0,0,0\n3,0,0,0\n4,0,0,0\n"
            "5,0,0,0\n6,0,0,0\n7,0,0,0\n8,0,0,0\n9,0,0,0\n"));
   say(file("x,y,phi_0\n1,1,high\n"));
+  say(file("phi_0\n0,55\n"));
+  say(file("X,Y,phi_0\n1,1,1\n"));
+  say(file("x;y;phi_0\n1;1;1\n"));
+  say(file("phi_0,element,phi_0\n1,1,1\n"));
+  say(file("x,y,phi_0\n1,1,1.0000001\n"));
+  BondingParameters directory = file("");
+  directory.file              = ".";
+  say(directory);
+  directory.pattern = BondingPatternKind::image;
+  say(directory);
   BondingParameters by_point = file("element,phi_0\n1,1\n");
   by_point.resolution        = BondingResolution::quadrature_point;
   say(by_point);

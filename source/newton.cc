@@ -59,6 +59,7 @@ namespace Debond
         mode.frictionless    = options.frictionless;
         mode.stick_first     = options.stick_first && iteration == 0;
         mode.touch_tolerance = options.touch_tolerance;
+        mode.duration        = options.duration;
 
         const auto residual = system.evaluate(mode);
         if (!residual.valid)

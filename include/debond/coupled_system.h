@@ -69,6 +69,10 @@ namespace Debond
     /** Starts a step to @p time from the accepted state. */
     void
     predict(double time, bool extrapolate);
+    /** Puts the implant's contact unknowns back to where they are in space in
+     *  the accepted state, after predict(). */
+    void
+    leave_surface_behind();
     void
     commit(double time);
     void

@@ -20,6 +20,8 @@ namespace Debond
      *  and as open otherwise. */
     double touch_tolerance = 0;
     bool   frictionless    = false;
+    /** Of the step [unit of time], for the viscosity. */
+    double duration = 0;
   };
 
   struct NewtonResult

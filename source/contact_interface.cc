@@ -692,6 +692,18 @@ namespace Debond
 
 
 
+  std::vector<PointStatus>
+  ContactInterface::statuses() const
+  {
+    std::vector<PointStatus> result;
+    result.reserve(points.size());
+    for (const Point &point : points)
+      result.push_back(point.trial.state.status);
+    return result;
+  }
+
+
+
   bool
   ContactInterface::has_open_points() const
   {

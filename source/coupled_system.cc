@@ -412,7 +412,7 @@ namespace Debond
   std::string
   CoupledSystem::solve_and_correct(const double relative_tolerance)
   {
-    Eigen::VectorXd correction;
+    Eigen::VectorXd &correction = last_correction;
     {
       const dealii::TimerOutput::Scope t(timer, "dense solve");
       correction = solver.solve(*this, residual, relative_tolerance);
@@ -437,6 +437,18 @@ namespace Debond
     for (const auto &[component, number] : configuration.chuck_unknowns)
       chuck.correct(component, -correction[number]);
     return "";
+  }
+
+
+
+  void
+  CoupledSystem::shorten_correction(const double fraction)
+  {
+    bone.shorten_correction(fraction);
+    implant.shorten_correction(fraction);
+    for (const auto &[component, number] : configuration.chuck_unknowns)
+      chuck.correct(component, (1. - fraction) * last_correction[number]);
+    last_correction *= fraction;
   }
 
 

@@ -374,9 +374,9 @@ namespace Debond
     if (summary.steepest_softening < 1.)
       return true;
     if (state->last_failure.empty() && scene.interface.viscosity == 0.)
-      throw RunError("Step " + std::to_string(state->step) + ", time " +
-                     std::to_string(state->time) +
-                     " and later: " + describe_jump(summary));
+      throw RunError("Step " + std::to_string(state->step) + ", after time " +
+                     std::to_string(state->time) + ": " +
+                     describe_jump(summary));
     state->last_failure +=
       (state->last_failure.empty() ? "" : "; ") + describe_jump(summary);
     return false;
@@ -487,8 +487,8 @@ namespace Debond
                        "are too large for the energy balance to be trusted");
     if (energy.dissipation_falls())
       note_violation("dissipation falls",
-                     where + "sliding gives energy back: points are pulled "
-                             "along the direction that they slide in");
+                     where + "sliding gives energy back: points slide along "
+                             "their traction instead of against it");
     if (energy.is_out_of_balance())
       {
         std::ostringstream text;
@@ -687,6 +687,31 @@ namespace Debond
 
 
 
+    // Whether the law has one solution at every point, with the mean pressure
+    // for that of a point.
+    void
+    print_uniqueness(const Scene &scene, const double p, std::ostream &out)
+    {
+      const InterfaceParameters &interface = scene.interface;
+      const double               slope =
+        steepest_fall(interface.friction, interface.bonding.initial_bonding);
+      const double missing = slope * p - interface.tangential_penalty;
+      if (slope == 0. || interface.explicit_friction)
+        return;
+      out << "  p / eps_t " << p / interface.tangential_penalty
+          << " mm; the friction law has one solution below " << 1. / slope
+          << " mm\n";
+      if (missing >= 0. && interface.viscosity == 0.)
+        out << "  so the run will be refused: Interface / Viscosity, a larger "
+               "Tangential penalty stiffness, Sliding threshold or Transition "
+               "factor helps\n";
+      else if (missing >= 0.)
+        out << "  so Viscosity makes it unique in steps shorter than "
+            << interface.viscosity / missing << '\n';
+    }
+
+
+
     void
     print_forecast(const Scene &scene, std::ostream &out)
     {
@@ -720,6 +745,7 @@ namespace Debond
         << p * M_PI * R * R << " N\n"
         << "  torsional stiffness while everything sticks "
         << 0.5 * M_PI * std::pow(R, 4) * k_t << " N mm/rad\n";
+      print_uniqueness(scene, p, out);
       RigidBodiesTorsion::Parameters parameters;
       parameters.radius             = R;
       parameters.push_in            = p / k_n;

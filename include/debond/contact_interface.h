@@ -147,6 +147,10 @@ namespace Debond
       return unprojected;
     }
 
+    /** Of all points in the last evaluate(). */
+    std::vector<PointStatus>
+    statuses() const;
+
     /** Whether any point of the last evaluate() is open. */
     bool
     has_open_points() const;

@@ -707,7 +707,7 @@ namespace Debond
                "factor helps\n";
       else if (missing >= 0.)
         out << "  so Viscosity makes it unique in steps shorter than "
-            << interface.viscosity / missing << '\n';
+            << interface.viscosity / missing << " of time\n";
     }
 
 
@@ -758,7 +758,9 @@ namespace Debond
         return;
       if (!RigidBodiesTorsion::has_unique_solution(parameters))
         {
-          out << "  the friction law softens too fast for a unique solution\n";
+          out
+            << "  no closed form of the torque: with the bodies in series the law "
+               "softens too fast, and the torque may jump\n";
           return;
         }
       const RigidBodiesTorsion form(parameters);

@@ -92,7 +92,8 @@ test()
   // the pressure grows with t: eps_t = 0.65 needed is too soft after t = 0.65
   const Outcome soft = run({stiffness(0.65 * needed)});
   report("  refused in the step from 0.6 to 0.7",
-         contains(soft.why, "Step 7,") && soft.rows.size() == 7);
+         contains(soft.why, "Step 7, after time 0.6:") &&
+           soft.rows.size() == 7);
   report("  with the reason", contains(soft.why, "not unique"));
   report("  with its numbers",
          contains(soft.why, "less than 1 / |d mu/d g_s| = 0.00353") &&

@@ -277,6 +277,7 @@ namespace Debond
   void
   Body::correct(const Eigen::VectorXd &dv)
   {
+    uncorrected = v;
     if (material() == Material::linear)
       for (unsigned int k = 0; k < n_unknowns(); ++k)
         v[free_dofs[contact_unknowns[k]]] += dv[k];
@@ -287,6 +288,14 @@ namespace Debond
         for (unsigned int i = 0; i < free_dofs.size(); ++i)
           v[free_dofs[i]] -= x[i];
       }
+  }
+
+
+
+  void
+  Body::shorten_correction(const double fraction)
+  {
+    v = uncorrected + fraction * (v - uncorrected);
   }
 
 

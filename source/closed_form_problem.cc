@@ -69,6 +69,14 @@ namespace Debond
         refuse(scene,
                "Interface / Bonding / Initial bonding",
                "this closed form knows a fully bonded surface only");
+      if (scene.interface.viscosity != 0)
+        refuse(scene,
+               "Interface / Viscosity",
+               "closed forms do not depend on the rate");
+      if (scene.interface.explicit_friction)
+        refuse(scene,
+               "Interface / Friction update",
+               "closed forms have no steps to lag behind by");
       for (const unsigned int k : {0, 1, 3, 4, 5})
         if (scene.chuck.component[k].loaded)
           refuse(scene,

@@ -16,25 +16,43 @@ namespace Debond
 {
   namespace
   {
-    /** Variants of the method that a later version brings. */
     void
-    declare_reserved_entries(dealii::ParameterHandler &prm)
+    declare_regularisation(dealii::ParameterHandler &prm)
     {
-      prm.declare_entry("Viscosity",
-                        "0",
-                        Allowed::only("0"),
-                        "Reserved: viscous regularisation of the interface "
-                        "[MPa per mm per unit of time].");
-      prm.declare_entry("Slip direction",
-                        "trial",
-                        Allowed::choice("trial", "previous gap"),
-                        "Direction in which a sliding point moves: that of the "
-                        "trial gap.");
-      prm.declare_entry("Friction update",
-                        "implicit",
-                        Allowed::choice("implicit", "explicit"),
-                        "The friction coefficient is evaluated with the "
-                        "sliding distance at the end of the step.");
+      prm.declare_entry(
+        "Viscosity",
+        "0",
+        Allowed::number_from(0, "MPa per (mm per unit of time)"),
+        "Viscosity eta [MPa per (mm per unit of time)] of sliding: a point that "
+        "slides with the speed v carries mu p + eta v. One that sticks carries "
+        "none of it, nor one without friction. With it a bond that would break "
+        "in a jump breaks in time instead: the local solution is unique while "
+        "|d mu/d g_s| p is below the tangential penalty stiffness plus eta "
+        "over the (sub-)step's duration. Time is then more than a parameter "
+        "of the load: results depend on the rate.");
+    }
+
+
+
+    void
+    declare_variants(dealii::ParameterHandler &prm)
+    {
+      prm.declare_entry(
+        "Slip direction",
+        "trial",
+        Allowed::choice("trial | previous gap"),
+        "Direction in which a sliding point is pulled. `trial': that of the "
+        "gap which it would have without sliding in this step. `previous gap': "
+        "that of the step before, Eq. (31) as printed, which can never turn; "
+        "it is there to show what that leads to.");
+      prm.declare_entry(
+        "Friction update",
+        "implicit",
+        Allowed::choice("implicit | explicit"),
+        "`implicit': the friction coefficient belongs to the sliding distance "
+        "at the end of the step. `explicit': to that at its beginning, so that "
+        "a softening bond lags behind by a step; it is there to show what that "
+        "costs.");
     }
   } // namespace
 
@@ -70,7 +88,8 @@ namespace Debond
                       "Whether a bonded point that opens is debonded for good. "
                       "`false' is the law of the paper, which has no strength "
                       "in tension and forgets that the point was open.");
-    declare_reserved_entries(prm);
+    declare_regularisation(prm);
+    declare_variants(prm);
     BondingParameters::declare(prm);
     prm.leave_subsection();
   }
@@ -87,7 +106,10 @@ namespace Debond
     tangential_penalty = prm.get_double("Tangential penalty stiffness");
     if (tangential_penalty == 0)
       tangential_penalty = normal_penalty;
-    opening_breaks_bond = prm.get_bool("Opening breaks bond");
+    opening_breaks_bond     = prm.get_bool("Opening breaks bond");
+    viscosity               = prm.get_double("Viscosity");
+    slip_along_previous_gap = prm.get("Slip direction") == "previous gap";
+    explicit_friction       = prm.get("Friction update") == "explicit";
     friction.parse(prm);
     bonding.parse(prm);
     prm.leave_subsection();
@@ -107,6 +129,8 @@ namespace Debond
     law.tangential_penalty  = parameters.tangential_penalty;
     law.friction            = parameters.friction;
     law.opening_breaks_bond = parameters.opening_breaks_bond;
+    law.viscosity           = parameters.viscosity;
+    law.explicit_friction   = parameters.explicit_friction;
     const auto quadrature =
       surface_quadrature(mesh[slave]->surface(), parameters.quadrature_points);
     points.reserve(quadrature.size());
@@ -208,7 +232,7 @@ namespace Debond
     Point                        &point,
     const MasterSurface          &master,
     const InterfaceConfiguration &configuration,
-    const bool                    use_guess) const
+    const bool                    use_guess)
   {
     const Projection projection =
       project(master,
@@ -217,6 +241,7 @@ namespace Debond
     point.accepted.xi          = projection.xi;
     point.accepted.has_partner = projection.faces;
     point.clearance            = projection.clearance;
+    unprojected += !projection.converged;
   }
 
 
@@ -241,6 +266,7 @@ namespace Debond
   {
     for (unsigned int side = 0; side < 2; ++side)
       accepted_positions[side] = configuration.side[side].positions;
+    unprojected = 0;
     for (Point &point : points)
       project_accepted(point, master(configuration), configuration, false);
     assign_bonding();
@@ -254,7 +280,7 @@ namespace Debond
   {
     const MasterSurface surface = master(configuration);
     const double        moved   = motion(configuration);
-    frictionless_now            = mode.frictionless;
+    mode_now                    = mode;
     std::array<NodalSums, n_chunks> sums;
     std::array<int, n_chunks>       failed;
     for_each_chunk(points.size(),
@@ -291,13 +317,17 @@ namespace Debond
   {
     if (point.accepted.has_partner || point.clearance <= moved)
       {
+        ContactPointMode mode_here = mode;
+        if (parameters.slip_along_previous_gap)
+          mode_here.slip_direction =
+            configuration.side[master_side()].frame * point.accepted_traction;
         update_contact_point(law,
                              point.accepted,
                              point.phi_0,
                              interpolate(point.basis,
                                          configuration.side[slave].positions),
                              surface,
-                             mode,
+                             mode_here,
                              point.trial);
         return;
       }
@@ -305,8 +335,9 @@ namespace Debond
     point.trial.failed   = false;
     point.trial.state    = point.accepted;
     point.trial.pressure = point.trial.normal_gap = point.trial.softening = 0.;
-    point.trial.traction         = point.trial.tangential_traction =
-      point.trial.slip_increment = Eigen::Vector3d::Zero();
+    point.trial.traction           = point.trial.tangential_traction =
+      point.trial.viscous_traction = point.trial.slip_increment =
+        Eigen::Vector3d::Zero();
   }
 
 
@@ -640,6 +671,7 @@ namespace Debond
     const double           moved   = motion(configuration);
     for (unsigned int side = 0; side < 2; ++side)
       accepted_positions[side] = configuration.side[side].positions;
+    unprojected = 0;
     for (Point &point : points)
       {
         if (!point.accepted.has_partner && point.clearance > moved)
@@ -652,7 +684,11 @@ namespace Debond
           0.5 * point.JxW *
           (Q * point.accepted_traction + trial.tangential_traction)
             .dot(trial.slip_increment);
-        if (!frictionless_now)
+        accepted_viscous_work +=
+          0.5 * point.JxW *
+          (Q * point.accepted_viscous_traction + trial.viscous_traction)
+            .dot(trial.slip_increment);
+        if (!mode_now.frictionless)
           accepted_adhesive_work +=
             point.JxW * 0.5 * (point.accepted_pressure + trial.pressure) *
             adhesive_strength(parameters.friction,
@@ -661,10 +697,24 @@ namespace Debond
                               trial.state.slip);
         point.accepted          = trial.state;
         point.accepted_traction = Q.transpose() * trial.tangential_traction;
+        point.accepted_viscous_traction =
+          Q.transpose() * trial.viscous_traction;
         point.accepted_pressure = trial.pressure;
         if (point.accepted.status == PointStatus::open)
           project_accepted(point, surface, configuration, true);
       }
+  }
+
+
+
+  std::vector<PointStatus>
+  ContactInterface::statuses() const
+  {
+    std::vector<PointStatus> result;
+    result.reserve(points.size());
+    for (const Point &point : points)
+      result.push_back(point.trial.state.status);
+    return result;
   }
 
 
@@ -759,6 +809,27 @@ namespace Debond
 
 
 
+  void
+  ContactInterface::add_steepest_softening(const Point &point,
+                                           Summary     &summary) const
+  {
+    const ContactPointState &old = point.accepted;
+    const double             slope =
+      old.broken ? 0. :
+                               steepest_fall(parameters.friction, point.phi_0, old.slip);
+    const double softening =
+      slope * point.trial.pressure /
+      (parameters.tangential_penalty + viscous_stiffness(law, mode_now));
+    if (softening > summary.steepest_softening)
+      {
+        summary.steepest_softening = softening;
+        summary.softening_pressure = point.trial.pressure;
+        summary.softening_slope    = slope;
+      }
+  }
+
+
+
   ContactInterface::Summary
   ContactInterface::summarise() const
   {
@@ -802,11 +873,8 @@ namespace Debond
              parameters.tangential_penalty);
         summary.max_softening =
           std::max(summary.max_softening, trial.softening);
-        if (friction(point).phi > 0.)
-          summary.steepest_softening =
-            std::max(summary.steepest_softening,
-                     steepest_fall(parameters.friction, point.phi_0) *
-                       trial.pressure / parameters.tangential_penalty);
+        if (!parameters.explicit_friction && !mode_now.frictionless)
+          add_steepest_softening(point, summary);
         summary.max_penetration =
           std::max(summary.max_penetration, -trial.normal_gap);
       }

@@ -54,20 +54,29 @@ namespace Debond
 
 
 
-    // The friction law of a point: what mu(g_s) means for it in this step.
+    // The friction law of a point in this step: what mu(g_s) means for it, how
+    // sliding is resisted by its speed, and where it goes.
     struct PointFriction
     {
       const FrictionParameters &parameters;
       const double              phi_0;
       const bool                frictionless;
+      const double              old_slip;
+      const bool                is_explicit    = false;
+      const double              viscous        = 0.; ///< eta / dt [MPa/mm]
+      const Vector3d            slip_direction = Vector3d::Zero();
 
       FrictionCoefficient
-      operator()(const double slip) const
+      after(const double distance) const
       {
         FrictionCoefficient result =
-          friction_coefficient(parameters, phi_0, slip);
+          friction_coefficient(parameters,
+                               phi_0,
+                               old_slip + (is_explicit ? 0. : distance));
         if (frictionless)
           result.mu = result.dmu = 0.;
+        if (is_explicit)
+          result.dmu = 0.;
         return result;
       }
     };
@@ -79,11 +88,15 @@ namespace Debond
     {
       const ContactPointLaw &law;
       const SurfaceGeometry &geometry;
+      const PointFriction   &friction;
       const Vector3d         gap, trial;
+      const bool             direction_is_given;
+      const Vector3d         pull;
       const Normal           normal;
       const Vector3d        &n;
       const double           g_n, pressure;
       double                 n_part, u_norm, limit;
+      double                 resistance; ///< viscous part of the limit
       Vector3d               tau, forward;
       FrictionCoefficient    coefficient;
       Vector3d               t_t, traction, excess;
@@ -91,23 +104,25 @@ namespace Debond
 
       SlipEquations(const ContactPointLaw &law,
                     const PointFriction   &friction,
-                    const double           old_slip,
                     const Vector3d        &x,
                     const Vector3d        &y_old,
                     const SurfaceGeometry &geometry,
                     const double           outward_sign)
         : law(law)
         , geometry(geometry)
+        , friction(friction)
         , gap(x - geometry.y)
         , trial(x - y_old)
+        , direction_is_given(!friction.slip_direction.isZero(0.))
+        , pull(direction_is_given ? friction.slip_direction : trial)
         , normal(geometry, outward_sign)
         , n(normal.n)
         , g_n(n.dot(gap))
         , pressure(g_n < 0. ? -law.normal_penalty * g_n : 0.)
       {
         // direction of slip: the trial gap on the tangent plane at xi_hat
-        n_part           = n.dot(trial);
-        const Vector3d u = trial - n_part * n;
+        n_part           = n.dot(pull);
+        const Vector3d u = pull - n_part * n;
         u_norm           = u.norm();
         tau =
           has_direction() ? Vector3d(u / u_norm) : Vector3d(Vector3d::Zero());
@@ -116,9 +131,11 @@ namespace Debond
         // only just begins y - y_n has no direction but the limit tau
         const Vector3d slip     = geometry.y - y_old;
         const double   distance = slip.norm();
-        forward = distance > 1e-14 * u_norm ? Vector3d(slip / distance) : tau;
-        coefficient = friction(old_slip + distance);
-        limit       = coefficient.mu * pressure;
+        forward =
+          distance > 1e-14 * trial.norm() ? Vector3d(slip / distance) : tau;
+        coefficient = friction.after(distance);
+        resistance  = pressure > 0. ? friction.viscous * distance : 0.;
+        limit       = coefficient.mu * pressure + resistance;
 
         t_t      = limit * tau;
         traction = law.normal_penalty * g_n * n + t_t;
@@ -136,7 +153,7 @@ namespace Debond
       softening() const
       {
         return std::max(0., -coefficient.dmu) * pressure /
-               law.tangential_penalty;
+               (law.tangential_penalty + friction.viscous);
       }
 
       template <int N>
@@ -159,16 +176,19 @@ namespace Debond
         using Numbers      = Eigen::Matrix<double, 1, N>;
         const Numbers dg_n = n.transpose() * dgap + gap.transpose() * dn;
 
-        Numbers dlimit =
-          (coefficient.dmu * pressure * forward).transpose() * (dtrial - dgap);
+        const double along_slip =
+          coefficient.dmu * pressure + (pressure > 0. ? friction.viscous : 0.);
+        Numbers dlimit = (along_slip * forward).transpose() * (dtrial - dgap);
         if (pressure > 0.)
           dlimit -= coefficient.mu * law.normal_penalty * dg_n;
         Vectors dt_t = tau * dlimit;
         if (has_direction())
           {
+            const Vectors dpull =
+              direction_is_given ? Vectors(Vectors::Zero()) : dtrial;
             const Numbers dn_part =
-              n.transpose() * dtrial + trial.transpose() * dn;
-            const Vectors du = dtrial - n_part * dn - n * dn_part;
+              n.transpose() * dpull + pull.transpose() * dn;
+            const Vectors du = dpull - n_part * dn - n * dn_part;
             dt_t += limit / u_norm * (du - tau * (tau.transpose() * du));
           }
         const Vectors dexcess = dgap - dt_t / law.tangential_penalty;
@@ -242,13 +262,11 @@ namespace Debond
     public:
       SlipProblem(const ContactPointLaw &law,
                   const PointFriction   &friction,
-                  const double           old_slip,
                   const Vector3d        &x,
                   const Vector3d        &y_old,
                   const MasterSurface   &master)
         : law(law)
         , friction(friction)
-        , old_slip(old_slip)
         , x(x)
         , y_old(y_old)
         , master(master)
@@ -317,9 +335,10 @@ namespace Debond
         result.softening           = e.softening();
         result.traction            = e.traction;
         result.tangential_traction = e.t_t;
+        result.viscous_traction    = e.resistance * e.tau;
         result.slip_increment      = geometry.y - y_old;
         if (!friction.frictionless)
-          result.state.slip = old_slip + result.slip_increment.norm();
+          result.state.slip = friction.old_slip + result.slip_increment.norm();
         const auto along_w  = e.along_w();
         const auto along_xi = e.along_surface();
         result.dxi          = -along_xi.h.inverse() * along_w.h;
@@ -339,7 +358,7 @@ namespace Debond
         master.surface->evaluate(xi, basis, true);
         contract(basis, *master.positions, true, geometry);
         equations.emplace(
-          law, friction, old_slip, x, y_old, geometry, master.outward_sign);
+          law, friction, x, y_old, geometry, master.outward_sign);
       }
 
       Vector2d
@@ -358,7 +377,6 @@ namespace Debond
 
       const ContactPointLaw &law;
       const PointFriction   &friction;
-      const double           old_slip;
       const Vector3d        &x, &y_old;
       const MasterSurface   &master;
 
@@ -377,8 +395,8 @@ namespace Debond
       result.state.status = PointStatus::open;
       if (law.opening_breaks_bond && old_state.status != PointStatus::open)
         result.state.broken = true;
-      result.traction = result.tangential_traction = result.slip_increment =
-        Vector3d::Zero();
+      result.traction = result.tangential_traction = result.viscous_traction =
+        result.slip_increment                      = Vector3d::Zero();
       result.pressure = result.softening = 0.;
       result.dt.setZero();
       result.dxi.setZero();
@@ -404,7 +422,7 @@ namespace Debond
       result.softening           = 0.;
       result.tangential_traction = eps_t * (gap - g_n * n);
       result.traction            = eps_n * g_n * n + result.tangential_traction;
-      result.slip_increment      = Vector3d::Zero();
+      result.slip_increment = result.viscous_traction = Vector3d::Zero();
       result.dxi.setZero();
       result.dt.setZero();
       const Matrix3d along_gap =
@@ -429,9 +447,9 @@ namespace Debond
                       const MasterSurface     &master,
                       ContactPointResult      &result)
     {
-      const PointFriction none{law.friction, 0., true};
+      const PointFriction none{law.friction, 0., true, start.slip};
       ContactPointResult  projected;
-      SlipProblem         problem(law, none, start.slip, x, y, master);
+      SlipProblem         problem(law, none, x, y, master);
       if (problem.solve(start.xi, projected) != SlipOutcome::solved)
         return;
       problem.report(projected);
@@ -491,6 +509,16 @@ namespace Debond
 
 
 
+  double
+  viscous_stiffness(const ContactPointLaw &law, const ContactPointMode &mode)
+  {
+    const bool resists = !mode.frictionless && mode.duration > 0. &&
+                         law.friction.kind != FrictionLawKind::frictionless;
+    return resists ? law.viscosity / mode.duration : 0.;
+  }
+
+
+
   void
   update_contact_point(const ContactPointLaw   &law,
                        const ContactPointState &old_state,
@@ -521,9 +549,13 @@ namespace Debond
     const bool          closed = normal_gap < touch;
     const PointFriction friction{law.friction,
                                  start.broken ? 0. : phi_0,
-                                 mode.frictionless};
+                                 mode.frictionless,
+                                 start.slip,
+                                 law.explicit_friction,
+                                 viscous_stiffness(law, mode),
+                                 mode.slip_direction};
     const double        limit =
-      friction(start.slip).mu * std::max(0., -law.normal_penalty * normal_gap);
+      friction.after(0.).mu * std::max(0., -law.normal_penalty * normal_gap);
     const double trial_traction =
       law.tangential_penalty * (gap - normal_gap * normal.n).norm();
     if (closed && (mode.stick_first || trial_traction <= limit))
@@ -542,7 +574,7 @@ namespace Debond
     // Slip, or open: with p = 0 the same equations project the point, and the
     // sign of the gap found there decides.
     result.old_basis = result.basis;
-    SlipProblem problem(law, friction, start.slip, x, geometry.y, master);
+    SlipProblem problem(law, friction, x, geometry.y, master);
     SlipOutcome outcome = problem.solve(start.xi, result);
     if (outcome == SlipOutcome::not_found)
       {

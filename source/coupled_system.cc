@@ -170,6 +170,29 @@ namespace Debond
 
 
   void
+  CoupledSystem::leave_surface_behind()
+  {
+    const auto     &reference = implant.surface().control_points();
+    const auto      v         = implant.contact_displacement();
+    const auto      numbers   = implant.unknown_of();
+    Eigen::VectorXd dv        = Eigen::VectorXd::Zero(implant.n_unknowns());
+    for (unsigned int A = 0; A < reference.cols(); ++A)
+      {
+        const Eigen::Vector3d back = chuck.rotation().transpose() *
+                                     (interface.accepted_surface(1).col(A) -
+                                      chuck.map(reference.col(A), v.col(A)));
+        for (unsigned int c = 0; c < 3; ++c)
+          if (numbers[3 * A + c] >= 0)
+            dv[numbers[3 * A + c]] = back[c];
+      }
+    Eigen::VectorXd at_rest; // a Neo-Hookean body's interior follows from this
+    implant.residual(ControlNet::Zero(3, reference.cols()), at_rest);
+    implant.correct(dv);
+  }
+
+
+
+  void
   CoupledSystem::commit(const double time)
   {
     {
@@ -389,7 +412,7 @@ namespace Debond
   std::string
   CoupledSystem::solve_and_correct(const double relative_tolerance)
   {
-    Eigen::VectorXd correction;
+    Eigen::VectorXd &correction = last_correction;
     {
       const dealii::TimerOutput::Scope t(timer, "dense solve");
       correction = solver.solve(*this, residual, relative_tolerance);
@@ -414,6 +437,18 @@ namespace Debond
     for (const auto &[component, number] : configuration.chuck_unknowns)
       chuck.correct(component, -correction[number]);
     return "";
+  }
+
+
+
+  void
+  CoupledSystem::shorten_correction(const double fraction)
+  {
+    bone.shorten_correction(fraction);
+    implant.shorten_correction(fraction);
+    for (const auto &[component, number] : configuration.chuck_unknowns)
+      chuck.correct(component, (1. - fraction) * last_correction[number]);
+    last_correction *= fraction;
   }
 
 

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <iomanip>
 #include <iostream>
+#include <set>
 #include <sstream>
 
 namespace Debond
@@ -47,6 +48,8 @@ namespace Debond
     /** Of the accepted state. */
     ContactInterface::Summary interface_summary;
     double                    reaction_defect = 0;
+    /** Names of the checks that the next row does not pass. */
+    std::set<std::string> violated_checks;
 
     std::vector<TorqueRow> rows;
     double                 time                 = 0; ///< of the accepted state
@@ -286,9 +289,11 @@ namespace Debond
                              const bool    extrapolate,
                              unsigned int &iterations)
   {
-    bool accepted = false;
-    iterations += try_sub_step(time, extrapolate, accepted);
-    if (!accepted && extrapolate) // the prediction may be to blame
+    bool       accepted = false;
+    const bool predict =
+      extrapolate && scene.load_steps.predictor == Predictor::extrapolate;
+    iterations += try_sub_step(time, predict, accepted);
+    if (!accepted && predict) // the prediction may be to blame
       iterations += try_sub_step(time, false, accepted);
     return accepted;
   }
@@ -320,37 +325,98 @@ namespace Debond
                                  const bool   extrapolate,
                                  bool        &accepted)
   {
-    CoupledSystem &system = *state->system;
-    NewtonOptions  options;
+    CoupledSystem  &system    = *state->system;
+    const Predictor predictor = scene.load_steps.predictor;
+    NewtonOptions   options;
     options.residual_tolerance = scene.load_steps.residual_tolerance;
-    options.stick_first        = !extrapolate;
-    options.touch_tolerance    = 1e-12 * system.R;
+    options.stick_first        = predictor == Predictor::stick_first ||
+                          (predictor == Predictor::extrapolate && !extrapolate);
+    options.duration        = time - state->time;
+    options.touch_tolerance = 1e-12 * system.R;
     // a planned time, up to rounding
     options.frictionless =
       state->time <
       scene.interface.friction.starts_at -
         1e-9 * (scene.load_steps.times.back() - scene.load_steps.times.front());
     system.predict(time, extrapolate);
+    if (predictor == Predictor::none)
+      system.leave_surface_behind();
     const NewtonResult result = solve_newton(system, options);
     state->newton_iterations += result.iterations;
-    accepted = result.converged;
+    state->last_failure = result.why;
+    accepted            = is_unique() && result.converged;
     if (!accepted)
-      {
-        state->last_failure = result.why;
-        system.rollback();
-      }
+      system.rollback();
     return result.iterations;
   }
+
+
+
+  namespace
+  {
+    std::string
+    describe_jump(const ContactInterface::Summary &summary)
+    {
+      const double       slope = summary.softening_slope;
+      std::ostringstream text;
+      text << "the friction law softens faster than the interface is stiff, so "
+              "that its local solution is not unique and the bond would break "
+              "in a jump: at a pressure of p = "
+           << summary.softening_pressure
+           << " MPa the stiffness eps_t (with Viscosity: and eta over the "
+              "step's duration) makes p / eps_t = "
+           << summary.steepest_softening / slope
+           << " mm, and less than 1 / |d mu/d g_s| = " << 1. / slope
+           << " mm has one solution. What helps: Interface / Viscosity, a "
+              "larger Interface / Tangential penalty stiffness, a larger "
+              "Sliding threshold or Transition factor";
+      return text.str();
+    }
+  } // namespace
+
+
+
+  // Smaller steps help a viscous interface only. A step that failed has failed
+  // already; this may be why.
+  bool
+  DebondingProblem::is_unique()
+  {
+    ContactInterface::Summary &summary = state->interface_summary;
+    summary                            = state->system->interface.summarise();
+    if (summary.steepest_softening < 1.)
+      return true;
+    if (state->last_failure.empty() && scene.interface.viscosity == 0.)
+      throw RunError("Step " + std::to_string(state->step) + ", after time " +
+                     std::to_string(state->time) + ": " +
+                     describe_jump(summary));
+    state->last_failure +=
+      (state->last_failure.empty() ? "" : "; ") + describe_jump(summary);
+    return false;
+  }
+
+
+
+  namespace
+  {
+    // Beyond that a point may find no partner, or the wrong one [mm].
+    double
+    deepest_penetration(const Scene &scene, const CoupledSystem &system)
+    {
+      double smallest =
+        0.1 * std::min(scene.bone.thickness(), scene.implant.thickness());
+      const auto   n    = system.implant.surface().n_elements();
+      const double area = system.interface.implant_area();
+      return std::min(smallest, std::sqrt(area / n));
+    }
+  } // namespace
 
 
 
   void
   DebondingProblem::accept(const double time)
   {
-    CoupledSystem &system    = *state->system;
-    state->interface_summary = system.interface.summarise();
-    state->reaction_defect   = system.reaction_defect();
-    check_accepted_state();
+    CoupledSystem &system  = *state->system;
+    state->reaction_defect = system.reaction_defect();
     system.commit(time);
     state->energy.add(system.chuck_forces(),
                       system.chuck.position(),
@@ -360,29 +426,30 @@ namespace Debond
     state->time = time;
     if (state->step > 0)
       ++state->accepted_steps;
-    if (state->energy.dissipates_too_much())
-      state->console.warn(
-        "dissipation",
-        "more energy is dissipated than was put in: the steps "
-        "are too large for the energy balance to be trusted");
+    check_accepted_state();
   }
 
 
 
-  // What a user has to know about a state that is about to be accepted.
+  void
+  DebondingProblem::note_violation(const std::string &check,
+                                   const std::string &text)
+  {
+    state->console.warn(check, text);
+    state->violated_checks.insert(check);
+  }
+
+
+
+  // What a user has to know about a state that has just been accepted. That it
+  // solves the equations, and is the only solution, was asked before.
   void
   DebondingProblem::check_accepted_state()
   {
     const ContactInterface::Summary &summary = state->interface_summary;
     const std::string where = "step " + std::to_string(state->step) + ": ";
-    if (summary.steepest_softening >= 1.)
-      state->console.warn(
-        "uniqueness",
-        where + "the friction law softens faster than the interface is "
-                "stiff (largest |d mu/d g_s| p / eps_t >= 1): its local "
-                "solution is not unique, and the bond may break in a jump");
     if (summary.bonded_opened > 0)
-      state->console.warn(
+      note_violation(
         "opening",
         where + "bonded points open (" + std::to_string(summary.bonded_opened) +
           "): the law has no strength in tension, so that pulling costs nothing" +
@@ -390,17 +457,23 @@ namespace Debond
              "" :
              ", and points that close again are "
              "bonded as before"));
-    const double thinner =
-      std::min(scene.bone.thickness(), scene.implant.thickness());
-    if (summary.max_penetration > 0.1 * thinner)
+    const double too_deep = deepest_penetration(scene, *state->system);
+    if (summary.max_penetration > too_deep)
       {
         std::ostringstream text;
         text << where << "the bodies penetrate each other by "
-             << summary.max_penetration
-             << " mm, more than a tenth of the thinner one (" << thinner
-             << " mm): lengths are mm, is the push-in right?";
-        state->console.warn("penetration", text.str());
+             << summary.max_penetration << " mm, more than " << too_deep
+             << " mm, a tenth of the thinner one or a whole surface element: "
+                "lengths are mm, is the push-in right?";
+        note_violation("penetration", text.str());
       }
+    if (state->system->interface.n_unprojected() > 0)
+      note_violation("projection",
+                     where + "for " +
+                       std::to_string(
+                         state->system->interface.n_unprojected()) +
+                       " open points no closest point of the other surface was "
+                       "found: they stay open");
     if (state->reaction_defect > 1e-6)
       {
         std::ostringstream text;
@@ -408,7 +481,34 @@ namespace Debond
           << where
           << "contact forces and the reaction of the implant's top differ by "
           << state->reaction_defect << " of the larger";
-        state->console.warn("reaction", text.str());
+        note_violation("reaction", text.str());
+      }
+    check_energy_balance(where);
+  }
+
+
+
+  void
+  DebondingProblem::check_energy_balance(const std::string &where)
+  {
+    const EnergyBalance &energy = state->energy;
+    if (energy.dissipates_too_much())
+      note_violation("dissipation",
+                     where +
+                       "more energy is dissipated than was put in: the steps "
+                       "are too large for the energy balance to be trusted");
+    if (energy.dissipation_falls())
+      note_violation("dissipation falls",
+                     where + "sliding gives energy back: points slide along "
+                             "their traction instead of against it");
+    if (energy.is_out_of_balance())
+      {
+        std::ostringstream text;
+        text << where << "of the chuck's work, " << energy.defect()
+             << " of its largest value is neither stored nor dissipated; the "
+                "size of the steps accounts for "
+             << energy.defect_bound();
+        note_violation("energy balance", text.str());
       }
   }
 
@@ -443,6 +543,9 @@ namespace Debond
     row.adhesive_work_Nmm    = system.interface.adhesive_work();
     row.energy_defect_bound  = state->energy.defect_bound();
     row.reaction_defect      = state->reaction_defect;
+    row.viscous_work_Nmm     = system.interface.viscous_work();
+    row.warnings             = state->violated_checks.size();
+    state->violated_checks.clear();
     for (unsigned int k = 0; k < 6; ++k)
       {
         row.chuck_reaction[k] = reaction[k];
@@ -596,6 +699,31 @@ namespace Debond
 
 
 
+    // Whether the law has one solution at every point, with the mean pressure
+    // for that of a point.
+    void
+    print_uniqueness(const Scene &scene, const double p, std::ostream &out)
+    {
+      const InterfaceParameters &interface = scene.interface;
+      const double               slope =
+        steepest_fall(interface.friction, interface.bonding.initial_bonding);
+      const double missing = slope * p - interface.tangential_penalty;
+      if (slope == 0. || interface.explicit_friction)
+        return;
+      out << "  p / eps_t " << p / interface.tangential_penalty
+          << " mm; the friction law has one solution below " << 1. / slope
+          << " mm\n";
+      if (missing >= 0. && interface.viscosity == 0.)
+        out << "  so the run will be refused: Interface / Viscosity, a larger "
+               "Tangential penalty stiffness, Sliding threshold or Transition "
+               "factor helps\n";
+      else if (missing >= 0.)
+        out << "  so Viscosity makes it unique in steps shorter than "
+            << interface.viscosity / missing << " of time\n";
+    }
+
+
+
     void
     print_forecast(const Scene &scene, std::ostream &out)
     {
@@ -629,6 +757,7 @@ namespace Debond
         << p * M_PI * R * R << " N\n"
         << "  torsional stiffness while everything sticks "
         << 0.5 * M_PI * std::pow(R, 4) * k_t << " N mm/rad\n";
+      print_uniqueness(scene, p, out);
       RigidBodiesTorsion::Parameters parameters;
       parameters.radius             = R;
       parameters.push_in            = p / k_n;
@@ -641,7 +770,9 @@ namespace Debond
         return;
       if (!RigidBodiesTorsion::has_unique_solution(parameters))
         {
-          out << "  the friction law softens too fast for a unique solution\n";
+          out
+            << "  no closed form of the torque: with the bodies in series the law "
+               "softens too fast, and the torque may jump\n";
           return;
         }
       const RigidBodiesTorsion form(parameters);

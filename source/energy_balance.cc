@@ -12,8 +12,9 @@ namespace Debond
                      const double          energy_interface,
                      const double          dissipation)
   {
-    stored     = energy_bulk + energy_interface;
-    dissipated = dissipation;
+    stored          = energy_bulk + energy_interface;
+    last_dissipated = started ? dissipated : dissipation;
+    dissipated      = dissipation;
     if (started)
       {
         const Chuck::Vector6 dq = position - last_position;
@@ -58,5 +59,21 @@ namespace Debond
     // what was stored in the first row may be dissipated as well
     return dissipated - first_dissipated >
            W + first_stored + bound + 1e-9 * max_W;
+  }
+
+
+
+  bool
+  EnergyBalance::dissipation_falls() const
+  {
+    return dissipated < last_dissipated - 1e-9 * max_W;
+  }
+
+
+
+  bool
+  EnergyBalance::is_out_of_balance() const
+  {
+    return std::abs(defect()) > defect_bound() + 1e-9;
   }
 } // namespace Debond

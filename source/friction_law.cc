@@ -109,13 +109,18 @@ namespace Debond
 
 
   double
-  steepest_fall(const FrictionParameters &parameters, const double phi_0)
+  steepest_fall(const FrictionParameters &parameters,
+                const double              phi_0,
+                const double              slip)
   {
     if (parameters.kind != FrictionLawKind::modified_coulomb)
       return 0.;
-    return 0.25 * M_PI * phi_0 *
-           std::max(0., parameters.mu_unbroken - parameters.mu_broken) /
-           (parameters.sliding_threshold * parameters.transition_factor);
+    const double half_way =
+      parameters.sliding_threshold * (1. + parameters.transition_factor);
+    double steepest;
+    bonding_decay(parameters, std::max(slip, half_way), steepest);
+    return -steepest * phi_0 *
+           std::max(0., parameters.mu_unbroken - parameters.mu_broken);
   }
 
 

@@ -51,6 +51,19 @@ namespace Debond
                       Allowed::number_between_excluding_lower(0, 0.1, ""),
                       "A step has converged when the residual is below this "
                       "fraction of the contact force.");
+    prm.declare_entry(
+      "Predictor",
+      "extrapolate",
+      Allowed::choice("extrapolate | stick first | rigid | none"),
+      "What the first iteration of a step starts from. `extrapolate': the "
+      "straight line through the last two states where there is one in this "
+      "phase; else, and if that fails, as `stick first'. The others are there "
+      "to be compared with, and a step that fails with them is halved at once. "
+      "`stick first': the last state with the chuck moved, so that the "
+      "implant goes along as it is; closed points stick in the first "
+      "iteration. `rigid': the same, but every point sticks or slides as it "
+      "must from the first iteration on. `none': the implant's deformable "
+      "contact face stays where it is in space.");
     prm.leave_subsection();
   }
 
@@ -66,6 +79,11 @@ namespace Debond
     residual_tolerance     = prm.get_double("Residual tolerance");
     adaptive               = prm.get_bool("Adaptive");
     tolerance              = prm.get_double("Tolerance");
+    const std::string name = prm.get("Predictor");
+    predictor              = name == "stick first" ? Predictor::stick_first :
+                             name == "rigid"       ? Predictor::rigid :
+                             name == "none"        ? Predictor::none :
+                                                     Predictor::extrapolate;
     prm.leave_subsection();
   }
 } // namespace Debond

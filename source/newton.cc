@@ -45,6 +45,95 @@ namespace Debond
         *std::min_element(history.begin(), history.end() - 8);
       return recent > 0.5 * before;
     }
+
+
+
+    ContactPointMode
+    mode_of(const NewtonOptions &options, const unsigned int iteration)
+    {
+      ContactPointMode mode;
+      mode.frictionless    = options.frictionless;
+      mode.stick_first     = options.stick_first && iteration == 0;
+      mode.touch_tolerance = options.touch_tolerance;
+      mode.duration        = options.duration;
+      return mode;
+    }
+
+
+
+    // Recognises that points change between stick, slip and open without an
+    // end: all of them are in states that they were in before with a residual
+    // not much larger, or the residual has grown for the second time.
+    class CycleDetector
+    {
+    public:
+      bool
+      sees_cycle(const std::vector<PointStatus> &states, const double error)
+      {
+        if (!seen.empty() && error > seen.back().second)
+          ++n_grown;
+        const bool settled = !seen.empty() && states == seen.back().first;
+        const bool was_here =
+          std::any_of(seen.begin(), seen.end(), [&](const auto &before) {
+            return before.first == states && error > 0.5 * before.second;
+          });
+        seen.emplace_back(states, error);
+        return n_grown > 1 || (was_here && !settled);
+      }
+
+    private:
+      unsigned int                                             n_grown = 0;
+      std::vector<std::pair<std::vector<PointStatus>, double>> seen;
+    };
+
+
+
+    // Halves the last correction until the residual has become smaller; returns
+    // the residual where this ends.
+    CoupledSystem::Residual
+    evaluate_shortened(CoupledSystem          &system,
+                       const ContactPointMode &mode,
+                       const double            norm_before)
+    {
+      constexpr double   shortest = 1. / 32., descent = 0.1;
+      const unsigned int n_unknowns = system.n_unknowns();
+      double             fraction   = 1.;
+      auto               residual   = system.evaluate(mode);
+      // with new contact unknowns the old correction means nothing
+      while (fraction > shortest && system.n_unknowns() == n_unknowns &&
+             (!residual.valid ||
+              residual.norm > (1. - descent * fraction) * norm_before))
+        {
+          system.shorten_correction(0.5);
+          fraction *= 0.5;
+          residual = system.evaluate(mode);
+        }
+      return residual;
+    }
+
+
+
+    // Solves for a correction and applies it. Returns why that was impossible,
+    // or an empty text.
+    std::string
+    correct(CoupledSystem                 &system,
+            const NewtonOptions           &options,
+            const ContactPointMode        &mode,
+            const CoupledSystem::Residual &residual,
+            const std::vector<double>     &history)
+    {
+      if (bulk_contracts_poorly(history, residual.interior_share))
+        {
+          if (!system.refactor_bulk())
+            return "the stiffness of a body is not positive definite";
+          system.evaluate(mode); // condensed with the new factor
+        }
+      if (system.is_unsupported())
+        return "a loaded chuck has nothing to act against: the bodies are "
+               "not in contact";
+      return system.solve_and_correct(
+        linear_tolerance(history.back(), options.residual_tolerance));
+    }
   } // namespace
 
 
@@ -52,21 +141,24 @@ namespace Debond
   NewtonResult
   solve_newton(CoupledSystem &system, const NewtonOptions &options)
   {
-    NewtonResult result;
+    NewtonResult  result;
+    CycleDetector cycle_detector;
+    // of the iteration from which on corrections are shortened; 0: none
+    std::size_t cautious_from = 0;
+    double      last_norm     = 0.;
     for (unsigned int iteration = 0; true; ++iteration)
       {
-        ContactPointMode mode;
-        mode.frictionless    = options.frictionless;
-        mode.stick_first     = options.stick_first && iteration == 0;
-        mode.touch_tolerance = options.touch_tolerance;
-
-        const auto residual = system.evaluate(mode);
+        const ContactPointMode mode     = mode_of(options, iteration);
+        const auto             residual = cautious_from > 0 ?
+                                            evaluate_shortened(system, mode, last_norm) :
+                                            system.evaluate(mode);
         if (!residual.valid)
           {
             result.why = residual.why;
             return result;
           }
         const double error = residual.norm / residual.reference;
+        last_norm          = residual.norm;
         result.history.push_back(error);
         if (error <= options.residual_tolerance)
           {
@@ -75,7 +167,9 @@ namespace Debond
             result.converged = true;
             return result;
           }
-        if (iteration == options.max_iterations || hopeless(result.history))
+        if (iteration == options.max_iterations ||
+            hopeless(
+              {result.history.begin() + cautious_from, result.history.end()}))
           {
             std::ostringstream why;
             why << "no convergence in " << iteration
@@ -84,24 +178,10 @@ namespace Debond
             result.why = why.str();
             return result;
           }
-        if (bulk_contracts_poorly(result.history, residual.interior_share))
-          {
-            if (!system.refactor_bulk())
-              {
-                result.why = "the stiffness of a body is not positive definite";
-                return result;
-              }
-            system.evaluate(mode); // condensed with the new factor
-          }
-        if (system.is_unsupported())
-          {
-            result.why =
-              "a loaded chuck has nothing to act against: the bodies are "
-              "not in contact";
-            return result;
-          }
-        result.why = system.solve_and_correct(
-          linear_tolerance(error, options.residual_tolerance));
+        if (!mode.stick_first && cautious_from == 0 &&
+            cycle_detector.sees_cycle(system.interface.statuses(), error))
+          cautious_from = iteration;
+        result.why = correct(system, options, mode, residual, result.history);
         if (!result.why.empty())
           return result;
         ++result.iterations;

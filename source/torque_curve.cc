@@ -61,6 +61,9 @@ namespace Debond
                                        "chuck_rz_deg"};
       for (unsigned int k = 0; k < 6; ++k)
         result.emplace_back(positions[k], row.chuck_position[k]);
+      result.insert(result.end(),
+                    {{"viscous_work_Nmm", row.viscous_work_Nmm},
+                     {"warnings", row.warnings}});
       return result;
     }
 
@@ -350,12 +353,13 @@ namespace Debond
     measures.T_inf_Nmm = rows.back().torque_Nmm;
     measures.pressure_MPa =
       pressure_before_rotation(rows, rotation, settings.phase_times);
-    measures.D_adh_Nm       = 1e-3 * rows.back().adhesive_work_Nmm;
-    measures.dissipation_Nm = 1e-3 * rows.back().dissipation_Nmm;
-    measures.force_end_N    = rows.back().force_N;
-    measures.work_Nm        = 1e-3 * rows.back().work_Nmm;
-    measures.E_bulk_Nm      = 1e-3 * rows.back().energy_bulk_Nmm;
-    measures.E_interface_Nm = 1e-3 * rows.back().energy_interface_Nmm;
+    measures.D_adh_Nm               = 1e-3 * rows.back().adhesive_work_Nmm;
+    measures.dissipation_Nm         = 1e-3 * rows.back().dissipation_Nmm;
+    measures.viscous_dissipation_Nm = 1e-3 * rows.back().viscous_work_Nmm;
+    measures.force_end_N            = rows.back().force_N;
+    measures.work_Nm                = 1e-3 * rows.back().work_Nmm;
+    measures.E_bulk_Nm              = 1e-3 * rows.back().energy_bulk_Nmm;
+    measures.E_interface_Nm         = 1e-3 * rows.back().energy_interface_Nmm;
     if (rotation.is_one_way())
       {
         measures.theta_max_deg = peak->angle_deg;
@@ -453,6 +457,7 @@ namespace Debond
     json.add("E_interface_Nm", m.E_interface_Nm);
     json.add("largest_energy_defect", m.largest_energy_defect);
     json.add("largest_reaction_defect", m.largest_reaction_defect);
+    json.add("viscous_dissipation_Nm", m.viscous_dissipation_Nm);
     for (const auto &[name, value] : error_measures(summary.profile_measures))
       json.add(name, value);
     for (const auto &[name, seconds] : summary.seconds)

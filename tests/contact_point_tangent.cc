@@ -2,7 +2,8 @@
 // sliding, opening - agrees with automatic differentiation of its equations,
 // written here anew: traction and forces on the master with respect to the
 // slave point and to every control point of the master. A point sticks if and
-// only if its trial traction is within the friction limit.
+// only if its trial traction is within the friction limit. So do viscous
+// sliding, an explicit friction coefficient and a given direction of slip.
 
 #include <debond/contact_point.h>
 
@@ -247,15 +248,27 @@ slip_equations(const Setting             &setting,
   const Gap<Number> gap(setting, x, at);
   Number            mu = 0.;
   g_s                  = setting.old_state.slip;
+  Number viscous       = 0.;
   if (!setting.mode.frictionless)
     {
-      g_s += norm(add(at.y, Number(-1.), old.y));
-      mu = friction_coefficient_at(setting.law.friction, setting.bond(), g_s);
+      const Number distance = norm(add(at.y, Number(-1.), old.y));
+      g_s += distance;
+      mu = friction_coefficient_at(setting.law.friction,
+                                   setting.bond(),
+                                   setting.law.explicit_friction ?
+                                     Number(setting.old_state.slip) :
+                                     g_s);
+      if (setting.law.viscosity > 0. &&
+          setting.law.friction.kind != FrictionLawKind::frictionless)
+        viscous = setting.law.viscosity * distance / setting.mode.duration;
     }
-  const Vector<Number> trial = add(x, Number(-1.), old.y);
-  const Vector<Number> u     = add(trial, Number(-dot(trial, at.n)), at.n);
+  Vector<Number> pull = add(x, Number(-1.), old.y);
+  if (!setting.mode.slip_direction.isZero(0.))
+    for (unsigned int c = 0; c < 3; ++c)
+      pull[c] = setting.mode.slip_direction[c];
+  const Vector<Number> u = add(pull, Number(-dot(pull, at.n)), at.n);
   const Number         elastic =
-    mu * gap.pressure / (setting.law.tangential_penalty * norm(u));
+    (mu * gap.pressure + viscous) / (setting.law.tangential_penalty * norm(u));
   const Vector<Number> excess = add(gap.tangential, Number(-elastic), u);
   return {{dot(at.a1, excess), dot(at.a2, excess)}};
 }
@@ -750,6 +763,23 @@ main()
   setting.law.tangential_penalty = 1200;
   setting.old_state.slip         = 0.03;
   check("Slip, eps_t > eps_n", masters, setting, g_n, 0.015, slip);
+
+  setting                = basic;
+  setting.law.viscosity  = 30;
+  setting.mode.duration  = 0.5;
+  setting.old_state.slip = 0.018;
+  check("Viscous slip, softening", masters, setting, g_n, 0.055, slip);
+  setting.law.friction.kind = FrictionLawKind::frictionless;
+  check(
+    "Frictionless law, no viscosity either", masters, setting, g_n, 0.05, slip);
+  setting                       = basic;
+  setting.old_state.slip        = 0.035;
+  setting.law.explicit_friction = true;
+  check("Slip, explicit coefficient", masters, setting, g_n, 0.045, slip);
+  setting                     = basic;
+  setting.old_state.slip      = 0.018;
+  setting.mode.slip_direction = Eigen::Vector3d(0.3, 0.5, -0.2);
+  check("Slip, given direction", masters, setting, g_n, 0.045, slip);
 
   setting                = basic;
   setting.old_state.slip = 0.01;

@@ -85,6 +85,8 @@ private:
     options.residual_tolerance = scene.load_steps.residual_tolerance;
     options.stick_first        = stepping.begins_phase(step);
     options.touch_tolerance    = 1e-12 * system.R;
+    if (step > 0)
+      options.duration = stepping.time(step) - stepping.time(step - 1);
     options.frictionless =
       step > 0 && stepping.time(step - 1) < scene.interface.friction.starts_at -
                                               1e-9 * stepping.time(step);

@@ -119,6 +119,9 @@ namespace Debond
     /** Moves the contact unknowns by @p dv and the interior with them. */
     void
     correct(const Eigen::VectorXd &dv);
+    /** Takes back all of the last correction but @p fraction of it. */
+    void
+    shorten_correction(double fraction);
     /** Forms the tangent at the trial state anew and condenses it. Returns
      *  false if it is not positive definite; the old one is then kept. */
     bool
@@ -204,6 +207,7 @@ namespace Debond
     Condensation condensation;
 
     Eigen::VectorXd                v; ///< trial displacement, 3 n_nodes [mm]
+    Eigen::VectorXd                uncorrected; ///< v before the last correct()
     AcceptedState<Eigen::VectorXd> accepted;
 
     Eigen::VectorXd internal_force; ///< at the trial state

@@ -30,6 +30,11 @@ namespace Debond
     double       normal_penalty    = 585; ///< eps_n [MPa/mm]
     double tangential_penalty      = 585; ///< eps_t [MPa/mm], resolved: never 0
     bool   opening_breaks_bond     = false;
+    double viscosity               = 0; ///< eta [MPa per (mm per unit of time)]
+    /** Variants of the method that are there to be compared with: the direction
+     *  of slip is that of the previous gap, Eq. (31) as printed; mu at g_s^n.
+     */
+    bool slip_along_previous_gap = false, explicit_friction = false;
     FrictionParameters friction;
     BondingParameters  bonding;
 
@@ -127,6 +132,25 @@ namespace Debond
     void
     commit(const InterfaceConfiguration &configuration);
 
+    /** Control points of a side in the accepted configuration [mm]. */
+    const ControlNet &
+    accepted_surface(const unsigned int side) const
+    {
+      return accepted_positions[side];
+    }
+
+    /** Number of open points whose projection on the master in the accepted
+     *  configuration was not found: they stay open. */
+    unsigned int
+    n_unprojected() const
+    {
+      return unprojected;
+    }
+
+    /** Of all points in the last evaluate(). */
+    std::vector<PointStatus>
+    statuses() const;
+
     /** Whether any point of the last evaluate() is open. */
     bool
     has_open_points() const;
@@ -154,8 +178,9 @@ namespace Debond
       double clearance = 0;
       /** Tangential traction of the accepted state in the master's frame [MPa].
        */
-      Eigen::Vector3d    accepted_traction = Eigen::Vector3d::Zero();
-      double             accepted_pressure = 0; ///< [MPa]
+      Eigen::Vector3d    accepted_traction         = Eigen::Vector3d::Zero();
+      Eigen::Vector3d    accepted_viscous_traction = Eigen::Vector3d::Zero();
+      double             accepted_pressure         = 0; ///< [MPa]
       ContactPointResult trial;
       /** False for points of a bone that does not face the implant at the
        *  start: their area does not count. */
@@ -192,13 +217,16 @@ namespace Debond
       double normal_force = 0; ///< int p dA [N]
       double phi_mean     = 0; ///< area mean over the implant's contact face
       double share_stick = 0, share_slip = 0, share_open = 0; ///< of that area
-      double energy        = 0;                               ///< stored [N mm]
-      double max_softening = 0; ///< largest |d mu/d g_s| p / eps_t
-      /** The same where the law of a bonded point falls steepest, wherever on
-       *  it the point is: the local solution is unique while this is below 1.
-       */
-      double       steepest_softening = 0;
-      double       max_penetration    = 0; ///< [mm]
+      double energy = 0;                                      ///< stored [N mm]
+      /** Largest |d mu/d g_s| p / (eps_t + eta / dt). */
+      double max_softening = 0;
+      /** The same where the law of a point falls steepest from the g_s on that
+       *  the step began with: the local solution is unique while this is below
+       *  1. Zero for the explicit law, which does not ask. */
+      double steepest_softening = 0;
+      /** p, and |d mu/d g_s| of that point [MPa, 1/mm]. */
+      double       softening_pressure = 0, softening_slope = 0;
+      double       max_penetration = 0; ///< [mm]
       unsigned int bonded_opened =
         0; ///< points with phi > 0 that opened in this step
       unsigned int n_closed = 0;
@@ -227,6 +255,12 @@ namespace Debond
     {
       return accepted_adhesive_work;
     }
+    /** The part of the dissipation that the viscosity makes up [N mm]. */
+    double
+    viscous_work() const
+    {
+      return accepted_viscous_work;
+    }
 
     /** Where the last evaluate() failed, for messages; empty if it did not. */
     std::string
@@ -246,6 +280,8 @@ namespace Debond
            double                        moved,
            const ContactPointMode       &mode) const;
     void
+    add_steepest_softening(const Point &point, Summary &summary) const;
+    void
     add_forces(const Point &point, NodalSums &sums) const;
     void
     add_change(const Point     &point,
@@ -255,7 +291,7 @@ namespace Debond
     project_accepted(Point                        &point,
                      const MasterSurface          &master,
                      const InterfaceConfiguration &configuration,
-                     bool                          use_guess) const;
+                     bool                          use_guess);
     /** Bound of how far points of the two surfaces have moved towards each
      *  other since the accepted configuration [mm]. */
     double
@@ -271,9 +307,11 @@ namespace Debond
     double                                area_of_implant = 0;
     std::unique_ptr<const BondingPattern> pattern;
     NodalSums                             forces, accepted_positions;
-    double accepted_dissipation = 0, accepted_adhesive_work = 0;
-    int    failed_point     = -1;
-    bool   frictionless_now = false;
+    double accepted_dissipation = 0, accepted_adhesive_work = 0,
+           accepted_viscous_work  = 0;
+    unsigned int     unprojected  = 0;
+    int              failed_point = -1;
+    ContactPointMode mode_now; ///< of the last evaluate()
   };
 } // namespace Debond
 #endif

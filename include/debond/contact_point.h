@@ -67,6 +67,12 @@ namespace Debond
     double             tangential_penalty = 0; ///< eps_t [MPa/mm]
     FrictionParameters friction;
     bool               opening_breaks_bond = false;
+    /** eta [MPa per (mm per unit of time)]: resistance of a point to the speed
+     *  it slides with. */
+    double viscosity = 0;
+    /** mu at g_s^n instead of g_s: a variant that the implicit law is compared
+     *  with. */
+    bool explicit_friction = false;
   };
 
   /** How the update is to be done. */
@@ -81,7 +87,18 @@ namespace Debond
     double touch_tolerance = 0;
     /** The interface is frictionless for now and slip is not accumulated. */
     bool frictionless = false;
+    /** Duration of the step [unit of time]; 0 where no time passes, and nothing
+     *  has a speed. */
+    double duration = 0;
+    /** Direction of slip in space, of any length; zero: that of the trial gap.
+     *  The tangent takes it as fixed. */
+    Eigen::Vector3d slip_direction = Eigen::Vector3d::Zero();
   };
+
+  /** Viscous resistance eta / dt per sliding distance of a step [MPa/mm]; 0
+   *  where there is no friction. */
+  double
+  viscous_stiffness(const ContactPointLaw &law, const ContactPointMode &mode);
 
   /**
    * Everything one quadrature point contributes.
@@ -99,12 +116,14 @@ namespace Debond
     /** t = eps_n g_n n + t_t [MPa], as it enters the residual of the slave. */
     Eigen::Vector3d traction            = Eigen::Vector3d::Zero();
     Eigen::Vector3d tangential_traction = Eigen::Vector3d::Zero();
+    /** Part of the tangential traction that the viscosity makes up [MPa]. */
+    Eigen::Vector3d viscous_traction = Eigen::Vector3d::Zero();
     /** y(xi_hat) - y(xi_hat^n) on the current surface [mm]. */
     Eigen::Vector3d slip_increment = Eigen::Vector3d::Zero();
     double          normal_gap     = 0; ///< g_n [mm]
     double          pressure       = 0; ///< p >= 0 [MPa]
-    /** |d mu/d g_s| p / eps_t where the law softens; the local solution is
-     *  unique while this is below one. */
+    /** |d mu/d g_s| p / (eps_t + eta / dt) where the law softens; the local
+     *  solution is unique while this is below one. */
     double softening = 0;
 
     SurfaceBasis                 basis;     ///< master basis at xi_hat
@@ -121,11 +140,13 @@ namespace Debond
    * Stick iff eps_t |g_t| <= mu(g_s^n) p at xi_hat^n; otherwise xi_hat solves
    * Eqs. (29) and (30),
    *
-   *   h_alpha = a_alpha . (g - mu(g_s) p tau / eps_t) = 0,
+   *   h_alpha = a_alpha . (g - t_t / eps_t) = 0,
+   *   t_t = (mu(g_s) p + eta (g_s - g_s^n) / dt) tau,
    *   g_s = g_s^n + |y(xi_hat) - y(xi_hat^n)|            [Eq. (32)],
    *
    * with tau the direction of the trial gap x - y(xi_hat^n) projected on the
-   * tangent plane at xi_hat, and mu taken at the updated g_s.
+   * tangent plane at xi_hat, and mu taken at the updated g_s; @p law and @p
+   * mode may say otherwise.
    */
   void
   update_contact_point(const ContactPointLaw   &law,

@@ -69,6 +69,10 @@ namespace Debond
     /** Starts a step to @p time from the accepted state. */
     void
     predict(double time, bool extrapolate);
+    /** Puts the implant's contact unknowns back to where they are in space in
+     *  the accepted state, after predict(). */
+    void
+    leave_surface_behind();
     void
     commit(double time);
     void
@@ -108,6 +112,10 @@ namespace Debond
      * it. Returns why that was impossible, or an empty text. */
     std::string
     solve_and_correct(double relative_tolerance);
+    /** Takes back all of the last correction but @p fraction of it; evaluate()
+     *  is to follow. Fractions of several calls multiply. */
+    void
+    shorten_correction(double fraction);
     /** True if a loaded chuck component has nothing to act against because no
      *  point is in contact. */
     bool
@@ -172,7 +180,7 @@ namespace Debond
     dealii::TimerOutput &timer;
     unsigned int         unknowns    = 0;
     double               force_floor = 0; ///< [N]
-    Eigen::VectorXd      residual;
+    Eigen::VectorXd      residual, last_correction;
     DenseSolver          solver;
   };
 } // namespace Debond

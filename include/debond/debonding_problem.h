@@ -60,6 +60,15 @@ namespace Debond
     void
     check_accepted_state();
     void
+    check_energy_balance(const std::string &where);
+    /** Says so once, and in the row that is written next. */
+    void
+    note_violation(const std::string &check, const std::string &text);
+    /** Whether the law had only one solution at every point in the sub-step
+     *  that has just been solved. */
+    bool
+    is_unique();
+    void
     write_bonding();
     void
     write_row(unsigned int step, unsigned int iterations);

@@ -37,12 +37,19 @@ namespace Debond
     /** Dissipated more than was put in, beyond the bound? */
     bool
     dissipates_too_much() const;
+    /** Did the last step give back what had been dissipated? */
+    bool
+    dissipation_falls() const;
+    /** Is more missing, or left over, than trapezoids can account for? */
+    bool
+    is_out_of_balance() const;
 
   private:
     bool           started = false;
     Chuck::Vector6 last_forces, last_position;
     double         W = 0, max_W = 0, bound = 0;
     double stored = 0, dissipated = 0, first_stored = 0, first_dissipated = 0;
+    double last_dissipated = 0;
   };
 } // namespace Debond
 #endif

@@ -46,10 +46,13 @@ namespace Debond
                 double                    slip,
                 double                   &derivative);
 
-  /** Largest |d mu/d g_s| of the modified law [1/mm], half way down:
-   *  pi phi_0 (mu_ub - mu_b) / (4 a_s b_s), 0 for the other laws. */
+  /** Largest fall |d mu/d g_s| of the modified law [1/mm] at sliding distances
+   *  from @p slip [mm] on: pi phi_0 (mu_ub - mu_b) / (4 a_s b_s) as long as it
+   *  is not half way down, 0 for the other laws. */
   double
-  steepest_fall(const FrictionParameters &parameters, double phi_0);
+  steepest_fall(const FrictionParameters &parameters,
+                double                    phi_0,
+                double                    slip = 0);
 
   /** Integral of mu - mu_b over the sliding distance from @p from to @p to
    * [mm]; 0 for the other laws. */

@@ -11,6 +11,15 @@ namespace dealii
 
 namespace Debond
 {
+  /** What the first iteration of a step starts from. */
+  enum class Predictor
+  {
+    extrapolate,
+    stick_first,
+    rigid,
+    none
+  };
+
   /** The subsection `Load steps` of a scene. */
   struct LoadSteppingParameters
   {
@@ -20,6 +29,7 @@ namespace Debond
     double                    residual_tolerance     = 1e-8;
     bool                      adaptive               = false;
     double                    tolerance = 1e-3; ///< of the curves, if adaptive
+    Predictor                 predictor = Predictor::extrapolate;
 
     static void
     declare(dealii::ParameterHandler &prm);

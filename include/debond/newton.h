@@ -20,6 +20,8 @@ namespace Debond
      *  and as open otherwise. */
     double touch_tolerance = 0;
     bool   frictionless    = false;
+    /** Of the step [unit of time], for the viscosity. */
+    double duration = 0;
   };
 
   struct NewtonResult
@@ -35,8 +37,10 @@ namespace Debond
    * Newton's method on the trial state of @p system from where it is. The
    * interface's tangent is exact; for Neo-Hookean bodies the bulk's is the one
    * that was condensed last, and is formed anew when the bulk's residual
-   * shrinks too slowly with it. Never returns converged = true unless the
-   * residual of the true law meets the tolerance.
+   * shrinks too slowly with it. Where points change between stick and slip
+   * without an end, corrections are shortened until the residual falls. Never
+   * returns converged = true unless the residual of the true law meets the
+   * tolerance.
    */
   NewtonResult
   solve_newton(CoupledSystem &system, const NewtonOptions &options);

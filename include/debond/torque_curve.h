@@ -41,6 +41,9 @@ namespace Debond
     double reaction_defect = 0;
     /** Chuck position: u [mm], rotations x, y, z [deg]. */
     std::array<double, 6> chuck_position{};
+    double                viscous_work_Nmm = 0; ///< part of dissipation_Nmm
+    /** Number of checks of accepted states that this row did not pass. */
+    unsigned int warnings = 0;
   };
 
 
@@ -126,6 +129,7 @@ namespace Debond
     double w_adh_star_N_per_m = undefined; ///< Eq. (21) with a mean phi_0 of 1
     double D_adh_Nm           = undefined; ///< work the law spends on adhesion
     double dissipation_Nm     = undefined;
+    double viscous_dissipation_Nm = undefined; ///< part of the dissipation
     /** Angle of the first row whose mean bonding state is below the initial. */
     double theta_debonding_deg = undefined;
     double force_end_N         = undefined; ///< axial force of the last row

@@ -1,0 +1,142 @@
+// With an interface that is much stiffer than the bodies points change between
+// stick and slip from one Newton iteration to the next, in cycles that never
+// end. They are recognised, and steps then converge without being halved: to
+// the torque of partial slip on a half space, 2/3 pi q R^3 when everything
+// slides (see prm/verification/torsional_partial_slip.prm), and, under the
+// rigid predictor, to the torques that other predictors find.
+
+#include <fstream>
+#include <sstream>
+
+#include "driven_scene.h"
+
+const char *const partial_slip = R"(
+subsection Bone
+  set Material      = linear
+  set Size          = 12.5, 12.5, 6.25
+  set Cells         = 20, 20, 6
+  set Layer grading = 1.5
+end
+subsection Implant
+  set Material = rigid
+  set Cells    = 8, 1
+end
+subsection Interface
+  set Penalty stiffness           = 2
+  set Friction law                = coulomb
+  set Friction coefficient broken = 0.5
+  set Friction starts at          = 1
+end
+subsection Chuck
+  subsection Translation z
+    set Value = -0.1 * min(t, 1)
+  end
+  subsection Rotation z
+    set Value = 0.00125 * max(t - 1, 0)
+  end
+end
+subsection Load steps
+  set Times = 0, 1, 2
+  set Steps = 1, 5
+end
+)";
+
+void
+check_partial_slip(const double eps_t)
+{
+  std::cout << "Partial slip, eps_t = " << eps_t << " MPa/mm" << std::endl;
+  // steps are not halved here: one that does not converge ends the test
+  DrivenScene  scene(partial_slip,
+                    {"Interface/Tangential penalty stiffness=" +
+                      std::to_string(eps_t)});
+  unsigned int n = 0, most = 0;
+  while (scene.advance())
+    {
+      most = std::max(most, scene.iterations);
+      ++n;
+    }
+  report("  all steps converge as planned", n == 6 && most <= 25);
+  // the bone yields a little more than rigidly: mesh and pressure, 0.1 %
+  report("  torque of full slip, relative deviation",
+         std::abs(scene.system.chuck_forces()[5] /
+                    (2. / 3. * M_PI * 0.1 * std::pow(2.5, 3)) -
+                  1.),
+         1e-3);
+}
+
+
+
+void
+check_predictors()
+{
+  std::cout << "Predictors at eps = 180000 MPa/mm" << std::endl;
+  const char *const scene = R"(
+    subsection Bone
+      set Material = linear
+    end
+    subsection Implant
+      set Material = linear
+    end
+    subsection Interface
+      set Penalty stiffness = 180000
+    end
+    subsection Chuck
+      subsection Translation z
+        set Value = -0.0049 * min(t, 1)
+      end
+      subsection Rotation z
+        set Value = 10 * max(t - 1, 0)
+      end
+    end
+    subsection Load steps
+      set Times = 0, 1, 1.05
+    end)";
+  for (const unsigned int n_steps : {5, 25})
+    {
+      std::vector<Debond::TorqueRow> expected;
+      for (const std::string predictor :
+           {"extrapolate", "stick first", "rigid", "none"})
+        {
+          const auto rows =
+            run_scene("newton_cycles",
+                      scene,
+                      {"Load steps/Steps=1," + std::to_string(n_steps),
+                       "Load steps/Predictor=" + predictor});
+          if (expected.empty())
+            expected = rows;
+          double difference = 0;
+          for (std::size_t i = 0; i < rows.size(); ++i)
+            grow(difference,
+                 std::abs(rows[i].torque_Nmm - expected[i].torque_Nmm) / 777.);
+          std::ostringstream summary;
+          summary
+            << std::ifstream("results/newton_cycles/summary.json").rdbuf();
+          report("  " + std::to_string(n_steps) + " steps, " + predictor +
+                   ": none is halved",
+                 summary.str().find(
+                   "\"steps\": " + std::to_string(n_steps + 1) + ",") !=
+                   std::string::npos);
+          report("    torques as with the first of these, deviation",
+                 difference,
+                 1e-7);
+        }
+    }
+}
+
+
+
+void
+test()
+{
+  for (const double eps_t : {1e6, 3e6, 1e7, 1e8})
+    check_partial_slip(eps_t);
+  check_predictors();
+}
+
+
+
+int
+main()
+{
+  return run_test(test);
+}

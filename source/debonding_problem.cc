@@ -6,6 +6,7 @@
 #include <debond/energy_balance.h>
 #include <debond/field_output.h>
 #include <debond/newton.h>
+#include <debond/path_following.h>
 #include <debond/profile_output.h>
 #include <debond/runtime.h>
 
@@ -42,13 +43,17 @@ namespace Debond
     std::unique_ptr<FieldOutput>       field_output;
     std::unique_ptr<ProfileOutput>     profiles;
     ReferenceCurve                     reference;
+    std::unique_ptr<PathFollowing>     path; ///< if wanted
+    PathFollowing::Step                path_step;
     EnergyBalance                      energy;
+    ReleasedEnergy                     released;
     /** Of the accepted state. */
     ContactInterface::Summary interface_summary;
     double                    reaction_defect = 0;
 
     std::vector<TorqueRow> rows;
     double                 time                 = 0; ///< of the accepted state
+    double                 last_torque          = 0; ///< of the accepted state
     unsigned int           accepted_steps       = 0; ///< sub-steps included
     unsigned int           newton_iterations    = 0;
     unsigned int           step                 = 0; ///< planned step at work
@@ -88,6 +93,10 @@ namespace Debond
           for (unsigned int phase = 0; phase < scene.load_steps.steps.size();
                ++phase)
             solve_phase_adaptively(phase);
+        else if (state->path)
+          for (unsigned int phase = 0; phase < scene.load_steps.steps.size();
+               ++phase)
+            solve_phase_along_path(phase);
         else
           for (unsigned int step = 1; step <= state->stepping.n_steps(); ++step)
             solve_planned_step(step);
@@ -98,7 +107,7 @@ namespace Debond
         throw;
       }
     finish(true,
-           scene.load_steps.adaptive ? "the last time is reached" :
+           rows_are_accepted_steps() ? "the last time is reached" :
                                        "all planned steps are done");
   }
 
@@ -142,6 +151,8 @@ namespace Debond
     if (scene.load_steps.adaptive)
       state->adaptive_stepping =
         std::make_unique<AdaptiveStepping>(scene.load_steps, state->system->R);
+    if (scene.load_steps.follow_path)
+      state->path = std::make_unique<PathFollowing>(scene);
     state->system->start(state->stepping.time(0));
     if (scene.output.fields_every > 0)
       state->field_output =
@@ -253,6 +264,49 @@ namespace Debond
 
 
 
+  void
+  DebondingProblem::solve_phase_along_path(const unsigned int phase)
+  {
+    CoupledSystem &system     = *state->system;
+    PathFollowing &path       = *state->path;
+    unsigned int   iterations = 0;
+    const auto     mean_slip  = [&]() {
+      return system.interface.mean_slip(system.configuration).value;
+    };
+    path.begin_phase(phase, mean_slip());
+    while (!path.phase_is_finished())
+      {
+        const PathFollowing::Step step = state->path_step = path.next();
+        const unsigned int        before                  = iterations;
+        if (!try_step(step.time, step.extrapolate, iterations))
+          {
+            if (!path.reject(step))
+              give_up(state->step + 1, system.time());
+            continue;
+          }
+        if (!path.accept(step, system.time(), mean_slip(), iterations - before))
+          {
+            system.rollback(); // too far
+            continue;
+          }
+        ++state->step;
+        accept(system.time());
+        write_row(state->step, iterations);
+        write_fields(state->step);
+        iterations = 0;
+      }
+  }
+
+
+
+  bool
+  DebondingProblem::rows_are_accepted_steps() const
+  {
+    return scene.load_steps.adaptive || scene.load_steps.follow_path;
+  }
+
+
+
   // A trial in the middle of the step, where the step control wants one.
   bool
   DebondingProblem::try_middle(const bool extrapolate, unsigned int &iterations)
@@ -276,7 +330,9 @@ namespace Debond
   {
     bool accepted = false;
     iterations += try_sub_step(time, extrapolate, accepted);
-    if (!accepted && extrapolate) // the prediction may be to blame
+    // The prediction may be to blame. A step by its slip needs it: without,
+    // nothing slides.
+    if (!accepted && extrapolate && !state->path_step.by_slip)
       iterations += try_sub_step(time, false, accepted);
     return accepted;
   }
@@ -288,7 +344,7 @@ namespace Debond
   {
     std::ostringstream message;
     message << "Step " << step;
-    if (!scene.load_steps.adaptive)
+    if (!rows_are_accepted_steps())
       message << " of " << state->stepping.n_steps();
     message << " failed at time " << time << ", angle "
             << state->system->chuck.position()[5] * 180. / M_PI
@@ -299,6 +355,25 @@ namespace Debond
                  "carry; prescribing the displacement or angle instead "
                  "follows the fall";
     throw RunError(message.str());
+  }
+
+
+
+  void
+  DebondingProblem::start_trial(const double time, const bool extrapolate)
+  {
+    CoupledSystem &system = *state->system;
+    if (!state->path)
+      {
+        system.predict(time, extrapolate);
+        return;
+      }
+    // accepted states are numbered along the path
+    system.predict(time,
+                   state->accepted_steps + state->path_step.ratio,
+                   extrapolate);
+    if (state->path_step.by_slip)
+      system.prescribe_slip(state->path_step.slip);
   }
 
 
@@ -318,7 +393,7 @@ namespace Debond
       state->time <
       scene.interface.friction.starts_at -
         1e-9 * (scene.load_steps.times.back() - scene.load_steps.times.front());
-    system.predict(time, extrapolate);
+    start_trial(time, extrapolate);
     const NewtonResult result = solve_newton(system, options);
     state->newton_iterations += result.iterations;
     accepted = result.converged;
@@ -339,20 +414,52 @@ namespace Debond
     state->interface_summary = system.interface.summarise();
     state->reaction_defect   = system.reaction_defect();
     check_accepted_state();
-    system.commit(time);
+    if (state->step > 0)
+      ++state->accepted_steps;
+    system.commit(state->path ? state->accepted_steps : time);
     state->energy.add(system.chuck_forces(),
                       system.chuck.position(),
                       system.bone.energy() + system.implant.energy(),
                       state->interface_summary.energy,
                       system.interface.dissipation());
     state->time = time;
-    if (state->step > 0)
-      ++state->accepted_steps;
+    check_for_jump();
     if (state->energy.dissipates_too_much())
       state->console.warn(
         "dissipation",
         "more energy is dissipated than was put in: the steps "
         "are too large for the energy balance to be trusted");
+  }
+
+
+
+  // Whether the state just accepted is on another branch of equilibrium.
+  void
+  DebondingProblem::check_for_jump()
+  {
+    CoupledSystem          &system    = *state->system;
+    const ContactInterface &interface = system.interface;
+    ReleasedEnergy::State   now;
+    now.forces   = system.chuck_forces();
+    now.position = system.chuck.machine_position();
+    now.stored   = system.chuck.machine_energy() + system.bone.energy() +
+                 system.implant.energy() + state->interface_summary.energy;
+    now.spent             = interface.friction_work();
+    now.bound             = interface.friction_work_bound();
+    const double released = state->released.add(now);
+    if (released > 0.)
+      {
+        std::ostringstream text;
+        text << "step " << state->step << ": in one step the torque went from "
+             << state->last_torque << " to " << now.forces[5] << " N mm, and "
+             << released
+             << " N mm of stored energy were released without equilibrium: the "
+                "load cannot be followed there, the state jumped to another "
+                "branch. Load steps / Path following = slip follows the path "
+                "between";
+        state->console.warn("jump", text.str());
+      }
+    state->last_torque = now.forces[5];
   }
 
 
@@ -431,6 +538,8 @@ namespace Debond
     row.adhesive_work_Nmm    = system.interface.adhesive_work();
     row.energy_defect_bound  = state->energy.defect_bound();
     row.reaction_defect      = state->reaction_defect;
+    row.machine_angle_deg    = system.chuck.machine_position()[5] * 180. / M_PI;
+    row.released_energy_Nmm  = state->released.total();
     for (unsigned int k = 0; k < 6; ++k)
       {
         row.chuck_reaction[k] = reaction[k];
@@ -441,7 +550,7 @@ namespace Debond
     const dealii::TimerOutput::Scope t(state->timer, "output");
     state->torque_writer->write(row);
     state->console.row(row,
-                       scene.load_steps.adaptive ? 0 :
+                       rows_are_accepted_steps() ? 0 :
                                                    state->stepping.n_steps());
     state->profiles->write(row.angle_deg, system.interface);
   }
@@ -454,12 +563,15 @@ namespace Debond
     if (!state->field_output)
       return;
     const LoadStepping &stepping = state->stepping;
-    const bool          is_due =
-      scene.load_steps.adaptive ?
-                 step % scene.output.fields_every == 0 ||
-          (state->adaptive_stepping->phase_is_finished() && step > 0) ||
+    const bool          phase_is_finished =
+      state->adaptive_stepping ? state->adaptive_stepping->phase_is_finished() :
+               state->path              ? state->path->phase_is_finished() :
+                                          false;
+    const bool is_due =
+      rows_are_accepted_steps() ?
+        step % scene.output.fields_every == 0 || phase_is_finished ||
           step == 0 :
-                 stepping.step_in_phase(step) % scene.output.fields_every == 0 ||
+        stepping.step_in_phase(step) % scene.output.fields_every == 0 ||
           stepping.ends_phase(step);
     if (is_due)
       {
@@ -540,6 +652,8 @@ namespace Debond
     JsonObject json;
     add_summary(summary, json);
     add_bonding(system.interface.bonding().report(), json);
+    json.add("jumps", state->released.n_jumps());
+    json.add("released_energy_Nm", 1e-3 * state->released.total());
     write_file(state->directory->file("summary.json"), json.text());
     if (converged)
       {

@@ -61,6 +61,8 @@ namespace Debond
                                        "chuck_rz_deg"};
       for (unsigned int k = 0; k < 6; ++k)
         result.emplace_back(positions[k], row.chuck_position[k]);
+      result.emplace_back("machine_angle_deg", row.machine_angle_deg);
+      result.emplace_back("released_energy_Nmm", row.released_energy_Nmm);
       return result;
     }
 

@@ -43,12 +43,17 @@ namespace Debond
     solve_planned_step(unsigned int step);
     void
     solve_phase_adaptively(unsigned int phase);
+    void
+    solve_phase_along_path(unsigned int phase);
     bool
     try_middle(bool extrapolate, unsigned int &iterations);
     /** Tries a step, with an extrapolated start if wanted and again without if
      *  that fails. */
     bool
     try_step(double time, bool extrapolate, unsigned int &iterations);
+    /** Else a row is a planned step. */
+    bool
+    rows_are_accepted_steps() const;
     [[noreturn]] void
     give_up(unsigned int step, double time) const;
     /** Tries one sub-step; returns the Newton iterations spent, and whether it
@@ -58,7 +63,11 @@ namespace Debond
     void
     accept(double time);
     void
+    start_trial(double time, bool extrapolate);
+    void
     check_accepted_state();
+    void
+    check_for_jump();
     void
     write_bonding();
     void

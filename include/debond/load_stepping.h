@@ -20,6 +20,10 @@ namespace Debond
     double                    residual_tolerance     = 1e-8;
     bool                      adaptive               = false;
     double                    tolerance = 1e-3; ///< of the curves, if adaptive
+    /** Follow the path of equilibrium by the mean sliding distance. */
+    bool follow_path = false;
+    /** Largest step of the mean sliding distance [mm]; 0: from the law. */
+    double largest_slip_step = 0;
 
     static void
     declare(dealii::ParameterHandler &prm);

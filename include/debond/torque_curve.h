@@ -41,6 +41,11 @@ namespace Debond
     double reaction_defect = 0;
     /** Chuck position: u [mm], rotations x, y, z [deg]. */
     std::array<double, 6> chuck_position{};
+    /** Of the machine about z: what the scene prescribes if the machine is
+     *  compliant, else that of the chuck. */
+    double machine_angle_deg = 0;
+    /** Energy that jumps have released so far, see ReleasedEnergy. */
+    double released_energy_Nmm = 0;
   };
 
 

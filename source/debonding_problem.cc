@@ -106,9 +106,25 @@ namespace Debond
         finish(false, error.what());
         throw;
       }
-    finish(true,
-           rows_are_accepted_steps() ? "the last time is reached" :
-                                       "all planned steps are done");
+    finish(true, reason_to_end());
+  }
+
+
+
+  std::string
+  DebondingProblem::reason_to_end() const
+  {
+    if (state->path && state->path->has_ended())
+      {
+        std::ostringstream reason;
+        reason << "the mean sliding distance has reached "
+               << state->path->end_of_path()
+               << " mm (Load steps / Path ends at slip) at time "
+               << state->time;
+        return reason.str();
+      }
+    return rows_are_accepted_steps() ? "the last time is reached" :
+                                       "all planned steps are done";
   }
 
 
@@ -274,7 +290,7 @@ namespace Debond
       return system.interface.mean_slip(system.configuration).value;
     };
     path.begin_phase(phase, mean_slip());
-    while (!path.phase_is_finished())
+    while (!path.phase_is_finished() && !path.has_ended())
       {
         const PathFollowing::Step step = state->path_step = path.next();
         const unsigned int        before                  = iterations;
@@ -350,10 +366,10 @@ namespace Debond
             << state->system->chuck.position()[5] * 180. / M_PI
             << " deg, with the smallest allowed part of a step: "
             << state->last_failure;
-    if (!state->system->chuck.unknowns().empty())
+    if (!state->path && !state->system->chuck.unknowns().empty())
       message << ". A prescribed load may be more than the interface can "
-                 "carry; prescribing the displacement or angle instead "
-                 "follows the fall";
+                 "carry; prescribing the displacement or angle instead, or "
+                 "Load steps / Path following = slip, follows the fall";
     throw RunError(message.str());
   }
 
@@ -565,8 +581,9 @@ namespace Debond
     const LoadStepping &stepping = state->stepping;
     const bool          phase_is_finished =
       state->adaptive_stepping ? state->adaptive_stepping->phase_is_finished() :
-               state->path              ? state->path->phase_is_finished() :
-                                          false;
+               state->path              ? state->path->phase_is_finished() ||
+                      state->path->has_ended() :
+                             false;
     const bool is_due =
       rows_are_accepted_steps() ?
         step % scene.output.fields_every == 0 || phase_is_finished ||
@@ -607,6 +624,9 @@ namespace Debond
                     [](const TorqueRow &row) { return row.share_open == 1.; }))
       state->console.warn("no contact", "the bodies are never in contact");
     state->console.warn("profile", state->profiles->finish());
+    if (converged && state->path && state->path->has_ended() &&
+        scene.load_steps.path_ends_at_slip == 0.)
+      state->console.warn("path", "the last time is not reached: " + reason);
     const CoupledSystem &system = *state->system;
     CurveSettings        settings;
     settings.contact_area_mm2 =

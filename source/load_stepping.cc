@@ -55,6 +55,14 @@ namespace Debond
                       "distance, averaged over the contact face [mm]. 0: a "
                       "twentieth of the distance over which friction falls, 2 "
                       "a_s b_s, or of a_s if that is less.");
+    prm.declare_entry("Path ends at slip",
+                      "0",
+                      Allowed::number_from(0, "mm"),
+                      "With Path following: the run ends when the mean sliding "
+                      "distance reaches this [mm], if not at the last time. 0: "
+                      "the radius of the implant. A moment larger than the "
+                      "interface can carry has no last time: the implant would "
+                      "turn for ever.");
     prm.declare_entry("Smallest step fraction",
                       "1e-4",
                       Allowed::number_between_excluding_lower(0, 1, ""),
@@ -82,6 +90,7 @@ namespace Debond
     tolerance              = prm.get_double("Tolerance");
     follow_path            = prm.get("Path following") == "slip";
     largest_slip_step      = prm.get_double("Largest slip step");
+    path_ends_at_slip      = prm.get_double("Path ends at slip");
     prm.leave_subsection();
   }
 } // namespace Debond

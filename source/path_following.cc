@@ -23,6 +23,9 @@ namespace Debond
   PathFollowing::PathFollowing(const Scene &scene)
     : parameters(scene.load_steps)
     , largest_slip(largest_slip_step(scene))
+    , end_slip(parameters.path_ends_at_slip > 0. ?
+                 parameters.path_ends_at_slip :
+                 scene.implant.characteristic_radius())
   {}
 
 

@@ -51,6 +51,8 @@ namespace Debond
      *  that fails. */
     bool
     try_step(double time, bool extrapolate, unsigned int &iterations);
+    std::string
+    reason_to_end() const;
     /** Else a row is a planned step. */
     bool
     rows_are_accepted_steps() const;

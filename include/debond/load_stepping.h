@@ -24,6 +24,8 @@ namespace Debond
     bool follow_path = false;
     /** Largest step of the mean sliding distance [mm]; 0: from the law. */
     double largest_slip_step = 0;
+    /** Mean sliding distance at which the path ends [mm]; 0: the radius. */
+    double path_ends_at_slip = 0;
 
     static void
     declare(dealii::ParameterHandler &prm);

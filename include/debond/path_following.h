@@ -26,6 +26,18 @@ namespace Debond
       return time == end;
     }
 
+    /** Whether the mean sliding distance has reached the end of the path. */
+    bool
+    has_ended() const
+    {
+      return mean_slip >= end_slip;
+    }
+    double
+    end_of_path() const
+    {
+      return end_slip;
+    } ///< [mm]
+
     /** The step that is to be tried next. */
     struct Step
     {
@@ -53,7 +65,7 @@ namespace Debond
 
   private:
     const LoadSteppingParameters parameters;
-    const double                 largest_slip;
+    const double                 largest_slip, end_slip; ///< [mm]
     double                       time = 0, end = 0, planned = 0, mean_slip = 0;
     double slip_size = 0, time_size = 0; ///< of the next step
     double last_time_step = 0, last_slip_step = 0;

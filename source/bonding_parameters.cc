@@ -48,7 +48,12 @@ namespace Debond
       prm.declare_entry(
         "Correlation length",
         "0",
-        Allowed::number_from(0, "mm"),
+        AllowedValues(
+          [](const std::string &text) {
+            double value = 0;
+            return read_number(text, value) && (value == 0. || value >= 1e-6);
+          },
+          "0, or a number >= 1e-6 [mm]"),
         "Pattern random: distance l at which the correlation exp(-(d/l)^2) of "
         "the random field whose highest places are bonded has fallen to 1/e: "
         "the size of patches. 0: elements are drawn independently.");
@@ -130,7 +135,8 @@ namespace Debond
       "1",
       Allowed::number_between(0, 1, ""),
       "Bonded part f of the area, dimensionless, met exactly. Pattern disk: "
-      "r <= R sqrt(f); annulus: r >= R sqrt(1 - f); random: as said there. "
+      "of a coin r <= R sqrt(f); annulus: r >= R sqrt(1 - f); random: as said "
+      "there. "
       "Elements at the border of the fraction are partly bonded. Must be 1 for "
       "other patterns.");
     declare_random_entries(prm);
@@ -213,6 +219,11 @@ namespace Debond
                        "' is defined for Implant / Shape = coin and cap only");
 
     const bool reads_file = pattern == Kind::image || pattern == Kind::file;
+    refuse_unused(pattern != Kind::random && seed != 1,
+                  "Seed",
+                  std::to_string(seed),
+                  pattern,
+                  "random");
     refuse_unused(pattern != Kind::random && correlation_length != 0,
                   "Correlation length",
                   to_text(correlation_length),
@@ -231,8 +242,8 @@ namespace Debond
                   pattern,
                   "image");
     if (reads_file && file.empty())
-      throw InputError(section + "File: Pattern = " + name_of(pattern) +
-                       " needs the name of a file");
+      throw InputError(section + "Pattern = '" + name_of(pattern) +
+                       "' needs the name of a file: " + section + "File");
 
     // what is given place by place shows its faults when it is used
     if (pattern == Kind::expression || reads_file)

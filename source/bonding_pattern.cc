@@ -86,9 +86,7 @@ namespace Debond
         case BondingPatternKind::image:
           {
             const auto values =
-              by_element ?
-                element_means(place_function(parameters, implant), surface, n) :
-                point_values(place_function(parameters, implant), surface, n);
+              values_by_place(parameters, implant, surface, n, summary.remark);
             for (unsigned int i = 0; i < all_parts.size(); ++i)
               all_parts[i].phi_0 = values[i];
           }

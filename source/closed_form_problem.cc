@@ -61,7 +61,7 @@ namespace Debond
       if (pattern != BondingPatternKind::homogeneous &&
           !(pattern == BondingPatternKind::disk && knows_disk))
         refuse(scene,
-               "Interface / Bonding / Pattern = '" + name_of(pattern) + "'",
+               "Interface / Bonding / Pattern",
                std::string("this closed form knows homogeneous bonding ") +
                  (knows_disk ? "and the disk only" : "only"));
       if (scene.model == ModelKind::mathieu &&

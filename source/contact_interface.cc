@@ -178,6 +178,21 @@ namespace Debond
 
 
 
+  double
+  ContactInterface::mean_seen_bonding() const
+  {
+    double sum = 0., area = 0.;
+    for (const Point &point : points)
+      if (point.faces_implant)
+        {
+          sum += point.phi_0 * point.JxW;
+          area += point.JxW;
+        }
+    return area > 0. ? sum / area : 0.;
+  }
+
+
+
   MasterSurface
   ContactInterface::master(const InterfaceConfiguration &configuration) const
   {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 
@@ -58,9 +59,12 @@ namespace Debond
         {
           const auto found = std::find(header.begin(), header.end(), name);
           if (found == header.end())
-            line.refuse("the first line must name the columns, " +
+            line.refuse("the first line must name the columns, separated by "
+                        "commas, " +
                         enumerate(names) + " among them; there is no '" + name +
                         "'");
+          if (std::count(header.begin(), header.end(), name) > 1)
+            line.refuse("there are two columns '" + name + "'");
           columns.push_back(found - header.begin());
         }
       return columns;
@@ -90,6 +94,8 @@ namespace Debond
     std::ifstream
     open_table(const std::string &filename, const std::string &entry)
     {
+      if (std::filesystem::is_directory(filename))
+        throw InputError(entry + " = '" + filename + "': this is a directory");
       std::ifstream file(filename);
       if (!file)
         throw InputError(
@@ -141,21 +147,30 @@ namespace Debond
   read_csv_columns(const std::string              &filename,
                    const std::string              &entry,
                    const std::vector<std::string> &names,
-                   const bool                      nan_is_allowed)
+                   const bool                      nan_is_allowed,
+                   std::vector<unsigned int>      *line_numbers)
   {
     std::ifstream file = open_table(filename, entry);
 
     std::vector<std::vector<double>> rows;
     std::vector<unsigned int>        columns;
+    std::size_t                      n_columns = 0;
     Line                             line{entry, filename, 0};
     std::vector<std::string>         items;
     while (next_items(file, line.number, items))
       {
         if (columns.empty())
           {
-            columns = columns_called(names, items, line);
+            columns   = columns_called(names, items, line);
+            n_columns = items.size();
             continue;
           }
+        if (items.size() > n_columns)
+          line.refuse(std::to_string(items.size()) + " values for " +
+                      std::to_string(n_columns) +
+                      " columns (decimals are written with a point)");
+        if (line_numbers != nullptr)
+          line_numbers->push_back(line.number);
         std::vector<double> row;
         for (std::size_t i = 0; i < names.size(); ++i)
           row.push_back(

@@ -6,6 +6,7 @@
 #include <debond/energy_balance.h>
 #include <debond/field_output.h>
 #include <debond/newton.h>
+#include <debond/number_text.h>
 #include <debond/path_following.h>
 #include <debond/profile_output.h>
 #include <debond/runtime.h>
@@ -192,6 +193,17 @@ namespace Debond
     if (scene.interface.bonding.pattern == BondingPatternKind::homogeneous)
       return;
     write_file(state->directory->file("bonding.csv"), bonding.table());
+    state->console.warn("picture", bonding.report().remark);
+    const ContactInterface &interface = state->system->interface;
+    const double            seen      = interface.mean_seen_bonding();
+    if (std::abs(seen - bonding.report().mean) > 0.01 * bonding.report().mean)
+      state->console.warn("bonding",
+                          "the quadrature points of the bone, which is the "
+                          "slave, see a mean phi_0 of " +
+                            to_text(seen, 4) + " instead of " +
+                            to_text(bonding.report().mean, 4) +
+                            ": Slave = implant meets it exactly, more elements "
+                            "of the bone more closely");
     state->console.headline("Initial bonding: " + bonding.description());
   }
 

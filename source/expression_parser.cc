@@ -69,6 +69,52 @@ namespace Debond
 
 
 
+  namespace
+  {
+    /** The parser takes `r = 1` for an assignment, and its value for that of
+     * the expression. */
+    bool
+    has_assignment(const std::string &expression)
+    {
+      for (std::string::size_type i = 0; i < expression.size(); ++i)
+        {
+          if (expression[i] != '=')
+            continue;
+          const bool is_double =
+            i + 1 < expression.size() && expression[i + 1] == '=';
+          if (is_double)
+            ++i;
+          else if (i == 0 || std::string("<>!").find(expression[i - 1]) ==
+                               std::string::npos)
+            return true;
+        }
+      return false;
+    }
+
+
+
+    /** The parser takes && and || only with blanks around them. */
+    std::string
+    with_blanks(const std::string &expression)
+    {
+      std::string result;
+      for (std::string::size_type i = 0; i < expression.size(); ++i)
+        {
+          const std::string two = expression.substr(i, 2);
+          if (two == "&&" || two == "||")
+            {
+              result += " " + two + " ";
+              ++i;
+            }
+          else
+            result += expression[i];
+        }
+      return result;
+    }
+  } // namespace
+
+
+
   template <int dim>
   std::unique_ptr<dealii::FunctionParser<dim>>
   make_parser(const std::string &variables,
@@ -79,6 +125,9 @@ namespace Debond
                                   variables + " cannot be read: ";
     if (has_comma_outside_parentheses(expression))
       throw InputError(complaint + "decimals are written with a point");
+    if (has_assignment(expression))
+      throw InputError(complaint + "equality is written ==, and nothing can be "
+                                   "assigned");
     auto       parser = std::make_unique<dealii::FunctionParser<dim>>();
     const bool last_is_time =
       std::count(variables.begin(), variables.end(), ',') == dim;
@@ -86,7 +135,7 @@ namespace Debond
       {
         const SilentErrorStream silence;
         parser->initialize(variables,
-                           expression,
+                           with_blanks(expression),
                            {{"pi", dealii::numbers::PI}, {"R", radius}},
                            last_is_time);
         // The parser reads the expression only when it is first evaluated.

@@ -2,6 +2,7 @@
 #include <debond/input_error.h>
 
 #define BOOST_GIL_IO_ENABLE_GRAY_ALPHA
+#include <boost/crc.hpp>
 #include <boost/gil.hpp>
 #include <boost/gil/extension/io/png.hpp>
 #include <boost/gil/extension/toolbox/color_spaces/gray_alpha.hpp>
@@ -13,11 +14,38 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
 namespace Debond
 {
+  namespace
+  {
+    /** For each of @p n_fine pixels the one or two of @p n_coarse that it lies
+     *  in, and the share of the area of those that it makes up. */
+    std::vector<std::vector<std::pair<unsigned int, double>>>
+    overlaps(const unsigned int n_fine, const unsigned int n_coarse)
+    {
+      std::vector<std::vector<std::pair<unsigned int, double>>> result(n_fine);
+      const double size = double(n_fine) / n_coarse; // of a coarse pixel
+      for (unsigned int i = 0; i < n_fine; ++i)
+        for (unsigned int k = static_cast<unsigned int>(i / size);
+             k < n_coarse && k * size < i + 1;
+             ++k)
+          {
+            const double share = (std::min((k + 1) * size, i + 1.) -
+                                  std::max(k * size, double(i))) /
+                                 size;
+            if (share > 0.)
+              result[i].emplace_back(k, share);
+          }
+      return result;
+    }
+  } // namespace
+
+
+
   double
   GreyImage::at(const double u, const double v) const
   {
@@ -30,9 +58,47 @@ namespace Debond
 
 
 
+  GreyImage
+  GreyImage::threshold_at(const double threshold) const
+  {
+    GreyImage result = *this;
+    // as float, so that a threshold that is a grey level is not exceeded by it
+    for (float &level : result.levels)
+      level = level > static_cast<float>(threshold) ? 1.f : 0.f;
+    return result;
+  }
+
+
+
+  GreyImage
+  GreyImage::reduced_to(const unsigned int side) const
+  {
+    const unsigned int n = (std::max(width, height) + side - 1) / side;
+    if (n <= 1)
+      return *this;
+    // Blocks of equal size in the picture, not in pixels: a pixel on the border
+    // of two belongs to both in parts.
+    GreyImage result;
+    result.width                = (width + n - 1) / n;
+    result.height               = (height + n - 1) / n;
+    const auto          columns = overlaps(width, result.width);
+    const auto          rows    = overlaps(height, result.height);
+    std::vector<double> sums(std::size_t(result.width) * result.height);
+    for (unsigned int j = 0; j < height; ++j)
+      for (unsigned int i = 0; i < width; ++i)
+        for (const auto &[row, row_share] : rows[j])
+          for (const auto &[column, column_share] : columns[i])
+            sums[std::size_t(row) * result.width + column] +=
+              row_share * column_share * levels[std::size_t(j) * width + i];
+    result.levels.assign(sums.begin(), sums.end());
+    return result;
+  }
+
+
+
   namespace
   {
-    constexpr unsigned int largest_side = 20000; ///< pixels
+    constexpr unsigned int largest_side = 10000; ///< pixels
 
 
 
@@ -67,6 +133,8 @@ namespace Debond
     std::string
     read_whole_file(const ImageFile &image)
     {
+      if (std::filesystem::is_directory(image.name))
+        image.refuse("this is a directory");
       std::ifstream      file(image.name, std::ios::binary);
       std::ostringstream bytes;
       if (!file)
@@ -109,6 +177,51 @@ namespace Debond
 
 
 
+    unsigned int
+    big_endian(const std::string &bytes, const std::size_t position)
+    {
+      unsigned int number = 0;
+      for (std::size_t i = position; i < position + 4; ++i)
+        number = 256 * number + static_cast<unsigned char>(bytes[i]);
+      return number;
+    }
+
+
+
+    /** A PNG file with those chunks only that make up the picture, their sums
+     *  checked: what libpng finds wrong after the last pixel takes Boost.GIL
+     *  down with it. */
+    std::string
+    essence_of_png(const ImageFile &file, const std::string &bytes)
+    {
+      const std::size_t signature = 8, around = 12; // length, type, sum
+      if (bytes.compare(0, signature, "\x89PNG\r\n\x1a\n") != 0)
+        file.refuse("this PNG file is damaged");
+      std::string result   = bytes.substr(0, signature);
+      std::size_t position = signature;
+      for (std::string type; type != "IEND";)
+        {
+          const std::size_t left = bytes.size() - position;
+          const std::size_t length =
+            left < around ? left : big_endian(bytes, position);
+          if (left < around || length > left - around)
+            file.refuse("this PNG file is cut off");
+          type = bytes.substr(position + 4, 4);
+          boost::crc_32_type sum;
+          sum.process_bytes(bytes.data() + position + 4, length + 4);
+          if (sum.checksum() != big_endian(bytes, position + 8 + length))
+            file.refuse("this PNG file is damaged");
+          for (const char *const wanted :
+               {"IHDR", "PLTE", "tRNS", "IDAT", "IEND"})
+            if (type == wanted)
+              result += bytes.substr(position, length + around);
+          position += length + around;
+        }
+      return result;
+    }
+
+
+
     GreyImage
     read_png(const ImageFile &file, const std::string &bytes)
     {
@@ -117,7 +230,8 @@ namespace Debond
       try
         {
           const SilentStderr silence;
-          std::istringstream header(bytes), data(bytes);
+          const std::string  essence = essence_of_png(file, bytes);
+          std::istringstream header(essence), data(essence);
           const auto info = gil::read_image_info(header, gil::png_tag())._info;
           file.check_size(info._width, info._height);
           if (info._interlace_method != PNG_INTERLACE_NONE)
@@ -157,12 +271,7 @@ namespace Debond
       unsigned int
       next(const std::string &what, const unsigned int largest)
       {
-        while (position < bytes.size() &&
-               (std::isspace(static_cast<unsigned char>(bytes[position])) ||
-                bytes[position] == '#'))
-          position = bytes[position] == '#' ?
-                       std::min(bytes.find('\n', position), bytes.size()) :
-                       position + 1;
+        skip_blanks();
         unsigned int value = 0;
         const auto   begin = position;
         for (; position < bytes.size() && bytes[position] >= '0' &&
@@ -175,8 +284,16 @@ namespace Debond
           }
         if (position == begin)
           file.refuse("this PGM file is damaged or cut off: " + what +
-                      " is missing");
+                      " is missing or no number");
         return value;
+      }
+
+      /** Whether nothing but blanks and comments is left. */
+      bool
+      at_end()
+      {
+        skip_blanks();
+        return position == bytes.size();
       }
 
       /** Where the pixels of a raw file begin: after one white space. */
@@ -187,6 +304,17 @@ namespace Debond
       }
 
     private:
+      void
+      skip_blanks()
+      {
+        while (position < bytes.size() &&
+               (std::isspace(static_cast<unsigned char>(bytes[position])) ||
+                bytes[position] == '#'))
+          position = bytes[position] == '#' ?
+                       std::min(bytes.find('\n', position), bytes.size()) :
+                       position + 1;
+      }
+
       const ImageFile   &file;
       const std::string &bytes;
       std::size_t        position = 2; ///< after P2 or P5
@@ -213,10 +341,16 @@ namespace Debond
       const std::size_t n     = std::size_t(image.width) * image.height;
       const bool        plain = bytes[1] == '2';
       const std::size_t size  = largest > 255 ? 2 : 1; // bytes of a pixel
-      const std::size_t begin = numbers.end_of_header();
+      std::size_t       begin = numbers.end_of_header();
+      // one white space ends the header, but some write a carriage return more
+      if (!plain && bytes.size() == begin + n * size + 1 &&
+          bytes.compare(begin - 1, 2, "\r\n") == 0)
+        ++begin;
       if (plain ? bytes.size() < n : bytes.size() < begin + n * size)
         file.refuse("this PGM file is cut off: it has fewer pixels than its "
                     "header says");
+      if (!plain && bytes.size() > begin + n * size)
+        file.refuse("this PGM file has more pixels than its header says");
       image.levels.reserve(n);
       for (std::size_t i = 0; i < n; ++i)
         {
@@ -232,6 +366,8 @@ namespace Debond
                         std::to_string(largest));
           image.levels.push_back(static_cast<float>(level) / largest);
         }
+      if (plain && !numbers.at_end())
+        file.refuse("this PGM file has more pixels than its header says");
       return image;
     }
   } // namespace

@@ -28,7 +28,10 @@ namespace Debond
                       "Let the program choose the steps of each phase, at most "
                       "as large as the planned ones, such that torque and "
                       "forces drawn as straight lines between the rows keep "
-                      "the Tolerance; each accepted step is a row. A step "
+                      "the Tolerance, relative to the largest value of each "
+                      "(where the machine holds still to a tenth of the "
+                      "largest of all, if that is more); each accepted step "
+                      "is a row. A step "
                       "that does not converge is halved in any case.");
     prm.declare_entry("Tolerance",
                       "1e-3",

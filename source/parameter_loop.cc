@@ -128,6 +128,11 @@ namespace Debond
           for (const std::string &one : expand_range(entry, item))
             choice.values.push_back(trim(prefix + one + suffix));
         }
+      if (!choice.by_run && choice.name.empty())
+        for (auto value = choice.values.begin(); value != choice.values.end();
+             ++value)
+          if (std::find(choice.values.begin(), value, *value) != value)
+            refuse(entry, "'" + *value + "' is there twice");
       return choice;
     }
 

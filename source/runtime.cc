@@ -4,8 +4,8 @@
 #include <deal.II/base/multithread_info.h>
 #include <deal.II/base/utilities.h>
 
-// Declared here because the headers of OpenBLAS declare LAPACK, too, and because
-// this program does not use OpenMP itself.
+// Declared here because the headers of OpenBLAS declare LAPACK, too, and
+// because this program does not use OpenMP itself.
 extern "C"
 {
   void
@@ -21,9 +21,6 @@ namespace Debond
   {
     dealii::deal_II_exceptions::disable_abort_on_exception();
     dealii::deal_II_exceptions::suppress_stacktrace_in_exceptions();
-    // CHOLMOD divides small loops among four threads, however few processors
-    // there are: that costs a quarter of a factorisation
-    omp_set_max_active_levels(0);
     set_number_of_threads(1);
   }
 
@@ -33,6 +30,10 @@ namespace Debond
   set_number_of_threads(const unsigned int n)
   {
     dealii::MultithreadInfo::set_thread_limit(n);
+    // CHOLMOD divides small loops among four threads, however few processors
+    // there are: that costs a quarter of a factorisation. Each thread that
+    // factorises has to say so.
+    omp_set_max_active_levels(0);
     openblas_set_num_threads(1);
   }
 

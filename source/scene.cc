@@ -7,6 +7,8 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <boost/crc.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -491,6 +493,29 @@ namespace Debond
 
 
 
+  namespace
+  {
+    /** A comment that tells one content of a file from another: results belong
+     *  to the content, not to the name. */
+    std::string
+    identity_of(const std::string &filename)
+    {
+      if (filename.empty())
+        return "";
+      std::ostringstream bytes;
+      bytes << std::ifstream(filename, std::ios::binary).rdbuf();
+      const std::string  content = bytes.str();
+      boost::crc_32_type crc;
+      crc.process_bytes(content.data(), content.size());
+      std::ostringstream text;
+      text << "# " << filename << ": " << content.size() << " bytes, CRC-32 "
+           << std::hex << crc.checksum() << "\n";
+      return text.str();
+    }
+  } // namespace
+
+
+
   Scene
   Scene::from_entries(const std::vector<SceneEntry> &entries,
                       const std::string             &name)
@@ -517,7 +542,8 @@ namespace Debond
     prm.print_parameters(completed,
                          dealii::ParameterHandler::ShortPRM |
                            dealii::ParameterHandler::KeepDeclarationOrder);
-    scene.completed_parameters = completed.str();
+    scene.completed_parameters =
+      completed.str() + identity_of(scene.interface.bonding.file);
     return scene;
   }
 

@@ -87,7 +87,10 @@ namespace Debond
       const unsigned int n_threads = dealii::MultithreadInfo::n_threads();
       set_number_of_threads(1);
       std::shared_ptr<BodyPair> bodies;
-      std::thread([&] { bodies = condensed_bodies(scene); }).join();
+      std::thread([&] {
+        set_number_of_threads(1);
+        bodies = condensed_bodies(scene);
+      }).join();
       set_number_of_threads(n_threads);
       return bodies;
     }

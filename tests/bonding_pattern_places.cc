@@ -4,11 +4,16 @@
 
 #include <debond/body_mesh.h>
 #include <debond/bonding_pattern.h>
+#include <debond/grey_image.h>
 #include <debond/input_error.h>
+#include <debond/scene.h>
 
 #include <fstream>
 #include <functional>
+#include <memory>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "checks.h"
@@ -90,6 +95,26 @@ check_means()
   report("  a quarter by angle, deviation of the mean",
          std::abs(mean("angle > 0 && angle < 90") - 0.25),
          1e-12);
+  // where the quarter is
+  const auto quarter =
+    make_pattern(expression("angle > 0 && angle < 90"), coin(6));
+  for (const auto &part : quarter.parts())
+    if (part.phi_0 != (part.centre[0] > 0 && part.centre[1] > 0 ? 1. : 0.))
+      std::cout << "  NO, the quarter is elsewhere" << std::endl;
+  report("  angle in degrees, deviation of the mean",
+         std::abs(mean("angle/360 + 0.5") - 0.5),
+         1e-12);
+  report("  the largest angle is 180",
+         make_pattern(expression("angle > 179",
+                                 BondingResolution::quadrature_point),
+                      coin(20))
+             .report()
+             .mean > 0.);
+  BondingParameters half = expression("x > 0");
+  half.initial_bonding   = 0.6;
+  report("  Initial bonding multiplies, deviation of the mean",
+         std::abs(make_pattern(half, coin(6)).report().mean - 0.3),
+         1e-12);
   report("  r < R/2, deviation of the mean",
          std::abs(mean("r < R/2") - 0.25),
          1e-3); // quadrature of a jump
@@ -128,12 +153,71 @@ check_means()
     "  two patches",
     make_pattern(expression("abs(x) > 0.3 * R"), coin(20)).report().patches ==
       2);
+  report("  quarters that meet at a corner are two patches",
+         make_pattern(expression("x * y > 0"), coin(20)).report().patches == 2);
   report("  four patches",
          make_pattern(expression("abs(x) > 0.2 * R && abs(y) > 0.2 * R",
                                  BondingResolution::quadrature_point),
                       coin(20))
              .report()
              .patches == 4);
+}
+
+
+
+// Written by a few lines of Python with its zlib.
+const std::vector<std::pair<std::string, std::string>> colour_pngs{
+  {"alpha",
+   "89504e470d0a1a0a0000000d4948445200000002000000020804000000d8bfc5af0000"
+   "001249444154789c63f8ffbfe13f83c3ffff0c00206e05bc79db418d0000000049454e"
+   "44ae426082"},
+  {"colours",
+   "89504e470d0a1a0a0000000d4948445200000002000000020802000000fdd49a730000"
+   "001649444154789c63f8ffff7f4343038383830303030300352a053e74941248000000"
+   "0049454e44ae426082"},
+  {"colours_alpha",
+   "89504e470d0a1a0a0000000d494844520000000200000002080600000072b60d240000"
+   "001649444154789c63f80f040d0d0dff191c1c1c406c06006cfc0b3840731ee0000000"
+   "0049454e44ae426082"},
+  {"palette",
+   "89504e470d0a1a0a0000000d49484452000000020000000208030000004568fd160000"
+   "000c504c5445ffffff8080804040400909092e845f500000000474524e53ffffff0040"
+   "2aa9f40000000e49444154789c6360606460620600001100079ea22a12000000004945"
+   "4e44ae426082"},
+  {"deep",
+   "89504e470d0a1a0a0000000d4948445200000002000000021000000000074d8ebb0000"
+   "001249444154789c63f8ffbfa181c1c1818101001939037ff908dc7b0000000049454e"
+   "44ae426082"},
+  {"bits",
+   "89504e470d0a1a0a0000000d49484452000000020000000201000000005acd30890000"
+   "000c49444154789c63686060000001840081f9fe65880000000049454e44ae426082"}};
+
+
+
+// The same four pixels in the other kinds of PNG: white, 128/255, 64/255,
+// black.
+template <typename Read>
+void
+check_colours(const Read &read)
+{
+  double largest = 0.;
+  for (const auto &[name, hex] : colour_pngs)
+    {
+      std::string bytes;
+      for (std::size_t i = 0; i < hex.size(); i += 2)
+        bytes += static_cast<char>(std::stoi(hex.substr(i, 2), nullptr, 16));
+      const auto    levels   = read(name + ".png", bytes);
+      const double  grey[]   = {1., 128 / 255., 64 / 255., 0.};
+      const double  black[]  = {1., 0., 0., 0.};
+      const double *expected = name == "bits" ? black : grey;
+      for (unsigned int i = 0; i < 4; ++i)
+        grow(largest, std::abs(levels[i] - expected[i]));
+    }
+  report(
+    "  PNG in grey and alpha, colours, colours and alpha, palette, 16 bits "
+    "and 1 bit, deviation",
+    largest,
+    1e-6);
 }
 
 
@@ -158,6 +242,24 @@ check_image(const std::string       &what,
                                             (part.centre[0] > 0 ? 1 : 0)]));
     }
   report("  " + what + ", deviation", largest, 1e-7); // levels are floats
+}
+
+
+
+// The four grey levels as PNG, 8 bits.
+std::string
+picture_of_four()
+{
+  const unsigned char png[] = {0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a,
+                               0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52,
+                               0x00, 0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x02,
+                               0x08, 0x00, 0x00, 0x00, 0x00, 0x57, 0xdd, 0x52,
+                               0xf8, 0x00, 0x00, 0x00, 0x0e, 0x49, 0x44, 0x41,
+                               0x54, 0x78, 0x9c, 0x63, 0xf8, 0xdf, 0xc0, 0xe0,
+                               0xc0, 0x00, 0x00, 0x07, 0x81, 0x01, 0xc0, 0x12,
+                               0x4a, 0x7b, 0xcc, 0x00, 0x00, 0x00, 0x00, 0x49,
+                               0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+  return {reinterpret_cast<const char *>(png), sizeof(png)};
 }
 
 
@@ -190,23 +292,56 @@ check_images()
               image("P2 2 2 1 0 1 0 0"),
               whites);
 
-  // the four grey levels as PNG, 8 bits
-  const unsigned char png[] = {0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a,
-                               0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52,
-                               0x00, 0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x02,
-                               0x08, 0x00, 0x00, 0x00, 0x00, 0x57, 0xdd, 0x52,
-                               0xf8, 0x00, 0x00, 0x00, 0x0e, 0x49, 0x44, 0x41,
-                               0x54, 0x78, 0x9c, 0x63, 0xf8, 0xdf, 0xc0, 0xe0,
-                               0xc0, 0x00, 0x00, 0x07, 0x81, 0x01, 0xc0, 0x12,
-                               0x4a, 0x7b, 0xcc, 0x00, 0x00, 0x00, 0x00, 0x49,
-                               0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
-  const std::string   bytes(reinterpret_cast<const char *>(png), sizeof(png));
+  const std::string bytes = picture_of_four();
   check_image("PNG", image(bytes), grey);
+
+  const auto read = [](const std::string &name, const std::string &content) {
+    std::ofstream(name, std::ios::binary) << content;
+    return read_grey_image(name, "File").levels;
+  };
+  check_colours(read);
+
+  // the rim of a picture of 100 x 100 pixels in white is the rim of the disk:
+  // pi/4 of the square, and nothing of it inside 0.96 R
+  std::string ring = "P2 100 100 1";
+  for (int j = 0; j < 100; ++j)
+    for (int i = 0; i < 100; ++i)
+      ring += std::hypot(i - 49.5, j - 49.5) > 48. ? " 1" : " 0";
+  report("  the picture spans the square around the disk, deviation",
+         std::abs(make_pattern(image(ring), coin(20)).report().mean -
+                  (1. - 0.96 * 0.96)),
+         5e-3);
+
+  // pictures finer than elements: the mean of a line in ten, of noise
+  std::string lines = "P5 1500 1500 1\n", noise = lines;
+  for (int j = 0; j < 1500; ++j)
+    for (int i = 0; i < 1500; ++i)
+      {
+        lines += static_cast<char>(i % 10 == 0);
+        noise += static_cast<char>(random_number(0., 1.) < 0.55);
+      }
+  for (const auto &[content, expected, what] :
+       {std::make_tuple(lines, 0.1, "lines"),
+        std::make_tuple(noise, 0.55, "noise")})
+    {
+      const auto pattern = make_pattern(image(content), coin(8));
+      double     largest = 0.;
+      for (const auto &part : pattern.parts())
+        grow(largest, std::abs(part.phi_0 - expected));
+      report(std::string("  area means of fine ") + what + ", deviation",
+             largest,
+             0.02);
+      report("    in all", std::abs(pattern.report().mean - expected), 2e-3);
+    }
 
   BondingParameters with_threshold = image(bytes);
   with_threshold.threshold         = 0.4;
   const double above[4]            = {1., 1., 0., 0.};
   check_image("PNG with a threshold", with_threshold, above);
+  with_threshold           = image("P2 2 2 5 5 1 2 0");
+  with_threshold.threshold = 0.2; // not above itself, though no binary number
+  const double from_two[4] = {1., 0., 1., 0.};
+  check_image("a level equal to the threshold", with_threshold, from_two);
 
   // a block takes the picture over its whole face
   BodyParameters block;
@@ -294,6 +429,29 @@ check_files()
 
 
 
+// Results belong to the content of a file.
+void
+check_identity()
+{
+  const auto text_of_scene = [](const std::string &content) {
+    std::ofstream("identity.csv") << content;
+    return Scene::from_text("set Title = identity\n",
+                            {"Interface/Bonding/Pattern=file",
+                             "Interface/Bonding/File=identity.csv",
+                             "Chuck/Rotation z/Value=t"})
+      .completed_parameters;
+  };
+  const std::string ones  = "phi_0\n1\n1\n1\n1\n1\n1\n1\n1\n1\n";
+  std::string       other = ones;
+  other[6]                = '0';
+  report("  the same content is the same scene",
+         text_of_scene(ones) == text_of_scene(ones));
+  report("  another content is another",
+         text_of_scene(ones) != text_of_scene(other));
+}
+
+
+
 void
 say(const BondingParameters &parameters)
 {
@@ -320,6 +478,10 @@ check_messages()
   say(expression("t"));
   say(expression("sin(x"));
   say(expression("0,5"));
+  say(expression("r = 1"));
+  report("  && without blanks",
+         make_pattern(expression("x>0&&y>0||x<-9"), coin(6)).report().patches ==
+           1);
   const auto image = [](const std::string &content) {
     return from_file(BondingPatternKind::image, "bad_image", content);
   };
@@ -330,9 +492,28 @@ check_messages()
   say(image("P2 2 0 255"));
   say(image("P2 2 2 0 0 0 0 0"));
   say(image("P5 2 2 255\nabc"));
+  say(image("P5 2 2 255\nabcde"));
+  say(image("P2 2 2 255 1 2 3 4 5"));
   say(image("P5 99999999999999999999 2 255\nabc"));
   say(image("P2 300000 2 255 1"));
   say(image("\x89PNG and nothing else"));
+  // every cut and every changed byte of a good PNG file
+  const std::string whole = picture_of_four();
+  unsigned int      read  = 0;
+  for (std::size_t i = 0; i < whole.size(); ++i)
+    {
+      std::string changed = whole;
+      changed[i] ^= 4;
+      for (const std::string &content : {whole.substr(0, i), changed})
+        try
+          {
+            make_pattern(image(content), coin(3));
+            ++read;
+          }
+        catch (const InputError &)
+          {}
+    }
+  report("  damaged PNG files are refused", read == 0);
   BondingParameters missing = image("");
   missing.file              = "not_there.png";
   say(missing);
@@ -345,7 +526,20 @@ check_messages()
   say(file("element,phi_0\n1,1\n2,1\n3,1\n4,1\n5,1\n6,1\n7,1\n8,1\n8,1\n"));
   say(file("element,phi_0\n1,1\n2,1\n3,1\n4,1\n5,1\n6,1\n7,1\n8,1\n10,1\n"));
   say(file("x,y\n1,1\n"));
+  say(file("x,y,phi_0\n5,5,1\n9,0,1\n"));
+  say(file("element,x_mm,y_mm,phi_0\n1,1,1,0\n2,0,0,0\n3,0,0,0\n4,0,0,0\n"
+           "5,0,0,0\n6,0,0,0\n7,0,0,0\n8,0,0,0\n9,0,0,0\n"));
   say(file("x,y,phi_0\n1,1,high\n"));
+  say(file("phi_0\n0,55\n"));
+  say(file("X,Y,phi_0\n1,1,1\n"));
+  say(file("x;y;phi_0\n1;1;1\n"));
+  say(file("phi_0,element,phi_0\n1,1,1\n"));
+  say(file("x,y,phi_0\n1,1,1.0000001\n"));
+  BondingParameters directory = file("");
+  directory.file              = ".";
+  say(directory);
+  directory.pattern = BondingPatternKind::image;
+  say(directory);
   BondingParameters by_point = file("element,phi_0\n1,1\n");
   by_point.resolution        = BondingResolution::quadrature_point;
   say(by_point);
@@ -359,5 +553,6 @@ main()
   check_means();
   check_images();
   check_files();
+  check_identity();
   check_messages();
 }

@@ -175,6 +175,56 @@ check_queue()
 
 
 
+// Two variants of the scene and two with one entry changed: do all four have
+// the same bodies?
+bool
+share_bodies(const std::string &change)
+{
+  const std::vector<std::string> small{"Bone/Cells=6, 6, 1",
+                                       "Bone/Material=linear",
+                                       "Implant/Cells=2, 1",
+                                       "Implant/Material=linear",
+                                       "Interface/Quadrature points=2"};
+  auto                           changed = small;
+  changed.push_back(change);
+  const Scene scene = Scene::from_text(scene_text, small),
+              other = Scene::from_text(scene_text, changed);
+  VariantQueue queue(1);
+  for (unsigned int i = 0; i < 4; ++i)
+    queue.add(i, i < 2 ? scene : other, true);
+  std::vector<std::shared_ptr<BodyPair>> bodies; // kept: no address twice
+  while (!queue.empty())
+    bodies.push_back(queue.next().bodies);
+  return bodies.at(0) && bodies.at(0) == bodies.at(2);
+}
+
+
+
+void
+check_what_is_shared()
+{
+  for (const char *const change : {"Interface/Friction coefficient unbroken=1",
+                                   "Interface/Penalty stiffness=1000",
+                                   "Interface/Bonding/Initial bonding=0.5",
+                                   "Load steps/Steps=1, 7",
+                                   "Output/Directory=elsewhere"})
+    report(std::string("bodies are shared with ") + change,
+           share_bodies(change));
+  for (const char *const change : {"Bone/Young modulus=17000",
+                                   "Bone/Layer grading=1.5",
+                                   "Implant/Young modulus=100000",
+                                   "Implant/Height=2",
+                                   "Implant/Radius=2",
+                                   "Implant/Cells=3, 1",
+                                   "Interface/Slave=bone",
+                                   "Interface/Quadrature points=3",
+                                   "Chuck/Translation x/Value=0.1 + t"})
+    report(std::string("bodies are not shared with ") + change,
+           !share_bodies(change));
+}
+
+
+
 void
 test()
 {
@@ -188,6 +238,7 @@ test()
   for (const Case &which : cases)
     compare_with_runs_alone(which);
   check_queue();
+  check_what_is_shared();
 }
 
 

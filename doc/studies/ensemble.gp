@@ -28,7 +28,7 @@ do for [panel=1:2] {
   }
   plot file using "angle_deg":"torque_p05_Nmm":"torque_p95_Nmm" with filledcurves linecolor rgb band title "5 to 95 %", \
     "" using "angle_deg":"torque_mean_Nmm" with lines linewidth 1.5 linecolor rgb mean_colour title "mean", \
-    homogeneous using "angle_deg":"torque_Nmm" with lines linewidth 1.5 dashtype 2 linecolor rgb other title "homogeneous, φ_0 = 0.55"
+    homogeneous using "angle_deg":"torque_Nmm" with lines linewidth 1.5 dashtype 2 linecolor rgb other title "homogeneous, φ₀ = 0.55"
 }
 unset multiplot
 
@@ -55,7 +55,7 @@ do for [i=1:2] {
   set ylabel label[i]
   plot file using (column(fraction)):(col("p05")):(col("p95")) with filledcurves linecolor rgb band title "20 random patterns, 5 to 95 %", \
     "" using (column(fraction)):(col("mean")) with linespoints pointtype 7 linecolor rgb mean_colour title "their mean", \
-    homogeneous using (column(phi_0)):(scale * column(quantity[i] . unit[i])) with lines dashtype 2 linecolor rgb other title "homogeneous, φ_0 = the fraction"
+    homogeneous using (column(phi_0)):(scale * column(quantity[i] . unit[i])) with lines dashtype 2 linecolor rgb other title "homogeneous, φ₀ = the fraction"
 }
 unset multiplot
 

@@ -63,6 +63,7 @@ namespace Debond
       double       bonded_area = 0; ///< integral of phi_0 over the face [mm^2]
       unsigned int patches     = 0; ///< see patches()
       double       largest_patch = 0; ///< [mm^2]
+      std::string  remark; ///< what a user should know of it, if anything
     };
     const Report &
     report() const

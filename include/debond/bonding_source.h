@@ -4,34 +4,28 @@
 #include <debond/bonding_parameters.h>
 #include <debond/nurbs_surface.h>
 
-#include <functional>
 #include <vector>
 
 namespace Debond
 {
   struct BodyParameters;
 
-  /** phi_0 as a function of the place (x, y) on the contact face [mm]. */
-  using PlaceFunction = std::function<double(const Eigen::Vector2d &)>;
-
-  /** The patterns expression and image. All functions of this file throw
-   *  InputError that begins with the name of the entry. */
-  PlaceFunction
-  place_function(const BondingParameters &parameters,
-                 const BodyParameters    &implant);
-
-  /** The area mean of @p function over every element, by at least @p n x @p n
-   *  and some 200 quadrature points across the face. */
+  /** The patterns expression and image: area means over all elements or, with
+   *  that resolution, values at all points of surface_quadrature() with @p n
+   *  points per direction and element. Means of expressions take some 200
+   *  quadrature points across the face; pictures are first reduced to means
+   * over 256 x 256 parts, and then take two points in each direction for every
+   * part.
+   *  @p remark: what a user should know of it, if anything.
+   *
+   *  All functions of this file throw InputError that begins with the name of
+   *  the entry. */
   std::vector<double>
-  element_means(const PlaceFunction &function,
-                const NurbsSurface  &surface,
-                unsigned int         n);
-
-  /** The values of @p function at all points of surface_quadrature(). */
-  std::vector<double>
-  point_values(const PlaceFunction &function,
-               const NurbsSurface  &surface,
-               unsigned int         n);
+  values_by_place(const BondingParameters &parameters,
+                  const BodyParameters    &implant,
+                  const NurbsSurface      &surface,
+                  unsigned int             n,
+                  std::string             &remark);
 
   /** The pattern file: a value for each of the @p centres of elements or, with
    *  that resolution, quadrature points [mm]. */

@@ -169,6 +169,11 @@ namespace Debond
     /** phi and mu of a point in its trial state. */
     FrictionCoefficient
     friction(const Point &point) const;
+    /** The mean of phi_0 over the slave's quadrature points that face the
+     *  implant at the start: that of the pattern if the implant is the slave.
+     */
+    double
+    mean_seen_bonding() const;
     /** phi_0 over the implant's contact face; known from initialise() on. */
     const BondingPattern &
     bonding() const

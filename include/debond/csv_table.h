@@ -12,6 +12,8 @@ namespace Debond
    * The result has a row for each row of the file, with the values in the order
    * of @p names.
    *
+   * @p line_numbers: where the rows are in the file, if that is of interest.
+   *
    * Throws InputError that names the @p entry of the scene which gave the file,
    * the file, the line and what was expected. Numbers are finite; with
    * @p nan_is_allowed `nan` is read as such.
@@ -20,7 +22,8 @@ namespace Debond
   read_csv_columns(const std::string              &filename,
                    const std::string              &entry,
                    const std::vector<std::string> &names,
-                   bool                            nan_is_allowed = false);
+                   bool                            nan_is_allowed = false,
+                   std::vector<unsigned int>      *line_numbers   = nullptr);
 
   /** The names of the columns, from the first line that is no comment; empty
    *  if there is none. Throws InputError if the file cannot be read. */

@@ -16,6 +16,14 @@ namespace Debond
      *  right, v from the bottom to the top. */
     double
     at(double u, double v) const;
+
+    /** The picture in black and white: levels above @p threshold are 1. */
+    GreyImage
+    threshold_at(double threshold) const;
+    /** The picture with at most @p side pixels in each direction, which have
+     *  the area means of what they stand for. */
+    GreyImage
+    reduced_to(unsigned int side) const;
   };
 
   /**

@@ -159,7 +159,7 @@ namespace Debond
       {
         const auto &component = parameters.component[k];
         value_functions.emplace_back(component.value, radius);
-        if (component.loaded || component.stiffness > 0.)
+        if (!is_prescribed(k))
           unknown_components.push_back(k);
       }
     update_frame();
@@ -181,13 +181,46 @@ namespace Debond
 
 
 
+  Chuck::Vector6
+  Chuck::rates(const double time) const
+  {
+    const double h = 1e-6 * std::max(1., std::abs(time));
+    return (values(time + h) - values(time - h)) / (2. * h);
+  }
+
+
+
+  Chuck::Vector6
+  Chuck::machine_position() const
+  {
+    Vector6 result = q;
+    for (unsigned int k = 0; k < 6; ++k)
+      if (parameters.component[k].stiffness > 0.)
+        result[k] = target[k];
+    return result;
+  }
+
+
+
+  double
+  Chuck::machine_energy() const
+  {
+    double sum = 0.;
+    for (unsigned int k = 0; k < 6; ++k)
+      if (parameters.component[k].stiffness > 0.)
+        sum += 0.5 * parameters.component[k].stiffness *
+               std::pow(target[k] - q[k], 2);
+    return sum;
+  }
+
+
+
   void
   Chuck::prescribe(const double time)
   {
     target = values(time);
     for (unsigned int k = 0; k < 6; ++k)
-      if (!parameters.component[k].loaded &&
-          parameters.component[k].stiffness == 0.)
+      if (is_prescribed(k))
         q[k] = target[k];
     update_frame();
   }

@@ -84,11 +84,13 @@ namespace Debond
                    " / Control",
                  "closed forms take this motion as prescribed");
       for (unsigned int k = 0; k < 6; ++k)
-        if (scene.chuck.component[k].stiffness != 0)
+        if (scene.chuck.component[k].stiffness != 0 &&
+            !(k == 5 && scene.model == ModelKind::foundation))
           refuse(scene,
                  std::string("Chuck / ") + ChuckParameters::names[k] +
                    " / Stiffness",
-                 "closed forms have no compliant machine");
+                 "closed forms have no compliant machine, but that the "
+                 "foundation's Rotation z may be driven by one");
     }
   } // namespace
 
@@ -180,7 +182,7 @@ namespace Debond
   {
     double T_max = 0.;
     for (const Load &load : loads)
-      T_max = std::max(T_max, std::abs(model->torque(load.angle)));
+      T_max = std::max(T_max, std::abs(model->torque(angle_of_disk(load))));
     const double smallest = scene.load_steps.smallest_step_fraction *
                             (loads.back().time - loads.front().time) /
                             loads.size();
@@ -189,8 +191,8 @@ namespace Debond
     while (!to_come.empty())
       {
         const Load  &begin = refined.back(), &end = to_come.back();
-        const double T_begin = model->torque(begin.angle);
-        const double T_end   = model->torque(end.angle);
+        const double T_begin = model->torque(angle_of_disk(begin));
+        const double T_end   = model->torque(angle_of_disk(end));
         double       error   = 0.;
         for (const double part : {0.25, 0.5, 0.75})
           {
@@ -201,8 +203,8 @@ namespace Debond
                 0. :
                 (load.angle - begin.angle) / (end.angle - begin.angle);
             error = std::max(error,
-                             std::abs(model->torque(load.angle) - T_begin -
-                                      turned * (T_end - T_begin)));
+                             std::abs(model->torque(angle_of_disk(load)) -
+                                      T_begin - turned * (T_end - T_begin)));
           }
         if (error > 0.5 * scene.load_steps.tolerance * T_max &&
             end.time - begin.time > 2. * smallest)
@@ -287,7 +289,13 @@ namespace Debond
                  "Interface / Sliding threshold",
                  "the friction law softens faster than the foundation is "
                  "stiff, so that the traction would jump");
-        model = std::make_unique<RigidBodiesTorsion>(parameters);
+        auto foundation = std::make_unique<RigidBodiesTorsion>(parameters);
+        if (scene.chuck.component[5].stiffness > 0.)
+          machine = std::make_unique<CompliantMachineTorsion>(
+            *foundation,
+            scene.chuck.component[5].stiffness,
+            std::abs(loads.back().angle));
+        model = std::move(foundation);
       }
     else if (scene.model == ModelKind::analytical)
       {
@@ -325,19 +333,46 @@ namespace Debond
 
 
 
+  // The load's angle is that of the machine.
+  double
+  ClosedFormProblem::angle_of_disk(const Load &load) const
+  {
+    if (!machine || load.angle == 0.)
+      return load.angle;
+    return std::copysign(machine->angle(std::abs(load.angle)), load.angle);
+  }
+
+
+
+  double
+  ClosedFormProblem::released_energy(const Load &load) const
+  {
+    double sum = 0.;
+    if (machine)
+      for (const auto &jump : machine->jumps())
+        if (jump.machine_angle < std::abs(load.angle))
+          sum += jump.released_energy;
+    return sum;
+  }
+
+
+
   TorqueRow
   ClosedFormProblem::row(const unsigned int step)
   {
     const Load  &load = loads[step];
     const double R = scene.implant.radius, area = M_PI * R * R;
     const double p     = pressure(load);
-    const auto   state = model->state(load.angle);
-    const double c     = model->stick_radius(load.angle);
+    const double angle = angle_of_disk(load);
+    const auto   state = model->state(angle);
+    const double c     = model->stick_radius(angle);
 
     TorqueRow row;
     row.step                 = step;
     row.time                 = load.time;
-    row.angle_deg            = load.angle * 180. / M_PI;
+    row.angle_deg            = angle * 180. / M_PI;
+    row.machine_angle_deg    = load.angle * 180. / M_PI;
+    row.released_energy_Nmm  = released_energy(load);
     row.torque_Nmm           = state.torque;
     row.force_N              = p * area;
     row.pressure_MPa         = p;
@@ -392,14 +427,35 @@ namespace Debond
     for (unsigned int step = 0; step < loads.size(); ++step)
       {
         TorqueRow next = row(step);
-        balance_energy(next, loads[step].angle, energy);
+        balance_energy(next, angle_of_disk(loads[step]), energy);
         torque_rows.push_back(next);
         writer.write(next);
         console.row(next, loads.size() - 1);
         profiles.write(next.angle_deg, *model);
       }
     console.warn("profile", profiles.finish());
+    warn_of_jumps(console);
     write_summary(directory, profiles, console, seconds_before_steps);
+  }
+
+
+
+  void
+  ClosedFormProblem::warn_of_jumps(Console &console) const
+  {
+    if (machine)
+      for (const auto &jump : machine->jumps())
+        if (jump.machine_angle < std::abs(loads.back().angle))
+          {
+            std::ostringstream text;
+            text << "the bond snaps back: at the machine's angle of "
+                 << jump.machine_angle * 180. / M_PI
+                 << " deg the torque jumps from " << jump.torque_before
+                 << " to " << jump.torque_after << " N mm, and "
+                 << jump.released_energy
+                 << " N mm of stored energy are released without equilibrium";
+            console.warn("jump", text.str());
+          }
   }
 
 
@@ -444,6 +500,11 @@ namespace Debond
              normal_stiffness > 0. ? normal_stiffness : undefined);
     json.add("torsional_stiffness_MPa_per_mm",
              lambda > 0. ? lambda : undefined);
+    if (machine)
+      {
+        json.add("jumps", unsigned(machine->jumps().size()));
+        json.add("released_energy_Nm", 1e-3 * released_energy(loads.back()));
+      }
     write_file(directory.file("summary.json"), json.text());
 
     std::ostringstream text;
@@ -468,6 +529,7 @@ namespace Debond
     out << '\n'
         << loads.size() - 1 << " planned steps from time " << loads.front().time
         << " to " << loads.back().time << '\n'
-        << "at the end " << model->torque(loads.back().angle) << " N mm\n";
+        << "at the end " << model->torque(angle_of_disk(loads.back()))
+        << " N mm\n";
   }
 } // namespace Debond

@@ -4,9 +4,11 @@
 #include <deal.II/base/numbers.h>
 
 #include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/roots.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -213,6 +215,120 @@ namespace Debond
       for (const double slip : {0., begin_of_decay(), end_of_decay()})
         radii.push_back(path(slip, phi_0) / std::abs(theta));
     return radii;
+  }
+
+
+
+  CompliantMachineTorsion::CompliantMachineTorsion(
+    const RigidBodiesTorsion &bodies,
+    const double              stiffness,
+    const double              largest_angle)
+    : bodies(bodies)
+    , stiffness(stiffness)
+    , largest_angle(largest_angle)
+  {
+    find_limit_points();
+    find_jumps();
+  }
+
+
+
+  void
+  CompliantMachineTorsion::find_limit_points()
+  {
+    constexpr unsigned int n    = 4000;
+    const double           step = largest_angle / n;
+    std::array<double, 3>  last{{0., 0., machine_angle(step)}};
+    for (unsigned int i = 2; i <= n; ++i)
+      {
+        last = {{last[1], last[2], machine_angle(i * step)}};
+        for (const double sign : {-1., 1.})
+          if (sign * last[1] < sign * last[0] &&
+              sign * last[1] <= sign * last[2])
+            {
+              const auto minimum = boost::math::tools::brent_find_minima(
+                [&](const double theta) { return sign * machine_angle(theta); },
+                (i - 2) * step,
+                i * step,
+                std::numeric_limits<double>::digits / 2);
+              limits.push_back({minimum.first,
+                                sign * minimum.second,
+                                bodies.torque(minimum.first),
+                                sign < 0.});
+            }
+      }
+  }
+
+
+
+  void
+  CompliantMachineTorsion::find_jumps()
+  {
+    const auto stored_or_spent = [&](const double theta, const double at) {
+      const auto state = bodies.state(theta);
+      return 0.5 * stiffness * std::pow(at - theta, 2) + state.stored_energy +
+             state.dissipation;
+    };
+    double reached = 0.; // the largest machine angle so far
+    for (std::size_t i = 0; i < limits.size(); ++i)
+      {
+        const LimitPoint &from = limits[i];
+        if (!from.is_maximum || from.machine_angle <= reached)
+          continue;
+        // the next branch that rises and leads high enough
+        for (std::size_t j = i + 1; j < limits.size(); ++j)
+          {
+            const bool   is_last = j + 1 == limits.size();
+            const double end = is_last ? largest_angle : limits[j + 1].angle;
+            if (limits[j].is_maximum || machine_angle(end) < from.machine_angle)
+              continue;
+            const double to =
+              angle_between(limits[j].angle, end, from.machine_angle);
+            all_jumps.push_back(
+              {from.machine_angle,
+               from.angle,
+               to,
+               from.torque,
+               bodies.torque(to),
+               stored_or_spent(from.angle, from.machine_angle) -
+                 stored_or_spent(to, from.machine_angle)});
+            reached = from.machine_angle;
+            break;
+          }
+      }
+  }
+
+
+
+  // On a branch that rises.
+  double
+  CompliantMachineTorsion::angle_between(const double begin,
+                                         const double end,
+                                         const double wanted) const
+  {
+    const auto excess = [&](const double theta) {
+      return machine_angle(theta) - wanted;
+    };
+    return zero_of(excess,
+                   begin,
+                   end,
+                   std::min(0., excess(begin)),
+                   std::max(0., excess(end)));
+  }
+
+
+
+  double
+  CompliantMachineTorsion::angle(const double machine_angle) const
+  {
+    double begin = 0.;
+    for (const Jump &jump : all_jumps)
+      {
+        if (machine_angle <= jump.machine_angle)
+          return angle_between(begin, jump.angle_before, machine_angle);
+        begin = jump.angle_after;
+      }
+    return angle_between(begin, largest_angle, machine_angle);
   }
 
 

@@ -644,6 +644,57 @@ namespace Debond
 
 
 
+  // g_s grows by |y(xi_hat) - y(xi_hat^n)|, whose change is that of the
+  // difference along its direction; xi_hat moves as the equations of the slip
+  // want it.
+  ContactInterface::MeanSlip
+  ContactInterface::mean_slip(const InterfaceConfiguration &configuration) const
+  {
+    MeanSlip result;
+    for (unsigned int side = 0; side < 2; ++side)
+      result.gradient[side].setZero(3, forces[side].cols());
+    double area = 0.;
+    for (const Point &point : points)
+      {
+        const ContactPointResult &trial = point.trial;
+        if (!point.faces_implant)
+          continue;
+        area += point.JxW;
+        result.value += point.JxW * trial.state.slip;
+        const double distance = trial.slip_increment.norm();
+        if (trial.state.status != PointStatus::slip || mode_now.frictionless ||
+            distance == 0.)
+          continue;
+        const SurfaceBasis   &basis     = trial.basis;
+        const Eigen::Vector3d direction = trial.slip_increment / distance;
+        SurfaceGeometry       y;
+        contract(basis, configuration.side[master_side()].positions, false, y);
+        Eigen::Matrix<double, 15, 1> d =
+          trial.dxi.transpose() *
+          Eigen::Vector2d(direction.dot(y.a1), direction.dot(y.a2));
+        d.segment<3>(3) += direction;
+        d.segment<3>(12) -= direction;
+        d *= point.JxW;
+        NodalSums &sums = result.gradient;
+        for (unsigned int a = 0; a < point.basis.size; ++a)
+          sums[slave].col(point.basis.control_point[a]) +=
+            point.basis.N[a] * d.segment<3>(0);
+        for (unsigned int b = 0; b < basis.size; ++b)
+          sums[master_side()].col(basis.control_point[b]) +=
+            basis.N[b] * d.segment<3>(3) + basis.N_1[b] * d.segment<3>(6) +
+            basis.N_2[b] * d.segment<3>(9);
+        for (unsigned int b = 0; b < trial.old_basis.size; ++b)
+          sums[master_side()].col(trial.old_basis.control_point[b]) +=
+            trial.old_basis.N[b] * d.segment<3>(12);
+      }
+    result.value /= area;
+    for (ControlNet &gradient : result.gradient)
+      gradient /= area;
+    return result;
+  }
+
+
+
   FrictionCoefficient
   ContactInterface::friction(const Point &point) const
   {
@@ -659,6 +710,33 @@ namespace Debond
     return friction_coefficient(parameters.friction,
                                 state.broken ? 0. : point.phi_0,
                                 state.slip);
+  }
+
+
+
+  void
+  ContactInterface::add_friction_work(const Point &point)
+  {
+    const ContactPointResult &trial = point.trial;
+    const double              p     = point.accepted_pressure,
+                 t                  = point.accepted_traction.norm();
+    if (trial.state.status == PointStatus::open)
+      {
+        accepted_friction_work_bound +=
+          0.5 * point.JxW *
+          (p * p / law.normal_penalty + t * t / law.tangential_penalty);
+        return;
+      }
+    if (mode_now.frictionless)
+      return;
+    const double per_pressure =
+      point.JxW * friction_strength(parameters.friction,
+                                    trial.state.broken ? 0. : point.phi_0,
+                                    point.accepted.slip,
+                                    trial.state.slip);
+    accepted_friction_work += 0.5 * (p + trial.pressure) * per_pressure;
+    accepted_friction_work_bound +=
+      0.5 * std::abs(p - trial.pressure) * per_pressure;
   }
 
 
@@ -695,6 +773,7 @@ namespace Debond
                               trial.state.broken ? 0. : point.phi_0,
                               point.accepted.slip,
                               trial.state.slip);
+        add_friction_work(point);
         point.accepted          = trial.state;
         point.accepted_traction = Q.transpose() * trial.tangential_traction;
         point.accepted_viscous_traction =

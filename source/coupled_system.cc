@@ -32,6 +32,8 @@ namespace Debond
                   1e-6 * R)
   {
     configuration.chuck = &chuck;
+    path.follow         = scene.load_steps.follow_path;
+    path.stiffness = scene.interface.normal_penalty * interface.implant_area();
   }
 
 
@@ -66,9 +68,11 @@ namespace Debond
         first += body[side]->n_unknowns();
       }
     configuration.chuck_unknowns.clear();
-    for (const unsigned int component : chuck.unknowns())
-      configuration.chuck_unknowns.emplace_back(component, first++);
-    unknowns = first;
+    for (unsigned int component = 0; component < 6; ++component)
+      if (path.follow || !chuck.is_prescribed(component))
+        configuration.chuck_unknowns.emplace_back(component, first++);
+    path.number = first;
+    unknowns    = first + (path.follow ? 1 : 0);
     residual.setZero(unknowns);
     solver.forget();
   }
@@ -159,12 +163,16 @@ namespace Debond
 
 
   void
-  CoupledSystem::predict(const double time, const bool extrapolate)
+  CoupledSystem::predict(const double time,
+                         const double parameter,
+                         const bool   extrapolate)
   {
-    bone.predict(time, extrapolate);
-    implant.predict(time, extrapolate);
-    chuck.predict(time, extrapolate);
+    bone.predict(parameter, extrapolate);
+    implant.predict(parameter, extrapolate);
+    chuck.predict(parameter, extrapolate);
     chuck.prescribe(time);
+    trial_time = time;
+    path.slip  = 0.;
   }
 
 
@@ -193,18 +201,28 @@ namespace Debond
 
 
   void
-  CoupledSystem::commit(const double time)
+  CoupledSystem::prescribe_slip(const double slip)
+  {
+    path.slip = slip;
+  }
+
+
+
+  void
+  CoupledSystem::commit(const double parameter)
   {
     {
       const dealii::TimerOutput::Scope t(timer, "bulk");
       // closed points face contact unknowns only
       const bool surface_is_seen = interface.has_open_points();
-      bone.commit(time, surface_is_seen);
-      implant.commit(time, surface_is_seen);
+      bone.commit(parameter, surface_is_seen);
+      implant.commit(parameter, surface_is_seen);
     }
-    chuck.commit(time);
+    chuck.commit(parameter);
     update_configuration();
     const dealii::TimerOutput::Scope t(timer, "contact");
+    if (path.follow)
+      path.old_slip = interface.mean_slip(configuration).value;
     interface.commit(configuration);
   }
 
@@ -274,12 +292,19 @@ namespace Debond
     const Chuck::Vector6 forces = chuck_forces();
     for (const auto &[component, number] : configuration.chuck_unknowns)
       {
+        if (chuck.is_prescribed(component))
+          {
+            residual[number] = 0.; // q_k is set with the time
+            continue;
+          }
         const double load = chuck.machine_load(component);
         residual[number]  = forces[component] - load;
         norm_squared += std::pow(residual[number] / scale_of(component), 2);
         result.reference =
           std::max(result.reference, std::abs(load) / scale_of(component));
       }
+    if (path.follow)
+      norm_squared += std::pow(evaluate_path(result.reference), 2);
     result.norm  = std::sqrt(norm_squared);
     result.valid = std::isfinite(result.norm) && std::isfinite(force);
     if (!result.valid)
@@ -287,6 +312,77 @@ namespace Debond
     result.interior_share =
       norm_squared > 0. ? interior_squared / norm_squared : 0.;
     return result;
+  }
+
+
+
+  // The equation of the step in units of force, such that the whole slip step
+  // weighs as much as all contact forces. Returns its residual.
+  double
+  CoupledSystem::evaluate_path(const double reference)
+  {
+    path.gradient.setZero(unknowns);
+    path.rates            = chuck.rates(trial_time);
+    residual[path.number] = 0.;
+    if (path.slip == 0.)
+      {
+        path.gradient[path.number] = reference;
+        return 0.; // the time is what it should be
+      }
+    const auto   mean   = interface.mean_slip(configuration);
+    const double weight = reference / path.slip;
+    for (unsigned int s = 0; s < 2; ++s)
+      {
+        const auto      &side     = configuration.side[s];
+        const ControlNet in_frame = side.frame.transpose() * mean.gradient[s];
+        for (unsigned int i = 0; i < side.unknown_of.size(); ++i)
+          if (side.unknown_of[i] >= 0)
+            path.gradient[side.unknown_of[i]] +=
+              weight * in_frame(i % 3, i / 3);
+      }
+    const auto &x = configuration.side[1].positions;
+    for (const auto &[component, number] : configuration.chuck_unknowns)
+      for (unsigned int A = 0; A < x.cols(); ++A)
+        path.gradient[number] +=
+          weight *
+          mean.gradient[1].col(A).dot(chuck.velocity(component, x.col(A)));
+    residual[path.number] = weight * (mean.value - path.old_slip - path.slip);
+    return residual[path.number];
+  }
+
+
+
+  // The rows of prescribed components, the column of the time, and its row.
+  void
+  CoupledSystem::apply_path(const Eigen::VectorXd &x, Eigen::VectorXd &y) const
+  {
+    const double dt = x[path.number];
+    for (const auto &[k, number] : configuration.chuck_unknowns)
+      if (chuck.is_prescribed(k))
+        y[number] = path.stiffness * std::pow(scale_of(k), 2) *
+                    (x[number] - path.rates[k] * dt);
+      else
+        y[number] -= chuck.machine_load_per_value(k) * path.rates[k] * dt;
+    y[path.number] = path.gradient.dot(x);
+  }
+
+
+
+  void
+  CoupledSystem::assemble_path(Eigen::MatrixXd &matrix) const
+  {
+    for (const auto &[k, number] : configuration.chuck_unknowns)
+      if (chuck.is_prescribed(k))
+        {
+          const double stiffness = path.stiffness * std::pow(scale_of(k), 2);
+          matrix.row(number).setZero();
+          matrix(number, number)      = stiffness;
+          matrix(number, path.number) = -stiffness * path.rates[k];
+        }
+      else
+        matrix(number, path.number) =
+          -chuck.machine_load_per_value(k) * path.rates[k];
+    matrix.row(path.number) = path.gradient;
   }
 
 
@@ -334,6 +430,8 @@ namespace Debond
     Eigen::VectorXd y = Eigen::VectorXd::Zero(unknowns);
     interface.apply_tangent(configuration, x, y);
     add_geometric_part(x, y);
+    if (path.follow)
+      apply_path(x, y);
     return y;
   }
 
@@ -394,6 +492,8 @@ namespace Debond
           column.head(n_b + n_i).transpose();
         unit[number] = 0.;
       }
+    if (path.follow)
+      assemble_path(matrix);
   }
 
 
@@ -423,7 +523,8 @@ namespace Debond
         return "the system of equations is singular";
       }
     for (const auto &[component, number] : configuration.chuck_unknowns)
-      if (chuck.machine_stiffness(component) == 0. &&
+      if (!chuck.is_prescribed(component) &&
+          chuck.machine_stiffness(component) == 0. &&
           std::abs(correction[number]) > (component < 3 ? 10. * R : 1.))
         {
           solver.forget();
@@ -435,7 +536,13 @@ namespace Debond
     bone.correct(-correction.head(n_b));
     implant.correct(-correction.segment(n_b, n_i));
     for (const auto &[component, number] : configuration.chuck_unknowns)
-      chuck.correct(component, -correction[number]);
+      if (!chuck.is_prescribed(component))
+        chuck.correct(component, -correction[number]);
+    if (path.follow)
+      {
+        trial_time -= correction[path.number];
+        chuck.prescribe(trial_time);
+      }
     return "";
   }
 

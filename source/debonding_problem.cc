@@ -7,6 +7,7 @@
 #include <debond/field_output.h>
 #include <debond/newton.h>
 #include <debond/number_text.h>
+#include <debond/path_following.h>
 #include <debond/profile_output.h>
 #include <debond/runtime.h>
 
@@ -44,7 +45,10 @@ namespace Debond
     std::unique_ptr<FieldOutput>       field_output;
     std::unique_ptr<ProfileOutput>     profiles;
     ReferenceCurve                     reference;
+    std::unique_ptr<PathFollowing>     path; ///< if wanted
+    PathFollowing::Step                path_step;
     EnergyBalance                      energy;
+    ReleasedEnergy                     released;
     /** Of the accepted state. */
     ContactInterface::Summary interface_summary;
     double                    reaction_defect = 0;
@@ -53,6 +57,7 @@ namespace Debond
 
     std::vector<TorqueRow> rows;
     double                 time                 = 0; ///< of the accepted state
+    double                 last_torque          = 0; ///< of the accepted state
     unsigned int           accepted_steps       = 0; ///< sub-steps included
     unsigned int           newton_iterations    = 0;
     unsigned int           step                 = 0; ///< planned step at work
@@ -92,6 +97,10 @@ namespace Debond
           for (unsigned int phase = 0; phase < scene.load_steps.steps.size();
                ++phase)
             solve_phase_adaptively(phase);
+        else if (state->path)
+          for (unsigned int phase = 0; phase < scene.load_steps.steps.size();
+               ++phase)
+            solve_phase_along_path(phase);
         else
           for (unsigned int step = 1; step <= state->stepping.n_steps(); ++step)
             solve_planned_step(step);
@@ -101,9 +110,25 @@ namespace Debond
         finish(false, error.what());
         throw;
       }
-    finish(true,
-           scene.load_steps.adaptive ? "the last time is reached" :
-                                       "all planned steps are done");
+    finish(true, reason_to_end());
+  }
+
+
+
+  std::string
+  DebondingProblem::reason_to_end() const
+  {
+    if (state->path && state->path->has_ended())
+      {
+        std::ostringstream reason;
+        reason << "the mean sliding distance has reached "
+               << state->path->end_of_path()
+               << " mm (Load steps / Path ends at slip) at time "
+               << state->time;
+        return reason.str();
+      }
+    return rows_are_accepted_steps() ? "the last time is reached" :
+                                       "all planned steps are done";
   }
 
 
@@ -146,6 +171,8 @@ namespace Debond
     if (scene.load_steps.adaptive)
       state->adaptive_stepping =
         std::make_unique<AdaptiveStepping>(scene.load_steps, state->system->R);
+    if (scene.load_steps.follow_path)
+      state->path = std::make_unique<PathFollowing>(scene);
     state->system->start(state->stepping.time(0));
     if (scene.output.fields_every > 0)
       state->field_output =
@@ -268,6 +295,49 @@ namespace Debond
 
 
 
+  void
+  DebondingProblem::solve_phase_along_path(const unsigned int phase)
+  {
+    CoupledSystem &system     = *state->system;
+    PathFollowing &path       = *state->path;
+    unsigned int   iterations = 0;
+    const auto     mean_slip  = [&]() {
+      return system.interface.mean_slip(system.configuration).value;
+    };
+    path.begin_phase(phase, mean_slip());
+    while (!path.phase_is_finished() && !path.has_ended())
+      {
+        const PathFollowing::Step step = state->path_step = path.next();
+        const unsigned int        before                  = iterations;
+        if (!try_step(step.time, step.extrapolate, iterations))
+          {
+            if (!path.reject(step))
+              give_up(state->step + 1, system.time());
+            continue;
+          }
+        if (!path.accept(step, system.time(), mean_slip(), iterations - before))
+          {
+            system.rollback(); // too far
+            continue;
+          }
+        ++state->step;
+        accept(system.time());
+        write_row(state->step, iterations);
+        write_fields(state->step);
+        iterations = 0;
+      }
+  }
+
+
+
+  bool
+  DebondingProblem::rows_are_accepted_steps() const
+  {
+    return scene.load_steps.adaptive || scene.load_steps.follow_path;
+  }
+
+
+
   // A trial in the middle of the step, where the step control wants one.
   bool
   DebondingProblem::try_middle(const bool extrapolate, unsigned int &iterations)
@@ -293,7 +363,9 @@ namespace Debond
     const bool predict =
       extrapolate && scene.load_steps.predictor == Predictor::extrapolate;
     iterations += try_sub_step(time, predict, accepted);
-    if (!accepted && predict) // the prediction may be to blame
+    // The prediction may be to blame. A step by its slip needs it: without,
+    // nothing slides.
+    if (!accepted && predict && !state->path_step.by_slip)
       iterations += try_sub_step(time, false, accepted);
     return accepted;
   }
@@ -305,17 +377,36 @@ namespace Debond
   {
     std::ostringstream message;
     message << "Step " << step;
-    if (!scene.load_steps.adaptive)
+    if (!rows_are_accepted_steps())
       message << " of " << state->stepping.n_steps();
     message << " failed at time " << time << ", angle "
             << state->system->chuck.position()[5] * 180. / M_PI
             << " deg, with the smallest allowed part of a step: "
             << state->last_failure;
-    if (!state->system->chuck.unknowns().empty())
+    if (!state->path && !state->system->chuck.unknowns().empty())
       message << ". A prescribed load may be more than the interface can "
-                 "carry; prescribing the displacement or angle instead "
-                 "follows the fall";
+                 "carry; prescribing the displacement or angle instead, or "
+                 "Load steps / Path following = slip, follows the fall";
     throw RunError(message.str());
+  }
+
+
+
+  void
+  DebondingProblem::start_trial(const double time, const bool extrapolate)
+  {
+    CoupledSystem &system = *state->system;
+    if (!state->path)
+      {
+        system.predict(time, extrapolate);
+        return;
+      }
+    // accepted states are numbered along the path
+    system.predict(time,
+                   state->accepted_steps + state->path_step.ratio,
+                   extrapolate);
+    if (state->path_step.by_slip)
+      system.prescribe_slip(state->path_step.slip);
   }
 
 
@@ -338,7 +429,7 @@ namespace Debond
       state->time <
       scene.interface.friction.starts_at -
         1e-9 * (scene.load_steps.times.back() - scene.load_steps.times.front());
-    system.predict(time, extrapolate);
+    start_trial(time, extrapolate);
     if (predictor == Predictor::none)
       system.leave_surface_behind();
     const NewtonResult result = solve_newton(system, options);
@@ -417,15 +508,16 @@ namespace Debond
   {
     CoupledSystem &system  = *state->system;
     state->reaction_defect = system.reaction_defect();
-    system.commit(time);
+    if (state->step > 0)
+      ++state->accepted_steps;
+    system.commit(state->path ? state->accepted_steps : time);
     state->energy.add(system.chuck_forces(),
                       system.chuck.position(),
                       system.bone.energy() + system.implant.energy(),
                       state->interface_summary.energy,
                       system.interface.dissipation());
     state->time = time;
-    if (state->step > 0)
-      ++state->accepted_steps;
+    check_for_jump();
     check_accepted_state();
   }
 
@@ -437,6 +529,37 @@ namespace Debond
   {
     state->console.warn(check, text);
     state->violated_checks.insert(check);
+  }
+
+
+
+  // Whether the state just accepted is on another branch of equilibrium.
+  void
+  DebondingProblem::check_for_jump()
+  {
+    CoupledSystem          &system    = *state->system;
+    const ContactInterface &interface = system.interface;
+    ReleasedEnergy::State   now;
+    now.forces   = system.chuck_forces();
+    now.position = system.chuck.machine_position();
+    now.stored   = system.chuck.machine_energy() + system.bone.energy() +
+                 system.implant.energy() + state->interface_summary.energy;
+    now.spent = interface.friction_work() + interface.viscous_work();
+    now.bound = interface.friction_work_bound();
+    const double released = state->released.add(now);
+    if (released > 0.)
+      {
+        std::ostringstream text;
+        text << "step " << state->step << ": in one step the torque went from "
+             << state->last_torque << " to " << now.forces[5] << " N mm, and "
+             << released
+             << " N mm of stored energy were released without equilibrium: the "
+                "load cannot be followed there, the state jumped to another "
+                "branch. Load steps / Path following = slip follows the path "
+                "between";
+        note_violation("jump", text.str());
+      }
+    state->last_torque = now.forces[5];
   }
 
 
@@ -546,6 +669,8 @@ namespace Debond
     row.viscous_work_Nmm     = system.interface.viscous_work();
     row.warnings             = state->violated_checks.size();
     state->violated_checks.clear();
+    row.machine_angle_deg   = system.chuck.machine_position()[5] * 180. / M_PI;
+    row.released_energy_Nmm = state->released.total();
     for (unsigned int k = 0; k < 6; ++k)
       {
         row.chuck_reaction[k] = reaction[k];
@@ -556,7 +681,7 @@ namespace Debond
     const dealii::TimerOutput::Scope t(state->timer, "output");
     state->torque_writer->write(row);
     state->console.row(row,
-                       scene.load_steps.adaptive ? 0 :
+                       rows_are_accepted_steps() ? 0 :
                                                    state->stepping.n_steps());
     state->profiles->write(row.angle_deg, system.interface);
   }
@@ -569,12 +694,16 @@ namespace Debond
     if (!state->field_output)
       return;
     const LoadStepping &stepping = state->stepping;
-    const bool          is_due =
-      scene.load_steps.adaptive ?
-                 step % scene.output.fields_every == 0 ||
-          (state->adaptive_stepping->phase_is_finished() && step > 0) ||
+    const bool          phase_is_finished =
+      state->adaptive_stepping ? state->adaptive_stepping->phase_is_finished() :
+               state->path              ? state->path->phase_is_finished() ||
+                      state->path->has_ended() :
+                             false;
+    const bool is_due =
+      rows_are_accepted_steps() ?
+        step % scene.output.fields_every == 0 || phase_is_finished ||
           step == 0 :
-                 stepping.step_in_phase(step) % scene.output.fields_every == 0 ||
+        stepping.step_in_phase(step) % scene.output.fields_every == 0 ||
           stepping.ends_phase(step);
     if (is_due)
       {
@@ -610,6 +739,9 @@ namespace Debond
                     [](const TorqueRow &row) { return row.share_open == 1.; }))
       state->console.warn("no contact", "the bodies are never in contact");
     state->console.warn("profile", state->profiles->finish());
+    if (converged && state->path && state->path->has_ended() &&
+        scene.load_steps.path_ends_at_slip == 0.)
+      state->console.warn("path", "the last time is not reached: " + reason);
     const CoupledSystem &system = *state->system;
     CurveSettings        settings;
     settings.contact_area_mm2 =
@@ -655,6 +787,8 @@ namespace Debond
     JsonObject json;
     add_summary(summary, json);
     add_bonding(system.interface.bonding().report(), json);
+    json.add("jumps", state->released.n_jumps());
+    json.add("released_energy_Nm", 1e-3 * state->released.total());
     write_file(state->directory->file("summary.json"), json.text());
     if (converged)
       {

@@ -76,4 +76,32 @@ namespace Debond
   {
     return std::abs(defect()) > defect_bound() + 1e-9;
   }
+
+
+
+  double
+  ReleasedEnergy::add(const State &state)
+  {
+    double excess = 0.;
+    if (started)
+      {
+        const Chuck::Vector6 dq = state.position - last.position;
+        const double put_in     = 0.5 * (state.forces + last.forces).dot(dq);
+        work += put_in;
+        largest_work = std::max({largest_work, std::abs(work), state.stored});
+        // of the trapezoid, and of residuals that are not quite zero
+        const double bound =
+          0.5 * (state.forces - last.forces).cwiseAbs().dot(dq.cwiseAbs()) +
+          state.bound - last.bound + 1e-6 * largest_work;
+        excess =
+          put_in - (state.stored - last.stored) - (state.spent - last.spent);
+        if (excess <= bound)
+          excess = 0.;
+      }
+    started = true;
+    last    = state;
+    released += excess;
+    jumps += excess > 0. ? 1 : 0;
+    return excess;
+  }
 } // namespace Debond

@@ -140,6 +140,21 @@ namespace Debond
 
 
 
+  double
+  friction_strength(const FrictionParameters &parameters,
+                    const double              phi_0,
+                    const double              from,
+                    const double              to)
+  {
+    const double mu_without_bond =
+      parameters.kind == FrictionLawKind::frictionless ? 0. :
+                                                         parameters.mu_broken;
+    return mu_without_bond * (to - from) +
+           adhesive_strength(parameters, phi_0, from, to);
+  }
+
+
+
   FrictionCoefficient
   friction_coefficient(const FrictionParameters &parameters,
                        const double              phi_0,

@@ -41,6 +41,31 @@ namespace Debond
                       "the steps; with Model = auto the largest difference, "
                       "relative to the largest torque, from the curve of the "
                       "scene's bodies on a converged mesh. Else not used.");
+    prm.declare_entry("Path following",
+                      "none",
+                      Allowed::choice("none | slip"),
+                      "`none': the program goes through the planned steps of "
+                      "the time, and jumps where the path of equilibrium snaps "
+                      "back. `slip': it follows that path by prescribing the "
+                      "mean sliding distance, while the time, and with it "
+                      "everything the chuck prescribes, is found and may fall; "
+                      "each accepted step is a row. While everything sticks "
+                      "planned steps are taken.");
+    prm.declare_entry("Largest slip step",
+                      "0",
+                      Allowed::number_from(0, "mm"),
+                      "With Path following: largest step of the sliding "
+                      "distance, averaged over the contact face [mm]. 0: a "
+                      "twentieth of the distance over which friction falls, 2 "
+                      "a_s b_s, or of a_s if that is less.");
+    prm.declare_entry("Path ends at slip",
+                      "0",
+                      Allowed::number_from(0, "mm"),
+                      "With Path following: the run ends when the mean sliding "
+                      "distance reaches this [mm], if not at the last time. 0: "
+                      "the radius of the implant. A moment larger than the "
+                      "interface can carry has no last time: the implant would "
+                      "turn for ever.");
     prm.declare_entry("Smallest step fraction",
                       "1e-4",
                       Allowed::number_between_excluding_lower(0, 1, ""),
@@ -84,6 +109,9 @@ namespace Debond
                              name == "rigid"       ? Predictor::rigid :
                              name == "none"        ? Predictor::none :
                                                      Predictor::extrapolate;
+    follow_path            = prm.get("Path following") == "slip";
+    largest_slip_step      = prm.get_double("Largest slip step");
+    path_ends_at_slip      = prm.get_double("Path ends at slip");
     prm.leave_subsection();
   }
 } // namespace Debond

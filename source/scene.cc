@@ -341,6 +341,21 @@ namespace Debond
 
 
     void
+    check_path_following(const Scene &scene)
+    {
+      if (!scene.load_steps.follow_path)
+        return;
+      if (scene.load_steps.adaptive)
+        throw InputError("Load steps / Path following = slip chooses its steps "
+                         "itself: expected Load steps / Adaptive = false");
+      if (scene.model != ModelKind::finite_elements)
+        throw InputError("Load steps / Path following = slip is for Model = "
+                         "finite elements");
+    }
+
+
+
+    void
     check_friction(const FrictionParameters     &friction,
                    const LoadSteppingParameters &load_steps)
     {
@@ -354,14 +369,15 @@ namespace Debond
       // a step has friction or has none
       if (friction.starts_at <= load_steps.times.front())
         return;
-      if (load_steps.adaptive)
+      if (load_steps.adaptive || load_steps.follow_path)
         {
           if (std::find(load_steps.times.begin(),
                         load_steps.times.end(),
                         friction.starts_at) == load_steps.times.end())
             throw InputError("Interface / Friction starts at = " +
                              to_text(friction.starts_at) +
-                             " is inside a phase: with adaptive steps one of "
+                             " is inside a phase: with adaptive steps or Path "
+                             "following one of "
                              "Load steps / Times is expected");
           return;
         }
@@ -446,6 +462,7 @@ namespace Debond
     check_times(load_steps);
     check_friction(interface.friction, load_steps);
     check_chuck(*this);
+    check_path_following(*this);
     check_output(output);
     check_bonding_file(interface.bonding.file, output.directory);
   }

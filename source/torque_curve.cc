@@ -64,6 +64,8 @@ namespace Debond
       result.insert(result.end(),
                     {{"viscous_work_Nmm", row.viscous_work_Nmm},
                      {"warnings", row.warnings}});
+      result.emplace_back("machine_angle_deg", row.machine_angle_deg);
+      result.emplace_back("released_energy_Nmm", row.released_energy_Nmm);
       return result;
     }
 

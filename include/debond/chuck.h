@@ -80,11 +80,29 @@ namespace Debond
     Vector6
     values(double time) const;
 
+    /** Their rates of change with time, by differences. */
+    Vector6
+    rates(double time) const;
+    /** Whether a component is where the scene wants it, at any load. */
+    bool
+    is_prescribed(const unsigned int k) const
+    {
+      return !parameters.component[k].loaded &&
+             parameters.component[k].stiffness == 0.;
+    }
+
     const Vector6 &
     position() const
     {
       return q;
     }
+    /** Position of the machine: the scene's values where the machine is
+     *  compliant, else that of the chuck. */
+    Vector6
+    machine_position() const;
+    /** Energy stored in a compliant machine [N mm]. */
+    double
+    machine_energy() const;
     void
     correct(unsigned int component, double dq);
     void
@@ -144,6 +162,13 @@ namespace Debond
      *  prescribed value. Only for unknown components. */
     double
     machine_load(unsigned int k) const;
+    /** d machine_load / d value of the scene. */
+    double
+    machine_load_per_value(const unsigned int k) const
+    {
+      return parameters.component[k].loaded ? 1. :
+                                              parameters.component[k].stiffness;
+    }
     /** d machine_load / dq_k. */
     double
     machine_stiffness(unsigned int k) const;

@@ -67,8 +67,16 @@ namespace Debond
     pressure(const Load &load) const;
     void
     make_model();
+    /** Of the disk [rad]. */
+    double
+    angle_of_disk(const Load &load) const;
+    /** By jumps, up to this load [N mm]. */
+    double
+    released_energy(const Load &load) const;
     TorqueRow
     row(unsigned int step);
+    void
+    warn_of_jumps(Console &console) const;
     void
     write_summary(const ResultDirectory &directory,
                   const ProfileOutput   &profiles,
@@ -81,7 +89,8 @@ namespace Debond
     FoundationStiffness           bulk;
     double                        normal_stiffness = 0, lambda = 0; // [MPa/mm]
     std::unique_ptr<TorsionModel> model;
-    std::vector<TorqueRow>        torque_rows;
+    std::unique_ptr<CompliantMachineTorsion> machine; ///< if it is compliant
+    std::vector<TorqueRow>                   torque_rows;
   };
 } // namespace Debond
 #endif

@@ -178,6 +178,90 @@ namespace Debond
 
 
   /**
+   * Two rigid bodies turned by a compliant machine: a torsion spring k stands
+   * between the machine and the disk, so that the machine's angle is
+   *
+   *   theta_m(theta) = theta + T(theta) / k.
+   *
+   * States of equilibrium are a curve with the disk's angle theta as parameter.
+   * Where T falls steeper than -k the machine's angle falls along the curve, it
+   * snaps back: a machine that turns on and on leaves the curve at the maximum
+   * of theta_m and jumps, at that angle, to the next theta that belongs to it.
+   * Stored energy is then released without equilibrium,
+   *
+   *   k/2 [(theta_m - theta_1)^2 - (theta_m - theta_2)^2]
+   *     - int_theta_1^theta_2 T dtheta.
+   *
+   * Angles are in radians and not negative.
+   */
+  class CompliantMachineTorsion
+  {
+  public:
+    /** @p bodies must outlive this object. @p stiffness k > 0 of the machine
+     *  [N mm/rad]; the curve is searched up to the angle @p largest_angle of
+     *  the disk [rad] at a few thousand points. */
+    CompliantMachineTorsion(const RigidBodiesTorsion &bodies,
+                            double                    stiffness,
+                            double                    largest_angle);
+
+    /** theta_m at the angle @p theta of the disk [rad]. */
+    double
+    machine_angle(const double theta) const
+    {
+      return theta + bodies.torque(theta) / stiffness;
+    }
+
+    /** A maximum or a minimum of theta_m along the curve. */
+    struct LimitPoint
+    {
+      double angle         = 0; ///< theta [rad]
+      double machine_angle = 0; ///< theta_m [rad]
+      double torque        = 0; ///< [N mm]
+      bool   is_maximum    = false;
+    };
+    /** In the order of theta. */
+    const std::vector<LimitPoint> &
+    limit_points() const
+    {
+      return limits;
+    }
+
+    /** What a machine that turns on and on cannot follow. */
+    struct Jump
+    {
+      double machine_angle = 0;                   ///< [rad]
+      double angle_before = 0, angle_after = 0;   ///< theta [rad]
+      double torque_before = 0, torque_after = 0; ///< [N mm]
+      double released_energy = 0;                 ///< [N mm]
+    };
+    const std::vector<Jump> &
+    jumps() const
+    {
+      return all_jumps;
+    }
+
+    /** theta [rad] when a machine that turns on and on has come to @p
+     *  machine_angle <= `largest_angle` [rad]; at a jump the angle before. */
+    double
+    angle(double machine_angle) const;
+
+  private:
+    void
+    find_limit_points();
+    void
+    find_jumps();
+    double
+    angle_between(double begin, double end, double machine_angle) const;
+
+    const RigidBodiesTorsion &bodies;
+    const double              stiffness, largest_angle;
+    std::vector<LimitPoint>   limits;
+    std::vector<Jump>         all_jumps;
+  };
+
+
+
+  /**
    * The analytical model of the paper with the modified Coulomb law, Eqs. (17),
    * (18), (37), (49): c(theta) = R theta_lin / theta; inside, the traction is
    * t_max r / c with t_max = mu(0) p; outside it is mu(g_s) p with g_s = 0

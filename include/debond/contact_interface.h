@@ -211,6 +211,17 @@ namespace Debond
       return parameters;
     }
 
+    /** Area mean of the sliding distance g_s over the contact face in the last
+     *  evaluate() [mm], and its derivatives with respect to the positions of
+     *  the control points of both surfaces, in space. */
+    struct MeanSlip
+    {
+      double    value = 0;
+      NodalSums gradient;
+    };
+    MeanSlip
+    mean_slip(const InterfaceConfiguration &configuration) const;
+
     /** Sums over all points of the last evaluate(). */
     struct Summary
     {
@@ -262,6 +273,23 @@ namespace Debond
       return accepted_viscous_work;
     }
 
+    /** Work of friction up to the accepted state with the integral of the law
+     *  over the sliding distance instead of a trapezoid [N mm]: a step that
+     *  jumps spends no more than that. */
+    double
+    friction_work() const
+    {
+      return accepted_friction_work;
+    }
+    /** How far friction_work() and the stored energy may be wrong because the
+     *  pressure changes while a point slides, and because points that open
+     *  slide before they do; a bound of the sum over all steps [N mm]. */
+    double
+    friction_work_bound() const
+    {
+      return accepted_friction_work_bound;
+    }
+
     /** Where the last evaluate() failed, for messages; empty if it did not. */
     std::string
     describe_failure() const;
@@ -283,6 +311,8 @@ namespace Debond
     add_steepest_softening(const Point &point, Summary &summary) const;
     void
     add_forces(const Point &point, NodalSums &sums) const;
+    void
+    add_friction_work(const Point &point);
     void
     add_change(const Point     &point,
                const NodalSums &moved,
@@ -308,9 +338,10 @@ namespace Debond
     std::unique_ptr<const BondingPattern> pattern;
     NodalSums                             forces, accepted_positions;
     double accepted_dissipation = 0, accepted_adhesive_work = 0,
-           accepted_viscous_work  = 0;
-    unsigned int     unprojected  = 0;
-    int              failed_point = -1;
+           accepted_viscous_work        = 0;
+    double       accepted_friction_work = 0, accepted_friction_work_bound = 0;
+    unsigned int unprojected  = 0;
+    int          failed_point = -1;
     ContactPointMode mode_now; ///< of the last evaluate()
   };
 } // namespace Debond

@@ -34,6 +34,11 @@ namespace Debond
    *
    *   S v_c + Q^T f_contact(v_c, q) = 0,   sum_A f_A . dx_A/dq_k - load_k = 0.
    *
+   * Where the scene follows a path of equilibrium, all six chuck components and
+   * the time are unknowns too, with the equations q_k = value_k(time) for
+   * prescribed components and, for the time, that it or the mean sliding
+   * distance has a given value.
+   *
    * Everything here is a trial state until commit().
    */
   class CoupledSystem : private SplitMatrix
@@ -68,13 +73,26 @@ namespace Debond
 
     /** Starts a step to @p time from the accepted state. */
     void
-    predict(double time, bool extrapolate);
+    predict(double time, bool extrapolate)
+    {
+      predict(time, time, extrapolate);
+    }
     /** Puts the implant's contact unknowns back to where they are in space in
      *  the accepted state, after predict(). */
     void
     leave_surface_behind();
+    /** The same as predict() with another parameter than the time for the line
+     *  through the last two accepted states: what was given to commit() with
+     *  them. */
     void
-    commit(double time);
+    predict(double time, double parameter, bool extrapolate);
+    /** To be called after predict() with a guess of the time: the step grows
+     *  the mean sliding distance by @p slip [mm], and the time is found. Only
+     *  where the scene follows the path. */
+    void
+    prescribe_slip(double slip);
+    void
+    commit(double parameter);
     void
     rollback();
 
@@ -116,6 +134,12 @@ namespace Debond
      *  is to follow. Fractions of several calls multiply. */
     void
     shorten_correction(double fraction);
+    /** Time of the trial state. */
+    double
+    time() const
+    {
+      return trial_time;
+    }
     /** True if a loaded chuck component has nothing to act against because no
      *  point is in contact. */
     bool
@@ -176,12 +200,34 @@ namespace Debond
     add_geometric_part(const Eigen::VectorXd &x, Eigen::VectorXd &y) const;
     double
     scale_of(unsigned int chuck_component) const;
+    double
+    evaluate_path(double reference);
+    void
+    apply_path(const Eigen::VectorXd &x, Eigen::VectorXd &y) const;
+    void
+    assemble_path(Eigen::MatrixXd &matrix) const;
 
     dealii::TimerOutput &timer;
     unsigned int         unknowns    = 0;
     double               force_floor = 0; ///< [N]
     Eigen::VectorXd      residual, last_correction;
     DenseSolver          solver;
+    double               trial_time = 0;
+
+    /** Following a path of equilibrium. */
+    struct Path
+    {
+      bool         follow = false;
+      unsigned int number = 0; ///< of the time among the unknowns
+      /** Growth of the mean slip in this step [mm]; 0: the time is given. */
+      double slip     = 0;
+      double old_slip = 0; ///< mean slip of the accepted state [mm]
+      /** d equation / d unknowns, of the last evaluate(). */
+      Eigen::RowVectorXd gradient;
+      Chuck::Vector6     rates;         ///< of the scene's values, by time
+      double             stiffness = 0; ///< of the equations q_k [N/mm]
+    };
+    Path path;
   };
 } // namespace Debond
 #endif

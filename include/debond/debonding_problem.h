@@ -43,12 +43,19 @@ namespace Debond
     solve_planned_step(unsigned int step);
     void
     solve_phase_adaptively(unsigned int phase);
+    void
+    solve_phase_along_path(unsigned int phase);
     bool
     try_middle(bool extrapolate, unsigned int &iterations);
     /** Tries a step, with an extrapolated start if wanted and again without if
      *  that fails. */
     bool
     try_step(double time, bool extrapolate, unsigned int &iterations);
+    std::string
+    reason_to_end() const;
+    /** Else a row is a planned step. */
+    bool
+    rows_are_accepted_steps() const;
     [[noreturn]] void
     give_up(unsigned int step, double time) const;
     /** Tries one sub-step; returns the Newton iterations spent, and whether it
@@ -57,6 +64,8 @@ namespace Debond
     try_sub_step(double time, bool extrapolate, bool &accepted);
     void
     accept(double time);
+    void
+    start_trial(double time, bool extrapolate);
     void
     check_accepted_state();
     void
@@ -68,6 +77,8 @@ namespace Debond
      *  that has just been solved. */
     bool
     is_unique();
+    void
+    check_for_jump();
     void
     write_bonding();
     void

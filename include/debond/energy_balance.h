@@ -51,5 +51,51 @@ namespace Debond
     double stored = 0, dissipated = 0, first_stored = 0, first_dissipated = 0;
     double last_dissipated = 0;
   };
+
+
+
+  /**
+   * Finds steps that jump to another branch of equilibrium. What the machine
+   * puts in is stored by its spring, the bodies and the interface, or spent by
+   * friction along its law; a step that follows a path of equilibrium leaves
+   * nothing else. A step that leaves more than the errors of these sums can
+   * explain has released it without equilibrium: in nature it would become
+   * motion and heat.
+   */
+  class ReleasedEnergy
+  {
+  public:
+    struct State
+    {
+      Chuck::Vector6 forces;     ///< of the chuck, internal units
+      Chuck::Vector6 position;   ///< of the machine, internal units
+      double         stored = 0; ///< machine, bodies, interface [N mm]
+      double         spent  = 0; ///< work of friction [N mm]
+      double         bound  = 0; ///< sum of the errors of the two above [N mm]
+    };
+    /** Notes an accepted state. Returns what the step to it has released [N
+     *  mm]; 0 if it followed equilibrium. */
+    double
+    add(const State &state);
+
+    /** Sum over all steps [N mm]. */
+    double
+    total() const
+    {
+      return released;
+    }
+    /** Number of steps that jumped. */
+    unsigned int
+    n_jumps() const
+    {
+      return jumps;
+    }
+
+  private:
+    bool         started = false;
+    State        last;
+    double       largest_work = 0, work = 0, released = 0;
+    unsigned int jumps = 0;
+  };
 } // namespace Debond
 #endif

@@ -62,6 +62,14 @@ namespace Debond
                     double                    from,
                     double                    to);
 
+  /** Integral of mu over the sliding distance from @p from to @p to [mm]: what
+   *  friction spends, per pressure. */
+  double
+  friction_strength(const FrictionParameters &parameters,
+                    double                    phi_0,
+                    double                    from,
+                    double                    to);
+
   /** Eqs. (11) and (13) at the accumulated sliding distance @p slip [mm]. For
    *  `coulomb` mu = mu_b, for `frictionless` 0; phi is reported all the same.
    */

@@ -30,6 +30,12 @@ namespace Debond
     bool                      adaptive               = false;
     double                    tolerance = 1e-3; ///< of the curves, if adaptive
     Predictor                 predictor = Predictor::extrapolate;
+    /** Follow the path of equilibrium by the mean sliding distance. */
+    bool follow_path = false;
+    /** Largest step of the mean sliding distance [mm]; 0: from the law. */
+    double largest_slip_step = 0;
+    /** Mean sliding distance at which the path ends [mm]; 0: the radius. */
+    double path_ends_at_slip = 0;
 
     static void
     declare(dealii::ParameterHandler &prm);

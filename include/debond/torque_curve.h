@@ -44,6 +44,11 @@ namespace Debond
     double                viscous_work_Nmm = 0; ///< part of dissipation_Nmm
     /** Number of checks of accepted states that this row did not pass. */
     unsigned int warnings = 0;
+    /** Of the machine about z: what the scene prescribes if the machine is
+     *  compliant, else that of the chuck. */
+    double machine_angle_deg = 0;
+    /** Energy that jumps have released so far, see ReleasedEnergy. */
+    double released_energy_Nmm = 0;
   };
 
 

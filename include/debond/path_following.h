@@ -1,0 +1,77 @@
+#ifndef debond_path_following_h
+#define debond_path_following_h
+
+#include <debond/scene.h>
+
+namespace Debond
+{
+  /**
+   * The steps along a path of equilibrium that may snap back. Where points
+   * slide, a step prescribes the mean sliding distance, which only grows, and
+   * the time is found; where next to nothing slides, it prescribes the time.
+   * Steps prescribe the time if the sliding distance would take it further than
+   * a planned step.
+   */
+  class PathFollowing
+  {
+  public:
+    explicit PathFollowing(const Scene &scene);
+
+    /** Goes to the beginning of a phase. */
+    void
+    begin_phase(unsigned int phase, double mean_slip);
+    bool
+    phase_is_finished() const
+    {
+      return time == end;
+    }
+
+    /** Whether the mean sliding distance has reached the end of the path. */
+    bool
+    has_ended() const
+    {
+      return mean_slip >= end_slip;
+    }
+    double
+    end_of_path() const
+    {
+      return end_slip;
+    } ///< [mm]
+
+    /** The step that is to be tried next. */
+    struct Step
+    {
+      bool   by_slip     = false;
+      bool   extrapolate = false;
+      double time        = 0; ///< wanted, or a guess if by_slip
+      double slip        = 0; ///< growth of the mean slip, if by_slip [mm]
+      /** Size relative to the step before: for the extrapolated start. */
+      double ratio = 0;
+    };
+    Step
+    next() const;
+
+    /** Judges a step that was solved: false if it went too far, and a smaller
+     *  one has to be tried. */
+    bool
+    accept(const Step  &step,
+           double       new_time,
+           double       new_mean_slip,
+           unsigned int iterations);
+    /** Makes the step smaller because it could not be solved; false if it
+     *  cannot be smaller. */
+    bool
+    reject(const Step &step);
+
+  private:
+    const LoadSteppingParameters parameters;
+    const double                 largest_slip, end_slip; ///< [mm]
+    double                       time = 0, end = 0, planned = 0, mean_slip = 0;
+    double slip_size = 0, time_size = 0; ///< of the next step
+    double last_time_step = 0, last_slip_step = 0;
+    bool   has_last = false;
+    /** The last slip step would have left the phase. */
+    bool goes_to_end = false;
+  };
+} // namespace Debond
+#endif

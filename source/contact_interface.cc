@@ -241,7 +241,9 @@ namespace Debond
     point.accepted.xi          = projection.xi;
     point.accepted.has_partner = projection.faces;
     point.clearance            = projection.clearance;
-    unprojected += !projection.converged;
+    // close to the singular corner of a disk, where there is no clearance, the
+    // search may end early: no partner is to be found there anyway
+    unprojected += !projection.converged && projection.clearance > 0.;
   }
 
 

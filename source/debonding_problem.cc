@@ -477,9 +477,12 @@ namespace Debond
     if (summary.steepest_softening < 1.)
       return true;
     if (state->last_failure.empty() && scene.interface.viscosity == 0.)
-      throw RunError("Step " + std::to_string(state->step) + ", after time " +
-                     std::to_string(state->time) + ": " +
-                     describe_jump(summary));
+      {
+        std::ostringstream message;
+        message << "Step " << state->step << ", after time " << state->time
+                << ": " << describe_jump(summary);
+        throw RunError(message.str());
+      }
     state->last_failure +=
       (state->last_failure.empty() ? "" : "; ") + describe_jump(summary);
     return false;

@@ -143,7 +143,7 @@ namespace Debond
   {
     NewtonResult  result;
     CycleDetector cycle_detector;
-    // of the iteration from which on corrections are shortened; 0: none
+    // iteration from which on corrections are shortened; 0: none
     std::size_t cautious_from = 0;
     double      last_norm     = 0.;
     for (unsigned int iteration = 0; true; ++iteration)

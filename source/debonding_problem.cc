@@ -367,6 +367,10 @@ namespace Debond
     // nothing slides.
     if (!accepted && predict && !state->path_step.by_slip)
       iterations += try_sub_step(time, false, accepted);
+    // the machine may have to jump
+    if (!accepted && !state->path_step.by_slip &&
+        !state->system->chuck.unknowns().empty())
+      iterations += try_sub_step(time, false, accepted, false);
     return accepted;
   }
 
@@ -414,7 +418,8 @@ namespace Debond
   unsigned int
   DebondingProblem::try_sub_step(const double time,
                                  const bool   extrapolate,
-                                 bool        &accepted)
+                                 bool        &accepted,
+                                 const bool   shorten_in_cycles)
   {
     CoupledSystem  &system    = *state->system;
     const Predictor predictor = scene.load_steps.predictor;
@@ -422,8 +427,9 @@ namespace Debond
     options.residual_tolerance = scene.load_steps.residual_tolerance;
     options.stick_first        = predictor == Predictor::stick_first ||
                           (predictor == Predictor::extrapolate && !extrapolate);
-    options.duration        = time - state->time;
-    options.touch_tolerance = 1e-12 * system.R;
+    options.duration          = time - state->time;
+    options.shorten_in_cycles = shorten_in_cycles;
+    options.touch_tolerance   = 1e-12 * system.R;
     // a planned time, up to rounding
     options.frictionless =
       state->time <
@@ -548,9 +554,11 @@ namespace Debond
     now.stored   = system.chuck.machine_energy() + system.bone.energy() +
                  system.implant.energy() + state->interface_summary.energy;
     now.spent = interface.friction_work() + interface.viscous_work();
-    now.bound = interface.friction_work_bound();
+    // viscous traction changes from step to step by as much as it likes
+    now.bound = interface.friction_work_bound() + interface.viscous_work();
     const double released = state->released.add(now);
-    if (released > 0.)
+    // the explicit law does not spend what the implicit one says
+    if (released > 0. && !scene.interface.explicit_friction)
       {
         std::ostringstream text;
         text << "step " << state->step << ": in one step the torque went from "

@@ -179,6 +179,7 @@ namespace Debond
             return result;
           }
         if (!mode.stick_first && cautious_from == 0 &&
+            options.shorten_in_cycles &&
             cycle_detector.sees_cycle(system.interface.statuses(), error))
           cautious_from = iteration;
         result.why = correct(system, options, mode, residual, result.history);

@@ -61,7 +61,10 @@ namespace Debond
     /** Tries one sub-step; returns the Newton iterations spent, and whether it
      *  was accepted in @p accepted. */
     unsigned int
-    try_sub_step(double time, bool extrapolate, bool &accepted);
+    try_sub_step(double time,
+                 bool   extrapolate,
+                 bool  &accepted,
+                 bool   shorten_in_cycles = true);
     void
     accept(double time);
     void

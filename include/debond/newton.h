@@ -20,6 +20,10 @@ namespace Debond
      *  and as open otherwise. */
     double touch_tolerance = 0;
     bool   frictionless    = false;
+    /** Shorten corrections once the states of the points go round in a cycle.
+     *  Where the load cannot be followed, only full corrections find the state
+     *  that it jumps to. */
+    bool shorten_in_cycles = true;
     /** Of the step [unit of time], for the viscosity. */
     double duration = 0;
   };

@@ -206,7 +206,7 @@ namespace Debond
       const bool is_round = implant.is_round();
       for (unsigned int d = 0; d < 2; ++d)
         {
-          const double width = is_round ? 2 * implant.radius : implant.size[d];
+          const double width = implant.width(d);
           if (width > bone.size[d])
             throw InputError(
               std::string("Implant / ") + (is_round ? "Radius" : "Size") +
@@ -351,6 +351,12 @@ namespace Debond
       if (scene.model != ModelKind::finite_elements)
         throw InputError("Load steps / Path following = slip is for Model = "
                          "finite elements");
+      if (scene.interface.viscosity > 0.)
+        throw InputError(
+          "Load steps / Path following = slip and Interface / Viscosity = " +
+          to_text(scene.interface.viscosity) +
+          ": along a path of equilibrium the time may fall and is no clock for "
+          "a viscosity: expected only one of them");
     }
 
 

@@ -31,8 +31,9 @@ namespace Debond
                       "the Tolerance, relative to the largest value of each "
                       "(where the machine holds still to a tenth of the "
                       "largest of all, if that is more); each accepted step "
-                      "is a row. A step "
-                      "that does not converge is halved in any case.");
+                      "is a row. The error in time of Interface / Viscosity is "
+                      "not covered. A step that does not converge is halved in "
+                      "any case.");
     prm.declare_entry("Tolerance",
                       "1e-3",
                       Allowed::number_between(1e-7, 1, ""),

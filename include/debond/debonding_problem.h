@@ -38,26 +38,33 @@ namespace Debond
     void
     set_up();
     void
+    write_bonding();
+
+    /** @name Steps */
+    //@{
+    void
     solve_first_row();
-    void
-    solve_planned_step(unsigned int step);
-    void
-    solve_phase_adaptively(unsigned int phase);
-    void
-    solve_phase_along_path(unsigned int phase);
     bool
-    try_middle(bool extrapolate, unsigned int &iterations);
+    is_finished() const;
+    void
+    solve_next_row();
+    void
+    solve_planned_step();
+    void
+    solve_adaptive_step();
+    void
+    solve_step_along_path();
+    /** Whether the next row is the first one of its phase. */
+    bool
+    begin_phase_if_due();
+    void
+    end_phase_if(bool is_finished);
+    bool
+    try_middle(unsigned int &iterations);
     /** Tries a step, with an extrapolated start if wanted and again without if
      *  that fails. */
     bool
     try_step(double time, bool extrapolate, unsigned int &iterations);
-    std::string
-    reason_to_end() const;
-    /** Else a row is a planned step. */
-    bool
-    rows_are_accepted_steps() const;
-    [[noreturn]] void
-    give_up(unsigned int step, double time) const;
     /** Tries one sub-step; returns the Newton iterations spent, and whether it
      *  was accepted in @p accepted. */
     unsigned int
@@ -66,30 +73,33 @@ namespace Debond
                  bool  &accepted,
                  bool   shorten_in_cycles = true);
     void
-    accept(double time);
-    void
     start_trial(double time, bool extrapolate);
-    void
-    check_accepted_state();
-    void
-    check_energy_balance(const std::string &where);
-    /** Says so once, and in the row that is written next. */
-    void
-    note_violation(const std::string &check, const std::string &text);
     /** Whether the law had only one solution at every point in the sub-step
      *  that has just been solved. */
     bool
     is_unique();
     void
-    check_for_jump();
+    accept(double time);
+    [[noreturn]] void
+    give_up(unsigned int step, double time) const;
+    std::string
+    reason_to_end() const;
+    /** Else a row is a planned step. */
+    bool
+    rows_are_accepted_steps() const;
+    //@}
+
+    /** @name Results */
+    //@{
+    /** Writes the accepted state, with the iterations that it took since the
+     *  last row. */
     void
-    write_bonding();
-    void
-    write_row(unsigned int step, unsigned int iterations);
-    void
-    write_fields(unsigned int step);
+    write_row(unsigned int iterations);
+    bool
+    fields_are_due() const;
     void
     finish(bool converged, const std::string &reason);
+    //@}
 
     const Scene          scene;
     std::unique_ptr<Run> state;

@@ -28,20 +28,50 @@ namespace Debond
   void
   DebondingProblem::run()
   {
-    set_up();
+    run(nullptr);
+  }
+
+
+
+  void
+  DebondingProblem::resume(const Checkpoint &checkpoint)
+  {
+    run(&checkpoint);
+  }
+
+
+
+  void
+  DebondingProblem::run(const Checkpoint *const checkpoint)
+  {
+    set_up(checkpoint);
     state->seconds_before_steps = state->wall_clock.wall_time();
     try
       {
-        solve_first_row();
-        while (!is_finished())
-          solve_next_row();
+        solve_rows();
       }
     catch (const std::exception &error)
       {
-        finish(false, error.what());
+        finish_after(error);
         throw;
       }
     finish(true, reason_to_end());
+  }
+
+
+
+  void
+  DebondingProblem::solve_rows()
+  {
+    if (state->rows.empty())
+      solve_first_row();
+    while (!is_finished())
+      {
+        stop_if_interrupted();
+        solve_next_row();
+        if (checkpoint_is_due() && !is_finished())
+          save_checkpoint();
+      }
   }
 
 
@@ -84,15 +114,9 @@ namespace Debond
 
 
   void
-  DebondingProblem::set_up()
+  DebondingProblem::set_up(const Checkpoint *const checkpoint)
   {
-    state->directory =
-      std::make_unique<ResultDirectory>(scene.output,
-                                        scene.completed_parameters);
-    state->reference = read_reference_curve(scene.output.reference_curve);
-    state->torque_writer =
-      std::make_unique<TorqueCurveWriter>(*state->directory);
-    state->profiles = std::make_unique<ProfileOutput>(scene, *state->directory);
+    open_directory(checkpoint != nullptr);
     {
       const dealii::TimerOutput::Scope t(state->timer, "set-up");
       state->system = std::make_unique<CoupledSystem>(scene,
@@ -105,6 +129,35 @@ namespace Debond
     if (scene.load_steps.follow_path)
       state->path = std::make_unique<PathFollowing>(scene);
     state->system->start(state->stepping.time(0));
+    if (!scene.title.empty())
+      state->console.headline(scene.title);
+    state->console.headline(unknowns_of(*state->system));
+    write_bonding();
+    open_results(checkpoint);
+  }
+
+
+
+  void
+  DebondingProblem::open_directory(const bool resumes)
+  {
+    state->parameters = scene.completed_parameters;
+    state->directory =
+      resumes ? std::make_unique<ResultDirectory>(scene.output.directory) :
+                std::make_unique<ResultDirectory>(scene.output,
+                                                  scene.completed_parameters);
+    state->checkpoints = std::make_unique<CheckpointFiles>(*state->directory);
+    state->reference   = read_reference_curve(scene.output.reference_curve);
+    state->profiles = std::make_unique<ProfileOutput>(scene, *state->directory);
+  }
+
+
+
+  // A run that begins anew leaves nothing of an earlier one that would be taken
+  // for its own.
+  void
+  DebondingProblem::open_results(const Checkpoint *const checkpoint)
+  {
     if (scene.output.fields_every > 0)
       state->field_output =
         std::make_unique<FieldOutput>(*state->directory,
@@ -112,10 +165,20 @@ namespace Debond
                                       state->system->implant,
                                       state->system->interface,
                                       state->system->chuck);
-    if (!scene.title.empty())
-      state->console.headline(scene.title);
-    state->console.headline(unknowns_of(*state->system));
-    write_bonding();
+    if (checkpoint != nullptr)
+      {
+        restore(*checkpoint);
+        if (state->field_output)
+          state->console.warn("fields",
+                              state->field_output->forget_later_files());
+      }
+    else
+      {
+        state->checkpoints->remove();
+        remove_file(state->directory->file("summary.json"));
+      }
+    state->torque_writer =
+      std::make_unique<TorqueCurveWriter>(*state->directory, state->rows);
   }
 
 

@@ -90,11 +90,41 @@ namespace Debond
 
 
 
+  std::map<std::string, double>
+  DebondingProblem::Run::seconds() const
+  {
+    std::map<std::string, double> sums = earlier_seconds;
+    for (const auto &[section, seconds] :
+         timer.get_summary_data(dealii::TimerOutput::total_wall_time))
+      sums[section] += seconds;
+    const double all = wall_clock.wall_time();
+    sums["all"] += all;
+    sums["before steps"] += seconds_before_steps;
+    sums["stepping"] += all - seconds_before_steps;
+    return sums;
+  }
+
+
+
+  // What the error says must not be lost, whatever becomes of the summary.
+  void
+  DebondingProblem::finish_after(const std::exception &error)
+  {
+    try
+      {
+        finish(false, error.what());
+      }
+    catch (const WriteError &another)
+      {
+        state->console.warn("summary", another.what());
+      }
+  }
+
+
+
   void
   DebondingProblem::finish(const bool converged, const std::string &reason)
   {
-    const double seconds_stepping =
-      state->wall_clock.wall_time() - state->seconds_before_steps;
     if (converged &&
         std::all_of(state->rows.begin(),
                     state->rows.end(),
@@ -134,15 +164,16 @@ namespace Debond
     summary.converged          = converged;
     summary.reason             = reason;
     summary.warnings           = state->console.warnings();
-    for (const auto &[section, seconds] :
+    const auto seconds         = state->seconds();
+    for (const auto &section :
          state->timer.get_summary_data(dealii::TimerOutput::total_wall_time))
-      summary.seconds.emplace_back(section, seconds);
-    summary.seconds.emplace_back("before steps", state->seconds_before_steps);
-    summary.seconds.emplace_back("stepping", seconds_stepping);
+      summary.seconds.emplace_back(section.first, seconds.at(section.first));
+    for (const std::string section : {"before steps", "stepping"})
+      summary.seconds.emplace_back(section, seconds.at(section));
     if (state->given_bodies)
       summary.seconds.emplace_back("shared set-up",
                                    state->given_bodies->seconds_shared);
-    summary.wall_seconds     = state->wall_clock.wall_time();
+    summary.wall_seconds     = seconds.at("all");
     summary.profile_measures = state->profiles->measures();
     summary.peak_memory_MB   = peak_memory_MB();
 
@@ -154,6 +185,7 @@ namespace Debond
     write_file(state->directory->file("summary.json"), json.text());
     if (converged)
       {
+        state->checkpoints->remove(); // there is nothing to go on with
         std::ostringstream text;
         if (std::isfinite(summary.measures.theta_max_deg))
           text << "Largest torque " << summary.measures.T_max_Nmm << " N mm at "

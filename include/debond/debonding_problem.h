@@ -3,12 +3,15 @@
 
 #include <debond/problem.h>
 
+#include <exception>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace Debond
 {
+  struct Checkpoint;
+
   /**
    * The model `finite elements`: from a scene to torque curve, summary and
    * fields. run() reads like a table of contents.
@@ -24,6 +27,12 @@ namespace Debond
     void
     run() override;
 
+    /** The same from a checkpoint of a run of this scene: rows and files from
+     *  there on are those of a run that was never interrupted, to the last bit.
+     *  Throws InputError if the checkpoint is not from this program. */
+    void
+    resume(const Checkpoint &checkpoint);
+
     /** Builds the meshes, prints degrees of freedom and what closed forms
      *  foretell, and runs nothing. */
     void
@@ -35,10 +44,19 @@ namespace Debond
   private:
     struct Run;
 
+    /** From the beginning, or from a checkpoint. */
     void
-    set_up();
+    run(const Checkpoint *checkpoint);
+    void
+    set_up(const Checkpoint *checkpoint);
     void
     write_bonding();
+    void
+    open_directory(bool resumes);
+    void
+    open_results(const Checkpoint *checkpoint);
+    void
+    solve_rows();
 
     /** @name Steps */
     //@{
@@ -99,6 +117,21 @@ namespace Debond
     fields_are_due() const;
     void
     finish(bool converged, const std::string &reason);
+    void
+    finish_after(const std::exception &error);
+    //@}
+
+    /** @name Checkpoints */
+    //@{
+    void
+    save_checkpoint();
+    void
+    restore(const Checkpoint &checkpoint);
+    /** Throws Interrupted, after a checkpoint, if a signal asks for it. */
+    void
+    stop_if_interrupted();
+    bool
+    checkpoint_is_due() const;
     //@}
 
     const Scene          scene;

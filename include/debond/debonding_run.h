@@ -2,6 +2,7 @@
 #define debond_debonding_run_h
 
 #include <debond/adaptive_stepping.h>
+#include <debond/checkpoint.h>
 #include <debond/console.h>
 #include <debond/coupled_system.h>
 #include <debond/debonding_problem.h>
@@ -13,6 +14,7 @@
 #include <deal.II/base/timer.h>
 
 #include <iostream>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -39,6 +41,8 @@ namespace Debond
     std::unique_ptr<AdaptiveStepping>  adaptive_stepping; ///< if wanted
     std::unique_ptr<PathFollowing>     path;              ///< if wanted
     std::unique_ptr<ResultDirectory>   directory;
+    std::unique_ptr<CheckpointFiles>   checkpoints;
+    std::string                        parameters;   ///< as in the directory
     std::shared_ptr<BodyPair>          given_bodies; ///< if there are any
     std::unique_ptr<CoupledSystem>     system;
     std::unique_ptr<TorqueCurveWriter> torque_writer;
@@ -68,6 +72,34 @@ namespace Debond
     //@}
 
     double seconds_before_steps = 0;
+    /** What was spent before a checkpoint. */
+    std::map<std::string, double> earlier_seconds;
+
+    /** Seconds spent by the names of the parts, with those before a checkpoint.
+     *  "all" is the whole run. */
+    std::map<std::string, double>
+    seconds() const;
+
+    /** See serialization.h. To be called when everything is set up as at the
+     *  beginning of the run. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &*system &stepping &checks &console &*profiles;
+      if (adaptive_stepping)
+        archive &*adaptive_stepping;
+      if (path)
+        archive &*path;
+      if (field_output)
+        archive &*field_output;
+      archive &rows &time &step &phase &phase_is_begun &extrapolate;
+      archive &accepted_steps                          &newton_iterations;
+      std::map<std::string, double>                     so_far = seconds();
+      archive                                          &so_far;
+      if (Archive::is_loading::value)
+        earlier_seconds = so_far;
+    }
   };
 } // namespace Debond
 #endif

@@ -50,6 +50,15 @@ namespace Debond
     unsigned int
     take_violations();
 
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &energy_balance &released_energy &violated;
+      archive &last_reaction_defect            &last_torque;
+    }
+
   private:
     void
     note_violation(const std::string &check, const std::string &text);

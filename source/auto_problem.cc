@@ -5,6 +5,7 @@
 #include <debond/earlier_results.h>
 #include <debond/foundation_error.h>
 #include <debond/input_error.h>
+#include <debond/interruption.h>
 
 #include <algorithm>
 #include <cmath>
@@ -247,6 +248,14 @@ namespace Debond
         rung.done = true;
       }
     catch (const InputError &)
+      {
+        throw;
+      }
+    catch (const WriteError &)
+      {
+        throw;
+      }
+    catch (const Interrupted &)
       {
         throw;
       }

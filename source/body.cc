@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <utility>
 
 namespace Debond
 {
@@ -112,9 +113,21 @@ namespace Debond
     Condensation attempt;
     if (!attempt.factorise(assemble_free_tangent(), contact_unknowns))
       return false;
-    condensation      = std::move(attempt);
-    condensed_at_rest = v.isZero(0.);
+    condensation          = std::move(attempt);
+    state_of_condensation = v;
     return true;
+  }
+
+
+
+  // Leaves the trial state as it is.
+  bool
+  Body::condense_at(const Eigen::VectorXd &state)
+  {
+    const Eigen::VectorXd trial = std::exchange(v, state);
+    const bool            done  = condense();
+    v                           = trial;
+    return done;
   }
 
 
@@ -124,10 +137,32 @@ namespace Debond
   {
     if (!deformable())
       return;
+    const bool condensed_at_rest =
+      state_of_condensation.size() > 0 && state_of_condensation.isZero(0.);
     if (condensed_at_rest && contact == is_contact && v.isZero(0.) &&
         accepted.value.isZero(0.))
       return;
     complete_surface(); // what was interior may become a contact unknown
+    number_contact_unknowns(contact);
+    // The stiffness of the undeformed body, or of the accepted state: the trial
+    // state may be anything. The reference is always there to fall back on, for
+    // a Neo-Hookean body this matrix being an operator and not the solution.
+    const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(v.size());
+    const bool            positive_definite =
+      condense_at(material() == Material::linear ? at_rest : accepted.value) ||
+      condense_at(at_rest);
+    AssertThrow(positive_definite,
+                dealii::ExcMessage(
+                  "The stiffness of a body is not positive definite."));
+    if (material() == Material::linear)
+      compute_reaction_operator();
+  }
+
+
+
+  void
+  Body::number_contact_unknowns(const std::vector<bool> &contact)
+  {
     is_contact           = contact;
     surface_is_condensed = false;
     contact_unknowns.clear();
@@ -144,21 +179,20 @@ namespace Debond
           else if (number >= 0 && material() == Material::linear)
             surface_is_condensed = true;
         }
-    // The stiffness of the undeformed body, or of the accepted state: the trial
-    // state may be anything. The reference is always there to fall back on, for
-    // a Neo-Hookean body this matrix being an operator and not the solution.
-    const Eigen::VectorXd trial = v;
-    v                           = accepted.value;
-    if (material() == Material::linear)
-      v.setZero();
-    bool positive_definite = condense();
-    if (!positive_definite)
-      {
-        v.setZero();
-        positive_definite = condense();
-      }
-    v = trial;
-    AssertThrow(positive_definite,
+  }
+
+
+
+  void
+  Body::restore(const std::vector<bool> &contact,
+                const Eigen::VectorXd   &condensed_at)
+  {
+    v = accepted.value;
+    if (!deformable() ||
+        (contact == is_contact && condensed_at == state_of_condensation))
+      return;
+    number_contact_unknowns(contact);
+    AssertThrow(condense_at(condensed_at),
                 dealii::ExcMessage(
                   "The stiffness of a body is not positive definite."));
     if (material() == Material::linear)

@@ -29,6 +29,8 @@ namespace Debond
                                                "bonding.csv",
                                                "profiles.csv",
                                                "friction_law.csv",
+                                               "checkpoint-1",
+                                               "checkpoint-2",
                                                "bulk.pvd",
                                                "interface.pvd"};
       static const std::regex            patterns(

@@ -10,6 +10,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 #include <tuple>
 
@@ -199,12 +200,26 @@ namespace Debond
                       const double       time,
                       const std::string &vtu) const
   {
-    const std::string name =
-      series.name + "-" +
-      dealii::Utilities::int_to_string(series.files.size(), 4) + ".vtu";
+    const std::string name = file_name(series, series.files.size());
     write_file(directory.file(name), vtu);
     series.files.emplace_back(time, name);
+    write_series(series);
+  }
 
+
+
+  std::string
+  FieldOutput::file_name(const Series &series, const unsigned int number) const
+  {
+    return series.name + "-" + dealii::Utilities::int_to_string(number, 4) +
+           ".vtu";
+  }
+
+
+
+  void
+  FieldOutput::write_series(const Series &series) const
+  {
     // deal.II's write_pvd_record() would add the date
     std::ostringstream record;
     record.precision(12);
@@ -217,6 +232,42 @@ namespace Debond
     record << "  </Collection>\n"
               "</VTKFile>\n";
     write_file(directory.file(series.name + ".pvd"), record.str());
+  }
+
+
+
+  std::string
+  FieldOutput::forget_later_files()
+  {
+    std::string missing;
+    for (const Series *series : {&bulk_series, &interface_series})
+      {
+        unsigned int    number = series->files.size();
+        std::error_code none;
+        while (
+          std::filesystem::remove(directory.file(file_name(*series, number)),
+                                  none))
+          ++number;
+        write_series(*series);
+        for (const auto &file : series->files)
+          if (!std::filesystem::exists(directory.file(file.second)))
+            missing += (missing.empty() ? "" : ", ") + file.second;
+      }
+    n_on_disk = bulk_series.files.size();
+    return missing.empty() ? "" :
+                             "missing, and from before the checkpoint, so that "
+                             "they are not written again: " +
+                               missing;
+  }
+
+
+
+  void
+  FieldOutput::put_on_disk()
+  {
+    for (; n_on_disk < bulk_series.files.size(); ++n_on_disk)
+      for (const Series *series : {&bulk_series, &interface_series})
+        Debond::put_on_disk(directory.file(series->files[n_on_disk].second));
   }
 
 

@@ -1,5 +1,8 @@
+#include <debond/debonding_problem.h>
 #include <debond/input_error.h>
+#include <debond/interruption.h>
 #include <debond/problem.h>
+#include <debond/resumed_run.h>
 #include <debond/runtime.h>
 #include <debond/scene.h>
 #include <debond/study.h>
@@ -19,6 +22,7 @@ namespace
 {
   const char *const help_text =
     R"(usage: debond [OPTIONS] SCENE.prm
+       debond --resume DIR [OPTIONS] [SCENE.prm]
 
 Simulates the tangential debonding of an implant from bone as the scene file
 describes it, and writes torque curve, summary and fields into the directory
@@ -29,6 +33,9 @@ study: all variants are run and gathered in study.csv.
                       --set "Interface/Penalty stiffness=1800"
   --force             write into a directory that holds results of another
                       scene; run variants of a study again that are done
+  --resume DIR        go on with the interrupted run whose results are in DIR, from
+                      its last checkpoint; with SCENE.prm only if that is the
+                      same scene
   --jobs N            run N variants of a study at a time (default: as many as
                       there are processors)
   --threads N         use N threads (default: as many as there are processors, in
@@ -40,7 +47,11 @@ study: all variants are run and gathered in study.csv.
   --help              print this text
   --version           print the version
 
-Exit codes: 0 success, 1 wrong usage or scene, 2 the run failed, 3 internal error.
+SIGINT, SIGTERM and SIGHUP end a run after the step at work and leave a checkpoint
+for --resume; a second one ends it at once.
+
+Exit codes: 0 success, 1 wrong usage or scene, 2 the run failed or its files could
+not be written, 3 internal error, 128 + N interrupted by signal N.
 )";
 
 
@@ -57,6 +68,7 @@ Exit codes: 0 success, 1 wrong usage or scene, 2 the run failed, 3 internal erro
     };
     Action                   action = Action::run;
     std::string              scene_file;
+    std::string              directory_to_resume;
     std::vector<std::string> overrides;
     bool                     force     = false;
     unsigned int             n_jobs    = 0; ///< 0: as many as processors
@@ -109,6 +121,12 @@ Exit codes: 0 success, 1 wrong usage or scene, 2 the run failed, 3 internal erro
               refuse_usage("--set needs ENTRY=VALUE");
             arguments.overrides.push_back(words[++i]);
           }
+        else if (word == "--resume")
+          {
+            if (i + 1 == words.size() || words[i + 1].empty())
+              refuse_usage("--resume needs the directory of a run");
+            arguments.directory_to_resume = words[++i];
+          }
         else if (word == "--jobs" || word == "--threads")
           (word == "--jobs" ? arguments.n_jobs : arguments.n_threads) =
             read_number(word, i + 1 == words.size() ? "" : words[++i]);
@@ -121,9 +139,14 @@ Exit codes: 0 success, 1 wrong usage or scene, 2 the run failed, 3 internal erro
           arguments.scene_file = word;
       }
 
-    const bool needs_scene = arguments.action == Action::run ||
-                             arguments.action == Action::check ||
-                             !arguments.overrides.empty();
+    const bool resumes     = !arguments.directory_to_resume.empty();
+    const bool needs_scene = !resumes && (arguments.action == Action::run ||
+                                          arguments.action == Action::check ||
+                                          !arguments.overrides.empty());
+    if (resumes && (arguments.action == Action::check ||
+                    arguments.action == Action::print_parameters ||
+                    arguments.force || arguments.n_jobs > 0))
+      refuse_usage("--resume goes with SCENE.prm, --set and --threads only");
     if (needs_scene && arguments.scene_file.empty() &&
         arguments.action != Action::help && arguments.action != Action::version)
       refuse_usage("no scene file is given");
@@ -154,8 +177,39 @@ Exit codes: 0 success, 1 wrong usage or scene, 2 the run failed, 3 internal erro
         Debond::set_number_of_threads(arguments.n_threads > 0 ?
                                         arguments.n_threads :
                                         std::max(1U, n_processors() / n_jobs));
+        Debond::catch_interruptions();
         study.run(n_jobs, arguments.force, std::cout);
       }
+  }
+
+
+
+  void
+  set_threads(const Arguments &arguments)
+  {
+    Debond::set_number_of_threads(
+      arguments.n_threads > 0 ? arguments.n_threads : n_processors());
+  }
+
+
+
+  void
+  resume(const Arguments &arguments)
+  {
+    const auto run = Debond::find_interrupted_run(arguments.directory_to_resume,
+                                                  arguments.scene_file,
+                                                  arguments.overrides);
+    if (!run)
+      {
+        std::cout << "The run in " << arguments.directory_to_resume
+                  << " is finished: there is nothing to go on with\n";
+        return;
+      }
+    for (const std::string &remark : run->remarks)
+      std::cout << "warning: " << remark << ", the other checkpoint is used\n";
+    set_threads(arguments);
+    Debond::catch_interruptions();
+    Debond::DebondingProblem(run->scene).resume(run->checkpoint);
   }
 
 
@@ -175,6 +229,8 @@ Exit codes: 0 success, 1 wrong usage or scene, 2 the run failed, 3 internal erro
                   << DEAL_II_PACKAGE_VERSION << ")\n";
         return;
       }
+    if (!arguments.directory_to_resume.empty())
+      return resume(arguments);
     if (arguments.scene_file.empty())
       return Debond::print_parameters(std::cout);
 
@@ -190,8 +246,7 @@ Exit codes: 0 success, 1 wrong usage or scene, 2 the run failed, 3 internal erro
     if (arguments.action == Action::print_parameters)
       return Debond::print_parameters(std::cout, &scene);
 
-    Debond::set_number_of_threads(
-      arguments.n_threads > 0 ? arguments.n_threads : n_processors());
+    set_threads(arguments);
     if (scene.study.repetitions > 1 || scene.study.factors_at_once > 0)
       throw Debond::InputError(
         scene.with_place("Study / Repetitions and Factors varied at once are "
@@ -200,9 +255,12 @@ Exit codes: 0 success, 1 wrong usage or scene, 2 the run failed, 3 internal erro
     scene.output.overwrite_other_results = arguments.force;
     const auto problem                   = Debond::Problem::create(scene);
     if (arguments.action == Action::check)
-      problem->check(std::cout);
-    else
-      problem->run();
+      return problem->check(std::cout);
+    // the closed forms are done before they could be asked to stop
+    if (scene.model == Debond::ModelKind::finite_elements ||
+        scene.model == Debond::ModelKind::automatic)
+      Debond::catch_interruptions();
+    problem->run();
   }
 
 
@@ -235,6 +293,11 @@ main(int argc, char *argv[])
     {
       std::cerr << error.what() << std::endl;
       return 1;
+    }
+  catch (const Debond::Interrupted &error)
+    {
+      std::cerr << error.what() << std::endl;
+      return 128 + error.signal;
     }
   catch (const Debond::RunError &error)
     {

@@ -136,6 +136,7 @@ namespace Debond
     Scene result =
       Scene::from_entries(with_overrides(scene.entries, all), scene.name);
     result.output.overwrite_other_results = true;
+    result.output.resumable               = false;
     return result;
   }
 

@@ -70,8 +70,13 @@ namespace Debond
                       "friction_law.csv.");
     prm.declare_entry("Checkpoint every",
                       "0",
-                      Allowed::only("0"),
-                      "Reserved: planned steps between checkpoints.");
+                      Allowed::whole_number(0, std::numeric_limits<int>::max()),
+                      "Planned steps between checkpoints, from which "
+                      "`debond --resume DIR' goes on with results that are "
+                      "the same to the last bit; where rows are accepted "
+                      "steps, number of rows. 0: only when SIGINT, SIGTERM or "
+                      "SIGHUP interrupts the run. For Model = finite "
+                      "elements.");
     prm.declare_entry("Console",
                       "steps",
                       Allowed::choice("steps | quiet"),
@@ -95,28 +100,10 @@ namespace Debond
     observed_bonding   = prm.get_double("Observed bonding");
     profile_angles     = to_numbers(prm.get("Profile angles"));
     friction_law_curve = prm.get_bool("Friction law curve");
+    checkpoint_every   = prm.get_integer("Checkpoint every");
     console =
       prm.get("Console") == "quiet" ? ConsoleKind::quiet : ConsoleKind::steps;
     prm.leave_subsection();
-  }
-
-
-
-  void
-  write_file(const std::string &filename, const std::string &text)
-  {
-    const std::string temporary = filename + ".partial";
-    {
-      std::ofstream file(temporary, std::ios::binary);
-      file << text;
-      file.close();
-      if (!file)
-        throw InputError("cannot write '" + filename +
-                         "': " + std::strerror(errno));
-    }
-    if (std::rename(temporary.c_str(), filename.c_str()) != 0)
-      throw InputError("cannot write '" + filename +
-                       "': " + std::strerror(errno));
   }
 
 
@@ -137,12 +124,19 @@ namespace Debond
 
 
 
-  ResultDirectory::ResultDirectory(const OutputParameters &output,
-                                   const std::string      &completed_parameters)
-    : directory(output.directory)
+  ResultDirectory::ResultDirectory(const std::string &path)
+    : directory(path)
   {
     while (directory.size() > 1 && directory.back() == '/')
       directory.pop_back();
+  }
+
+
+
+  ResultDirectory::ResultDirectory(const OutputParameters &output,
+                                   const std::string      &completed_parameters)
+    : ResultDirectory(output.directory)
+  {
     const std::string entry = "Output / Directory = '" + output.directory + "'";
 
     std::error_code error;

@@ -4,6 +4,8 @@
 #include <deal.II/base/multithread_info.h>
 #include <deal.II/base/utilities.h>
 
+#include <csignal>
+
 // Declared here because the headers of OpenBLAS declare LAPACK, too, and
 // because this program does not use OpenMP itself.
 extern "C"
@@ -21,6 +23,8 @@ namespace Debond
   {
     dealii::deal_II_exceptions::disable_abort_on_exception();
     dealii::deal_II_exceptions::suppress_stacktrace_in_exceptions();
+    // a file beyond a limit of its size is an error like a full disk
+    std::signal(SIGXFSZ, SIG_IGN);
     set_number_of_threads(1);
   }
 

@@ -1,8 +1,11 @@
 #include <debond/csv_table.h>
+#include <debond/debonding_problem.h>
 #include <debond/ensemble.h>
 #include <debond/input_error.h>
+#include <debond/interruption.h>
 #include <debond/number_text.h>
 #include <debond/problem.h>
+#include <debond/resumed_run.h>
 #include <debond/sample_statistics.h>
 #include <debond/study.h>
 #include <debond/torque_curve.h>
@@ -12,6 +15,7 @@
 #include <boost/property_tree/json_parser.hpp>
 #include <boost/property_tree/ptree.hpp>
 
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -291,10 +295,10 @@ namespace Debond
   Study::keep_repetition(Variant &variant) const
   {
     const std::string &place = variant.scene.output.directory;
-    std::filesystem::copy_file(
-      place + "/summary.json",
-      repetition_file(place, variant.repetitions.size() + 1),
-      std::filesystem::copy_options::overwrite_existing);
+    std::ostringstream summary;
+    summary << std::ifstream(place + "/summary.json").rdbuf();
+    write_file(repetition_file(place, variant.repetitions.size() + 1),
+               summary.str());
   }
 
 
@@ -376,6 +380,21 @@ namespace Debond
 
 
 
+    /** From the checkpoint of a run that was ended, if it left one. */
+    void
+    run_variant(const Scene &scene, const std::shared_ptr<BodyPair> &bodies)
+    {
+      const bool begins_anew = scene.model != ModelKind::finite_elements ||
+                               scene.output.overwrite_other_results;
+      if (const auto checkpoint =
+            begins_anew ? std::nullopt : find_checkpoint(scene))
+        DebondingProblem(scene, bodies).resume(*checkpoint);
+      else
+        Problem::create(scene, bodies)->run();
+    }
+
+
+
     /** What a child process does: it ends with the message on the pipe, an
      *  empty one if all went well. */
     [[noreturn]] void
@@ -385,13 +404,14 @@ namespace Debond
     {
       // a variant does not outlive its study
       prctl(PR_SET_PDEATHSIG, SIGKILL);
+      leave_interruptions_to_parent();
       std::string message;
       if (std::freopen("/dev/null", "w", stdout) == nullptr)
         message = "cannot redirect the output";
       try
         {
           if (message.empty())
-            Problem::create(scene, bodies)->run();
+            run_variant(scene, bodies);
         }
       catch (const std::exception &error)
         {
@@ -446,7 +466,64 @@ namespace Debond
       close(pipe_ends[1]);
       jobs[process] = {variant, pipe_ends[0]};
     }
+
+
+
+    /** Waits until a process begins to end: the one, or 0 if a signal asks to
+     *  stop. */
+    pid_t
+    wait_for_one(const std::map<pid_t, Job> &jobs)
+    {
+      std::vector<pollfd> waiting{{interruption_descriptor(), POLLIN, 0}};
+      for (const auto &job : jobs)
+        waiting.push_back({job.second.read_end, POLLIN, 0});
+      while (poll(waiting.data(), waiting.size(), -1) < 0)
+        if (errno != EINTR)
+          throw std::runtime_error(std::string("poll: ") +
+                                   std::strerror(errno));
+      if (interrupting_signal() != 0)
+        return 0;
+      auto job = jobs.begin();
+      for (auto one = waiting.begin() + 1; one->revents == 0; ++one)
+        ++job;
+      return job->first;
+    }
+
+
+
+    /** Waits for the end of a process. Returns its last words. */
+    std::string
+    end_job(const pid_t process, const Job &job)
+    {
+      std::string words  = read_to_end(job.read_end);
+      int         status = 0;
+      while (waitpid(process, &status, 0) < 0)
+        if (errno != EINTR)
+          throw std::runtime_error(std::string("waitpid: ") +
+                                   std::strerror(errno));
+      if (WIFSIGNALED(status))
+        words = std::string("the process was ended by the system: ") +
+                strsignal(WTERMSIG(status));
+      return words;
+    }
   } // namespace
+
+
+
+  void
+  Study::stop()
+  {
+    write_table();
+    const auto n_done = std::count_if(variants.begin(),
+                                      variants.end(),
+                                      [](const Variant &v) { return v.done; });
+    throw Interrupted(interrupting_signal(),
+                      "interrupted by " + signal_name(interrupting_signal()) +
+                        ": " + std::to_string(n_done) + " of " +
+                        std::to_string(variants.size()) +
+                        " variants are done; the same study without --force "
+                        "goes on with the others");
+  }
 
 
 
@@ -483,21 +560,20 @@ namespace Debond
         if (jobs.empty())
           break;
 
-        int         status  = 0;
-        const pid_t process = waitpid(-1, &status, 0);
-        if (process < 0 && errno != EINTR)
-          throw std::runtime_error(std::string("waitpid: ") +
-                                   std::strerror(errno));
-        const auto job = jobs.find(process);
-        if (job == jobs.end())
-          continue; // not one of ours
-        const Job   ended   = job->second;
-        Variant    &variant = variants[ended.variant];
-        std::string failure = read_to_end(ended.read_end);
-        if (WIFSIGNALED(status))
-          failure = std::string("the process was ended by the system: ") +
-                    strsignal(WTERMSIG(status));
-        jobs.erase(job);
+        const pid_t process = wait_for_one(jobs);
+        if (process == 0)
+          {
+            for (const auto &[running, job] : jobs)
+              {
+                kill(running, SIGTERM);
+                end_job(running, job);
+              }
+            stop();
+          }
+        const Job         ended   = jobs.at(process);
+        Variant          &variant = variants[ended.variant];
+        const std::string failure = end_job(process, ended);
+        jobs.erase(process);
         end_run(variant, failure);
         if (wants_another_run(variant))
           {

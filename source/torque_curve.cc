@@ -71,46 +71,57 @@ namespace Debond
 
 
 
-    /** Writes a whole line and pushes it to the disk. */
-    void
-    write_line(std::ofstream     &file,
-               const std::string &filename,
-               const std::string &line)
+    std::string
+    header()
     {
-      file << line << std::flush;
-      if (!file)
-        throw InputError("cannot write '" + filename +
-                         "': " + std::strerror(errno));
+      std::string line;
+      for (const auto &column : columns(TorqueRow()))
+        line += (line.empty() ? "" : ",") + column.first;
+      return line + "\n";
+    }
+
+
+
+    std::string
+    line_of(const TorqueRow &row)
+    {
+      std::ostringstream line;
+      line.imbue(std::locale::classic());
+      line.precision(12);
+      bool first = true;
+      for (const auto &column : columns(row))
+        {
+          line << (first ? "" : ",") << column.second + 0.; // no "-0"
+          first = false;
+        }
+      return line.str() + "\n";
+    }
+
+
+
+    std::string
+    table_of(const std::vector<TorqueRow> &rows)
+    {
+      std::string table = header();
+      for (const TorqueRow &row : rows)
+        table += line_of(row);
+      return table;
     }
   } // namespace
 
 
 
-  TorqueCurveWriter::TorqueCurveWriter(const ResultDirectory &directory)
-    : filename(directory.file("torque.csv"))
-    , file(filename, std::ios::binary)
-  {
-    std::string header;
-    for (const auto &column : columns(TorqueRow()))
-      header += (header.empty() ? "" : ",") + column.first;
-    write_line(file, filename, header + "\n");
-  }
+  TorqueCurveWriter::TorqueCurveWriter(const ResultDirectory        &directory,
+                                       const std::vector<TorqueRow> &rows)
+    : file(directory.file("torque.csv"), table_of(rows))
+  {}
 
 
 
   void
   TorqueCurveWriter::write(const TorqueRow &row)
   {
-    std::ostringstream line;
-    line.imbue(std::locale::classic());
-    line.precision(12);
-    bool first = true;
-    for (const auto &column : columns(row))
-      {
-        line << (first ? "" : ",") << column.second + 0.; // no "-0"
-        first = false;
-      }
-    write_line(file, filename, line.str() + "\n");
+    file.append(line_of(row));
   }
 
 

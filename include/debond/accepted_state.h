@@ -38,6 +38,14 @@ namespace Debond
 
     Vector value, before;
 
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &value &before &time &time_before &has_value &has_rate;
+    }
+
   private:
     double time = 0, time_before = 0;
     bool   has_value = false, has_rate = false;

@@ -73,6 +73,16 @@ namespace Debond
     bool
     reject();
 
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &time &end &size &largest &current &previous &middle;
+      archive &previous_time &previous_error &has_previous &has_middle;
+      archive &greatest &first_drive &has_first_drive      &is_driven;
+    }
+
   private:
     double
     smallest() const;
@@ -92,8 +102,8 @@ namespace Debond
     double previous_time  = 0;
     double previous_error = 0; ///< of the step before
     bool   has_previous = false, has_middle = false;
-    Forces greatest = Forces::Zero(); ///< so far
-    Forces first_drive;
+    Forces greatest        = Forces::Zero(); ///< so far
+    Forces first_drive     = Forces::Zero();
     bool   has_first_drive = false;
     std::array<bool, 6> is_driven{}; ///< whether the drive has changed so far
   };

@@ -175,6 +175,19 @@ namespace Debond
       return full_displacement(v);
     }
 
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      std::vector<bool>               contact      = is_contact;
+      Eigen::VectorXd                 condensed_at = state_of_condensation;
+      archive &contact &condensed_at &accepted;
+      if (Archive::is_loading::value)
+        restore(contact, condensed_at);
+      archive &surface_is_stale &strain_energy;
+    }
+
   private:
     Eigen::VectorXd
     contact_values(const Eigen::VectorXd &state) const;
@@ -184,6 +197,13 @@ namespace Debond
     assemble_free_tangent();
     bool
     condense();
+    void
+    number_contact_unknowns(const std::vector<bool> &contact);
+    bool
+    condense_at(const Eigen::VectorXd &state);
+    void
+    restore(const std::vector<bool> &contact,
+            const Eigen::VectorXd   &condensed_at);
     void
     compute_reaction_operator();
 
@@ -202,9 +222,10 @@ namespace Debond
      *  contact unknowns. */
     bool surface_is_condensed = false;
     /** Those control points did not follow at the last commit(). */
-    bool         surface_is_stale  = false;
-    bool         condensed_at_rest = false;
+    bool         surface_is_stale = false;
     Condensation condensation;
+    /** The displacement whose tangent is condensed; empty: none yet. */
+    Eigen::VectorXd state_of_condensation;
 
     Eigen::VectorXd                v; ///< trial displacement, 3 n_nodes [mm]
     Eigen::VectorXd                uncorrected; ///< v before the last correct()

@@ -173,6 +173,16 @@ namespace Debond
     double
     machine_stiffness(unsigned int k) const;
 
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &q &accepted &target;
+      if (Archive::is_loading::value)
+        update_frame();
+    }
+
   private:
     void
     update_frame();

@@ -44,6 +44,14 @@ namespace Debond
       return kind == ConsoleKind::quiet;
     }
 
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &warning_keys &warning_texts;
+    }
+
   private:
     void
     erase_progress();

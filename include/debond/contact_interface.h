@@ -185,6 +185,17 @@ namespace Debond
       /** False for points of a bone that does not face the implant at the
        *  start: their area does not count. */
       bool faces_implant = true;
+
+      /** See serialization.h. */
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &accepted &clearance       &accepted_traction;
+        archive &accepted_viscous_traction &accepted_pressure;
+        if (Archive::is_loading::value)
+          trial.state = accepted;
+      }
     };
     const std::vector<Point> &
     get_points() const
@@ -294,6 +305,19 @@ namespace Debond
     /** Where the last evaluate() failed, for messages; empty if it did not. */
     std::string
     describe_failure() const;
+
+    /** See serialization.h.. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      for (Point &point : points)
+        archive &point;
+      archive &forces                &accepted_positions;
+      archive &accepted_dissipation  &accepted_adhesive_work;
+      archive &accepted_viscous_work &accepted_friction_work;
+      archive                        &accepted_friction_work_bound;
+    }
 
   private:
     void

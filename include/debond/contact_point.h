@@ -30,6 +30,14 @@ namespace Debond
     Eigen::Vector2d xi = Eigen::Vector2d::Zero();
     /** Accumulated sliding distance g_s [mm], Eq. (12). */
     double slip = 0;
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &status &has_partner &broken &xi &slip;
+    }
   };
 
   /** The master surface in its current configuration. */

@@ -181,6 +181,21 @@ namespace Debond
       return solver;
     }
 
+    /** See serialization.h. To be called after start() and commit(). */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &bone &implant &chuck &interface;
+      archive &path.old_slip &trial_time;
+      if (Archive::is_loading::value)
+        {
+          update_configuration();
+          number_unknowns();
+        }
+      archive &solver; // its matrix has the size that is known only now
+    }
+
   private:
     void
     update_configuration();

@@ -3,12 +3,15 @@
 
 #include <debond/problem.h>
 
+#include <exception>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace Debond
 {
+  struct Checkpoint;
+
   /**
    * The model `finite elements`: from a scene to torque curve, summary and
    * fields. run() reads like a table of contents.
@@ -24,6 +27,12 @@ namespace Debond
     void
     run() override;
 
+    /** The same from a checkpoint of a run of this scene: rows and files from
+     *  there on are those of a run that was never interrupted, to the last bit.
+     *  Throws InputError if the checkpoint is not from this program. */
+    void
+    resume(const Checkpoint &checkpoint);
+
     /** Builds the meshes, prints degrees of freedom and what closed forms
      *  foretell, and runs nothing. */
     void
@@ -35,29 +44,45 @@ namespace Debond
   private:
     struct Run;
 
+    /** From the beginning, or from a checkpoint. */
     void
-    set_up();
+    run(const Checkpoint *checkpoint);
+    void
+    set_up(const Checkpoint *checkpoint);
+    void
+    write_bonding();
+    void
+    open_directory(bool resumes);
+    void
+    open_results(const Checkpoint *checkpoint);
+    void
+    solve_rows();
+
+    /** @name Steps */
+    //@{
     void
     solve_first_row();
-    void
-    solve_planned_step(unsigned int step);
-    void
-    solve_phase_adaptively(unsigned int phase);
-    void
-    solve_phase_along_path(unsigned int phase);
     bool
-    try_middle(bool extrapolate, unsigned int &iterations);
+    is_finished() const;
+    void
+    solve_next_row();
+    void
+    solve_planned_step();
+    void
+    solve_adaptive_step();
+    void
+    solve_step_along_path();
+    /** Whether the next row is the first one of its phase. */
+    bool
+    begin_phase_if_due();
+    void
+    end_phase_if(bool is_finished);
+    bool
+    try_middle(unsigned int &iterations);
     /** Tries a step, with an extrapolated start if wanted and again without if
      *  that fails. */
     bool
     try_step(double time, bool extrapolate, unsigned int &iterations);
-    std::string
-    reason_to_end() const;
-    /** Else a row is a planned step. */
-    bool
-    rows_are_accepted_steps() const;
-    [[noreturn]] void
-    give_up(unsigned int step, double time) const;
     /** Tries one sub-step; returns the Newton iterations spent, and whether it
      *  was accepted in @p accepted. */
     unsigned int
@@ -66,30 +91,48 @@ namespace Debond
                  bool  &accepted,
                  bool   shorten_in_cycles = true);
     void
-    accept(double time);
-    void
     start_trial(double time, bool extrapolate);
-    void
-    check_accepted_state();
-    void
-    check_energy_balance(const std::string &where);
-    /** Says so once, and in the row that is written next. */
-    void
-    note_violation(const std::string &check, const std::string &text);
     /** Whether the law had only one solution at every point in the sub-step
      *  that has just been solved. */
     bool
     is_unique();
     void
-    check_for_jump();
+    accept(double time);
+    [[noreturn]] void
+    give_up(unsigned int step, double time) const;
+    std::string
+    reason_to_end() const;
+    /** Else a row is a planned step. */
+    bool
+    rows_are_accepted_steps() const;
+    //@}
+
+    /** @name Results */
+    //@{
+    /** Writes the accepted state, with the iterations that it took since the
+     *  last row. */
     void
-    write_bonding();
-    void
-    write_row(unsigned int step, unsigned int iterations);
-    void
-    write_fields(unsigned int step);
+    write_row(unsigned int iterations);
+    bool
+    fields_are_due() const;
     void
     finish(bool converged, const std::string &reason);
+    void
+    finish_after(const std::exception &error);
+    //@}
+
+    /** @name Checkpoints */
+    //@{
+    void
+    save_checkpoint();
+    void
+    restore(const Checkpoint &checkpoint);
+    /** Throws Interrupted, after a checkpoint, if a signal asks for it. */
+    void
+    stop_if_interrupted();
+    bool
+    checkpoint_is_due() const;
+    //@}
 
     const Scene          scene;
     std::unique_ptr<Run> state;

@@ -67,6 +67,20 @@ namespace Debond
       return iterations;
     }
 
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &preconditioner &factorisations &iterations;
+      if (preconditioner == Preconditioner::factorisation)
+        {
+          archive &matrix;
+          if (Archive::is_loading::value)
+            lu.compute(matrix);
+        }
+    }
+
   private:
     enum class Preconditioner
     {

@@ -44,6 +44,16 @@ namespace Debond
     bool
     is_out_of_balance() const;
 
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &started &last_forces &last_position &W &max_W &bound;
+      archive &stored &dissipated &first_stored              &first_dissipated;
+      archive                                                &last_dissipated;
+    }
+
   private:
     bool           started = false;
     Chuck::Vector6 last_forces, last_position;
@@ -72,6 +82,14 @@ namespace Debond
       double         stored = 0; ///< machine, bodies, interface [N mm]
       double         spent  = 0; ///< work of friction [N mm]
       double         bound  = 0; ///< sum of the errors of the two above [N mm]
+
+      /** See serialization.h. */
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &forces &position &stored &spent &bound;
+      }
     };
     /** Notes an accepted state. Returns what the step to it has released [N
      *  mm]; 0 if it followed equilibrium. */
@@ -89,6 +107,14 @@ namespace Debond
     n_jumps() const
     {
       return jumps;
+    }
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &started &last &largest_work &work &released &jumps;
     }
 
   private:

@@ -58,10 +58,26 @@ namespace Debond
                 const Chuck            &chuck);
 
     /** Writes the trial state (the accepted one, if called after commit()) as
-     *  the next file of both series. Throws InputError if that is impossible.
+     *  the next file of both series. Throws WriteError if that is impossible.
      */
     void
     write(double time);
+
+    /** For a run that goes on from a checkpoint: forgets what was written after
+     *  it. Returns a warning if a file of before is missing, or nothing. */
+    std::string
+    forget_later_files();
+    /** Waits until all files are on the disk. Throws WriteError. */
+    void
+    put_on_disk();
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &bulk_series.files &interface_series.files;
+    }
 
   private:
     /** Files of one kind and their times. */
@@ -70,9 +86,13 @@ namespace Debond
       std::string                                 name;
       std::vector<std::pair<double, std::string>> files;
     };
+    std::string
+    file_name(const Series &series, unsigned int number) const;
     /** Writes the next file of a series, and the series. */
     void
     append(Series &series, double time, const std::string &vtu) const;
+    void
+    write_series(const Series &series) const;
     std::string
     bulk_vtu() const;
     std::string
@@ -84,6 +104,7 @@ namespace Debond
     const Chuck                &chuck;
     Series                      bulk_series{"bulk", {}};
     Series                      interface_series{"interface", {}};
+    std::size_t                 n_on_disk = 0; ///< files of each series
   };
 } // namespace Debond
 #endif

@@ -109,6 +109,14 @@ namespace Debond
     reject();
     //@}
 
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &current &done &size;
+    }
+
   private:
     const LoadSteppingParameters parameters;
     unsigned int                 total_steps = 0;

@@ -63,6 +63,15 @@ namespace Debond
     bool
     reject(const Step &step);
 
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &time &end &planned &mean_slip &slip_size &time_size;
+      archive &last_time_step &last_slip_step &has_last &goes_to_end;
+    }
+
   private:
     const LoadSteppingParameters parameters;
     const double                 largest_slip, end_slip; ///< [mm]

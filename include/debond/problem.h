@@ -1,24 +1,17 @@
 #ifndef debond_problem_h
 #define debond_problem_h
 
+#include <debond/run_error.h>
 #include <debond/scene.h>
 #include <debond/torque_curve.h>
 
 #include <iosfwd>
 #include <memory>
-#include <stdexcept>
 #include <vector>
 
 namespace Debond
 {
   struct BodyPair;
-
-  /** A run that could not be finished; the message says where and why. */
-  class RunError : public std::runtime_error
-  {
-  public:
-    using std::runtime_error::runtime_error;
-  };
 
   /** A scene and the model that it asks for: from the scene to the files in its
    *  directory. */

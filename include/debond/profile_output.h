@@ -45,6 +45,14 @@ namespace Debond
     ProfileMeasures
     measures() const;
 
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &angles_to_come &has_points &table;
+    }
+
   private:
     bool
     reaches(double angle_deg);

@@ -1,6 +1,8 @@
 #ifndef debond_result_files_h
 #define debond_result_files_h
 
+#include <debond/written_files.h>
+
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -33,22 +35,20 @@ namespace Debond
     double      observed_bonding   = 0; ///< mean phi_0 of w_adh, 0: the scene's
     std::vector<double> profile_angles; ///< [deg]
     bool                friction_law_curve = false; ///< write friction_law.csv
-    ConsoleKind         console            = ConsoleKind::steps;
+    unsigned int        checkpoint_every = 0; ///< rows; 0: if interrupted only
+    ConsoleKind         console          = ConsoleKind::steps;
     /** Use a directory that holds results of another scene. No entry of the
      *  scene: the option --force of the program. */
     bool overwrite_other_results = false;
+    /** Whether a run leaves a checkpoint when it is interrupted. No entry of
+     *  the scene: false for runs that are part of a larger one. */
+    bool resumable = true;
 
     static void
     declare(dealii::ParameterHandler &prm);
     void
     parse(dealii::ParameterHandler &prm);
   };
-
-  /** Writes a whole file or leaves what was there before: the text goes to a
-   *  temporary file that then takes the place of @p filename. Throws InputError
-   *  that names the file and what the system says. */
-  void
-  write_file(const std::string &filename, const std::string &text);
 
   enum class DirectoryContent
   {
@@ -74,6 +74,8 @@ namespace Debond
      *  does, the results of that other scene are removed first. */
     ResultDirectory(const OutputParameters &output,
                     const std::string      &completed_parameters);
+    /** A directory that holds the results of an earlier run, which goes on. */
+    explicit ResultDirectory(const std::string &path);
 
     /** The directory, without a slash at its end. */
     const std::string &

@@ -5,7 +5,7 @@ namespace Debond
 {
   /** What a program does once before it uses this library: one thread, and
    *  errors inside deal.II as exceptions without stack trace instead of an
-   *  abort. */
+   *  abort, and files that grow beyond a limit as errors of writing. */
   void
   set_up_libraries();
 

@@ -39,7 +39,8 @@ namespace Debond
     /** Runs what is not there yet, @p n_jobs at a time, and writes study.csv
      *  every few seconds and at the end, then, if seeds are varied, the
      *  statistics of class Ensemble. @p force: runs all, whatever their
-     * directories hold. Throws RunError at the end if any of them failed. */
+     *  directories hold. Throws RunError at the end if any of them failed, and
+     *  Interrupted if a signal asks to stop. */
     void
     run(unsigned int n_jobs, bool force, std::ostream &out);
 
@@ -87,6 +88,9 @@ namespace Debond
     compare_with_reference();
     StudyRow
     table_row(unsigned int variant) const;
+    /** Ends a study that a signal asks to stop: throws Interrupted. */
+    [[noreturn]] void
+    stop();
     void
     write_table();
     void

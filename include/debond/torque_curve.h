@@ -2,9 +2,9 @@
 #define debond_torque_curve_h
 
 #include <debond/profile_comparison.h>
+#include <debond/written_files.h>
 
 #include <array>
-#include <fstream>
 #include <limits>
 #include <string>
 #include <utility>
@@ -49,28 +49,44 @@ namespace Debond
     double machine_angle_deg = 0;
     /** Energy that jumps have released so far, see ReleasedEnergy. */
     double released_energy_Nmm = 0;
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &step &time &angle_deg &torque_Nmm &force_N &pressure_MPa;
+      archive &phi_mean &share_stick &share_slip          &share_open;
+      archive &newton_iterations &energy_defect           &chuck_reaction;
+      archive &work_Nmm &energy_bulk_Nmm                  &energy_interface_Nmm;
+      archive &dissipation_Nmm &adhesive_work_Nmm         &energy_defect_bound;
+      archive &reaction_defect &chuck_position &viscous_work_Nmm &warnings;
+      archive &machine_angle_deg &released_energy_Nmm;
+    }
   };
 
 
 
   /**
    * Writes torque.csv: a line with the names of the columns, then one row per
-   * call with twelve significant digits. Every row is on its way to the disk
-   * when write() returns, so that an interrupted run leaves all of them.
+   * call with twelve significant digits. Every row is with the system when
+   * write() returns, so that an interrupted run leaves all of them, and no part
+   * of one.
    */
   class TorqueCurveWriter
   {
   public:
-    /** Begins the file anew. Throws InputError if that is impossible. */
-    explicit TorqueCurveWriter(const ResultDirectory &directory);
+    /** Begins the file anew with the rows that there are already. Throws
+     *  WriteError. */
+    explicit TorqueCurveWriter(const ResultDirectory        &directory,
+                               const std::vector<TorqueRow> &rows = {});
 
-    /** Appends a row. Throws InputError if it cannot be written. */
+    /** Appends a row. Throws WriteError. */
     void
     write(const TorqueRow &row);
 
   private:
-    const std::string filename;
-    std::ofstream     file;
+    GrowingFile file;
   };
 
 

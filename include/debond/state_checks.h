@@ -1,0 +1,90 @@
+#ifndef debond_state_checks_h
+#define debond_state_checks_h
+
+#include <debond/contact_interface.h>
+#include <debond/energy_balance.h>
+
+#include <set>
+#include <string>
+
+namespace Debond
+{
+  class Console;
+  class CoupledSystem;
+  struct Scene;
+
+  /** What a user has to know about the states that a run has accepted. That
+   *  they solve the equations, and are the only solution, was asked before. */
+  class StateChecks
+  {
+  public:
+    /** Keeps references to both. */
+    StateChecks(const Scene &scene, Console &console);
+
+    /** Notes a state that has just been accepted in a planned step. @p summary
+     *  and @p reaction_defect are those of the state before commit(). A check
+     *  that it does not pass is a warning, once, and counts in the next row. */
+    void
+    add(unsigned int                     step,
+        const CoupledSystem             &system,
+        const ContactInterface::Summary &summary,
+        double                           reaction_defect);
+
+    const EnergyBalance &
+    energy() const
+    {
+      return energy_balance;
+    }
+    const ReleasedEnergy &
+    released() const
+    {
+      return released_energy;
+    }
+    /** Of the last state. */
+    double
+    reaction_defect() const
+    {
+      return last_reaction_defect;
+    }
+    /** How many checks were not passed by a state since the last call. */
+    unsigned int
+    take_violations();
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &energy_balance &released_energy &violated;
+      archive &last_reaction_defect            &last_torque;
+    }
+
+  private:
+    void
+    note_violation(const std::string &check, const std::string &text);
+    void
+    check_for_jump(const std::string               &where,
+                   const CoupledSystem             &system,
+                   const ContactInterface::Summary &summary);
+    void
+    check_interface(const std::string               &where,
+                    const CoupledSystem             &system,
+                    const ContactInterface::Summary &summary);
+    void
+    check_reaction(const std::string &where);
+    void
+    check_energy_balance(const std::string &where);
+
+    const Scene          &scene;
+    Console              &console;
+    EnergyBalance         energy_balance;
+    ReleasedEnergy        released_energy;
+    std::set<std::string> violated;
+    double                last_reaction_defect = 0, last_torque = 0;
+  };
+
+  /** Why the bond would break in a jump, for messages. */
+  std::string
+  describe_softening(const ContactInterface::Summary &summary);
+} // namespace Debond
+#endif

@@ -1,0 +1,321 @@
+// A run that is interrupted after some of its rows, and goes on from its
+// checkpoint, leaves the same files as one that never was, byte for byte:
+// torque curve, fields, profiles, and the summary but for seconds and memory.
+
+#include <debond/debonding_problem.h>
+#include <debond/interruption.h>
+#include <debond/resumed_run.h>
+#include <debond/runtime.h>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cctype>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "checks.h"
+
+using namespace Debond;
+
+/** Takes what goes to the console, and raises a signal after so many lines
+ *  about rows: that row is the last one. */
+class RaisingBuffer : public std::streambuf
+{
+public:
+  explicit RaisingBuffer(const unsigned int n_rows)
+    : rows_left(n_rows)
+  {}
+
+private:
+  int
+  overflow(const int c) override
+  {
+    if (c != '\n')
+      line += static_cast<char>(c);
+    else
+      {
+        const std::size_t first = line.find_first_not_of(' ');
+        if (first != 0 && first != std::string::npos &&
+            std::isdigit(line[first]) && rows_left-- == 1)
+          std::raise(SIGTERM);
+        line.clear();
+      }
+    return c;
+  }
+
+  std::string  line;
+  unsigned int rows_left;
+};
+
+
+
+constexpr int stopped_by_signal = 10;
+
+/** Runs a scene into its directory, or goes on with it, in a process of its own
+ *  that stops after @p n_rows rows (0: never). Returns its exit code. */
+int
+run_in_process(const Scene       &scene,
+               const bool         goes_on,
+               const unsigned int n_rows)
+{
+  std::cout.flush();
+  const pid_t process = fork();
+  if (process == 0)
+    {
+      int           code = 0;
+      RaisingBuffer buffer(n_rows);
+      std::cout.rdbuf(&buffer);
+      catch_interruptions();
+      try
+        {
+          if (!goes_on)
+            DebondingProblem(scene).run();
+          else if (const auto run =
+                     find_interrupted_run(scene.output.directory, "", {}))
+            DebondingProblem(run->scene).resume(run->checkpoint);
+          else
+            code = 2;
+        }
+      catch (const Interrupted &)
+        {
+          code = stopped_by_signal;
+        }
+      catch (const std::exception &error)
+        {
+          std::cerr << error.what() << std::endl;
+          code = 1;
+        }
+      _exit(code);
+    }
+  int status = 0;
+  waitpid(process, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+
+
+/** The text of a file without lines that differ from run to run. */
+std::string
+contents_of(const std::filesystem::path &file)
+{
+  std::ifstream stream(file);
+  std::string   text;
+  for (std::string line; std::getline(stream, line);)
+    if (line.find("seconds") == std::string::npos &&
+        line.find("peak_memory_MB") == std::string::npos &&
+        line.find("set Directory") == std::string::npos)
+      text += line + "\n";
+  return text;
+}
+
+
+
+unsigned int
+n_files(const std::string &directory)
+{
+  unsigned int n = 0;
+  for ([[maybe_unused]] const auto &entry :
+       std::filesystem::directory_iterator(directory))
+    ++n;
+  return n;
+}
+
+
+
+bool
+same_files(const std::string &directory, const std::string &other)
+{
+  bool same = n_files(directory) == n_files(other) &&
+              std::filesystem::exists(directory + "/torque.csv");
+  for (const auto &entry : std::filesystem::directory_iterator(directory))
+    {
+      const auto name = entry.path().filename();
+      if (contents_of(entry.path()) != contents_of(other / name))
+        {
+          std::cout << "  differs: " << name.string() << std::endl;
+          same = false;
+        }
+    }
+  return same;
+}
+
+
+
+const std::string base = R"(
+subsection Bone
+  set Cells = 8, 8, 2
+end
+subsection Chuck
+  subsection Translation z
+    set Value = -0.0049 * min(t, 1)
+  end
+  subsection Rotation z
+    set Value = 3 * max(t - 1, 0)
+  end
+end
+subsection Load steps
+  set Steps = 2, 12
+end
+subsection Output
+  set Fields every = 3
+end
+)";
+
+
+
+/** Stops after @p legs rows each, and then goes on to the end. */
+void
+check(const std::string               &name,
+      const std::string               &changes,
+      const std::vector<unsigned int> &legs = {1, 2, 6})
+{
+  std::cout << name << std::endl;
+  const std::string whole = "results/whole", parts = "results/parts";
+  for (const std::string &directory : {whole, parts})
+    std::filesystem::remove_all(directory);
+  std::vector<SceneEntry> entries = read_scene_text(base, "base");
+  for (const SceneEntry &entry : read_scene_text(changes, name))
+    set_entry(entries, entry);
+  const auto scene_in = [&](const std::string &directory) {
+    return Scene::from_entries(
+      with_overrides(entries, {"Output/Directory=" + directory}), name);
+  };
+  const int    end  = run_in_process(scene_in(whole), false, 0);
+  bool         all  = true;
+  unsigned int n    = 0;
+  int          last = 0;
+  for (const unsigned int rows : legs)
+    all = run_in_process(scene_in(parts), n++ > 0, rows) == stopped_by_signal &&
+          all;
+  last = run_in_process(scene_in(parts), true, 0);
+  report("  reaches the end in one go", end == 0);
+  report("  stops " + std::to_string(n) + " times", all);
+  report("  reaches the end", last == 0);
+  report("  the same files", same_files(whole, parts));
+}
+
+
+
+int
+main()
+{
+  set_up_libraries();
+  const std::string linear = R"(
+    subsection Bone
+      set Material = linear
+    end
+    subsection Implant
+      set Material = linear
+    end)";
+  const std::string rigid  = R"(
+    subsection Bone
+      set Material = rigid
+    end
+    subsection Implant
+      set Material = rigid
+    end)";
+
+  check("Neo-Hookean bodies, with profiles", R"(
+    subsection Output
+      set Profile angles = 0.25, 0.5, 1.5
+    end)");
+  check("Linear bodies", linear);
+  check("Rigid bodies", rigid);
+  check("Coulomb friction with mu = 10", R"(
+    subsection Interface
+      set Friction law = coulomb
+      set Friction coefficient broken = 10
+    end)");
+  check("Adaptive steps", linear + R"(
+    subsection Load steps
+      set Adaptive  = true
+      set Tolerance = 1e-2
+      set Steps     = 1, 100
+    end)");
+  check("A compliant machine", R"(
+    subsection Chuck
+      subsection Rotation z
+        set Stiffness = 2000
+      end
+    end)");
+  check("A loaded chuck", linear + R"(
+    subsection Chuck
+      subsection Translation z
+        set Control = force
+        set Value   = -50 * (0.2 + min(t, 1))
+      end
+      subsection Rotation x
+        set Control = moment
+      end
+    end)");
+  check("Path following", rigid + R"(
+    subsection Interface
+      set Friction coefficient broken   = 0.2
+      set Friction coefficient unbroken = 1
+      set Tangential penalty stiffness  = 5000
+      set Sliding threshold = 0.002
+      set Transition factor = 1
+    end
+    subsection Chuck
+      subsection Rotation z
+        set Stiffness = 3000
+      end
+    end
+    subsection Load steps
+      set Path following = slip
+    end)");
+  check("Viscosity, the bone is the slave, a random pattern", linear + R"(
+    subsection Interface
+      set Slave     = bone
+      set Viscosity = 5
+      subsection Bonding
+        set Pattern         = random
+        set Bonded fraction = 0.5
+      end
+    end)");
+  check("An interface a hundred times as stiff", R"(
+    subsection Interface
+      set Penalty stiffness = 58500
+    end
+    subsection Chuck
+      subsection Translation z
+        set Value = -0.0005 * min(t, 1)
+      end
+    end)");
+  check("A soft bone with large strains", R"(
+    subsection Bone
+      set Young modulus = 30
+    end
+    subsection Chuck
+      subsection Translation z
+        set Value = -0.6 * min(t, 1)
+      end
+    end)");
+  check("Slides to other elements", linear + R"(
+    subsection Chuck
+      subsection Translation x
+        set Value = 2 * max(t - 1, 0)
+      end
+    end)");
+  check("Slides to other elements, Neo-Hookean bodies, tilted", R"(
+    subsection Chuck
+      subsection Translation x
+        set Value = 2 * max(t - 1, 0)
+      end
+      subsection Rotation y
+        set Value = 0.2 * max(t - 1.2, 0)
+      end
+    end)");
+  check("Steps that are halved", R"(
+    subsection Interface
+      set Sliding threshold = 0.002
+      set Transition factor = 0.3
+      set Viscosity         = 0.5
+    end)");
+}

@@ -5,6 +5,7 @@
 #include <debond/earlier_results.h>
 #include <debond/foundation_error.h>
 #include <debond/input_error.h>
+#include <debond/memory_estimate.h>
 
 #include <algorithm>
 #include <cmath>
@@ -245,6 +246,10 @@ namespace Debond
         problem.run();
         rung.rows = problem.rows();
         rung.done = true;
+      }
+    catch (const NotEnoughMemory &error)
+      {
+        rung.why_not = std::string("refused: ") + error.what();
       }
     catch (const InputError &)
       {

@@ -5,6 +5,8 @@
 #include <debond/debonding_problem.h>
 #include <debond/energy_balance.h>
 #include <debond/field_output.h>
+#include <debond/input_error.h>
+#include <debond/memory_estimate.h>
 #include <debond/newton.h>
 #include <debond/number_text.h>
 #include <debond/path_following.h>
@@ -72,6 +74,7 @@ namespace Debond
     : scene(scene)
     , state(std::make_unique<Run>(scene))
   {
+    require_memory(scene);
     state->given_bodies = std::move(bodies);
   }
 
@@ -88,7 +91,14 @@ namespace Debond
   void
   DebondingProblem::run()
   {
-    set_up();
+    try
+      {
+        set_up();
+      }
+    catch (const InputError &error)
+      {
+        throw InputError(scene.with_place(error.what()));
+      }
     state->seconds_before_steps = state->wall_clock.wall_time();
     try
       {
@@ -104,6 +114,13 @@ namespace Debond
         else
           for (unsigned int step = 1; step <= state->stepping.n_steps(); ++step)
             solve_planned_step(step);
+      }
+    catch (const InputError &error)
+      {
+        // an expression that turns infinite
+        const std::string message = scene.with_place(error.what());
+        finish(false, message);
+        throw InputError(message);
       }
     catch (const std::exception &error)
       {
@@ -940,6 +957,7 @@ namespace Debond
     out << unknowns_of(system) << '\n'
         << system.interface.n_points() << " slave quadrature points on the "
         << (system.interface.slave_side() == 1 ? "implant" : "bone") << '\n'
+        << "memory: some " << std::ceil(estimated_memory_MB(scene)) << " MB\n"
         << "initial bonding " << name_of(scene.interface.bonding.pattern)
         << ": " << system.interface.bonding().description() << '\n'
         << state->stepping.n_steps() << " planned steps from time "

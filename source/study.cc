@@ -1,6 +1,7 @@
 #include <debond/csv_table.h>
 #include <debond/ensemble.h>
 #include <debond/input_error.h>
+#include <debond/memory_estimate.h>
 #include <debond/number_text.h>
 #include <debond/problem.h>
 #include <debond/sample_statistics.h>
@@ -392,6 +393,10 @@ namespace Debond
         {
           if (message.empty())
             Problem::create(scene, bodies)->run();
+        }
+      catch (const std::bad_alloc &)
+        {
+          message = out_of_memory;
         }
       catch (const std::exception &error)
         {

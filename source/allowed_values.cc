@@ -3,7 +3,7 @@
 
 #include <deal.II/base/utilities.h>
 
-#include <cmath>
+#include <cerrno>
 #include <cstdlib>
 #include <limits>
 #include <sstream>
@@ -51,9 +51,11 @@ namespace Debond
     if (trimmed.empty() ||
         trimmed.find_first_not_of("0123456789+-.eE") != std::string::npos)
       return false;
-    char        *end    = nullptr;
+    char *end           = nullptr;
+    errno               = 0;
     const double result = std::strtod(trimmed.c_str(), &end);
-    if (*end != '\0' || !std::isfinite(result))
+    // infinite, or so small that it has lost digits
+    if (*end != '\0' || errno == ERANGE)
       return false;
     value = result;
     return true;

@@ -6,6 +6,7 @@
 #include <debond/foundation_error.h>
 #include <debond/input_error.h>
 #include <debond/interruption.h>
+#include <debond/memory_estimate.h>
 
 #include <algorithm>
 #include <cmath>
@@ -246,6 +247,10 @@ namespace Debond
         problem.run();
         rung.rows = problem.rows();
         rung.done = true;
+      }
+    catch (const NotEnoughMemory &error)
+      {
+        rung.why_not = std::string("refused: ") + error.what();
       }
     catch (const InputError &)
       {

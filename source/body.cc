@@ -1,4 +1,5 @@
 #include <debond/body.h>
+#include <debond/input_error.h>
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/full_matrix.h>
@@ -151,9 +152,11 @@ namespace Debond
     const bool            positive_definite =
       condense_at(material() == Material::linear ? at_rest : accepted.value) ||
       condense_at(at_rest);
-    AssertThrow(positive_definite,
-                dealii::ExcMessage(
-                  "The stiffness of a body is not positive definite."));
+    if (!positive_definite)
+      throw InputError(
+        std::string(body_mesh.side() == BodySide::bone ? "Bone" : "Implant") +
+        " / Cells: the stiffness of this body is not positive definite: its "
+        "cells are too thin, or its Poisson ratio is too close to 0.5");
     if (material() == Material::linear)
       compute_reaction_operator();
   }

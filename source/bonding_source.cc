@@ -49,10 +49,12 @@ namespace Debond
           parser->value(dealii::Point<3>(place[0], place[1], r));
         // rounding may exceed the bounds by its own size
         if (!(value >= -1e-12 && value <= 1. + 1e-12))
-          throw InputError(section + "Expression = '" + expression +
-                           "': phi_0 = " + to_text(value, 6) +
-                           " at x = " + to_text(place[0], 6) + " mm, y = " +
-                           to_text(place[1], 6) + " mm: expected 0 to 1");
+          throw InputError(
+            section + "Expression = '" + shortened(expression) + "': phi_0 " +
+            (std::isfinite(value) ? "= " + to_text(value, 6) :
+                                    "has no finite value") +
+            " at x = " + to_text(place[0], 6) +
+            " mm, y = " + to_text(place[1], 6) + " mm: expected 0 to 1");
         return std::clamp(value, 0., 1.);
       };
     }
@@ -439,6 +441,8 @@ namespace Debond
           if (columns.size() == 1)
             return TableKind::in_order;
         }
+      if (columns.empty())
+        refuse_file(filename, "this file is empty");
       std::string names;
       for (const std::string &column : columns)
         names += (names.empty() ? "" : ",") + column;

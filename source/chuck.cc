@@ -1,5 +1,6 @@
 #include <debond/allowed_values.h>
 #include <debond/chuck.h>
+#include <debond/input_error.h>
 #include <debond/skew.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -174,7 +175,17 @@ namespace Debond
     for (unsigned int k = 0; k < 6; ++k)
       {
         const bool is_angle = k >= 3 && !parameters.component[k].loaded;
-        result[k] = value_functions[k](time) * (is_angle ? M_PI / 180. : 1.);
+        try
+          {
+            result[k] =
+              value_functions[k](time) * (is_angle ? M_PI / 180. : 1.);
+          }
+        catch (const InputError &error)
+          {
+            throw InputError(std::string("Chuck / ") +
+                             ChuckParameters::names[k] +
+                             " / Value: " + error.what());
+          }
       }
     return result;
   }

@@ -1,15 +1,13 @@
 #include <debond/allowed_values.h>
 #include <debond/csv_table.h>
 #include <debond/input_error.h>
+#include <debond/input_file.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <limits>
+#include <sstream>
 
 namespace Debond
 {
@@ -91,17 +89,12 @@ namespace Debond
 
 
 
-    std::ifstream
+    std::istringstream
     open_table(const std::string &filename, const std::string &entry)
     {
-      if (std::filesystem::is_directory(filename))
-        throw InputError(entry + " = '" + filename + "': this is a directory");
-      std::ifstream file(filename);
-      if (!file)
-        throw InputError(
-          entry + " = '" + filename +
-          "': this file cannot be read: " + std::strerror(errno));
-      return file;
+      constexpr unsigned int largest_MB = 200;
+      return std::istringstream(read_input_text(
+        filename, entry + " = '" + filename + "': ", largest_MB));
     }
 
 
@@ -109,7 +102,7 @@ namespace Debond
     /** The items of the next line that is neither empty nor a comment; false at
      *  the end of the file. */
     bool
-    next_items(std::ifstream            &file,
+    next_items(std::istream             &file,
                unsigned int             &line_number,
                std::vector<std::string> &items)
     {
@@ -117,8 +110,6 @@ namespace Debond
       while (std::getline(file, text))
         {
           ++line_number;
-          if (line_number == 1 && text.compare(0, 3, "\xEF\xBB\xBF") == 0)
-            text.erase(0, 3); // the mark that spreadsheets begin a file with
           text = dealii::Utilities::trim(text);
           if (text.empty() || text[0] == '#')
             continue;
@@ -134,7 +125,7 @@ namespace Debond
   std::vector<std::string>
   read_csv_header(const std::string &filename, const std::string &entry)
   {
-    std::ifstream            file        = open_table(filename, entry);
+    std::istringstream       file        = open_table(filename, entry);
     unsigned int             line_number = 0;
     std::vector<std::string> items;
     next_items(file, line_number, items);
@@ -150,7 +141,7 @@ namespace Debond
                    const bool                      nan_is_allowed,
                    std::vector<unsigned int>      *line_numbers)
   {
-    std::ifstream file = open_table(filename, entry);
+    std::istringstream file = open_table(filename, entry);
 
     std::vector<std::vector<double>> rows;
     std::vector<unsigned int>        columns;

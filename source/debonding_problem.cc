@@ -1,5 +1,7 @@
 #include <debond/debonding_run.h>
 #include <debond/forecast.h>
+#include <debond/input_error.h>
+#include <debond/memory_estimate.h>
 #include <debond/number_text.h>
 
 #include <cmath>
@@ -12,6 +14,7 @@ namespace Debond
     : scene(scene)
     , state(std::make_unique<Run>(this->scene))
   {
+    require_memory(scene);
     state->given_bodies = std::move(bodies);
   }
 
@@ -44,11 +47,25 @@ namespace Debond
   void
   DebondingProblem::run(const Checkpoint *const checkpoint)
   {
-    set_up(checkpoint);
+    try
+      {
+        set_up(checkpoint);
+      }
+    catch (const InputError &error)
+      {
+        throw InputError(scene.with_place(error.what()));
+      }
     state->seconds_before_steps = state->wall_clock.wall_time();
     try
       {
         solve_rows();
+      }
+    catch (const InputError &error)
+      {
+        // an expression that turns infinite
+        const InputError placed(scene.with_place(error.what()));
+        finish_after(placed);
+        throw placed;
       }
     catch (const std::exception &error)
       {
@@ -214,6 +231,7 @@ namespace Debond
     out << unknowns_of(system) << '\n'
         << system.interface.n_points() << " slave quadrature points on the "
         << (system.interface.slave_side() == 1 ? "implant" : "bone") << '\n'
+        << "memory: some " << std::ceil(estimated_memory_MB(scene)) << " MB\n"
         << "initial bonding " << name_of(scene.interface.bonding.pattern)
         << ": " << system.interface.bonding().description() << '\n'
         << state->stepping.n_steps() << " planned steps from time "

@@ -121,8 +121,16 @@ namespace Debond
               const std::string &expression,
               const double       radius)
   {
-    const std::string complaint = "the expression '" + expression + "' in " +
-                                  variables + " cannot be read: ";
+    constexpr std::size_t longest = 10000; // letters
+    const std::string complaint   = "the expression '" + shortened(expression) +
+                                  "' in " + variables + " cannot be read: ";
+    if (expression.size() > longest)
+      throw InputError(complaint + "it has more than " +
+                       std::to_string(longest) + " letters");
+    if (expression.find(';') != std::string::npos)
+      throw InputError(complaint + "it holds a ;");
+    if (expression.find("**") != std::string::npos)
+      throw InputError(complaint + "powers are written ^");
     if (has_comma_outside_parentheses(expression))
       throw InputError(complaint + "decimals are written with a point");
     if (has_assignment(expression))

@@ -1,6 +1,7 @@
 #include <debond/coupled_system.h>
 #include <debond/foundation.h>
 #include <debond/input_error.h>
+#include <debond/memory_estimate.h>
 #include <debond/newton.h>
 
 #include <cmath>
@@ -78,7 +79,8 @@ namespace Debond
     dealii::TimerOutput timer(std::cout,
                               dealii::TimerOutput::never,
                               dealii::TimerOutput::wall_times);
-    CoupledSystem       system(sticking_scene(scene, depth, angle), timer);
+    require_memory(scene);
+    CoupledSystem system(sticking_scene(scene, depth, angle), timer);
     system.start(0.);
     solve(system, 1.);
     FoundationStiffness stiffness;

@@ -1,5 +1,6 @@
 #include <debond/grey_image.h>
 #include <debond/input_error.h>
+#include <debond/input_file.h>
 
 #define BOOST_GIL_IO_ENABLE_GRAY_ALPHA
 #include <boost/crc.hpp>
@@ -11,11 +12,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 
 namespace Debond
@@ -130,22 +128,6 @@ namespace Debond
 
 
 
-    std::string
-    read_whole_file(const ImageFile &image)
-    {
-      if (std::filesystem::is_directory(image.name))
-        image.refuse("this is a directory");
-      std::ifstream      file(image.name, std::ios::binary);
-      std::ostringstream bytes;
-      if (!file)
-        image.refuse("this file cannot be read: " +
-                     std::string(std::strerror(errno)));
-      bytes << file.rdbuf();
-      return bytes.str();
-    }
-
-
-
     /** libpng writes its complaints to the error stream, and Boost.GIL leaves
      *  no way to tell it otherwise. */
     class SilentStderr
@@ -211,6 +193,10 @@ namespace Debond
           sum.process_bytes(bytes.data() + position + 4, length + 4);
           if (sum.checksum() != big_endian(bytes, position + 8 + length))
             file.refuse("this PNG file is damaged");
+          // libpng would refuse a huge picture without saying why
+          if (type == "IHDR" && length >= 8)
+            file.check_size(big_endian(bytes, position + 8),
+                            big_endian(bytes, position + 12));
           for (const char *const wanted :
                {"IHDR", "PLTE", "tRNS", "IDAT", "IEND"})
             if (type == wanted)
@@ -378,7 +364,8 @@ namespace Debond
   read_grey_image(const std::string &filename, const std::string &entry)
   {
     const ImageFile   file{filename, entry};
-    const std::string bytes = read_whole_file(file);
+    const std::string bytes =
+      read_input_bytes(filename, entry + " = '" + filename + "': ", 500);
     if (bytes.compare(0, 4, "\x89PNG") == 0)
       return read_png(file, bytes);
     if (bytes.compare(0, 2, "P2") == 0 || bytes.compare(0, 2, "P5") == 0)

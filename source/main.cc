@@ -1,6 +1,7 @@
 #include <debond/debonding_problem.h>
 #include <debond/input_error.h>
 #include <debond/interruption.h>
+#include <debond/memory_estimate.h>
 #include <debond/problem.h>
 #include <debond/resumed_run.h>
 #include <debond/runtime.h>
@@ -16,6 +17,7 @@
 #include <sstream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace
@@ -91,7 +93,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     if (word.empty() || word.size() > 4 ||
         word.find_first_not_of("0123456789") != std::string::npos ||
         std::stoi(word) == 0)
-      refuse_usage(option + " needs a whole number >= 1, not '" + word + "'");
+      refuse_usage(option + " needs a whole number from 1 to 9999, not '" +
+                   word + "'");
     return std::stoi(word);
   }
 
@@ -247,11 +250,15 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
       return Debond::print_parameters(std::cout, &scene);
 
     set_threads(arguments);
-    if (scene.study.repetitions > 1 || scene.study.factors_at_once > 0)
-      throw Debond::InputError(
-        scene.with_place("Study / Repetitions and Factors varied at once are "
-                         "for studies: no entry of this scene holds several "
-                         "values, {{a|b}}"));
+    for (const auto &[is_set, name] :
+         {std::make_pair(scene.study.repetitions > 1, "Repetitions"),
+          std::make_pair(scene.study.factors_at_once > 0,
+                         "Factors varied at once")})
+      if (is_set)
+        throw Debond::InputError(
+          scene.with_place(std::string("Study / ") + name +
+                           ": this is for studies, and no entry of this scene "
+                           "holds several values, {{a|b}}"));
     scene.output.overwrite_other_results = arguments.force;
     const auto problem                   = Debond::Problem::create(scene);
     if (arguments.action == Action::check)
@@ -311,8 +318,8 @@ main(int argc, char *argv[])
     }
   catch (const std::bad_alloc &)
     {
-      std::cerr << "debond: out of memory" << std::endl;
-      return 3;
+      std::cerr << "debond: " << Debond::out_of_memory << std::endl;
+      return 2;
     }
   catch (const std::exception &error)
     {

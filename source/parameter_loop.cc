@@ -42,7 +42,7 @@ namespace Debond
     refuse(const SceneEntry &entry, const std::string &why)
     {
       throw InputError(entry.place + ": " + entry.full_name() + " = '" +
-                       entry.value + "': " + why);
+                       shortened(entry.value) + "': " + why);
     }
 
 
@@ -68,10 +68,12 @@ namespace Debond
         "[-+.0-9eE]*[0-9][-+.0-9eE]*\\s*\\.\\.\\s*"
         "[-+.0-9eE]*|"
         "\\.\\.\\s*[-+]?[0-9]+");
-      std::smatch match;
-      if (!std::regex_match(item, match, whole))
+      // matching is recursive: long texts would overflow the stack
+      constexpr std::size_t longest = 100;
+      std::smatch           match;
+      if (item.size() > longest || !std::regex_match(item, match, whole))
         {
-          if (std::regex_match(item, attempt))
+          if (item.size() <= longest && std::regex_match(item, attempt))
             refuse(entry,
                    "'" + item +
                      "' is no range: expected FIRST..LAST with whole numbers "
@@ -93,6 +95,28 @@ namespace Debond
 
 
 
+    /** The name in `name: a|b|c`, letters first; nothing if there is none. */
+    std::string
+    name_of_choice(const std::string &inside)
+    {
+      const auto is_letter = [](const char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+      };
+      const auto is_part = [&is_letter](const char c) {
+        return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == ' ' ||
+               c == '-';
+      };
+      const auto colon = inside.find(':');
+      if (colon == std::string::npos)
+        return "";
+      const std::string name    = trim(inside.substr(0, colon));
+      const bool        is_name = !name.empty() && is_letter(name[0]) &&
+                           std::all_of(name.begin(), name.end(), is_part);
+      return is_name ? name : "";
+    }
+
+
+
     Choice
     read_choice(const SceneEntry &entry)
     {
@@ -108,15 +132,10 @@ namespace Debond
       const std::string suffix = value.substr(end + 2);
       std::string       inside = value.substr(begin + 2, end - begin - 2);
 
-      Choice            choice;
-      std::smatch       match;
-      static const auto named =
-        std::regex("\\s*([A-Za-z][A-Za-z0-9_ -]*?)\\s*:([^]*)");
-      if (std::regex_match(inside, match, named))
-        {
-          choice.name = match[1];
-          inside      = std::string(match[2]);
-        }
+      Choice choice;
+      choice.name = name_of_choice(inside);
+      if (!choice.name.empty())
+        inside.erase(0, inside.find(':') + 1);
       choice.by_run = inside.find("||") != std::string::npos;
       if (choice.by_run && !choice.name.empty())
         refuse(entry, "a named choice takes | between its values, not ||");

@@ -17,10 +17,10 @@ namespace Debond
   std::unique_ptr<Problem>
   Problem::create(const Scene &scene, std::shared_ptr<BodyPair> bodies)
   {
-    if (scene.model == ModelKind::finite_elements)
-      return std::make_unique<DebondingProblem>(scene, std::move(bodies));
     try
       {
+        if (scene.model == ModelKind::finite_elements)
+          return std::make_unique<DebondingProblem>(scene, std::move(bodies));
         if (scene.model == ModelKind::automatic)
           return std::make_unique<AutoProblem>(scene);
         return std::make_unique<ClosedFormProblem>(scene);

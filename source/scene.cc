@@ -1,9 +1,12 @@
 #include <debond/allowed_values.h>
+#include <debond/magnitudes.h>
 #include <debond/number_text.h>
+#include <debond/profile_comparison.h>
 #include <debond/scene.h>
 #include <debond/scene_entries.h>
 #include <debond/scene_file.h>
 #include <debond/time_function.h>
+#include <debond/torque_curve.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -246,6 +249,10 @@ namespace Debond
           throw InputError("Load steps / Times: " + to_text(times[i]) +
                            " after " + to_text(times[i - 1]) +
                            ": times must increase");
+      for (const double time : times)
+        if (std::abs(time) > 1e100)
+          throw InputError("Load steps / Times: " + to_text(time) +
+                           ": expected -1e100 to 1e100");
       if (load_steps.steps.size() + 1 != times.size())
         throw InputError("Load steps / Steps: one number fewer than in Times "
                          "is expected: " +
@@ -256,6 +263,15 @@ namespace Debond
       if (n_steps > 1e7)
         throw InputError("Load steps / Steps: " + to_text(n_steps) +
                          " steps are more than the 1e7 allowed");
+      for (std::size_t i = 1; i < times.size(); ++i)
+        if ((times[i] - times[i - 1]) / load_steps.steps[i - 1] <
+            1e-9 * std::max(std::abs(times[i]), std::abs(times[i - 1])))
+          throw InputError(
+            "Load steps / Times: " + std::to_string(load_steps.steps[i - 1]) +
+            " steps from " + to_text(times[i - 1], 17) + " to " +
+            to_text(times[i], 17) +
+            " are too small to tell their times apart: let the "
+            "times begin at 0");
     }
 
 
@@ -405,12 +421,9 @@ namespace Debond
     void
     check_output(const OutputParameters &output)
     {
-      for (const auto &[name, file] :
-           {std::make_pair("Reference curve", output.reference_curve),
-            std::make_pair("Reference profiles", output.reference_profiles)})
-        if (!file.empty() && !std::ifstream(file))
-          throw InputError("Output / " + std::string(name) + " = '" + file +
-                           "': this file cannot be opened");
+      // what cannot be read is refused before anything runs
+      read_reference_curve(output.reference_curve);
+      read_profiles(output.reference_profiles);
       if (!output.reference_profiles.empty() && output.profile_angles.empty())
         throw InputError("Output / Reference profiles = '" +
                          output.reference_profiles +
@@ -424,8 +437,11 @@ namespace Debond
     check_bonding_file(const std::string &file, const std::string &directory)
     {
       namespace fs = std::filesystem;
-      if (!file.empty() && fs::weakly_canonical(file).parent_path() ==
-                             fs::weakly_canonical(directory))
+      std::error_code wrong;
+      if (!file.empty() &&
+          fs::weakly_canonical(file, wrong).parent_path() ==
+            fs::weakly_canonical(directory, wrong) &&
+          !wrong)
         throw InputError("Interface / Bonding / File = '" + file +
                          "' is in the directory that this scene writes its "
                          "results to (Output / Directory): copy it elsewhere "
@@ -458,6 +474,7 @@ namespace Debond
   void
   Scene::check() const
   {
+    check_magnitudes(*this);
     check_cells(bone, "Bone");
     check_cells(implant, "Implant");
     check_cap(implant);
@@ -472,30 +489,6 @@ namespace Debond
     check_output(output);
     check_bonding_file(interface.bonding.file, output.directory);
   }
-
-
-
-  namespace
-  {
-    /** Where the entry is set whose name @p message begins with; the name of
-     *  the scene if it is not set. */
-    std::string
-    place_of(const std::string             &message,
-             const std::vector<SceneEntry> &entries,
-             const std::string             &scene_name)
-    {
-      std::string place = scene_name;
-      for (const SceneEntry &entry : entries)
-        {
-          const std::string name = entry.full_name();
-          if (message.compare(0, name.size(), name) == 0 &&
-              (message.size() == name.size() || message[name.size()] == ' ' ||
-               message[name.size()] == ':'))
-            place = entry.place;
-        }
-      return place;
-    }
-  } // namespace
 
 
 
@@ -540,8 +533,7 @@ namespace Debond
       }
     catch (const InputError &error)
       {
-        throw InputError(place_of(error.what(), entries, name) + ": " +
-                         error.what());
+        throw InputError(scene.with_place(error.what()));
       }
 
     std::ostringstream completed;
@@ -560,10 +552,18 @@ namespace Debond
   {
     for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry)
       {
-        const std::string beginning = entry->full_name() + ":";
-        if (message.compare(0, beginning.size(), beginning) == 0)
-          return entry->place + ": " + entry->full_name() + " = '" +
-                 entry->value + "'" + message.substr(beginning.size() - 1);
+        const std::string full_name = entry->full_name();
+        if (message.compare(0, full_name.size(), full_name) != 0)
+          continue;
+        const std::string rest = message.substr(full_name.size());
+        // some messages show it themselves
+        const bool shows_value =
+          rest.find("'" + shortened(entry->value) + "'") != std::string::npos;
+        if (rest[0] == ':' && !shows_value)
+          return entry->place + ": " + full_name + " = '" +
+                 shortened(entry->value) + "'" + rest;
+        if (rest.empty() || rest[0] == ' ' || rest[0] == ':')
+          return entry->place + ": " + message;
       }
     return name + ": " + message;
   }

@@ -11,6 +11,7 @@
 #include <boost/property_tree/ptree.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <numeric>
 #include <sstream>
@@ -28,6 +29,8 @@ namespace Debond
   namespace
   {
     using Tree = boost::property_tree::ptree;
+
+    constexpr auto npos = std::string::npos;
 
     void
     collect_entries(const Tree                     &tree,
@@ -192,13 +195,13 @@ namespace Debond
     {
       std::vector<std::string> path = entry.subsections;
       std::string              message =
-        entry.place + ": " + entry.full_name() + " is unknown";
+        entry.place + ": " + shortened(entry.full_name()) + " is unknown";
       if (!subsection_exists(path, declared))
         {
           while (path.size() > 1 &&
                  !subsection_exists({path.begin(), path.end() - 1}, declared))
             path.pop_back();
-          const std::string subsection = path.back();
+          const std::string subsection = shortened(path.back());
           path.pop_back();
           message +=
             path.empty() ?
@@ -207,7 +210,9 @@ namespace Debond
                 full_entry_name({path.begin(), path.end() - 1}, path.back()) +
                 " has no subsection '" + subsection + "'";
         }
-      const std::string likely = likely_name(entry, declared);
+      // to compare a very long text with all names takes very long
+      const std::string likely =
+        entry.full_name().size() < 200 ? likely_name(entry, declared) : "";
       throw InputError(message +
                        (likely.empty() ?
                           " (debond --print-parameters lists all entries)" :
@@ -237,28 +242,99 @@ namespace Debond
 
 
 
-    /** A number followed by something else: a unit, most likely. */
-    bool
-    carries_unit(const std::string &item)
+    /** The longest beginning of @p item that is made of the letters of a
+     *  number, if it is one; else nothing. */
+    std::string
+    leading_number(const std::string &item)
     {
-      const std::string::size_type end =
-        item.find_first_not_of("0123456789+-.");
+      const std::string beginning =
+        item.substr(0, item.find_first_not_of("0123456789+-."));
       double number = 0;
-      return end != std::string::npos &&
-             read_number(item.substr(0, end), number) &&
-             !read_number(item, number);
+      return read_number(beginning, number) ? beginning : "";
+    }
+
+
+
+    bool
+    consists_of(const std::string &text, const std::string &letters)
+    {
+      return !text.empty() && text.find_first_not_of(letters) == npos;
+    }
+
+
+
+    /** What may be wrong with something that is no number, or nothing. */
+    std::string
+    why_no_number(const std::string &item, const bool is_in_list)
+    {
+      const std::string begin = leading_number(item);
+      const std::string rest  = item.substr(begin.size());
+      if (item.empty())
+        return "; a value is missing";
+      if (consists_of(item, "0123456789+-.eE") && std::isdigit(item.back()))
+        {
+          char *end = nullptr;
+          std::strtod(item.c_str(), &end);
+          if (*end == '\0')
+            return "; '" + item + "' is beyond the numbers of a computer";
+        }
+      if (begin == "0" && (rest[0] == 'x' || rest[0] == 'X'))
+        return "; numbers are decimal";
+      if (!begin.empty() && (rest[0] == 'd' || rest[0] == 'D') &&
+          consists_of(rest.substr(1), "0123456789+-"))
+        return "; exponents are written with e: " + begin + "e" +
+               rest.substr(1);
+      if (item.find_first_of("*/^()") != npos)
+        return "; a formula cannot stand here";
+      if (is_in_list &&
+          (item.find(';') != npos || consists_of(item, "0123456789+-.eE \t")))
+        return "; values are separated by commas";
+      if (!begin.empty())
+        return "; give the number alone, without a unit";
+      return "; '" + shortened(item) + "' is no number";
     }
 
 
 
     /** `0,3` where a single number is wanted. */
-    bool
-    is_decimal_comma(const std::vector<std::string> &items)
+    std::string
+    remark_on_comma(const std::vector<std::string> &items)
+    {
+      double     number          = 0;
+      const bool is_one_by_comma = items.size() == 2 &&
+                                   read_number(items[0], number) &&
+                                   consists_of(items[1], "0123456789");
+      if (!is_one_by_comma)
+        return "";
+      return items[1].size() == 3 ?
+               "; decimals are written with a point, and nothing stands "
+               "between thousands: " +
+                 items[0] + "." + items[1] + " or " + items[0] + items[1] :
+               "; decimals are written with a point: " + items[0] + "." +
+                 items[1];
+    }
+
+
+
+    std::string
+    remark_on_list(const std::vector<std::string> &items,
+                   const std::string              &allowed)
     {
       double number = 0;
-      return items.size() == 2 && read_number(items[0], number) &&
-             !items[1].empty() &&
-             items[1].find_first_not_of("0123456789") == std::string::npos;
+      for (const std::string &item : items)
+        if (!read_number(item, number))
+          return why_no_number(item, true);
+      if (allowed.find(" or more ") == npos &&
+          items.size() != std::strtoul(allowed.c_str(), nullptr, 10))
+        return "; here are " + std::to_string(items.size()) +
+               " (decimals are written with a point)";
+      for (const std::string &item : items)
+        if (allowed.find("whole") != npos && !consists_of(item, "+0123456789"))
+          return "; '" + item + "' is no whole number >= 1";
+        else if (allowed.find("whole") != npos && read_number(item, number) &&
+                 number > 1e9)
+          return "; '" + item + "' is more than a billion";
+      return "";
     }
 
 
@@ -269,22 +345,20 @@ namespace Debond
     {
       const std::vector<std::string> items  = split_list(value);
       double                         number = 0;
-      const bool                     is_list =
-        allowed.find("separated by commas") != std::string::npos;
-      if (!is_list && allowed.find("number") == std::string::npos)
+      const bool is_list = allowed.find("separated by commas") != npos;
+      if (items.empty() || (!is_list && allowed.find("number") == npos))
         return "";
-      if (!is_list && is_decimal_comma(items))
-        return "; decimals are written with a point: " + items[0] + "." +
-               items[1];
-      if (std::any_of(items.begin(), items.end(), carries_unit))
-        return "; give the number alone, without a unit";
-      for (const std::string &item : items)
-        if (is_list && !read_number(item, number))
-          return "; '" + item + "' is no number";
-      if (is_list && allowed.find(" or more ") == std::string::npos &&
-          items.size() != std::strtoul(allowed.c_str(), nullptr, 10))
-        return "; here are " + std::to_string(items.size());
-      return "";
+      const auto is_special = [](const char c) {
+        return static_cast<unsigned char>(c) > 127;
+      };
+      if (std::any_of(value.begin(), value.end(), is_special))
+        return "; there is a special character in it, for instance a "
+               "typographic minus or a blank that does not break";
+      if (is_list)
+        return remark_on_list(items, allowed);
+      if (items.size() > 1)
+        return remark_on_comma(items);
+      return read_number(value, number) ? "" : why_no_number(value, false);
     }
 
 
@@ -292,13 +366,13 @@ namespace Debond
     [[noreturn]] void
     refuse_value(const SceneEntry &entry, const DeclaredEntry &declared)
     {
-      const std::string beginning =
-        entry.place + ": " + entry.full_name() + " = '" + entry.value + "' ";
+      const std::string beginning = entry.place + ": " + entry.full_name() +
+                                    " = '" + shortened(entry.value) + "' ";
       const std::string expected =
         declared.allowed.substr(0, declared.allowed.find(" (not in this"));
       if (is_put_off(entry.value, declared.allowed))
         throw InputError(beginning + "is not in this version: expected " +
-                         expected);
+                         (expected == "nothing" ? "no value" : expected));
       throw InputError(beginning + "is not allowed: expected " + expected +
                        hint_for(entry.value, declared.allowed));
     }
@@ -312,7 +386,7 @@ namespace Debond
     {
       if (entry.value.find("{{") != std::string::npos)
         throw InputError(entry.place + ": " + entry.full_name() + " = '" +
-                         entry.value +
+                         shortened(entry.value) +
                          "' holds several values, which makes a study: "
                          "expected one value here");
 

@@ -1,11 +1,11 @@
 #include <debond/input_error.h>
+#include <debond/input_file.h>
 #include <debond/scene_file.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <sstream>
 
@@ -61,45 +61,11 @@ namespace Debond
 
 
 
-    /** Refuses what is no text: what is shown of it in a message would be
-     *  unreadable, and the cause is nearly always a wrong file name. */
-    void
-    refuse_binary(const std::string &text, const std::string &name)
-    {
-      const auto is_binary = [](const char c) {
-        const auto code = static_cast<unsigned char>(c);
-        return code == 127 ||
-               (code < 32 && c != '\n' && c != '\r' && c != '\t' && c != '\f');
-      };
-      if (std::any_of(text.begin(), text.end(), is_binary))
-        throw InputError(name + ": this is not a text file");
-    }
-
-
-
     std::string
-    contents_of(const std::string &filename, const std::string &place)
+    contents_of(const std::string &filename, const std::string &where)
     {
-      const std::string prefix = place.empty() ? "" : place + ": ";
-      if (std::filesystem::is_directory(filename))
-        throw InputError(prefix + "'" + filename +
-                         "' is a directory, not a scene file");
-      std::ifstream file(filename, std::ios::binary);
-      if (!file)
-        throw InputError(prefix + "the file '" + filename +
-                         "' cannot be opened" +
-                         (place.empty() ? "" :
-                                          " (included files are looked for in "
-                                          "the working directory)"));
-
-      constexpr std::streamsize largest_size = 10000000;
-      std::string               text(largest_size + 1, '\0');
-      file.read(&text[0], largest_size + 1);
-      if (file.gcount() > largest_size)
-        throw InputError(prefix + "the file '" + filename +
-                         "' is too long for a scene");
-      text.resize(file.gcount());
-      return text;
+      constexpr unsigned int largest_MB = 10;
+      return read_input_text(filename, where, largest_MB);
     }
 
 
@@ -128,6 +94,8 @@ namespace Debond
       void
       read_include(const std::string &filename, const std::string &place);
       void
+      open_subsection(const std::string &name, const std::string &place);
+      void
       close_subsection(const std::string &rest, const std::string &place);
       void
       refuse_repetition(const SceneEntry &entry) const;
@@ -148,7 +116,7 @@ namespace Debond
       /** Number of subsections that were open when the current file began. */
       std::size_t                  outer_subsections = 0;
       std::map<std::string, Found> found;
-      unsigned int                 n_found = 0;
+      unsigned int                 n_found = 0, n_included = 0;
     };
 
 
@@ -156,13 +124,11 @@ namespace Debond
     void
     SceneReader::read(const std::string &text, const std::string &name)
     {
-      refuse_binary(text, name);
       files.push_back(name);
       const std::size_t outer_subsections_before = outer_subsections;
       outer_subsections                          = open_subsections.size();
 
-      const bool has_byte_order_mark = text.compare(0, 3, "\xEF\xBB\xBF") == 0;
-      std::istringstream lines(has_byte_order_mark ? text.substr(3) : text);
+      std::istringstream lines(plain_text(text, name + ": "));
       std::string        line, statement, place;
       unsigned int       line_number = 0;
       while (std::getline(lines, line))
@@ -224,7 +190,7 @@ namespace Debond
         blank == std::string::npos ? "" : trim(statement.substr(blank));
 
       if (keyword == "subsection" && !rest.empty())
-        open_subsections.push_back({single_blanks(rest), place});
+        open_subsection(rest, place);
       else if (keyword == "end")
         close_subsection(rest, place);
       else if (keyword == "set")
@@ -232,7 +198,7 @@ namespace Debond
       else if (keyword == "include" && !rest.empty())
         read_include(rest, place);
       else
-        throw InputError(place + ": cannot read '" + statement +
+        throw InputError(place + ": cannot read '" + shortened(statement) +
                          "': expected 'subsection NAME', 'set NAME = VALUE', "
                          "'end' or 'include FILE'");
     }
@@ -245,7 +211,7 @@ namespace Debond
       const std::string::size_type equal = rest.find('=');
       const std::string            name  = single_blanks(rest.substr(0, equal));
       if (equal == std::string::npos || name.empty())
-        throw InputError(place + ": cannot read 'set " + rest +
+        throw InputError(place + ": cannot read 'set " + shortened(rest) +
                          "': expected 'set NAME = VALUE'");
       const SceneEntry entry{current_path(),
                              name,
@@ -280,8 +246,17 @@ namespace Debond
     SceneReader::read_include(const std::string &filename,
                               const std::string &place)
     {
-      namespace fs              = std::filesystem;
-      const std::string text    = contents_of(filename, place);
+      namespace fs                      = std::filesystem;
+      const std::string      where      = place + ": '" + filename + "': ";
+      constexpr unsigned int most_files = 1000;
+      if (++n_included > most_files)
+        throw InputError(where + "more than " + std::to_string(most_files) +
+                         " files are included");
+      std::error_code unknown;
+      if (!fs::exists(filename, unknown))
+        throw InputError(where + "there is no such file (included files are "
+                                 "looked for in the working directory)");
+      const std::string text    = contents_of(filename, where);
       const auto        is_open = [&](const std::string &file) {
         std::error_code error;
         return fs::equivalent(file, filename, error);
@@ -295,11 +270,24 @@ namespace Debond
 
 
     void
+    SceneReader::open_subsection(const std::string &name,
+                                 const std::string &place)
+    {
+      constexpr std::size_t deepest = 20; // that of a scene is 2
+      if (open_subsections.size() == deepest)
+        throw InputError(place + ": more than " + std::to_string(deepest) +
+                         " subsections are open: is an 'end' missing?");
+      open_subsections.push_back({single_blanks(name), place});
+    }
+
+
+
+    void
     SceneReader::close_subsection(const std::string &rest,
                                   const std::string &place)
     {
       if (!rest.empty())
-        throw InputError(place + ": cannot read 'end " + rest +
+        throw InputError(place + ": cannot read 'end " + shortened(rest) +
                          "': 'end' stands alone in its line");
       if (open_subsections.size() <= outer_subsections)
         throw InputError(place +
@@ -337,7 +325,7 @@ namespace Debond
   std::vector<SceneEntry>
   read_scene_file(const std::string &filename)
   {
-    return read_scene_text(contents_of(filename, ""), filename);
+    return read_scene_text(contents_of(filename, filename + ": "), filename);
   }
 
 
@@ -387,7 +375,12 @@ namespace Debond
     std::istringstream parts(entry_name);
     std::string        part;
     while (std::getline(parts, part, '/'))
-      entry.subsections.push_back(single_blanks(part));
+      {
+        entry.subsections.push_back(single_blanks(part));
+        if (entry.subsections.back().empty())
+          throw InputError("--set: cannot read '" + text +
+                           "': expected \"SUBSECTION/ENTRY=VALUE\"");
+      }
     entry.name = entry.subsections.back();
     entry.subsections.pop_back();
     return entry;

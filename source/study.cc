@@ -3,6 +3,7 @@
 #include <debond/ensemble.h>
 #include <debond/input_error.h>
 #include <debond/interruption.h>
+#include <debond/memory_estimate.h>
 #include <debond/number_text.h>
 #include <debond/problem.h>
 #include <debond/resumed_run.h>
@@ -412,6 +413,10 @@ namespace Debond
         {
           if (message.empty())
             run_variant(scene, bodies);
+        }
+      catch (const std::bad_alloc &)
+        {
+          message = out_of_memory;
         }
       catch (const std::exception &error)
         {

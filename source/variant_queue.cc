@@ -1,4 +1,5 @@
 #include <debond/coupled_system.h>
+#include <debond/memory_estimate.h>
 #include <debond/number_text.h>
 #include <debond/runtime.h>
 #include <debond/scene.h>
@@ -61,6 +62,7 @@ namespace Debond
       scene.interface.bonding = {}; // that is not the bodies'
       try
         {
+          require_memory(scene);
           dealii::Timer       clock;
           dealii::TimerOutput timer(std::cout,
                                     dealii::TimerOutput::never,

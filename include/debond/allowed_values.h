@@ -109,8 +109,9 @@ namespace Debond
     only(const std::string &value);
   } // namespace Allowed
 
-  /** Reads a whole text as one finite decimal number, surrounding blanks
-   *  ignored. Returns false, and leaves @p value alone, if it is none. */
+  /** Reads a whole text as one decimal number, surrounding blanks ignored, that
+   *  is finite and not so small that digits are lost. Returns false, and leaves
+   * @p value alone, if it is none. */
   bool
   read_number(const std::string &text, double &value);
 

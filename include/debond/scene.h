@@ -73,9 +73,10 @@ namespace Debond
     std::vector<SceneEntry> entries;
     std::string             name;
 
-    /** @p message, which begins with the name of an entry and a colon, with
-     * file and line before it and the value of the entry after its name; with
-     * the name of the scene if it does not set the entry. */
+    /** @p message, which begins with the name of an entry, with file and line
+     *  before it and, if the name is followed by a colon, the value of the
+     *  entry after its name; with the name of the scene if it does not set the
+     *  entry. */
     std::string
     with_place(const std::string &message) const;
 

@@ -1,0 +1,14 @@
+#ifndef debond_magnitudes_h
+#define debond_magnitudes_h
+
+namespace Debond
+{
+  struct Scene;
+
+  /** Refuses sizes, stiffnesses and the like that no implant has and whose
+   *  products would overflow or vanish: nearly always a mistake in a unit or an
+   *  exponent. Throws InputError that begins with the name of the entry. */
+  void
+  check_magnitudes(const Scene &scene);
+} // namespace Debond
+#endif

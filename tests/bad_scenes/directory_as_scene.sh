@@ -1,0 +1,2 @@
+# A directory in the place of a scene.
+debond files

@@ -1,0 +1,3 @@
+# An empty file.
+: > input.prm
+debond input.prm

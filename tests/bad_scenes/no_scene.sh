@@ -1,0 +1,3 @@
+# No scene on the command line.
+debond
+debond --check

@@ -1,0 +1,2 @@
+# A scene that is not there.
+debond no_such_scene.prm

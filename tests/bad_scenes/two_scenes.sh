@@ -1,0 +1,2 @@
+# Two scenes at once.
+debond a.prm b.prm

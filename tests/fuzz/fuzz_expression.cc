@@ -1,0 +1,22 @@
+// Fuzz target: expressions in time and in place, read and evaluated.
+
+#include <debond/expression_parser.h>
+#include <debond/time_function.h>
+
+#include "fuzz_target.h"
+
+extern "C" int
+LLVMFuzzerTestOneInput(const std::uint8_t *data, const std::size_t size)
+{
+  const std::string expression(reinterpret_cast<const char *>(data), size);
+  must_read_or_refuse([&expression]() {
+    const Debond::TimeFunction value(expression, 2.5);
+    for (const double t : {0., 0.5, 1., 2.})
+      value(t);
+  });
+  must_read_or_refuse([&expression]() {
+    Debond::make_parser<3>("x,y,r,angle", expression, 2.5)
+      ->value(dealii::Point<3>(0.3, -0.4, 0.5));
+  });
+  return 0;
+}

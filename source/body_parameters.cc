@@ -163,6 +163,14 @@ namespace Debond
 
 
   double
+  BodyParameters::width(const unsigned int direction) const
+  {
+    return is_round() ? 2. * radius : size[direction];
+  }
+
+
+
+  double
   BodyParameters::rise() const
   {
     return shape == BodyShape::cap ? height_on_sphere(radius, cap_radius) : 0.;
@@ -173,7 +181,7 @@ namespace Debond
   double
   BodyParameters::characteristic_radius() const
   {
-    return is_round() ? radius : 0.5 * std::min(size[0], size[1]);
+    return 0.5 * std::min(width(0), width(1));
   }
 
 

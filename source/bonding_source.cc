@@ -59,23 +59,11 @@ namespace Debond
 
 
 
-    /** Size of the square, or rectangle, around the face [mm]. */
-    Eigen::Array2d
-    size_around(const BodyParameters &implant)
-    {
-      Eigen::Array2d size;
-      for (unsigned int d = 0; d < 2; ++d)
-        size[d] = implant.is_round() ? 2. * implant.radius : implant.size[d];
-      return size;
-    }
-
-
-
     /** The picture over the square, or rectangle, around the face. */
     PlaceFunction
     function_of_image(GreyImage image, const BodyParameters &implant)
     {
-      const Eigen::Array2d size = size_around(implant);
+      const Eigen::Array2d size(implant.width(0), implant.width(1));
       const auto shared = std::make_shared<const GreyImage>(std::move(image));
       return [shared, size](const Eigen::Vector2d &place) {
         const Eigen::Array2d uv = place.array() / size + 0.5;
@@ -135,8 +123,8 @@ namespace Debond
                     const unsigned int       n,
                     std::string             &remark)
     {
-      GreyImage    image = read_grey_image(parameters.file, section + "File");
-      const auto   size  = size_around(implant);
+      GreyImage image = read_grey_image(parameters.file, section + "File");
+      const Eigen::Array2d size(implant.width(0), implant.width(1));
       const double ratio = image.width / size[0] / (image.height / size[1]);
       if (std::max(ratio, 1. / ratio) > 1.02)
         remark = "the picture of " + std::to_string(image.width) + " x " +

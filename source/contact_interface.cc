@@ -717,8 +717,11 @@ namespace Debond
 
 
   void
-  ContactInterface::add_friction_work(const Point &point)
+  ContactInterface::add_friction_work(const Point &point, const double viscous)
   {
+    // the viscous traction is anything between its two ends
+    accepted_friction_work += viscous;
+    accepted_friction_work_bound += viscous;
     const ContactPointResult &trial = point.trial;
     const double              p     = point.accepted_pressure,
                  t                  = point.accepted_traction.norm();
@@ -764,10 +767,11 @@ namespace Debond
           0.5 * point.JxW *
           (Q * point.accepted_traction + trial.tangential_traction)
             .dot(trial.slip_increment);
-        accepted_viscous_work +=
+        const double viscous =
           0.5 * point.JxW *
           (Q * point.accepted_viscous_traction + trial.viscous_traction)
             .dot(trial.slip_increment);
+        accepted_viscous_work += viscous;
         if (!mode_now.frictionless)
           accepted_adhesive_work +=
             point.JxW * 0.5 * (point.accepted_pressure + trial.pressure) *
@@ -775,7 +779,7 @@ namespace Debond
                               trial.state.broken ? 0. : point.phi_0,
                               point.accepted.slip,
                               trial.state.slip);
-        add_friction_work(point);
+        add_friction_work(point, viscous);
         point.accepted          = trial.state;
         point.accepted_traction = Q.transpose() * trial.tangential_traction;
         point.accepted_viscous_traction =

@@ -535,15 +535,23 @@ namespace Debond
     const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
     bone.correct(-correction.head(n_b));
     implant.correct(-correction.segment(n_b, n_i));
+    correct_chuck(-1.);
+    return "";
+  }
+
+
+
+  void
+  CoupledSystem::correct_chuck(const double factor)
+  {
     for (const auto &[component, number] : configuration.chuck_unknowns)
       if (!chuck.is_prescribed(component))
-        chuck.correct(component, -correction[number]);
+        chuck.correct(component, factor * last_correction[number]);
     if (path.follow)
       {
-        trial_time -= correction[path.number];
+        trial_time += factor * last_correction[path.number];
         chuck.prescribe(trial_time);
       }
-    return "";
   }
 
 
@@ -553,8 +561,7 @@ namespace Debond
   {
     bone.shorten_correction(fraction);
     implant.shorten_correction(fraction);
-    for (const auto &[component, number] : configuration.chuck_unknowns)
-      chuck.correct(component, (1. - fraction) * last_correction[number]);
+    correct_chuck(1. - fraction);
     last_correction *= fraction;
   }
 

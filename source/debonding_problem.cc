@@ -546,6 +546,9 @@ namespace Debond
   void
   DebondingProblem::check_for_jump()
   {
+    // the explicit law does not spend what friction_work() says
+    if (scene.interface.explicit_friction)
+      return;
     CoupledSystem          &system    = *state->system;
     const ContactInterface &interface = system.interface;
     ReleasedEnergy::State   now;
@@ -553,12 +556,10 @@ namespace Debond
     now.position = system.chuck.machine_position();
     now.stored   = system.chuck.machine_energy() + system.bone.energy() +
                  system.implant.energy() + state->interface_summary.energy;
-    now.spent = interface.friction_work() + interface.viscous_work();
-    // viscous traction changes from step to step by as much as it likes
-    now.bound = interface.friction_work_bound() + interface.viscous_work();
+    now.spent             = interface.friction_work();
+    now.bound             = interface.friction_work_bound();
     const double released = state->released.add(now);
-    // the explicit law does not spend what the implicit one says
-    if (released > 0. && !scene.interface.explicit_friction)
+    if (released > 0.)
       {
         std::ostringstream text;
         text << "step " << state->step << ": in one step the torque went from "

@@ -206,7 +206,7 @@ namespace Debond
       const bool is_round = implant.is_round();
       for (unsigned int d = 0; d < 2; ++d)
         {
-          const double width = is_round ? 2 * implant.radius : implant.size[d];
+          const double width = implant.width(d);
           if (width > bone.size[d])
             throw InputError(
               std::string("Implant / ") + (is_round ? "Radius" : "Size") +

@@ -125,6 +125,28 @@ check(const std::string &slave)
                     (-50000. * (1.5 + 2. * 0.4) * M_PI / 180.) -
                   1.),
          1e-8);
+
+  // a correction that is shortened: the time is one of what it corrects, and
+  // prescribed components follow the time
+  system.evaluate(mode);
+  const double         time  = system.time();
+  const Chuck::Vector6 start = system.chuck.position();
+  system.solve_and_correct(1e-9);
+  const double         full_time = system.time();
+  const Chuck::Vector6 full      = system.chuck.position();
+  system.shorten_correction(0.25);
+  report("  a quarter of the time's correction",
+         std::abs((system.time() - time) / (full_time - time) - 0.25),
+         1e-9);
+  report("  a quarter of the angle's correction",
+         std::abs((system.chuck.position()[5] - start[5]) /
+                    (full[5] - start[5]) -
+                  0.25),
+         1e-9);
+  report("  the prescribed component is where the scene has it at that time",
+         std::abs(system.chuck.position()[2] -
+                  system.chuck.values(system.time())[2]),
+         1e-15);
 }
 
 

@@ -53,6 +53,9 @@ namespace Debond
     /** Height of the body on its axis [mm]. */
     double
     thickness() const;
+    /** Size of the contact face along x (0) or y (1), seen from above [mm]. */
+    double
+    width(unsigned int direction) const;
     /** Height of the rim of the contact face above its centre [mm]. */
     double
     rise() const;

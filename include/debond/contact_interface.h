@@ -274,16 +274,17 @@ namespace Debond
     }
 
     /** Work of friction up to the accepted state with the integral of the law
-     *  over the sliding distance instead of a trapezoid [N mm]: a step that
-     *  jumps spends no more than that. */
+     *  over the sliding distance instead of a trapezoid, and of viscosity
+     *  [N mm]: a step that jumps spends no more than that. */
     double
     friction_work() const
     {
       return accepted_friction_work;
     }
     /** How far friction_work() and the stored energy may be wrong because the
-     *  pressure changes while a point slides, and because points that open
-     *  slide before they do; a bound of the sum over all steps [N mm]. */
+     *  pressure or the speed changes while a point slides, and because points
+     *  that open slide before they do; a bound of the sum over all steps [N
+     * mm]. */
     double
     friction_work_bound() const
     {
@@ -312,7 +313,7 @@ namespace Debond
     void
     add_forces(const Point &point, NodalSums &sums) const;
     void
-    add_friction_work(const Point &point);
+    add_friction_work(const Point &point, double viscous);
     void
     add_change(const Point     &point,
                const NodalSums &moved,

@@ -202,6 +202,10 @@ namespace Debond
     scale_of(unsigned int chuck_component) const;
     double
     evaluate_path(double reference);
+    /** Moves the chuck and, along a path, the time by @p factor times the last
+     *  correction. */
+    void
+    correct_chuck(double factor);
     void
     apply_path(const Eigen::VectorXd &x, Eigen::VectorXd &y) const;
     void

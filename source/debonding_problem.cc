@@ -63,6 +63,8 @@ namespace Debond
     unsigned int           step                 = 0; ///< planned step at work
     double                 seconds_before_steps = 0;
     std::string            last_failure;
+    /** Time of the shortest accepted step. */
+    double smallest_step = CurveMeasures::undefined;
   };
 
 
@@ -518,7 +520,11 @@ namespace Debond
     CoupledSystem &system  = *state->system;
     state->reaction_defect = system.reaction_defect();
     if (state->step > 0)
-      ++state->accepted_steps;
+      {
+        ++state->accepted_steps;
+        state->smallest_step =
+          std::fmin(state->smallest_step, std::abs(time - state->time));
+      }
     system.commit(state->path ? state->accepted_steps : time);
     state->energy.add(system.chuck_forces(),
                       system.chuck.position(),
@@ -775,6 +781,7 @@ namespace Debond
       state->console.warn("reference",
                           warning_about_reference(summary.measures, settings));
     summary.steps             = state->accepted_steps;
+    summary.smallest_step     = state->smallest_step;
     summary.newton_iterations = state->newton_iterations;
     summary.dofs              = system.bone.mesh().n_dofs_as_published() +
                    system.implant.mesh().n_dofs_as_published();

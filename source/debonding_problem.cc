@@ -150,6 +150,21 @@ namespace Debond
            << " after condensation on the contact surfaces";
       return text.str();
     }
+
+
+
+    void
+    warn_of_locking(const BodyParameters &body,
+                    const std::string    &name,
+                    Console              &console)
+    {
+      if (body.material != Material::rigid && body.poisson_ratio > 0.45)
+        console.warn("locking of " + name,
+                     name +
+                       " / Poisson ratio = " + to_text(body.poisson_ratio) +
+                       ": trilinear cells lock as it approaches 0.5, so that "
+                       "the body is too stiff: compare with finer Cells");
+    }
   } // namespace
 
 
@@ -186,6 +201,8 @@ namespace Debond
     if (!scene.title.empty())
       state->console.headline(scene.title);
     state->console.headline(unknowns_of(*state->system));
+    warn_of_locking(scene.bone, "Bone", state->console);
+    warn_of_locking(scene.implant, "Implant", state->console);
     write_bonding();
   }
 
@@ -638,7 +655,7 @@ namespace Debond
                      where +
                        "more energy is dissipated than was put in: the steps "
                        "are too large for the energy balance to be trusted");
-    if (energy.dissipation_falls())
+    if (energy.is_given_back(state->system->interface.step_dissipation()))
       note_violation("dissipation falls",
                      where + "sliding gives energy back: points slide along "
                              "their traction instead of against it");

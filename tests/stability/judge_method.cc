@@ -25,6 +25,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <regex>
@@ -114,13 +115,18 @@ namespace
   std::string
   run(const std::string &scene_file, const std::vector<std::string> &overrides)
   {
-    Debond::Scene scene = Debond::Scene::from_entries(
-      Debond::with_overrides(Debond::read_scene_file(scene_file), overrides),
-      scene_file);
-    scene.output.overwrite_other_results = true;
     try
       {
+        Debond::Scene scene = Debond::Scene::from_entries(
+          Debond::with_overrides(Debond::read_scene_file(scene_file),
+                                 overrides),
+          scene_file);
+        scene.output.overwrite_other_results = true;
         Debond::Problem::create(scene)->run();
+      }
+    catch (const Debond::InputError &error)
+      {
+        return error.what();
       }
     catch (const Debond::RunError &error)
       {
@@ -149,7 +155,8 @@ namespace
              const std::string &directory)
   {
     Outcome outcome;
-    outcome.results = read_results(directory);
+    if (std::filesystem::exists(directory + "/summary.json"))
+      outcome.results = read_results(directory);
     if (!message.empty())
       {
         const bool refused = !method.message.empty() &&
@@ -223,6 +230,8 @@ main(int argc, char *argv[])
       Method method               = find_method(contents_of(scene_file), name);
       method.overrides.push_back("Output/Directory=" + directory);
       method.overrides.push_back("Output/Console=quiet");
+      // a scene that is refused must not be judged by an earlier run
+      std::filesystem::remove(directory + "/summary.json");
       const Outcome outcome =
         outcome_of(method, run(scene_file, method.overrides), directory);
       const bool as_expected = outcome.name == method.outcome;

@@ -222,19 +222,6 @@ namespace Debond
 
 
     AllowedValues
-    number_between_excluding_upper(const double       lower,
-                                   const double       upper,
-                                   const std::string &unit)
-    {
-      return number_that([=](
-                           const double x) { return x >= lower && x < upper; },
-                         " >= " + to_text(lower) + " and < " + to_text(upper),
-                         unit);
-    }
-
-
-
-    AllowedValues
     number_between_excluding_lower(const double       lower,
                                    const double       upper,
                                    const std::string &unit)

@@ -39,9 +39,11 @@ namespace Debond
                         "body ignores it.");
       prm.declare_entry("Poisson ratio",
                         "0.3",
-                        Allowed::number_between_excluding_upper(0, 0.5, ""),
+                        Allowed::number_between(0, 0.49, ""),
                         "Poisson's ratio nu, dimensionless. Trilinear cells "
-                        "lock as it approaches 0.5. A rigid body ignores it.");
+                        "lock as it approaches 0.5: beyond 0.45 the program "
+                        "warns, beyond 0.49 it refuses. A rigid body ignores "
+                        "it.");
       prm.declare_entry(
         "Contact surface",
         "nurbs",

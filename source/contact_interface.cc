@@ -754,7 +754,8 @@ namespace Debond
     const double           moved   = motion(configuration);
     for (unsigned int side = 0; side < 2; ++side)
       accepted_positions[side] = configuration.side[side].positions;
-    unprojected = 0;
+    unprojected               = 0;
+    accepted_step_dissipation = 0.;
     for (Point &point : points)
       {
         if (!point.accepted.has_partner && point.clearance > moved)
@@ -763,6 +764,8 @@ namespace Debond
             continue;
           }
         const ContactPointResult &trial = point.trial;
+        accepted_step_dissipation +=
+          point.JxW * trial.tangential_traction.dot(trial.slip_increment);
         accepted_dissipation +=
           0.5 * point.JxW *
           (Q * point.accepted_traction + trial.tangential_traction)

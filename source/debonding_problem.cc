@@ -126,6 +126,21 @@ namespace Debond
            << " after condensation on the contact surfaces";
       return text.str();
     }
+
+
+
+    void
+    warn_of_locking(const BodyParameters &body,
+                    const std::string    &name,
+                    Console              &console)
+    {
+      if (body.material != Material::rigid && body.poisson_ratio > 0.45)
+        console.warn("locking of " + name,
+                     name +
+                       " / Poisson ratio = " + to_text(body.poisson_ratio) +
+                       ": trilinear cells lock as it approaches 0.5, so that "
+                       "the body is too stiff: compare with finer Cells");
+    }
   } // namespace
 
 
@@ -149,6 +164,8 @@ namespace Debond
     if (!scene.title.empty())
       state->console.headline(scene.title);
     state->console.headline(unknowns_of(*state->system));
+    warn_of_locking(scene.bone, "Bone", state->console);
+    warn_of_locking(scene.implant, "Implant", state->console);
     write_bonding();
     open_results(checkpoint);
   }

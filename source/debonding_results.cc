@@ -155,6 +155,7 @@ namespace Debond
       state->console.warn("reference",
                           warning_about_reference(summary.measures, settings));
     summary.steps             = state->accepted_steps;
+    summary.smallest_step     = state->smallest_step;
     summary.newton_iterations = state->newton_iterations;
     summary.dofs              = system.bone.mesh().n_dofs_as_published() +
                    system.implant.mesh().n_dofs_as_published();

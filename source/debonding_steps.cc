@@ -321,7 +321,11 @@ namespace Debond
     CoupledSystem &system          = *state->system;
     const double   reaction_defect = system.reaction_defect();
     if (state->step > 0)
-      ++state->accepted_steps;
+      {
+        ++state->accepted_steps;
+        state->smallest_step =
+          std::fmin(state->smallest_step, std::abs(time - state->time));
+      }
     system.commit(state->path ? state->accepted_steps : time);
     state->time = time;
     state->checks.add(state->step,

@@ -12,9 +12,8 @@ namespace Debond
                      const double          energy_interface,
                      const double          dissipation)
   {
-    stored          = energy_bulk + energy_interface;
-    last_dissipated = started ? dissipated : dissipation;
-    dissipated      = dissipation;
+    stored     = energy_bulk + energy_interface;
+    dissipated = dissipation;
     if (started)
       {
         const Chuck::Vector6 dq = position - last_position;
@@ -64,9 +63,9 @@ namespace Debond
 
 
   bool
-  EnergyBalance::dissipation_falls() const
+  EnergyBalance::is_given_back(const double step_dissipation) const
   {
-    return dissipated < last_dissipated - 1e-9 * max_W;
+    return step_dissipation < -1e-9 * max_W;
   }
 
 
@@ -89,10 +88,14 @@ namespace Debond
         const double put_in     = 0.5 * (state.forces + last.forces).dot(dq);
         work += put_in;
         largest_work = std::max({largest_work, std::abs(work), state.stored});
-        // of the trapezoid, and of residuals that are not quite zero
-        const double bound =
-          0.5 * (state.forces - last.forces).cwiseAbs().dot(dq.cwiseAbs()) +
-          state.bound - last.bound + 1e-6 * largest_work;
+        // of the trapezoid, and of residuals that are not quite zero; a force
+        // may have turned within the step, so that its ends alone tell too
+        // little
+        const Chuck::Vector6 change = (state.forces - last.forces).cwiseAbs();
+        const double         bound =
+          0.5 * change.cwiseMax(last_change).dot(dq.cwiseAbs()) + state.bound -
+          last.bound + 1e-6 * largest_work;
+        last_change = change;
         excess =
           put_in - (state.stored - last.stored) - (state.spent - last.spent);
         if (excess <= bound)

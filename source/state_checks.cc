@@ -33,7 +33,7 @@ namespace Debond
       check_for_jump(where, system, summary);
     check_interface(where, system, summary);
     check_reaction(where);
-    check_energy_balance(where);
+    check_energy_balance(where, system.interface.step_dissipation());
   }
 
 
@@ -155,14 +155,15 @@ namespace Debond
 
 
   void
-  StateChecks::check_energy_balance(const std::string &where)
+  StateChecks::check_energy_balance(const std::string &where,
+                                    const double       step_dissipation)
   {
     if (energy_balance.dissipates_too_much())
       note_violation("dissipation",
                      where +
                        "more energy is dissipated than was put in: the steps "
                        "are too large for the energy balance to be trusted");
-    if (energy_balance.dissipation_falls())
+    if (energy_balance.is_given_back(step_dissipation))
       note_violation("dissipation falls",
                      where + "sliding gives energy back: points slide along "
                              "their traction instead of against it");

@@ -471,6 +471,7 @@ namespace Debond
     json.add("largest_energy_defect", m.largest_energy_defect);
     json.add("largest_reaction_defect", m.largest_reaction_defect);
     json.add("viscous_dissipation_Nm", m.viscous_dissipation_Nm);
+    json.add("smallest_step", summary.smallest_step);
     for (const auto &[name, value] : error_measures(summary.profile_measures))
       json.add(name, value);
     for (const auto &[name, seconds] : summary.seconds)

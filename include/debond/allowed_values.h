@@ -58,12 +58,6 @@ namespace Debond
                    const double       upper,
                    const std::string &unit);
 
-    /** A number in [@p lower, @p upper). */
-    AllowedValues
-    number_between_excluding_upper(const double       lower,
-                                   const double       upper,
-                                   const std::string &unit);
-
     /** A number in (@p lower, @p upper]. */
     AllowedValues
     number_between_excluding_lower(const double       lower,

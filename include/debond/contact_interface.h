@@ -272,6 +272,15 @@ namespace Debond
     {
       return accepted_dissipation;
     }
+
+    /** Slip of the step to the accepted state times the tractions at its end
+     *  [N mm]. A trapezoid may be negative where the slip reverses; this is so
+     *  only where points slide along their traction. */
+    double
+    step_dissipation() const
+    {
+      return accepted_step_dissipation;
+    }
     double
     adhesive_work() const
     {
@@ -362,8 +371,8 @@ namespace Debond
     double                                area_of_implant = 0;
     std::unique_ptr<const BondingPattern> pattern;
     NodalSums                             forces, accepted_positions;
-    double accepted_dissipation = 0, accepted_adhesive_work = 0,
-           accepted_viscous_work        = 0;
+    double accepted_dissipation = 0, accepted_step_dissipation = 0,
+           accepted_adhesive_work = 0, accepted_viscous_work = 0;
     double       accepted_friction_work = 0, accepted_friction_work_bound = 0;
     unsigned int unprojected  = 0;
     int          failed_point = -1;

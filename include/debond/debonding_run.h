@@ -62,6 +62,8 @@ namespace Debond
     bool         phase_is_begun = false, extrapolate = false;
     unsigned int accepted_steps    = 0; ///< sub-steps included
     unsigned int newton_iterations = 0;
+    /** Time of the shortest accepted step. */
+    double smallest_step = CurveMeasures::undefined;
     //@}
 
     /** @name Of the step at work */
@@ -94,7 +96,7 @@ namespace Debond
       if (field_output)
         archive &*field_output;
       archive &rows &time &step &phase &phase_is_begun &extrapolate;
-      archive &accepted_steps                          &newton_iterations;
+      archive &accepted_steps &newton_iterations       &smallest_step;
       std::map<std::string, double>                     so_far = seconds();
       archive                                          &so_far;
       if (Archive::is_loading::value)

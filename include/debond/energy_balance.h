@@ -37,9 +37,10 @@ namespace Debond
     /** Dissipated more than was put in, beyond the bound? */
     bool
     dissipates_too_much() const;
-    /** Did the last step give back what had been dissipated? */
+    /** Whether sliding gave energy back: @p step_dissipation is
+     *  ContactInterface::step_dissipation(). */
     bool
-    dissipation_falls() const;
+    is_given_back(double step_dissipation) const;
     /** Is more missing, or left over, than trapezoids can account for? */
     bool
     is_out_of_balance() const;
@@ -51,7 +52,6 @@ namespace Debond
     {
       archive &started &last_forces &last_position &W &max_W &bound;
       archive &stored &dissipated &first_stored              &first_dissipated;
-      archive                                                &last_dissipated;
     }
 
   private:
@@ -59,7 +59,6 @@ namespace Debond
     Chuck::Vector6 last_forces, last_position;
     double         W = 0, max_W = 0, bound = 0;
     double stored = 0, dissipated = 0, first_stored = 0, first_dissipated = 0;
-    double last_dissipated = 0;
   };
 
 
@@ -114,14 +113,15 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &started &last &largest_work &work &released &jumps;
+      archive &started &last &last_change &largest_work &work &released &jumps;
     }
 
   private:
-    bool         started = false;
-    State        last;
-    double       largest_work = 0, work = 0, released = 0;
-    unsigned int jumps = 0;
+    bool           started = false;
+    State          last;
+    Chuck::Vector6 last_change = Chuck::Vector6::Zero(); ///< of the forces, abs
+    double         largest_work = 0, work = 0, released = 0;
+    unsigned int   jumps = 0;
   };
 } // namespace Debond
 #endif

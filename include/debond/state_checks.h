@@ -73,7 +73,7 @@ namespace Debond
     void
     check_reaction(const std::string &where);
     void
-    check_energy_balance(const std::string &where);
+    check_energy_balance(const std::string &where, double step_dissipation);
 
     const Scene          &scene;
     Console              &console;

@@ -197,6 +197,8 @@ namespace Debond
     CurveMeasures   measures;
     ProfileMeasures profile_measures;
     unsigned int    steps             = 0; ///< accepted, sub-steps included
+    /** Time of the shortest accepted step. */
+    double smallest_step = std::numeric_limits<double>::quiet_NaN();
     unsigned int    newton_iterations = 0;
     unsigned int    dofs              = 0; ///< as the paper counts them
     unsigned int    unknowns          = 0; ///< dofs less tied surface vertices

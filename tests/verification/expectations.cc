@@ -1,0 +1,433 @@
+#include "expectations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <stdexcept>
+
+namespace Expectations
+{
+  namespace
+  {
+    /** What makes an expectation fail other than a wrong number. */
+    using Problem = std::runtime_error;
+  } // namespace
+
+
+
+  std::string
+  contents_of(const std::string &filename)
+  {
+    std::ifstream file(filename);
+    if (!file)
+      throw Problem("cannot open " + filename);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+
+
+
+  namespace
+  {
+    double
+    to_number(const std::string &text)
+    {
+      std::size_t end   = 0;
+      double      value = 0;
+      try
+        {
+          value = std::stod(text, &end);
+        }
+      catch (const std::exception &)
+        {
+          end = 0;
+        }
+      if (end == 0 || end != text.size())
+        throw Problem("'" + text + "' is no number");
+      return value;
+    }
+
+
+
+    std::vector<std::string>
+    split_at_commas(const std::string &line)
+    {
+      std::vector<std::string> items;
+      std::istringstream       text(line);
+      std::string              item;
+      while (std::getline(text, item, ','))
+        items.push_back(item);
+      return items;
+    }
+
+
+
+    Table
+    read_table(const std::string &filename)
+    {
+      std::istringstream lines(contents_of(filename));
+      std::string        line;
+      Table              table;
+      std::getline(lines, line);
+      table.columns = split_at_commas(line);
+      while (std::getline(lines, line))
+        {
+          std::vector<double> row;
+          for (const std::string &item : split_at_commas(line))
+            row.push_back(to_number(item));
+          if (row.size() != table.columns.size())
+            throw Problem(filename + " has a row of another length");
+          table.rows.push_back(row);
+        }
+      return table;
+    }
+
+
+
+    /** The numbers and booleans of a flat JSON object. */
+    std::map<std::string, double>
+    read_summary(const std::string &filename)
+    {
+      const std::string text = contents_of(filename);
+      const std::regex  member(
+        "\"([^\"]+)\"\\s*:\\s*(true|false|[-+0-9.eE]+)\\s*[,}\\n]");
+      std::map<std::string, double> summary;
+      for (std::sregex_iterator i(text.begin(), text.end(), member), end;
+           i != end;
+           ++i)
+        {
+          const std::string value = (*i)[2];
+          summary[(*i)[1]]        = value == "true"  ? 1. :
+                                    value == "false" ? 0. :
+                                                       to_number(value);
+        }
+      return summary;
+    }
+
+
+
+    /** The fields of a line of CSV, quoted or not. */
+    std::vector<std::string>
+    csv_fields(const std::string &line)
+    {
+      std::vector<std::string> fields(1);
+      bool                     quoted = false;
+      for (const char c : line)
+        if (c == '"')
+          quoted = !quoted;
+        else if (c == ',' && !quoted)
+          fields.emplace_back();
+        else
+          fields.back() += c;
+      return fields;
+    }
+  } // namespace
+
+
+
+  std::size_t
+  Table::column(const std::string &name) const
+  {
+    const auto position = std::find(columns.begin(), columns.end(), name);
+    if (position == columns.end())
+      throw Problem("torque.csv has no column " + name);
+    return position - columns.begin();
+  }
+
+
+
+  Results
+  read_results(const std::string &directory)
+  {
+    return {directory,
+            read_table(directory + "/torque.csv"),
+            read_summary(directory + "/summary.json")};
+  }
+
+
+
+  /** The results of each variant of a study: the numbers in its row of
+   * study.csv and its torque curve. */
+  std::vector<Results>
+  read_study(const std::string &directory)
+  {
+    std::istringstream lines(contents_of(directory + "/study.csv"));
+    std::string        line;
+    std::getline(lines, line);
+    const std::vector<std::string> columns = csv_fields(line);
+    std::vector<Results>           variants;
+    while (std::getline(lines, line))
+      {
+        Results                        results;
+        const std::vector<std::string> fields = csv_fields(line);
+        for (std::size_t i = 0; i < std::min(columns.size(), fields.size());
+             ++i)
+          if (fields[i] == "true" || fields[i] == "false")
+            results.summary[columns[i]] = fields[i] == "true";
+          else
+            try
+              {
+                results.summary[columns[i]] = to_number(fields[i]);
+              }
+            catch (const Problem &) // text
+              {}
+        char name[32];
+        std::snprintf(name,
+                      sizeof(name),
+                      "/variant-%03u",
+                      static_cast<unsigned int>(variants.size() + 1));
+        try
+          {
+            results.table = read_table(directory + name + "/torque.csv");
+          }
+        catch (const Problem &) // a variant that failed
+          {}
+        results.directory = directory + name;
+        variants.push_back(results);
+      }
+    return variants;
+  }
+
+
+
+  namespace
+  {
+    double
+    value_at_row(const Table       &table,
+                 const std::string &name,
+                 const std::string &where,
+                 const double       position)
+    {
+      const std::size_t column       = table.column(name);
+      const std::size_t where_column = table.column(where);
+      const double      tolerance    = 1e-9 * std::max(1., std::abs(position));
+      for (auto row = table.rows.rbegin(); row != table.rows.rend(); ++row)
+        if (std::abs((*row)[where_column] - position) <= tolerance)
+          return (*row)[column];
+      throw Problem("torque.csv has no such row");
+    }
+
+
+
+    double
+    ripple(const Table       &table,
+           const std::string &name,
+           const std::string &where,
+           const double       from)
+    {
+      const std::size_t column       = table.column(name);
+      const std::size_t where_column = table.column(where);
+      double            lowest = 1e300, highest = -1e300, sum = 0, n = 0;
+      for (const auto &row : table.rows)
+        if (row[where_column] >= from - 1e-9 * std::max(1., std::abs(from)))
+          {
+            lowest  = std::min(lowest, row[column]);
+            highest = std::max(highest, row[column]);
+            sum += row[column];
+            ++n;
+          }
+      if (n < 2)
+        throw Problem("torque.csv has no such rows");
+      return (highest - lowest) / std::abs(sum / n);
+    }
+
+
+
+    double
+    largest_value(const Table &table, const std::string &name)
+    {
+      const std::size_t column = table.column(name);
+      double            result = 0;
+      for (const auto &row : table.rows)
+        result = std::max(result, std::abs(row[column]));
+      return result;
+    }
+
+
+
+    /** Reads the part of an expectation that names a value. @p variants: one
+     * for each variant of a study, or one alone; @p variant becomes the number
+     * of the one that is meant, from 0. */
+    double
+    value_of(std::istream               &words,
+             const std::vector<Results> &variants,
+             std::size_t                &variant)
+    {
+      std::string name, next, where, position;
+      words >> name;
+      auto beginning = words.tellg();
+      words >> next;
+      variant = 0;
+      if (next == "of")
+        {
+          words >> where >> position;
+          variant = static_cast<std::size_t>(to_number(position)) - 1;
+          if (where != "variant" || variant >= variants.size())
+            throw Problem("there is no such variant");
+          beginning = words.tellg();
+          words >> next;
+        }
+      const Results &results = variants.at(variant);
+      if (next == "max")
+        return largest_value(results.table, name);
+      if (next == "at")
+        {
+          words >> where >> position;
+          return value_at_row(results.table, name, where, to_number(position));
+        }
+      if (next == "ripple" && words >> next >> where >> position &&
+          next == "after")
+        return ripple(results.table, name, where, to_number(position));
+      words.seekg(beginning);
+      if (results.summary.count(name) == 0)
+        throw Problem("summary.json has no number " + name);
+      return results.summary.at(name);
+    }
+
+
+
+    /** Whether @p value is as the rest of the expectation says; @p summary of
+     *  the same scene or variant. */
+    bool
+    is_met(const double                         value,
+           std::istream                        &words,
+           const std::map<std::string, double> &summary)
+    {
+      std::string relation, bound, within, tolerance, percent, rest;
+      words >> relation >> bound;
+      const double number =
+        summary.count(bound) > 0 ? summary.at(bound) : to_number(bound);
+      bool result = false;
+      if (relation == "below")
+        result = value < number;
+      else if (relation == "above")
+        result = value > number;
+      else if (relation == "=" && words >> within >> tolerance &&
+               within == "within")
+        {
+          const bool is_relative = static_cast<bool>(words >> percent);
+          if (is_relative && percent != "%")
+            throw Problem("cannot read this expectation");
+          const double unit = is_relative ? 0.01 * std::abs(number) : 1.;
+          result = std::abs(value - number) <= to_number(tolerance) * unit;
+        }
+      else
+        throw Problem("cannot read this expectation");
+      if (words >> rest)
+        throw Problem("cannot read this expectation");
+      return result;
+    }
+
+
+
+    /** Rungs of Model = auto that were run and are further from the reference
+     *  curve than auto.csv estimates, or have no estimate; "" if all is well.
+     */
+    std::string
+    rungs_beyond_estimate(const std::vector<Results> &variants)
+    {
+      std::ostringstream beyond;
+      unsigned int       n = 0;
+      for (const Results &variant : variants)
+        {
+          std::istringstream lines(
+            contents_of(variant.directory + "/auto.csv"));
+          std::string line;
+          std::getline(lines, line);
+          const std::vector<std::string> columns = csv_fields(line);
+          const std::size_t              estimate =
+            std::find(columns.begin(), columns.end(), "estimate") -
+            columns.begin();
+          while (std::getline(lines, line))
+            {
+              const std::vector<std::string> fields  = csv_fields(line);
+              const std::string              verdict = fields.back();
+              if (verdict.rfind("refused", 0) == 0 ||
+                  verdict.rfind("failed", 0) == 0)
+                continue;
+              const std::map<std::string, double> summary = read_summary(
+                variant.directory + "/rung-" + fields[0] + "/summary.json");
+              if (summary.count("difference_max") == 0)
+                throw Problem("a rung has no difference_max");
+              const double error = summary.at("difference_max");
+              ++n;
+              if (!(error < to_number(fields.at(estimate))))
+                beyond << " " << variant.directory << " rung " << fields[0]
+                       << " is off by " << error << ";";
+            }
+        }
+      if (n == 0)
+        throw Problem("there are no rungs");
+      return beyond.str();
+    }
+  } // namespace
+
+
+
+  Verdict
+  judge(const std::string &expectation, const std::vector<Results> &results)
+  {
+    std::istringstream words(expectation.substr(0, expectation.find('(')));
+    Verdict            verdict;
+    try
+      {
+        if (expectation == "difference_max of every rung below estimate")
+          {
+            verdict.measured = rungs_beyond_estimate(results);
+            verdict.is_met   = verdict.measured.empty();
+          }
+        else
+          {
+            std::size_t        variant = 0;
+            const double       value   = value_of(words, results, variant);
+            std::ostringstream text;
+            text.precision(8);
+            text << value;
+            verdict.measured = text.str();
+            verdict.is_met   = is_met(value, words, results[variant].summary);
+          }
+      }
+    catch (const Problem &problem)
+      {
+        verdict.measured = problem.what();
+      }
+    verdict.line = verdict.is_met ?
+                     "ok: " + expectation :
+                     "FAILED: " + expectation + ": " + verdict.measured;
+    return verdict;
+  }
+
+
+
+  std::vector<std::string>
+  comments(const std::string &scene_text, const std::string &keyword)
+  {
+    const std::regex   line_pattern("\\s*#\\s*" + keyword + ":\\s*(.*?)\\s*");
+    std::istringstream lines(scene_text);
+    std::string        line;
+    std::smatch        match;
+    std::vector<std::string> result;
+    while (std::getline(lines, line))
+      if (std::regex_match(line, match, line_pattern))
+        result.push_back(match[1]);
+    return result;
+  }
+
+
+
+  std::vector<std::string>
+  overrides(const std::string &text)
+  {
+    const std::regex         option("--set\\s+(\"([^\"]*)\"|(\\S+))");
+    std::vector<std::string> result;
+    for (std::sregex_iterator i(text.begin(), text.end(), option), end;
+         i != end;
+         ++i)
+      result.push_back((*i)[2].matched ? (*i)[2] : (*i)[3]);
+    return result;
+  }
+} // namespace Expectations

@@ -45,8 +45,8 @@ namespace Debond
         boost::archive::binary_iarchive archive(bytes, archive_flags);
         archive &*state                &end;
       }
-    catch (const boost::archive::archive_exception &)
-      {}
+    catch (const std::exception &)
+      {} // of the archive, or of sizes that are none
     if (end != end_of_state || state->rows.empty())
       throw InputError("the checkpoint in '" + state->directory->path() +
                        "' does not fit this build of the program: only the "

@@ -26,7 +26,7 @@ namespace Debond
     std::ostringstream               bytes(std::ios::binary);
     {
       boost::archive::binary_oarchive archive(bytes, archive_flags);
-      archive &*state                &end_of_state;
+      archive << *state << end_of_state;
     }
     if (state->field_output)
       state->field_output->put_on_disk();
@@ -43,7 +43,7 @@ namespace Debond
       {
         std::istringstream bytes(checkpoint.state, std::ios::binary);
         boost::archive::binary_iarchive archive(bytes, archive_flags);
-        archive &*state                &end;
+        archive >> *state >> end;
       }
     catch (const std::exception &)
       {} // of the archive, or of sizes that are none

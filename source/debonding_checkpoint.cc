@@ -26,7 +26,7 @@ namespace Debond
     std::ostringstream               bytes(std::ios::binary);
     {
       boost::archive::binary_oarchive archive(bytes, archive_flags);
-      archive &*state                &end_of_state;
+      archive << *state << end_of_state;
     }
     if (state->field_output)
       state->field_output->put_on_disk();
@@ -43,10 +43,10 @@ namespace Debond
       {
         std::istringstream bytes(checkpoint.state, std::ios::binary);
         boost::archive::binary_iarchive archive(bytes, archive_flags);
-        archive &*state                &end;
+        archive >> *state >> end;
       }
-    catch (const boost::archive::archive_exception &)
-      {}
+    catch (const std::exception &)
+      {} // of the archive, or of sizes that are none
     if (end != end_of_state || state->rows.empty())
       throw InputError("the checkpoint in '" + state->directory->path() +
                        "' does not fit this build of the program: only the "

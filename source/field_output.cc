@@ -254,10 +254,11 @@ namespace Debond
             missing += (missing.empty() ? "" : ", ") + file.second;
       }
     n_on_disk = bulk_series.files.size();
-    return missing.empty() ? "" :
-                             "missing, and from before the checkpoint, so that "
-                             "they are not written again: " +
-                               missing;
+    return missing.empty() ?
+             "" :
+             "VTU files from before the checkpoint are missing, "
+             "and are not written again: " +
+               missing;
   }
 
 

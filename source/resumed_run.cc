@@ -31,7 +31,7 @@ namespace Debond
           values[entry.full_name()] = entry.value;
       std::istringstream lines(completed_parameters);
       for (std::string line; std::getline(lines, line);)
-        if (line.rfind("# ", 0) == 0)
+        if (line.rfind("# ", 0) == 0 && line.rfind(": ") != line.npos)
           {
             const std::size_t colon           = line.rfind(": ");
             values[line.substr(2, colon - 2)] = line.substr(colon + 2);

@@ -13,13 +13,12 @@
 #include <cctype>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "checks.h"
+#include "interrupted_run.h"
 
 using namespace Debond;
 
@@ -96,53 +95,6 @@ run_in_process(const Scene       &scene,
   int status = 0;
   waitpid(process, &status, 0);
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
-
-
-/** The text of a file without lines that differ from run to run. */
-std::string
-contents_of(const std::filesystem::path &file)
-{
-  std::ifstream stream(file);
-  std::string   text;
-  for (std::string line; std::getline(stream, line);)
-    if (line.find("seconds") == std::string::npos &&
-        line.find("peak_memory_MB") == std::string::npos &&
-        line.find("set Directory") == std::string::npos)
-      text += line + "\n";
-  return text;
-}
-
-
-
-unsigned int
-n_files(const std::string &directory)
-{
-  unsigned int n = 0;
-  for ([[maybe_unused]] const auto &entry :
-       std::filesystem::directory_iterator(directory))
-    ++n;
-  return n;
-}
-
-
-
-bool
-same_files(const std::string &directory, const std::string &other)
-{
-  bool same = n_files(directory) == n_files(other) &&
-              std::filesystem::exists(directory + "/torque.csv");
-  for (const auto &entry : std::filesystem::directory_iterator(directory))
-    {
-      const auto name = entry.path().filename();
-      if (contents_of(entry.path()) != contents_of(other / name))
-        {
-          std::cout << "  differs: " << name.string() << std::endl;
-          same = false;
-        }
-    }
-  return same;
 }
 
 

@@ -30,7 +30,8 @@ namespace Debond
 
     /** Runs the scene and writes everything into its directory. Throws RunError
      *  if it cannot be finished; what was written before stays, and
-     *  summary.json then says `converged: false` and why. */
+     *  summary.json then says `converged: false` and why. Throws Interrupted if
+     *  a signal asks to stop. */
     virtual void
     run() = 0;
 

@@ -323,7 +323,10 @@ namespace Debond
           const double       first_value = value(times.front());
           bool               varies      = false;
           for (const double time : times)
-            varies = (value(time) != first_value) || varies;
+            {
+              check_chuck_value(value(time), component.loaded, time);
+              varies = (value(time) != first_value) || varies;
+            }
           return varies || (component.loaded && first_value != 0);
         }
       catch (const InputError &error)

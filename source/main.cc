@@ -206,10 +206,17 @@ Exit codes: 0 success, 1 wrong usage or scene, 2 the run failed, 3 internal erro
                            "holds several values, {{a|b}}"));
     scene.output.overwrite_other_results = arguments.force;
     const auto problem                   = Debond::Problem::create(scene);
-    if (arguments.action == Action::check)
-      problem->check(std::cout);
-    else
-      problem->run();
+    try
+      {
+        if (arguments.action == Action::check)
+          problem->check(std::cout);
+        else
+          problem->run();
+      }
+    catch (const Debond::InputError &error)
+      {
+        throw Debond::InputError(scene.with_place(error.what()));
+      }
   }
 
 

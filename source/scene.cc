@@ -549,6 +549,9 @@ namespace Debond
   {
     for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry)
       {
+        if (message.compare(0, entry->place.size() + 2, entry->place + ": ") ==
+            0)
+          return message; // it is there already
         const std::string full_name = entry->full_name();
         if (message.compare(0, full_name.size(), full_name) != 0)
           continue;
@@ -562,7 +565,8 @@ namespace Debond
         if (rest.empty() || rest[0] == ' ' || rest[0] == ':')
           return entry->place + ": " + message;
       }
-    return name + ": " + message;
+    const bool has_name = message.compare(0, name.size() + 2, name + ": ") == 0;
+    return has_name ? message : name + ": " + message;
   }
 
 

@@ -129,6 +129,9 @@ namespace Debond
                        std::to_string(longest) + " letters");
     if (expression.find(';') != std::string::npos)
       throw InputError(complaint + "it holds a ;");
+    if (expression.find("rand") != std::string::npos)
+      throw InputError(complaint + "rand would make another scene of it every "
+                                   "time");
     if (expression.find("**") != std::string::npos)
       throw InputError(complaint + "powers are written ^");
     if (has_comma_outside_parentheses(expression))

@@ -2,17 +2,12 @@
 #include <debond/input_error.h>
 #include <debond/input_file.h>
 
-#define BOOST_GIL_IO_ENABLE_GRAY_ALPHA
 #include <boost/crc.hpp>
-#include <boost/gil.hpp>
-#include <boost/gil/extension/io/png.hpp>
-#include <boost/gil/extension/toolbox/color_spaces/gray_alpha.hpp>
 
-#include <fcntl.h>
-#include <unistd.h>
+#include <png.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <csetjmp>
 #include <cstring>
 #include <sstream>
 
@@ -128,37 +123,6 @@ namespace Debond
 
 
 
-    /** libpng writes its complaints to the error stream, and Boost.GIL leaves
-     *  no way to tell it otherwise. */
-    class SilentStderr
-    {
-    public:
-      SilentStderr()
-        : original(dup(STDERR_FILENO))
-      {
-        std::fflush(stderr);
-        const int nothing = open("/dev/null", O_WRONLY);
-        if (original >= 0 && nothing >= 0)
-          dup2(nothing, STDERR_FILENO);
-        if (nothing >= 0)
-          close(nothing);
-      }
-
-      ~SilentStderr()
-      {
-        if (original < 0)
-          return;
-        std::fflush(stderr);
-        dup2(original, STDERR_FILENO);
-        close(original);
-      }
-
-    private:
-      const int original;
-    };
-
-
-
     unsigned int
     big_endian(const std::string &bytes, const std::size_t position)
     {
@@ -170,9 +134,24 @@ namespace Debond
 
 
 
+    /** Refuses what libpng would not take, or take apart, without saying why.
+     */
+    void
+    check_header(const ImageFile   &file,
+                 const std::string &bytes,
+                 const std::size_t  position)
+    {
+      file.check_size(big_endian(bytes, position),
+                      big_endian(bytes, position + 4));
+      if (bytes[position + 12] != 0)
+        file.refuse("interlaced PNG files are not read: save it without "
+                    "interlacing");
+    }
+
+
+
     /** A PNG file with those chunks only that make up the picture, their sums
-     *  checked: what libpng finds wrong after the last pixel takes Boost.GIL
-     *  down with it. */
+     *  checked: others, such as those about colours, change no grey level. */
     std::string
     essence_of_png(const ImageFile &file, const std::string &bytes)
     {
@@ -193,10 +172,8 @@ namespace Debond
           sum.process_bytes(bytes.data() + position + 4, length + 4);
           if (sum.checksum() != big_endian(bytes, position + 8 + length))
             file.refuse("this PNG file is damaged");
-          // libpng would refuse a huge picture without saying why
-          if (type == "IHDR" && length >= 8)
-            file.check_size(big_endian(bytes, position + 8),
-                            big_endian(bytes, position + 12));
+          if (type == "IHDR" && length == 13)
+            check_header(file, bytes, position + 8);
           for (const char *const wanted :
                {"IHDR", "PLTE", "tRNS", "IDAT", "IEND"})
             if (type == wanted)
@@ -208,36 +185,119 @@ namespace Debond
 
 
 
+    /** What libpng reads from. */
+    struct PngBytes
+    {
+      const std::string &bytes;
+      std::size_t        position;
+    };
+
+
+
+    void
+    copy_bytes(png_structp png, png_bytep to, const std::size_t n)
+    {
+      auto &source = *static_cast<PngBytes *>(png_get_io_ptr(png));
+      if (n > source.bytes.size() - source.position)
+        png_error(png, "cut off");
+      std::memcpy(to, source.bytes.data() + source.position, n);
+      source.position += n;
+    }
+
+
+
+    // Instead of writing to the error stream.
+    [[noreturn]] void
+    leave(png_structp png, png_const_charp)
+    {
+      png_longjmp(png, 1);
+    }
+    void
+    ignore(png_structp, png_const_charp)
+    {}
+
+
+
+    /** The level of a pixel of @p n channels of 16 bits: grey or red, green and
+     *  blue, then opacity if n is even; what is transparent is black. */
+    float
+    level_of(const unsigned char *const pixel, const unsigned int n)
+    {
+      const auto channel = [pixel](const unsigned int i) {
+        return (256. * pixel[2 * i] + pixel[2 * i + 1]) / 65535.;
+      };
+      const double level =
+        n < 3 ? channel(0) :
+                0.30 * channel(0) + 0.59 * channel(1) + 0.11 * channel(2);
+      return n % 2 == 0 ? level * channel(n - 1) : level;
+    }
+
+
+
+    void
+    read_rows(png_structp                 png,
+              png_infop                   info,
+              std::vector<unsigned char> &row,
+              GreyImage                  &image)
+    {
+      png_read_info(png, info);
+      png_set_expand(png);    // palettes, and fewer than 8 bits
+      png_set_expand_16(png); // fewer than 16 bits
+      png_read_update_info(png, info);
+      const unsigned int n = png_get_channels(png, info);
+      image.width          = png_get_image_width(png, info);
+      image.height         = png_get_image_height(png, info);
+      image.levels.reserve(std::size_t(image.width) * image.height);
+      row.resize(png_get_rowbytes(png, info));
+      for (unsigned int j = 0; j < image.height; ++j)
+        {
+          png_read_row(png, row.data(), nullptr);
+          for (unsigned int i = 0; i < image.width; ++i)
+            image.levels.push_back(level_of(&row[2 * n * i], n));
+        }
+      png_read_end(png, nullptr);
+    }
+
+
+
+    // libpng jumps back to setjmp() where it finds something wrong: nothing
+    // that has a destructor may begin to live between here and there.
+    bool
+    decode(png_structp                 png,
+           png_infop                   info,
+           std::vector<unsigned char> &row,
+           GreyImage                  &image)
+    {
+      if (setjmp(png_jmpbuf(png)) != 0)
+        return false;
+      read_rows(png, info, row, image);
+      return true;
+    }
+
+
+
+    // Boost.GIL reads PNG as well, but beyond the end of rows with fewer than 8
+    // bits for a pixel, and leaves libpng no way to be silent.
     GreyImage
     read_png(const ImageFile &file, const std::string &bytes)
     {
-      namespace gil = boost::gil;
-      gil::gray16_image_t pixels;
-      try
+      const std::string          essence = essence_of_png(file, bytes);
+      PngBytes                   source{essence, 0};
+      GreyImage                  image;
+      std::vector<unsigned char> row;
+      png_structp                png =
+        png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, leave, ignore);
+      png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
+      bool      is_read = false;
+      if (info != nullptr)
         {
-          const SilentStderr silence;
-          const std::string  essence = essence_of_png(file, bytes);
-          std::istringstream header(essence), data(essence);
-          const auto info = gil::read_image_info(header, gil::png_tag())._info;
-          file.check_size(info._width, info._height);
-          if (info._interlace_method != PNG_INTERLACE_NONE)
-            file.refuse("interlaced PNG files are not read: save it without "
-                        "interlacing");
-          gil::read_and_convert_image(data, pixels, gil::png_tag());
+          png_set_read_fn(png, &source, copy_bytes);
+          is_read = decode(png, info, row, image);
         }
-      catch (const std::ios_base::failure &)
-        {
-          file.refuse("this file is damaged: it begins like a PNG file but "
-                      "cannot be read as one");
-        }
-
-      GreyImage image;
-      image.width     = pixels.width();
-      image.height    = pixels.height();
-      const auto view = gil::const_view(pixels);
-      image.levels.reserve(std::size_t(image.width) * image.height);
-      for (const auto &pixel : view)
-        image.levels.push_back(gil::at_c<0>(pixel) / 65535.f);
+      png_destroy_read_struct(&png, &info, nullptr);
+      if (!is_read)
+        file.refuse("this file is damaged: it begins like a PNG file but "
+                    "cannot be read as one");
       return image;
     }
 
@@ -308,7 +368,7 @@ namespace Debond
 
 
 
-    // Boost.GIL reads PGM as well, but up to 8 bits only, does not scale levels
+    // Boost.GIL reads PGM, but up to 8 bits only, does not scale levels
     // to the largest one, inverts those whose largest is 1, and takes a plain
     // file that is cut off for a whole one.
     GreyImage

@@ -74,7 +74,7 @@ namespace Debond
                       "smaller one were needed the run stops with an error.");
     prm.declare_entry("Residual tolerance",
                       "1e-8",
-                      Allowed::number_between_excluding_lower(0, 0.1, ""),
+                      Allowed::number_between(1e-14, 0.1, ""),
                       "A step has converged when the residual is below this "
                       "fraction of the contact force.");
     prm.declare_entry(

@@ -3,6 +3,7 @@
 #include <debond/number_text.h>
 #include <debond/scene.h>
 
+#include <cmath>
 #include <string>
 
 namespace Debond
@@ -125,5 +126,17 @@ namespace Debond
             scene.chuck.component[k].stiffness,
             machine);
     check_closed_form(scene.closed_form);
+  }
+
+
+
+  void
+  check_chuck_value(const double value, const bool is_load, const double time)
+  {
+    const double largest = is_load ? 1e12 : 1e6;
+    if (std::abs(value) > largest)
+      throw InputError("it is " + to_text(value) + " at t = " + to_text(time) +
+                       ": expected at most " + to_text(largest) +
+                       (is_load ? " N or N mm" : " mm or degrees"));
   }
 } // namespace Debond

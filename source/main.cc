@@ -261,13 +261,20 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
                            "holds several values, {{a|b}}"));
     scene.output.overwrite_other_results = arguments.force;
     const auto problem                   = Debond::Problem::create(scene);
-    if (arguments.action == Action::check)
-      return problem->check(std::cout);
-    // the closed forms are done before they could be asked to stop
-    if (scene.model == Debond::ModelKind::finite_elements ||
-        scene.model == Debond::ModelKind::automatic)
-      Debond::catch_interruptions();
-    problem->run();
+    try
+      {
+        if (arguments.action == Action::check)
+          return problem->check(std::cout);
+        // the closed forms are done before they could be asked to stop
+        if (scene.model == Debond::ModelKind::finite_elements ||
+            scene.model == Debond::ModelKind::automatic)
+          Debond::catch_interruptions();
+        problem->run();
+      }
+    catch (const Debond::InputError &error)
+      {
+        throw Debond::InputError(scene.with_place(error.what()));
+      }
   }
 
 

@@ -323,7 +323,10 @@ namespace Debond
           const double       first_value = value(times.front());
           bool               varies      = false;
           for (const double time : times)
-            varies = (value(time) != first_value) || varies;
+            {
+              check_chuck_value(value(time), component.loaded, time);
+              varies = (value(time) != first_value) || varies;
+            }
           return varies || (component.loaded && first_value != 0);
         }
       catch (const InputError &error)
@@ -552,6 +555,9 @@ namespace Debond
   {
     for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry)
       {
+        if (message.compare(0, entry->place.size() + 2, entry->place + ": ") ==
+            0)
+          return message; // it is there already
         const std::string full_name = entry->full_name();
         if (message.compare(0, full_name.size(), full_name) != 0)
           continue;
@@ -565,7 +571,8 @@ namespace Debond
         if (rest.empty() || rest[0] == ' ' || rest[0] == ':')
           return entry->place + ": " + message;
       }
-    return name + ": " + message;
+    const bool has_name = message.compare(0, name.size() + 2, name + ": ") == 0;
+    return has_name ? message : name + ": " + message;
   }
 
 

@@ -324,16 +324,19 @@ namespace Debond
       for (const std::string &item : items)
         if (!read_number(item, number))
           return why_no_number(item, true);
-      if (allowed.find(" or more ") == npos &&
-          items.size() != std::strtoul(allowed.c_str(), nullptr, 10))
-        return "; here are " + std::to_string(items.size()) +
-               " (decimals are written with a point)";
       for (const std::string &item : items)
         if (allowed.find("whole") != npos && !consists_of(item, "+0123456789"))
           return "; '" + item + "' is no whole number >= 1";
         else if (allowed.find("whole") != npos && read_number(item, number) &&
                  number > 1e9)
           return "; '" + item + "' is more than a billion";
+      const std::size_t wanted = std::strtoul(allowed.c_str(), nullptr, 10);
+      const bool        is_fixed =
+        allowed.find(" or more ") == npos && allowed.find(" to ") == npos;
+      if (is_fixed && items.size() != wanted)
+        return "; here are " + std::to_string(items.size()) +
+               (items.size() > wanted ? " (decimals are written with a point)" :
+                                        "");
       return "";
     }
 

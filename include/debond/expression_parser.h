@@ -12,8 +12,8 @@ namespace Debond
    * A parser of an expression (muParser syntax, as in deal.II's FunctionParser)
    * in @p variables, names separated by commas: dim of them, or dim + 1, the
    * last of which deal.II calls the time. Constants are `pi` and `R` =
-   * @p radius [mm]. Throws InputError with the expression and the parser's own
-   * words if it is invalid.
+   * @p radius [mm]; random numbers are refused. Throws InputError with the
+   * expression and the parser's own words if it is invalid.
    */
   template <int dim>
   std::unique_ptr<dealii::FunctionParser<dim>>

@@ -10,5 +10,11 @@ namespace Debond
    *  exponent. Throws InputError that begins with the name of the entry. */
   void
   check_magnitudes(const Scene &scene);
+
+  /** The same for what the chuck prescribes at a time: a displacement [mm] or
+   *  angle [deg], or if it is a load [N, N mm]. The message begins with the
+   *  value. */
+  void
+  check_chuck_value(double value, bool is_load, double time);
 } // namespace Debond
 #endif

@@ -76,7 +76,7 @@ namespace Debond
     /** @p message, which begins with the name of an entry, with file and line
      *  before it and, if the name is followed by a colon, the value of the
      *  entry after its name; with the name of the scene if it does not set the
-     *  entry. */
+     *  entry. A message that has its place already stays as it is. */
     std::string
     with_place(const std::string &message) const;
 

@@ -13,8 +13,7 @@ LLVMFuzzerTestOneInput(const std::uint8_t *data, const std::size_t size)
 {
   const FileInMemory file(
     std::string(reinterpret_cast<const char *>(data), size));
-  must_read_or_refuse(
-    [&file]() { Debond::read_reference_curve(file.name()); });
+  must_read_or_refuse([&file]() { Debond::read_reference_curve(file.name()); });
   must_read_or_refuse([&file]() { Debond::read_profiles(file.name()); });
 
   Debond::BodyParameters implant;

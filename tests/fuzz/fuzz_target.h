@@ -17,7 +17,7 @@ extern "C" int
 LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size);
 
 /** What libFuzzer calls once, before the first input. */
-extern "C" inline int
+extern "C" __attribute__((used)) inline int
 LLVMFuzzerInitialize(int *, char ***)
 {
   Debond::set_up_libraries();

@@ -17,9 +17,8 @@ main(int argc, char *argv[])
       std::ostringstream bytes;
       bytes << std::ifstream(argv[i], std::ios::binary).rdbuf();
       const std::string text = bytes.str();
-      LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t *>(
-                               text.data()),
-                             text.size());
+      LLVMFuzzerTestOneInput(
+        reinterpret_cast<const std::uint8_t *>(text.data()), text.size());
     }
   std::cout << argc - 1 << " inputs were read or refused\n";
   return argc > 1 ? 0 : 1;

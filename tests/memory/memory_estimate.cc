@@ -1,0 +1,101 @@
+// The memory that a run takes at its peak is within a factor of two of the
+// estimate made before anything is built, without what the program takes by
+// itself: a flat mesh, the same with a machine whose stiffness makes the
+// coupled system a dense matrix, and a thick mesh. The measured peak is that of
+// the process, so each case needs more than the one before.
+
+#include <debond/memory_estimate.h>
+#include <debond/problem.h>
+
+#include <sys/resource.h>
+
+#include "../driven_scene.h"
+
+const char *const scene_text = R"(
+subsection Bone
+  set Material = linear
+end
+subsection Implant
+  set Material = linear
+end
+subsection Chuck
+  subsection Translation z
+    set Value = -0.0049 * min(t, 1)
+  end
+  subsection Rotation z
+    set Value = 0.05 * max(t - 1, 0)
+  end
+end
+subsection Load steps
+  set Steps = 1, 1
+end
+)";
+
+
+
+void
+compare(const std::string              &what,
+        const std::vector<std::string> &overrides,
+        const double                    before_MB)
+{
+  run_scene("memory_estimate", scene_text, overrides);
+  const double measured = Debond::peak_memory_MB() - before_MB;
+  const double estimated =
+    Debond::estimated_memory_MB(
+      Debond::Scene::from_text(scene_text, overrides)) -
+    Debond::estimated_memory_MB(Debond::Scene::from_text(
+      scene_text, {"Bone/Material=rigid", "Implant/Material=rigid"}));
+  report(what + ": factor between estimate and peak",
+         std::max(measured / estimated, estimated / measured),
+         2.);
+}
+
+
+
+// A limit that leaves a gigabyte more than what is taken already.
+void
+check_limit()
+{
+  const double taken = Debond::peak_memory_MB();
+  rlimit       limit{};
+  getrlimit(RLIMIT_AS, &limit);
+  const double before = Debond::available_memory_MB();
+  limit.rlim_cur      = 8000000000;
+  setrlimit(RLIMIT_AS, &limit);
+  const double within = Debond::available_memory_MB();
+  report("there is some memory", before > 0.);
+  report("a limit of 8000 MB leaves less than that, as some is taken",
+         taken > 0. && within < 8000. && within <= before + 1000.);
+}
+
+
+
+void
+test()
+{
+  // what the program itself takes, with the smallest bodies
+  run_scene("memory_estimate",
+            scene_text,
+            {"Bone/Material=rigid", "Implant/Material=rigid"});
+  const double before_MB = Debond::peak_memory_MB();
+  compare("flat mesh",
+          {"Bone/Cells=60, 60, 2", "Implant/Cells=12, 2"},
+          before_MB);
+  compare("the same with a compliant machine",
+          {"Bone/Cells=60, 60, 2",
+           "Implant/Cells=12, 2",
+           "Chuck/Rotation z/Stiffness=3000"},
+          before_MB);
+  compare("thick mesh",
+          {"Bone/Cells=34, 34, 16", "Implant/Cells=10, 10"},
+          before_MB);
+  check_limit();
+}
+
+
+
+int
+main()
+{
+  return run_test(test);
+}

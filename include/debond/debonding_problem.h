@@ -35,6 +35,16 @@ namespace Debond
   private:
     struct Run;
 
+    /** Where Newton's method looks for the next state: near the last one; with
+     *  full corrections, which may jump; or from where the springs of the
+     *  machine are relaxed, beyond every state in which they pull. */
+    enum class Start
+    {
+      as_before,
+      jump,
+      beyond
+    };
+
     void
     set_up();
     void
@@ -51,6 +61,10 @@ namespace Debond
      *  that fails. */
     bool
     try_step(double time, bool extrapolate, unsigned int &iterations);
+    /** Whether the chuck would turn too far in a step to @p time for the
+     *  direction of slip. */
+    bool
+    turns_too_far(double time);
     std::string
     reason_to_end() const;
     /** Else a row is a planned step. */
@@ -64,7 +78,7 @@ namespace Debond
     try_sub_step(double time,
                  bool   extrapolate,
                  bool  &accepted,
-                 bool   shorten_in_cycles = true);
+                 Start  start = Start::as_before);
     void
     accept(double time);
     void

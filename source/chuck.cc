@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Debond
@@ -256,6 +257,29 @@ namespace Debond
   {
     q[component] += dq;
     update_frame();
+  }
+
+
+
+  void
+  Chuck::relax_machine()
+  {
+    for (const unsigned int k : unknown_components)
+      if (parameters.component[k].stiffness > 0.)
+        q[k] = target[k];
+    update_frame();
+  }
+
+
+
+  bool
+  Chuck::has_compliant_machine() const
+  {
+    return std::any_of(parameters.component.begin(),
+                       parameters.component.end(),
+                       [](const ChuckComponentParameters &component) {
+                         return component.stiffness > 0.;
+                       });
   }
 
 

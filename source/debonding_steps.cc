@@ -202,6 +202,8 @@ namespace Debond
                              const bool    extrapolate,
                              unsigned int &iterations)
   {
+    if (!state->path_step.by_slip && turns_too_far(time))
+      return false;
     bool       accepted = false;
     const bool predict =
       extrapolate && scene.load_steps.predictor == Predictor::extrapolate;
@@ -213,8 +215,31 @@ namespace Debond
     // the machine may have to jump
     if (!accepted && !state->path_step.by_slip &&
         !state->system->chuck.unknowns().empty())
-      iterations += try_sub_step(time, false, accepted, false);
+      iterations += try_sub_step(time, false, accepted, Start::jump);
+    if (!accepted && !state->path_step.by_slip &&
+        state->system->chuck.has_compliant_machine())
+      iterations += try_sub_step(time, false, accepted, Start::beyond);
     return accepted;
+  }
+
+
+
+  // A sliding point is pulled along the chord of its way, at an angle of half
+  // the rotation to its direction at the end: 5 degrees cost a thousandth.
+  bool
+  DebondingProblem::turns_too_far(const double time)
+  {
+    const ChuckComponentParameters &rotation = scene.chuck.component[5];
+    if (rotation.loaded ||
+        scene.interface.friction.kind == FrictionLawKind::frictionless)
+      return false;
+    constexpr double largest_turn = 5. * M_PI / 180. * (1. + 1e-9);
+    const Chuck     &chuck        = state->system->chuck;
+    const bool       too_far      = std::abs(chuck.values(time)[5] -
+                                  chuck.values(state->time)[5]) > largest_turn;
+    if (too_far)
+      state->last_failure = "a step may turn the chuck by 5 degrees at most";
+    return too_far;
   }
 
 
@@ -262,7 +287,7 @@ namespace Debond
   DebondingProblem::try_sub_step(const double time,
                                  const bool   extrapolate,
                                  bool        &accepted,
-                                 const bool   shorten_in_cycles)
+                                 const Start  start)
   {
     CoupledSystem  &system    = *state->system;
     const Predictor predictor = scene.load_steps.predictor;
@@ -271,7 +296,7 @@ namespace Debond
     options.stick_first        = predictor == Predictor::stick_first ||
                           (predictor == Predictor::extrapolate && !extrapolate);
     options.duration          = time - state->time;
-    options.shorten_in_cycles = shorten_in_cycles;
+    options.shorten_in_cycles = start == Start::as_before;
     options.touch_tolerance   = 1e-12 * system.R;
     // a planned time, up to rounding
     options.frictionless =
@@ -279,6 +304,11 @@ namespace Debond
       scene.interface.friction.starts_at -
         1e-9 * (scene.load_steps.times.back() - scene.load_steps.times.front());
     start_trial(time, extrapolate);
+    if (start == Start::beyond)
+      {
+        system.chuck.relax_machine();
+        options.stick_first = false; // it would pull all of it back at once
+      }
     if (predictor == Predictor::none)
       system.leave_surface_behind();
     const NewtonResult result = solve_newton(system, options);

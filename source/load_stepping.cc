@@ -17,11 +17,15 @@ namespace Debond
                       Allowed::numbers(2, 0, false, "time"),
                       "First time and the ends of the phases, increasing. Time "
                       "is a mere parameter of the load: nothing has inertia.");
-    prm.declare_entry("Steps",
-                      "1, 1000",
-                      Allowed::whole_numbers(1, 0),
-                      "Number of planned steps in each phase: one number less "
-                      "than Times. With Adaptive this sets the largest step.");
+    prm.declare_entry(
+      "Steps",
+      "1, 1000",
+      Allowed::whole_numbers(1, 0),
+      "Number of planned steps in each phase: one number less "
+      "than Times. With Adaptive this sets the largest step. A step that "
+      "turns the chuck by more than 5 degrees is divided: "
+      "sliding points are pulled along the chords of their "
+      "ways.");
     prm.declare_entry("Adaptive",
                       "false",
                       Allowed::yes_or_no(),

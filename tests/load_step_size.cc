@@ -1,5 +1,6 @@
 // Load steps of any size give nearly the same torque, because the law of
-// friction is implicit: ten degrees in 1, 10, 100 or 1000 steps. An interface
+// friction is implicit: ten degrees in 1, 10, 100 or 1000 steps (the program
+// divides the one in two, as it turns by more than 5 degrees). An interface
 // that is nearly rigid converges with first steps in which Newton's method
 // without a first sticking iteration cycles.
 

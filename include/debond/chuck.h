@@ -105,6 +105,12 @@ namespace Debond
     machine_energy() const;
     void
     correct(unsigned int component, double dq);
+    /** Moves components with a compliant machine to where its springs are
+     *  relaxed. */
+    void
+    relax_machine();
+    bool
+    has_compliant_machine() const;
     void
     commit(double time);
     void

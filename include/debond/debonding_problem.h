@@ -44,6 +44,16 @@ namespace Debond
   private:
     struct Run;
 
+    /** Where Newton's method looks for the next state: near the last one; with
+     *  full corrections, which may jump; or from where the springs of the
+     *  machine are relaxed, beyond every state in which they pull. */
+    enum class Start
+    {
+      as_before,
+      jump,
+      beyond
+    };
+
     /** From the beginning, or from a checkpoint. */
     void
     run(const Checkpoint *checkpoint);
@@ -83,13 +93,17 @@ namespace Debond
      *  that fails. */
     bool
     try_step(double time, bool extrapolate, unsigned int &iterations);
+    /** Whether the chuck would turn too far in a step to @p time for the
+     *  direction of slip. */
+    bool
+    turns_too_far(double time);
     /** Tries one sub-step; returns the Newton iterations spent, and whether it
      *  was accepted in @p accepted. */
     unsigned int
     try_sub_step(double time,
                  bool   extrapolate,
                  bool  &accepted,
-                 bool   shorten_in_cycles = true);
+                 Start  start = Start::as_before);
     void
     start_trial(double time, bool extrapolate);
     /** Whether the law had only one solution at every point in the sub-step

@@ -149,6 +149,18 @@ namespace
 
 
 
+  /** The words that say why a run has failed, not where. */
+  std::string
+  cause(const std::string &message)
+  {
+    const std::string key   = "allowed part of a step: ";
+    const auto        begin = message.find(key);
+    return begin == std::string::npos ? message.substr(0, 60) :
+                                        message.substr(begin + key.size(), 35);
+  }
+
+
+
   Outcome
   outcome_of(const Method      &method,
              const std::string &message,
@@ -162,8 +174,9 @@ namespace
         const bool refused = !method.message.empty() &&
                              message.find(method.message) != std::string::npos;
         std::cout << message << '\n';
-        outcome.name   = refused ? "refused" : "failed";
-        outcome.detail = refused ? "\"... " + method.message + " ...\"" : "";
+        outcome.name = refused ? "refused" : "failed";
+        outcome.detail =
+          "\"... " + (refused ? method.message : cause(message)) + " ...\"";
         return outcome;
       }
     outcome.name = "right";

@@ -1,0 +1,79 @@
+#!/usr/bin/env bash
+# Runs every scene of prm/stability with every method that its comments list, and prints the table of doc/stability.md; a line on
+# the error output says so if an outcome is not the expected one. Some three minutes. Runs stay in output/stability/runs.
+#   doc/stability/stability.sh [--draw] [--publish] [SCENE ...]
+#     --draw    make the pictures output/stability/*.png instead (some one minute)
+#     --publish copy the pictures to doc/images
+#     SCENE     only these, for instance slip_direction
+# Before: cmake --build --preset release --target debond judge_method
+set -euo pipefail
+export LC_ALL=C.UTF-8
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+debond=${DEBOND:-build/release/debond}
+judge=${JUDGE:-build/release/tests/stability/judge_method}
+results=output/stability
+draw=false publish=false scenes=()
+for option in "$@"; do
+  case $option in
+    --draw) draw=true ;;
+    --publish) publish=true ;;
+    -*) sed -n '2,8s/^# //p' "$0"; exit 1 ;;
+    *) scenes+=("$option") ;;
+  esac
+done
+for program in "$debond" "$judge"; do
+  [[ -x $program ]] || { echo "stability.sh: there is no $program: build it first" >&2; exit 1; }
+done
+mkdir -p $results
+
+# a run for a picture: the scene, the name of its results, and overrides
+run() {
+  local scene=$1 name=$2 options=()
+  shift 2
+  for override in "$@"; do options+=(--set "$override"); done
+  "$debond" "prm/stability/$scene.prm" --force --set "Output/Directory=$results/$name" --set Output/Console=quiet "${options[@]}"
+}
+
+draw_pictures() {
+  command -v gnuplot > /dev/null || { echo "stability.sh: gnuplot is needed to draw" >&2; exit 1; }
+  run slip_direction trial
+  run slip_direction previous_gap "Interface/Slip direction=previous gap"
+  run slip_direction previous_gap_fine "Interface/Slip direction=previous gap" "Load steps/Steps=1, 1000"
+  run softening implicit "Load steps/Steps=1, 1000"
+  for steps in 50 100 1000; do
+    run softening explicit_$steps "Interface/Friction update=explicit" "Load steps/Steps=1, $steps"
+  done
+  run chatter nurbs "Load steps/Steps=1, 80"
+  run chatter bilinear "Bone/Contact surface=bilinear" "Load steps/Steps=1, 80"
+  echo "penalty_MPa_per_mm,extrapolate,stick first,rigid,none" > $results/penalty.csv
+  for penalty in 6 60 585 1800 18000 60000 180000 600000; do
+    row=$penalty
+    for predictor in extrapolate "stick first" rigid none; do
+      run coin penalty "Interface/Penalty stiffness=$penalty" "Load steps/Predictor=$predictor"
+      row+=,$(sed -n 's/.*"newton_iterations": \([0-9]*\).*/\1/p' $results/penalty/summary.json)
+    done
+    echo "$row" >> $results/penalty.csv
+  done
+  for picture in slip_direction chatter penalty; do gnuplot doc/stability/$picture.gp; done
+  echo "Pictures: $results/slip_direction.png, chatter.png, penalty.png"
+}
+
+if [[ $draw == true ]]; then
+  draw_pictures
+elif [[ $publish == false ]]; then
+  echo "| scene | method | outcome | judged | iterations | shortest step | energy defect | rows with warnings |"
+  echo "| --- | --- | --- | --- | --- | --- | --- | --- |"
+  for file in prm/stability/*.prm; do
+    scene=$(basename "$file" .prm)
+    [[ ${#scenes[@]} == 0 || " ${scenes[*]} " == *" $scene "* ]] || continue
+    for method in $(sed -n -E 's/^# (slow )?method: ([^ :]+):.*/\2/p' "$file"); do
+      "$judge" "$file" "$method" "$results/runs/$scene.$method" > $results/row.txt 2> /dev/null ||
+        echo "stability.sh: $scene.$method is not as expected" >&2
+      tail -n 1 $results/row.txt
+    done
+  done
+fi
+if [[ $publish == true ]]; then
+  for picture in slip_direction chatter penalty; do cp $results/$picture.png doc/images/stability_$picture.png; done
+  echo "Published in doc/images"
+fi

@@ -1,7 +1,7 @@
 // Variants of the method that are there to be compared with go wrong as they
 // are known to. The numbers to expect come from an independent finite element
 // solution of the same coarse mesh. The checks of accepted states notice some
-// of it, and some scenes that they warn of.
+// of it; what else the program warns of is here, too.
 
 #include <fstream>
 #include <sstream>

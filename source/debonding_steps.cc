@@ -216,8 +216,10 @@ namespace Debond
     if (!accepted && !state->path_step.by_slip &&
         !state->system->chuck.unknowns().empty())
       iterations += try_sub_step(time, false, accepted, Start::jump);
+    // with viscosity nothing jumps in steps that are short enough
     if (!accepted && !state->path_step.by_slip &&
-        state->system->chuck.has_compliant_machine())
+        state->system->chuck.has_compliant_machine() &&
+        scene.interface.viscosity == 0.)
       iterations += try_sub_step(time, false, accepted, Start::beyond);
     return accepted;
   }

@@ -1,7 +1,10 @@
 // Variants of the method that are there to be compared with go wrong as they
 // are known to. The numbers to expect come from an independent finite element
 // solution of the same coarse mesh. The checks of accepted states notice some
-// of it.
+// of it; what else the program warns of is here, too.
+
+#include <fstream>
+#include <sstream>
 
 #include "driven_scene.h"
 
@@ -135,12 +138,35 @@ check_penetration()
 
 
 
+/** Bone that is nearly incompressible; a rigid body has no Poisson ratio. */
+void
+check_locking()
+{
+  std::cout << "Locking" << std::endl;
+  const auto warns = [](const std::string &ratio, const std::string &material) {
+    run_scene("method_variants",
+              scene_text,
+              {"Bone/Poisson ratio=" + ratio,
+               "Bone/Material=" + material,
+               "Load steps/Steps=1,1"});
+    std::ostringstream summary;
+    summary << std::ifstream("results/method_variants/summary.json").rdbuf();
+    return summary.str().find("trilinear cells lock") != std::string::npos;
+  };
+  report("  a warning above 0.45",
+         warns("0.46", "linear") && !warns("0.45", "linear"));
+  report("  none for a rigid bone", !warns("0.46", "rigid"));
+}
+
+
+
 void
 test()
 {
   check_slip_direction();
   check_friction_update();
   check_penetration();
+  check_locking();
 }
 
 

@@ -196,16 +196,16 @@ namespace Debond
   {
     CurveMeasures   measures;
     ProfileMeasures profile_measures;
-    unsigned int    steps             = 0; ///< accepted, sub-steps included
+    unsigned int    steps = 0; ///< accepted, sub-steps included
     /** Time of the shortest accepted step. */
-    double smallest_step = std::numeric_limits<double>::quiet_NaN();
-    unsigned int    newton_iterations = 0;
-    unsigned int    dofs              = 0; ///< as the paper counts them
-    unsigned int    unknowns          = 0; ///< dofs less tied surface vertices
-    unsigned int condensed_unknowns   = 0; ///< of the coupled system at the end
-    double       wall_seconds         = 0;
-    double       peak_memory_MB       = 0; ///< of the process
-    bool         converged            = false;
+    double       smallest_step      = std::numeric_limits<double>::quiet_NaN();
+    unsigned int newton_iterations  = 0;
+    unsigned int dofs               = 0; ///< as the paper counts them
+    unsigned int unknowns           = 0; ///< dofs less tied surface vertices
+    unsigned int condensed_unknowns = 0; ///< of the coupled system at the end
+    double       wall_seconds       = 0;
+    double       peak_memory_MB     = 0; ///< of the process
+    bool         converged          = false;
     std::string  reason; ///< why the run ended
     std::vector<std::string> warnings;
     /** Parts of the wall time; {"dense solve", 1.5} becomes

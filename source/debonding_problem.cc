@@ -166,6 +166,11 @@ namespace Debond
     state->console.headline(unknowns_of(*state->system));
     warn_of_locking(scene.bone, "Bone", state->console);
     warn_of_locking(scene.implant, "Implant", state->console);
+    if (scene.load_steps.adaptive && scene.interface.viscosity > 0.)
+      state->console.warn("viscosity",
+                          "Load steps / Tolerance does not cover the error in "
+                          "time of Interface / Viscosity, which is of first "
+                          "order in the step: compare with smaller Steps");
     write_bonding();
     open_results(checkpoint);
   }

@@ -260,9 +260,12 @@ namespace Debond
       {
         throw;
       }
-    catch (const Interrupted &)
+    catch (const Interrupted &interruption)
       {
-        throw;
+        throw Interrupted(interruption.signal,
+                          "interrupted by " + signal_name(interruption.signal) +
+                            " in rung " + std::to_string(rungs.size() + 1) +
+                            ": Model = auto keeps no checkpoints");
       }
     catch (const std::exception &error)
       {

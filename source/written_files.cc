@@ -14,6 +14,11 @@ namespace Debond
 {
   namespace
   {
+    /** Ends the names of files that are being written. */
+    const std::string partial = ".partial";
+
+
+
     [[noreturn]] void
     fail(const std::string &filename)
     {
@@ -78,7 +83,7 @@ namespace Debond
              const std::string &text,
              const Durability   durability)
   {
-    const std::string temporary = filename + ".partial";
+    const std::string temporary = filename + partial;
     const bool        on_disk   = durability == Durability::on_disk;
     bool              written   = false;
     {
@@ -102,8 +107,9 @@ namespace Debond
   void
   remove_file(const std::string &filename)
   {
-    if (unlink(filename.c_str()) != 0 && errno != ENOENT)
-      fail(filename);
+    for (const std::string &name : {filename, filename + partial})
+      if (unlink(name.c_str()) != 0 && errno != ENOENT)
+        fail(filename);
   }
 
 

@@ -23,7 +23,7 @@ namespace Debond
    * Variants are processes of their own, so that one that fails leaves the
    * others alone; class VariantQueue says what they have in common. A variant
    * whose directory holds the finished results of the same scene is not run
-   * again.
+   * again, one that has left a checkpoint goes on from it.
    *
    * With `Study / Repetitions` every variant is run several times, one after
    * the other in its directory, which keeps the summary of each run as

@@ -20,7 +20,8 @@ namespace Debond
              const std::string &text,
              Durability         durability = Durability::in_system);
 
-  /** Removes a file if there is one. Throws WriteError. */
+  /** Removes a file if there is one, and what a write_file() that was killed
+   * may have left of it. Throws WriteError. */
   void
   remove_file(const std::string &filename);
 

@@ -88,7 +88,7 @@ namespace Debond
     while (true)
       {
         const double time = stepping.target_time();
-        if (!try_middle(iterations) ||
+        if (turns_too_far(time) || !try_middle(iterations) ||
             !try_step(time, state->extrapolate, iterations))
           {
             if (!stepping.reject())
@@ -226,8 +226,6 @@ namespace Debond
 
 
 
-  // A sliding point is pulled along the chord of its way, at an angle of half
-  // the rotation to its direction at the end: 5 degrees cost a thousandth.
   bool
   DebondingProblem::turns_too_far(const double time)
   {
@@ -235,10 +233,10 @@ namespace Debond
     if (rotation.loaded ||
         scene.interface.friction.kind == FrictionLawKind::frictionless)
       return false;
-    constexpr double largest_turn = 5. * M_PI / 180. * (1. + 1e-9);
-    const Chuck     &chuck        = state->system->chuck;
-    const bool       too_far      = std::abs(chuck.values(time)[5] -
-                                  chuck.values(state->time)[5]) > largest_turn;
+    const Chuck &chuck = state->system->chuck;
+    const bool   too_far =
+      std::abs(chuck.values(time)[5] - chuck.values(state->time)[5]) >
+      (1. + 1e-9) * largest_turn;
     if (too_far)
       state->last_failure = "a step may turn the chuck by 5 degrees at most";
     return too_far;

@@ -19,6 +19,10 @@ namespace Debond
         const Chuck::Vector6 dq = position - last_position;
         W += 0.5 * (forces + last_forces).dot(dq);
         bound += 0.5 * (forces - last_forces).cwiseAbs().dot(dq.cwiseAbs());
+        // sliding points work along the chords of their ways: tan(a/2) / (a/2)
+        // of the turn a is 1 + a^2 / 12 + a^4 / 120 + ...
+        const double turn = dq.tail<3>().squaredNorm() / 10.;
+        bound += turn * forces.cwiseAbs().dot(dq.cwiseAbs());
         max_W = std::max(max_W, std::abs(W));
       }
     else
@@ -88,23 +92,49 @@ namespace Debond
         const double put_in     = 0.5 * (state.forces + last.forces).dot(dq);
         work += put_in;
         largest_work = std::max({largest_work, std::abs(work), state.stored});
-        // of the trapezoid, and of residuals that are not quite zero; a force
-        // may have turned within the step, so that its ends alone tell too
-        // little
+        // of the trapezoid, and of residuals that are not quite zero; force and
+        // motion may have turned within the step, so that its ends alone tell
+        // too little
         const Chuck::Vector6 change = (state.forces - last.forces).cwiseAbs();
+        const Chuck::Vector6 motion = dq.cwiseAbs();
         const double         bound =
-          0.5 * change.cwiseMax(last_change).dot(dq.cwiseAbs()) + state.bound -
-          last.bound + 1e-6 * largest_work;
+          0.5 * change.cwiseMax(last_change).dot(motion.cwiseMax(last_motion)) +
+          state.bound - last.bound + 1e-6 * largest_work;
         last_change = change;
+        last_motion = motion;
         excess =
           put_in - (state.stored - last.stored) - (state.spent - last.spent);
+        hidden = std::abs(excess) > 1e-3 * 0.5 * change.dot(motion) &&
+                 falls_steeply(state, dq);
         if (excess <= bound)
           excess = 0.;
+        else // the next step is no part of the jump
+          {
+            hidden      = false;
+            last_change = last_motion = Chuck::Vector6::Zero();
+          }
       }
-    started = true;
-    last    = state;
+    started  = true;
+    last     = state;
+    greatest = greatest.cwiseMax(state.forces.cwiseAbs());
     released += excess;
     jumps += excess > 0. ? 1 : 0;
     return excess;
+  }
+
+
+
+  // Whether a force against which the machine moves on has fallen by a fifth of
+  // its largest value.
+  bool
+  ReleasedEnergy::falls_steeply(const State          &now,
+                                const Chuck::Vector6 &dq) const
+  {
+    for (unsigned int k = 0; k < 6; ++k)
+      if (last.forces[k] * dq[k] > 0. &&
+          std::abs(last.forces[k]) - std::abs(now.forces[k]) >
+            0.2 * greatest[k])
+        return true;
+    return false;
   }
 } // namespace Debond

@@ -40,7 +40,7 @@ namespace Debond
     slip_size   = largest_slip;
     time_size   = planned;
     has_last    = false;
-    goes_to_end = false;
+    goes_to_end = slip_failed = time_failed = false;
   }
 
 
@@ -52,18 +52,29 @@ namespace Debond
     step.extrapolate = has_last;
     if (has_last && last_slip_step > 0. && !goes_to_end)
       {
-        // no further than a straight line can be trusted
-        step.slip  = std::min(slip_size, 2. * last_slip_step);
-        step.ratio = step.slip / last_slip_step;
-        step.time  = time + step.ratio * last_time_step;
-        step.by_slip =
-          step.time < std::min(end, time + time_size * (1. - 1e-9));
+        // no further than a straight line can be trusted, or a planned step
+        step.ratio = std::min(slip_size / last_slip_step, 2.);
+        if (last_time_step > 0.)
+          step.ratio = std::min(step.ratio, planned / last_time_step);
+        step.slip    = step.ratio * last_slip_step;
+        step.time    = time + step.ratio * last_time_step;
+        step.by_slip = time_failed || prefers_slip(step);
         if (step.by_slip)
           return step;
       }
     step.time  = end - time < time_size * (1. + 1e-9) ? end : time + time_size;
     step.ratio = last_time_step > 0. ? (step.time - time) / last_time_step : 0.;
     return step;
+  }
+
+
+
+  // Where time falls, and where much slides on the way to the end.
+  bool
+  PathFollowing::prefers_slip(const Step &step) const
+  {
+    return !slip_failed && step.time < end &&
+           (last_time_step <= 0. || step.slip >= 0.25 * largest_slip);
   }
 
 
@@ -77,26 +88,30 @@ namespace Debond
     const double slipped = new_mean_slip - mean_slip;
     if (step.by_slip && new_time > end)
       {
-        goes_to_end = true;
+        slip_size = 0.5 * step.slip;
+        // else the end is beyond a limit point
+        goes_to_end =
+          !time_failed ||
+          slip_size < parameters.smallest_step_fraction * largest_slip;
         return false;
       }
     if (!step.by_slip && slipped > largest_slip * (1. + 1e-6) &&
-        time_size > parameters.smallest_step_fraction * planned)
-      {
-        time_size   = 0.5 * (step.time - time);
-        goes_to_end = false;
-        return false;
-      }
-    has_last       = true;
-    goes_to_end    = false;
-    last_time_step = new_time - time;
-    last_slip_step = slipped;
-    time           = new_time;
-    mean_slip      = new_mean_slip;
+        reject_time(step))
+      return false;
+    has_last    = true;
+    goes_to_end = slip_failed = time_failed = false;
+    last_time_step                          = new_time - time;
+    last_slip_step                          = slipped;
+    time                                    = new_time;
+    mean_slip                               = new_mean_slip;
     if (!step.by_slip)
       time_size = std::min(planned, 2. * time_size);
-    else if (iterations <= 5)
-      slip_size = std::min(largest_slip, 1.5 * slip_size);
+    else
+      {
+        time_size = planned;
+        if (iterations <= 5)
+          slip_size = std::min(largest_slip, 1.5 * slip_size);
+      }
     return true;
   }
 
@@ -105,13 +120,24 @@ namespace Debond
   bool
   PathFollowing::reject(const Step &step)
   {
-    if (step.by_slip)
-      {
-        slip_size = 0.5 * step.slip;
-        return slip_size >= parameters.smallest_step_fraction * largest_slip;
-      }
+    if (!step.by_slip)
+      return reject_time(step);
+    slip_failed = true;
+    time_failed = false;
+    slip_size   = 0.5 * step.slip;
+    return slip_size >= parameters.smallest_step_fraction * largest_slip;
+  }
+
+
+
+  // A state that is not found, or far away: there may be a limit point, where
+  // only the sliding distance goes on.
+  bool
+  PathFollowing::reject_time(const Step &step)
+  {
     goes_to_end = false;
+    time_failed = has_last && last_slip_step > 0.;
     time_size   = 0.5 * (step.time - time);
-    return time_size >= parameters.smallest_step_fraction * planned;
+    return time_size >= 0.5 * parameters.smallest_step_fraction * planned;
   }
 } // namespace Debond

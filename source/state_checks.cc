@@ -32,6 +32,7 @@ namespace Debond
     if (!scene.interface.explicit_friction)
       check_for_jump(where, system, summary);
     check_interface(where, system, summary);
+    check_turn(where, system);
     check_reaction(where);
     check_energy_balance(where, system.interface.step_dissipation());
   }
@@ -57,6 +58,43 @@ namespace Debond
 
 
 
+  namespace
+  {
+    /** What happened to the force that changed most, moments being forces at
+     *  the distance @p R. */
+    std::string
+    describe_change(const Chuck::Vector6 &from,
+                    const Chuck::Vector6 &to,
+                    const double          R)
+    {
+      const char    *names[] = {"Fx", "Fy", "Fz", "Mx", "My", "the torque"};
+      Chuck::Vector6 change  = (to - from).cwiseAbs();
+      change.tail<3>() /= R;
+      Eigen::Index k;
+      change.maxCoeff(&k);
+      std::ostringstream text;
+      text << names[k] << " went from " << from[k] << " to " << to[k]
+           << (k < 3 ? " N" : " N mm");
+      return text.str();
+    }
+
+
+
+    /** What follows the state where it jumps. */
+    std::string
+    advice(const Scene &scene)
+    {
+      if (scene.interface.viscosity > 0.)
+        return "Smaller steps follow the viscous motion";
+      if (scene.load_steps.follow_path)
+        return "A smaller Load steps / Largest slip step follows the path "
+               "between";
+      return "Load steps / Path following = slip follows the path between";
+    }
+  } // namespace
+
+
+
   // Whether the state just accepted is on another branch of equilibrium.
   void
   StateChecks::check_for_jump(const std::string               &where,
@@ -69,21 +107,27 @@ namespace Debond
     now.position = system.chuck.machine_position();
     now.stored   = system.chuck.machine_energy() + system.bone.energy() +
                  system.implant.energy() + summary.energy;
-    now.spent             = interface.friction_work();
-    now.bound             = interface.friction_work_bound();
-    const double released = released_energy.add(now);
+    now.spent                  = interface.friction_work();
+    now.bound                  = interface.friction_work_bound();
+    const double      released = released_energy.add(now);
+    const std::string change =
+      describe_change(last_forces, now.forces, system.R);
+    last_forces = now.forces;
     if (released > 0.)
       {
         std::ostringstream text;
-        text << where << "in one step the torque went from " << last_torque
-             << " to " << now.forces[5] << " N mm, and " << released
+        text << where << "in one step " << change << ", and " << released
              << " N mm of stored energy were released without equilibrium: the "
                 "load cannot be followed there, the state jumped to another "
-                "branch. Load steps / Path following = slip follows the path "
-                "between";
+                "branch. "
+             << advice(scene);
         note_violation("jump", text.str());
       }
-    last_torque = now.forces[5];
+    else if (released_energy.may_hide_a_jump())
+      note_violation("steep fall",
+                     where + "in one step " + change +
+                       ": too much to tell a jump from a steep fall; smaller "
+                       "steps do");
   }
 
 
@@ -138,10 +182,35 @@ namespace Debond
 
 
 
+  // Planned turns are divided; jumps and loaded chucks turn as far as they
+  // like.
+  void
+  StateChecks::check_turn(const std::string &where, const CoupledSystem &system)
+  {
+    const Eigen::Vector3d rotation = system.chuck.position().tail<3>();
+    const double          turn     = (rotation - last_rotation).norm();
+    if (started && turn > 1.001 * largest_turn &&
+        scene.interface.friction.kind != FrictionLawKind::frictionless)
+      {
+        std::ostringstream text;
+        text << where << "the implant turned by " << turn * 180. / M_PI
+             << " degrees in one step: sliding points are pulled along the "
+                "chords of their ways, and friction is too small by 1 - cos of "
+                "half the angle, "
+             << 1. - std::cos(0.5 * turn) << " of itself";
+        note_violation("turn", text.str());
+      }
+    last_rotation = rotation;
+    started       = true;
+  }
+
+
+
   void
   StateChecks::check_reaction(const std::string &where)
   {
-    if (last_reaction_defect > 1e-6)
+    if (last_reaction_defect >
+        std::max(1e-6, 100. * scene.load_steps.residual_tolerance))
       {
         std::ostringstream text;
         text

@@ -95,6 +95,14 @@ namespace Debond
     double
     add(const State &state);
 
+    /** Whether a force fell so far in the last step that a jump could not be
+     * told from a steep fall. */
+    bool
+    may_hide_a_jump() const
+    {
+      return hidden;
+    }
+
     /** Sum over all steps [N mm]. */
     double
     total() const
@@ -113,13 +121,21 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &started &last &last_change &largest_work &work &released &jumps;
+      archive &started &last &last_change &last_motion &greatest &largest_work
+        &work &released &jumps;
     }
 
   private:
-    bool           started = false;
-    State          last;
-    Chuck::Vector6 last_change = Chuck::Vector6::Zero(); ///< of the forces, abs
+    bool
+    falls_steeply(const State &now, const Chuck::Vector6 &dq) const;
+
+    bool  started = false;
+    State last;
+    /** Of forces and position in the last step, absolute. */
+    Chuck::Vector6 last_change  = Chuck::Vector6::Zero(),
+                   last_motion  = Chuck::Vector6::Zero();
+    Chuck::Vector6 greatest     = Chuck::Vector6::Zero(); ///< forces, absolute
+    bool           hidden       = false;
     double         largest_work = 0, work = 0, released = 0;
     unsigned int   jumps = 0;
   };

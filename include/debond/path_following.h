@@ -8,9 +8,10 @@ namespace Debond
   /**
    * The steps along a path of equilibrium that may snap back. Where points
    * slide, a step prescribes the mean sliding distance, which only grows, and
-   * the time is found; where next to nothing slides, it prescribes the time.
-   * Steps prescribe the time if the sliding distance would take it further than
-   * a planned step.
+   * the time is found; where little slides, it prescribes the time. A step that
+   * cannot be solved, or whose state is too far away, is tried again with the
+   * other control, and then smaller. No step goes further in time than a
+   * planned one.
    */
   class PathFollowing
   {
@@ -73,6 +74,11 @@ namespace Debond
     }
 
   private:
+    bool
+    prefers_slip(const Step &step) const;
+    bool
+    reject_time(const Step &step);
+
     const LoadSteppingParameters parameters;
     const double                 largest_slip, end_slip; ///< [mm]
     double                       time = 0, end = 0, planned = 0, mean_slip = 0;
@@ -81,6 +87,9 @@ namespace Debond
     bool   has_last = false;
     /** The last slip step would have left the phase. */
     bool goes_to_end = false;
+    /** What has failed since the last accepted step; the other control is tried
+     *  next. */
+    bool slip_failed = false, time_failed = false;
   };
 } // namespace Debond
 #endif

@@ -4,6 +4,7 @@
 #include <debond/contact_interface.h>
 #include <debond/energy_balance.h>
 
+#include <cmath>
 #include <set>
 #include <string>
 
@@ -12,6 +13,13 @@ namespace Debond
   class Console;
   class CoupledSystem;
   struct Scene;
+
+  /** Largest rotation in a step [rad]. A sliding point is pulled along the
+   * chord of its way, at half this angle to its direction at the end: 5 degrees
+   * cost a thousandth of the friction. */
+  constexpr double largest_turn = 5. * M_PI / 180.;
+
+
 
   /** What a user has to know about the states that a run has accepted. That
    *  they solve the equations, and are the only solution, was asked before. */
@@ -56,7 +64,8 @@ namespace Debond
     serialize(Archive &archive, const unsigned int)
     {
       archive &energy_balance &released_energy &violated;
-      archive &last_reaction_defect            &last_torque;
+      archive &last_reaction_defect            &last_forces;
+      archive &started                         &last_rotation;
     }
 
   private:
@@ -71,6 +80,8 @@ namespace Debond
                     const CoupledSystem             &system,
                     const ContactInterface::Summary &summary);
     void
+    check_turn(const std::string &where, const CoupledSystem &system);
+    void
     check_reaction(const std::string &where);
     void
     check_energy_balance(const std::string &where, double step_dissipation);
@@ -80,7 +91,10 @@ namespace Debond
     EnergyBalance         energy_balance;
     ReleasedEnergy        released_energy;
     std::set<std::string> violated;
-    double                last_reaction_defect = 0, last_torque = 0;
+    double                last_reaction_defect = 0;
+    Chuck::Vector6        last_forces          = Chuck::Vector6::Zero();
+    bool                  started              = false;
+    Eigen::Vector3d       last_rotation        = Eigen::Vector3d::Zero();
   };
 
   /** Why the bond would break in a jump, for messages. */

@@ -4,14 +4,16 @@
 //   # judge: T_max_Nmm = 50.32 within 0.1 %  (where the number is from)
 //   # method: default: right
 //   # method: explicit: wrong --set "Interface/Friction update=explicit"
+//   # comes to: T_max_Nmm = 52.1 within 1 %  (where the number is from)
 //   # method: brittle: refused "not unique" --set ...
 //   # slow method: fine: right --set "Load steps/Steps=1, 1000"
 //
 // An outcome is `right' if the run ends and everything is as judged, `wrong' if
 // it ends and something is not, `refused' if it stops with a message that
-// contains the words in quotes, and `failed' if it stops with another one.
-// Judgements (expectations.h) that follow a method are for that one alone and
-// replace those of the others. Slow methods are in the table, but no tests.
+// contains the words in quotes, and `failed' if it does so because a step could
+// not be solved. Judgements (expectations.h) that follow a method are for that
+// one alone and replace those of the others. What a wrong method comes to is
+// judged as well. Slow methods are in the table, but no tests.
 //
 //   judge_method SCENE.prm METHOD DIRECTORY
 //
@@ -45,9 +47,10 @@ namespace
   {
     std::string              name;
     std::string              outcome; ///< expected
-    std::string              message; ///< part of it, where it is refused
+    std::string              message; ///< part of it, where it stops
     std::vector<std::string> overrides;
     std::vector<std::string> judgements;
+    std::vector<std::string> comes_to; ///< where it is wrong
   };
 
 
@@ -59,9 +62,9 @@ namespace
       "([^ :]+): (right|wrong|refused|failed)(?: \"([^\"]+)\")?((?: --set .*)?)");
     std::smatch match;
     if (!std::regex_match(text, match, pattern) ||
-        match[3].matched != (match[2] == "refused"))
+        match[3].matched != (match[2] == "refused" || match[2] == "failed"))
       throw std::runtime_error("cannot read the method '" + text + "'");
-    return {match[1], match[2], match[3], overrides(match[4]), {}};
+    return {match[1], match[2], match[3], overrides(match[4]), {}, {}};
   }
 
 
@@ -70,7 +73,7 @@ namespace
   find_method(const std::string &scene_text, const std::string &name)
   {
     const std::regex pattern(
-      "\\s*#\\s*(judge|method|slow method):\\s*(.*?)\\s*");
+      "\\s*#\\s*(judge|comes to|method|slow method):\\s*(.*?)\\s*");
     std::vector<std::string> judgements;
     std::vector<Method>      methods;
     std::istringstream       lines(scene_text);
@@ -80,7 +83,9 @@ namespace
       {
         if (!std::regex_match(line, match, pattern))
           continue;
-        if (match[1] != "judge")
+        if (match[1] == "comes to" && !methods.empty())
+          methods.back().comes_to.push_back(match[2]);
+        else if (match[1] != "judge")
           methods.push_back(read_method(match[2]));
         else if (methods.empty())
           judgements.push_back(match[2]);
@@ -97,6 +102,10 @@ namespace
       found->judgements = judgements;
     if (found->judgements.empty() && found->outcome != "refused")
       throw std::runtime_error("nothing says what is right with " + name);
+    if (found->comes_to.empty() != (found->outcome != "wrong"))
+      throw std::runtime_error("what " + name +
+                               " comes to is for methods that are wrong, and "
+                               "has to be there for those");
     return *found;
   }
 
@@ -111,8 +120,16 @@ namespace
 
 
 
-  /** Runs the scene; returns the message if it stops. */
-  std::string
+  /** Why a run stopped. */
+  struct Stop
+  {
+    std::string message; ///< empty if it did not
+    bool        in_a_step = false;
+  };
+
+
+
+  Stop
   run(const std::string &scene_file, const std::vector<std::string> &overrides)
   {
     try
@@ -126,13 +143,13 @@ namespace
       }
     catch (const Debond::InputError &error)
       {
-        return error.what();
+        return {error.what(), false};
       }
     catch (const Debond::RunError &error)
       {
-        return error.what();
+        return {error.what(), true};
       }
-    return "";
+    return {};
   }
 
 
@@ -149,46 +166,67 @@ namespace
 
 
 
-  /** The words that say why a run has failed, not where. */
-  std::string
-  cause(const std::string &message)
+  /** Throws if a judgement cannot be evaluated. */
+  Verdict
+  judge_or_throw(const std::string &judgement, const Results &results)
   {
-    const std::string key   = "allowed part of a step: ";
-    const auto        begin = message.find(key);
-    return begin == std::string::npos ? message.substr(0, 60) :
-                                        message.substr(begin + key.size(), 35);
+    const Verdict verdict = judge(judgement, {results});
+    if (!verdict.is_readable)
+      throw std::runtime_error(verdict.line);
+    return verdict;
+  }
+
+
+
+  /** The outcome of a run that stopped. */
+  Outcome
+  outcome_of_stop(const Method &method, const Stop &stop)
+  {
+    std::cout << stop.message << '\n';
+    Outcome    outcome;
+    const bool is_known =
+      !method.message.empty() &&
+      stop.message.find(method.message) != std::string::npos;
+    outcome.name = !is_known ? "stopped" :
+                   method.outcome == "failed" && !stop.in_a_step ?
+                               "refused" :
+                               method.outcome;
+    outcome.detail =
+      "\"... " + (is_known ? method.message : stop.message) + " ...\"";
+    return outcome;
   }
 
 
 
   Outcome
   outcome_of(const Method      &method,
-             const std::string &message,
+             const Stop        &stop,
              const std::string &directory)
   {
     Outcome outcome;
+    if (!stop.message.empty())
+      outcome = outcome_of_stop(method, stop);
     if (std::filesystem::exists(directory + "/summary.json"))
       outcome.results = read_results(directory);
-    if (!message.empty())
-      {
-        const bool refused = !method.message.empty() &&
-                             message.find(method.message) != std::string::npos;
-        std::cout << message << '\n';
-        outcome.name = refused ? "refused" : "failed";
-        outcome.detail =
-          "\"... " + (refused ? method.message : cause(message)) + " ...\"";
-        return outcome;
-      }
+    if (!stop.message.empty())
+      return outcome;
     outcome.name = "right";
     for (const std::string &judgement : method.judgements)
       {
-        const Verdict verdict = judge(judgement, {outcome.results});
+        const Verdict verdict = judge_or_throw(judgement, outcome.results);
         std::cout << verdict.line << '\n';
         const bool first_bad = outcome.name == "right" && !verdict.is_met;
         if (first_bad)
           outcome.name = "wrong";
         if (first_bad || outcome.detail.empty())
           outcome.detail = quantity(judgement) + ": " + verdict.measured;
+      }
+    for (const std::string &value : method.comes_to)
+      {
+        const Verdict verdict = judge_or_throw(value, outcome.results);
+        std::cout << "comes to: " << verdict.line << '\n';
+        if (!verdict.is_met)
+          outcome.name += " in another way";
       }
     return outcome;
   }

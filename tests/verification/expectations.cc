@@ -393,7 +393,8 @@ namespace Expectations
       }
     catch (const Problem &problem)
       {
-        verdict.measured = problem.what();
+        verdict.measured    = problem.what();
+        verdict.is_readable = false;
       }
     verdict.line = verdict.is_met ?
                      "ok: " + expectation :

@@ -51,7 +51,8 @@ namespace Expectations
 
   struct Verdict
   {
-    bool        is_met = false;
+    bool        is_met      = false;
+    bool        is_readable = true; ///< false: it cannot be evaluated
     std::string line;     ///< "ok: EXPECTATION" or "FAILED: EXPECTATION: ..."
     std::string measured; ///< the value, or what is wrong with it
   };

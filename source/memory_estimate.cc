@@ -112,12 +112,16 @@ namespace Debond
 
 
     /** Bytes that a body takes without its factors: triangulation, shape
-     *  functions, sparse matrices. Measured. */
+     *  functions, sparse matrices, and the text of VTU files where there are
+     *  any. Measured. */
     double
-    bytes_of_body(const Counts &body)
+    bytes_of_body(const Scene &scene, const Counts &body)
     {
       constexpr double per_cell = 3000., per_unknown = 2500.;
-      return per_cell * body.cells + per_unknown * body.unknowns;
+      const double     per_cell_in_files =
+        scene.output.fields_every > 0 ? 5000. : 0.;
+      return (per_cell + per_cell_in_files) * body.cells +
+             per_unknown * body.unknowns;
     }
 
 
@@ -175,7 +179,7 @@ namespace Debond
                                       bone.condensed * bone.condensed +
                                         implant.condensed * implant.condensed);
       const auto   part    = [&](const Counts &body) {
-        return bytes_of_body(body) + bytes_per_number * body.factor +
+        return bytes_of_body(scene, body) + bytes_per_number * body.factor +
                dense * body.condensed * body.condensed / squares;
       };
       // those of the bonding pattern are similar, and smaller

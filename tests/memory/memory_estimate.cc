@@ -29,6 +29,9 @@ end
 subsection Load steps
   set Steps = 1, 1
 end
+subsection Output
+  set Fields every = 0
+end
 )";
 
 

@@ -124,17 +124,19 @@ namespace Debond
 
 
 
-  // Whether a force against which the machine moves on has fallen by a fifth of
-  // its largest value.
+  // Whether a force that makes up for some of the work, and against which the
+  // machine moves on, has fallen by a fifth of its largest value.
   bool
   ReleasedEnergy::falls_steeply(const State          &now,
                                 const Chuck::Vector6 &dq) const
   {
     for (unsigned int k = 0; k < 6; ++k)
-      if (last.forces[k] * dq[k] > 0. &&
-          std::abs(last.forces[k]) - std::abs(now.forces[k]) >
-            0.2 * greatest[k])
-        return true;
+      {
+        const double fall = std::abs(last.forces[k]) - std::abs(now.forces[k]);
+        if (last.forces[k] * dq[k] > 0. && fall > 0.2 * greatest[k] &&
+            fall * std::abs(dq[k]) > 1e-3 * largest_work)
+          return true;
+      }
     return false;
   }
 } // namespace Debond

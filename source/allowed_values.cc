@@ -1,10 +1,12 @@
 #include <debond/allowed_values.h>
 #include <debond/number_text.h>
+#include <debond/special_characters.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <cerrno>
 #include <cstdlib>
+#include <filesystem>
 #include <limits>
 #include <sstream>
 #include <utility>
@@ -317,6 +319,19 @@ namespace Debond
     optional_text(const std::string &what)
     {
       return {[](const std::string &) { return true; }, what};
+    }
+
+
+
+    AllowedValues
+    directory()
+    {
+      const auto test = [](const std::string &text) {
+        return !text.empty() && !has_quotes(text) && text[0] != '~' &&
+               text[0] != '$' && text.find('\\') == std::string::npos &&
+               std::filesystem::path(text).lexically_normal() != "/";
+      };
+      return {test, "the name of a directory"};
     }
 
 

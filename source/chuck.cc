@@ -56,8 +56,10 @@ namespace Debond
                           (rotation ? "degrees or N mm" : "mm or N")),
                         std::string("Expression in the time t (muParser; "
                                     "constants pi and R [mm]), in ") +
-                          (rotation ? "degrees for angle, N mm for moment." :
-                                      "mm for displacement, N for force."));
+                          (rotation ? "degrees for angle, N mm for moment" :
+                                      "mm for displacement, N for force") +
+                          ". Note that sin and cos expect radians: "
+                          "sin(2 * pi * t).");
       prm.declare_entry("File",
                         "",
                         Allowed::only(""),

@@ -29,7 +29,8 @@ namespace Debond
         "in a jump breaks in time instead: the local solution is unique while "
         "|d mu/d g_s| p is below the tangential penalty stiffness plus eta "
         "over the (sub-)step's duration. Time is then more than a parameter "
-        "of the load: results depend on the rate.");
+        "of the load: results depend on the rate. Must be 0 with Friction law = "
+        "frictionless.");
     }
 
 

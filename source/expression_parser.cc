@@ -1,11 +1,16 @@
 #include <debond/expression_parser.h>
 #include <debond/input_error.h>
+#include <debond/special_characters.h>
 
 #include <deal.II/base/numbers.h>
 
 #include <algorithm>
+#include <cctype>
 #include <iostream>
+#include <map>
+#include <regex>
 #include <sstream>
+#include <vector>
 
 namespace Debond
 {
@@ -93,6 +98,84 @@ namespace Debond
 
 
 
+    /** The names of variables and functions in an expression, in order. */
+    std::vector<std::string>
+    names_in(const std::string &expression)
+    {
+      static const std::regex word(
+        R"((\.?\d[\d.]*([eE][+-]?\d+)?)|([A-Za-z_]\w*))");
+      std::vector<std::string> names;
+      for (std::sregex_iterator match(expression.begin(),
+                                      expression.end(),
+                                      word);
+           match != std::sregex_iterator();
+           ++match)
+        if ((*match)[3].matched)
+          names.push_back(match->str());
+      return names;
+    }
+
+
+
+    /** What other languages call otherwise; nothing if @p name is not known
+     *  to be such a name. */
+    std::string
+    remark_on_name(const std::string &name, const std::string &variables)
+    {
+      const std::string remainder =
+        "the remainder of a divided by b is written a - b * floor(a / b)";
+      static const std::map<std::string, std::string> foreign{
+        {"mod", remainder},
+        {"fmod", remainder},
+        {"%", remainder},
+        {"and", "`and' is written &&"},
+        {"or", "`or' is written ||"},
+        {"e", "the exponential function is written exp(x)"},
+        {"|", "absolute values are written abs(x)"}};
+      const auto found = foreign.find(name);
+      if (found != foreign.end())
+        return found->second;
+
+      std::string lower = name;
+      for (char &c : lower)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      const auto is_known = [&](const std::string &word) {
+        return ("," + variables + ",pi,R,").find("," + word + ",") !=
+               std::string::npos;
+      };
+      if (!is_known(name) && is_known(lower))
+        return "it is written " + lower + ", not " + name;
+      return "";
+    }
+
+
+
+    /** A remark on frequent mistakes in an expression that the parser has
+     *  refused, or nothing. */
+    std::string
+    remark_on_expression(const std::string &expression,
+                         const std::string &variables)
+    {
+      if (has_quotes(expression))
+        return "it stands without quotes";
+      // regular expressions need a deep stack for long texts
+      std::vector<std::string> names = names_in(shortened(expression));
+      if (expression.find('%') != std::string::npos)
+        names.emplace_back("%");
+      if (expression.find('|') != std::string::npos &&
+          expression.find("||") == std::string::npos)
+        names.emplace_back("|");
+      for (const std::string &name : names)
+        {
+          const std::string remark = remark_on_name(name, variables);
+          if (!remark.empty())
+            return remark;
+        }
+      return "";
+    }
+
+
+
     /** The parser takes && and || only with blanks around them. */
     std::string
     with_blanks(const std::string &expression)
@@ -127,6 +210,10 @@ namespace Debond
     if (expression.size() > longest)
       throw InputError(complaint + "it has more than " +
                        std::to_string(longest) + " letters");
+    const std::string special =
+      remark_on_special_character_in_expression(expression);
+    if (!special.empty())
+      throw InputError(complaint + special.substr(2));
     if (expression.find(';') != std::string::npos)
       throw InputError(complaint + "it holds a ;");
     if (expression.find("rand") != std::string::npos)
@@ -154,7 +241,10 @@ namespace Debond
       }
     catch (const std::exception &error)
       {
-        throw InputError(complaint + words_of_parser(error.what()));
+        const std::string remark = remark_on_expression(expression, variables);
+        throw InputError(complaint + (remark.empty() ?
+                                        words_of_parser(error.what()) :
+                                        remark));
       }
     return parser;
   }

@@ -54,14 +54,6 @@ namespace Debond
       check(section + "Height", body.height, length);
       check(section + "Cap radius", body.cap_radius, radius_of_sphere);
       check(section + "Young modulus", body.young_modulus, modulus);
-      constexpr double largest_ratio = 0.49999;
-      if (body.material != Material::rigid &&
-          body.poisson_ratio > largest_ratio)
-        throw InputError(section +
-                         "Poisson ratio: the cells lock and the "
-                         "equations lose their digits as it "
-                         "approaches 0.5: expected at most " +
-                         to_text(largest_ratio));
     }
 
 

@@ -22,10 +22,12 @@ namespace Debond
     prm.enter_subsection("Output");
     prm.declare_entry("Directory",
                       "output/coin",
-                      Allowed::text("the name of a directory"),
+                      Allowed::directory(),
                       "Directory for the results, relative to the working "
                       "directory; created if missing. One that holds results "
-                      "of another scene is refused without --force.");
+                      "of another scene is refused without --force. The name "
+                      "is taken as it is: no quotes, and no ~ or $ at its "
+                      "beginning.");
     prm.declare_entry("Fields every",
                       "50",
                       Allowed::whole_number(0, std::numeric_limits<int>::max()),

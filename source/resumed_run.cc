@@ -95,6 +95,27 @@ namespace Debond
 
 
 
+    /** The results of the run that goes on stay where they are. */
+    void
+    refuse_other_directory(const std::vector<std::string> &overrides,
+                           const std::string              &directory,
+                           const std::string              &option)
+    {
+      namespace fs = std::filesystem;
+      for (const std::string &text : overrides)
+        {
+          const SceneEntry entry = read_override(text);
+          if (entry.full_name() == "Output / Directory" &&
+              fs::weakly_canonical(ResultDirectory(entry.value).path()) !=
+                fs::weakly_canonical(directory))
+            throw InputError(option + ": --set '" + text +
+                             "' names another directory, but a run goes on in "
+                             "the directory of its results");
+        }
+    }
+
+
+
     std::string
     joined(const std::vector<std::string> &remarks)
     {
@@ -125,7 +146,8 @@ namespace Debond
     const std::string option = "--resume '" + directory + "'";
     check_directory(directory, option);
     const ResultDirectory results(directory);
-    const std::string     stored = results.file("parameters.prm");
+    refuse_other_directory(overrides, results.path(), option);
+    const std::string stored = results.file("parameters.prm");
     if (Scene::from_file(stored).model != ModelKind::finite_elements)
       throw InputError(option + ": only Model = finite elements leaves "
                                 "checkpoints; run the scene again");

@@ -381,6 +381,19 @@ namespace Debond
 
 
     void
+    check_viscosity(const InterfaceParameters &interface)
+    {
+      if (interface.friction.kind == FrictionLawKind::frictionless &&
+          interface.viscosity != 0.)
+        throw InputError("Interface / Viscosity = '" +
+                         to_text(interface.viscosity) +
+                         "' is not used by Friction law = frictionless: it "
+                         "belongs to laws with friction");
+    }
+
+
+
+    void
     check_friction(const FrictionParameters     &friction,
                    const LoadSteppingParameters &load_steps)
     {
@@ -486,6 +499,7 @@ namespace Debond
     if (model == ModelKind::automatic)
       check_pattern_of_auto(interface.bonding);
     check_times(load_steps);
+    check_viscosity(interface);
     check_friction(interface.friction, load_steps);
     check_chuck(*this);
     check_path_following(*this);

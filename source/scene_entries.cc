@@ -1,6 +1,8 @@
 #include <debond/allowed_values.h>
 #include <debond/input_error.h>
+#include <debond/number_text.h>
 #include <debond/scene_entries.h>
+#include <debond/special_characters.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
@@ -210,6 +212,10 @@ namespace Debond
                 full_entry_name({path.begin(), path.end() - 1}, path.back()) +
                 " has no subsection '" + subsection + "'";
         }
+      const std::string special =
+        remark_on_special_character(shortened(entry.full_name()));
+      if (!special.empty())
+        throw InputError(message + special);
       // to compare a very long text with all names takes very long
       const std::string likely =
         entry.full_name().size() < 200 ? likely_name(entry, declared) : "";
@@ -263,6 +269,20 @@ namespace Debond
 
 
 
+    /** `0.1 %` where a number is wanted. */
+    std::string
+    remark_on_percent(const std::string &item)
+    {
+      double number = 0;
+      if (item.back() != '%' ||
+          !read_number(item.substr(0, item.size() - 1), number))
+        return "";
+      return "; " + item + " is " + to_text(number / 100.) +
+             ": write that number";
+    }
+
+
+
     /** What may be wrong with something that is no number, or nothing. */
     std::string
     why_no_number(const std::string &item, const bool is_in_list)
@@ -287,8 +307,12 @@ namespace Debond
       if (item.find_first_of("*/^()") != npos)
         return "; a formula cannot stand here";
       if (is_in_list &&
-          (item.find(';') != npos || consists_of(item, "0123456789+-.eE \t")))
+          (item.find(';') != npos || consists_of(item, "0123456789+-.eE \t") ||
+           (!begin.empty() && consists_of(item, "0123456789+-.eExX \t"))))
         return "; values are separated by commas";
+      const std::string percent = remark_on_percent(item);
+      if (!percent.empty())
+        return percent;
       if (!begin.empty())
         return "; give the number alone, without a unit";
       return "; '" + shortened(item) + "' is no number";
@@ -342,6 +366,24 @@ namespace Debond
 
 
 
+    /** Why Allowed::directory() does not take a name. */
+    std::string
+    remark_on_directory(const std::string &name)
+    {
+      if (name.empty())
+        return "";
+      if (has_quotes(name))
+        return "; it stands without quotes";
+      if (name.find('\\') != npos)
+        return "; directories are separated by /";
+      if (name[0] == '~' || name[0] == '$')
+        return std::string("; no shell replaces ") + name[0] +
+               " here: write the directory that it stands for";
+      return "; this is the root of all directories";
+    }
+
+
+
     /** A remark on frequent mistakes, or nothing. */
     std::string
     hint_for(const std::string &value, const std::string &allowed)
@@ -349,14 +391,15 @@ namespace Debond
       const std::vector<std::string> items  = split_list(value);
       double                         number = 0;
       const bool is_list = allowed.find("separated by commas") != npos;
+      if (allowed == Allowed::directory().description())
+        return remark_on_directory(value);
+      const std::string special = remark_on_special_character(value);
+      if (!special.empty())
+        return special + (is_list && value.find("\u00D7") != npos ?
+                            "; values are separated by commas" :
+                            "");
       if (items.empty() || (!is_list && allowed.find("number") == npos))
         return "";
-      const auto is_special = [](const char c) {
-        return static_cast<unsigned char>(c) > 127;
-      };
-      if (std::any_of(value.begin(), value.end(), is_special))
-        return "; there is a special character in it, for instance a "
-               "typographic minus or a blank that does not break";
       if (is_list)
         return remark_on_list(items, allowed);
       if (items.size() > 1)

@@ -1,6 +1,7 @@
 #include <debond/input_error.h>
 #include <debond/input_file.h>
 #include <debond/scene_file.h>
+#include <debond/special_characters.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -200,7 +201,8 @@ namespace Debond
       else
         throw InputError(place + ": cannot read '" + shortened(statement) +
                          "': expected 'subsection NAME', 'set NAME = VALUE', "
-                         "'end' or 'include FILE'");
+                         "'end' or 'include FILE'" +
+                         remark_on_special_character(keyword));
     }
 
 
@@ -254,8 +256,12 @@ namespace Debond
                          " files are included");
       std::error_code unknown;
       if (!fs::exists(filename, unknown))
-        throw InputError(where + "there is no such file (included files are "
-                                 "looked for in the working directory)");
+        throw InputError(where +
+                         "there is no such file (included files are "
+                         "looked for in the working directory)" +
+                         (has_quotes(filename) ?
+                            "; names of files stand without quotes" :
+                            ""));
       const std::string text    = contents_of(filename, where);
       const auto        is_open = [&](const std::string &file) {
         std::error_code error;

@@ -97,6 +97,12 @@ namespace Debond
     AllowedValues
     optional_text(const std::string &what);
 
+    /** The name of a directory to write into, without what was meant for a
+     *  shell or another system: no quotes, no backslash, no ~ or $ at the
+     *  beginning; and not the root of all directories. */
+    AllowedValues
+    directory();
+
     /** Only @p value, because this version does not have what other values
      *  would ask for. */
     AllowedValues

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <set>
 #include <sstream>
 
@@ -13,7 +14,8 @@ namespace Debond
   namespace
   {
     /** Entries that change nothing in the results. */
-    const std::set<std::string> free_entries{"Output / Directory",
+    const std::set<std::string> free_entries{"Title",
+                                             "Output / Directory",
                                              "Output / Console",
                                              "Output / Checkpoint every"};
 
@@ -124,8 +126,9 @@ namespace Debond
   {
     const std::string option = "--resume '" + directory + "'";
     check_directory(directory, option);
-    const ResultDirectory results(directory);
-    const std::string     stored = results.file("parameters.prm");
+    const auto lock = std::make_shared<const ResultDirectory>(directory);
+    const ResultDirectory &results = *lock;
+    const std::string      stored  = results.file("parameters.prm");
     if (Scene::from_file(stored).model != ModelKind::finite_elements)
       throw InputError(option + ": only Model = finite elements leaves "
                                 "checkpoints; run the scene again");
@@ -133,6 +136,7 @@ namespace Debond
       return std::nullopt;
 
     ResumedRun run;
+    run.directory         = lock;
     const auto checkpoint = CheckpointFiles(results).newest(run.remarks);
     if (!checkpoint)
       throw InputError(option + ": there is no checkpoint to go on from" +
@@ -166,8 +170,8 @@ namespace Debond
               .empty())
           return checkpoint;
       }
-    catch (const InputError &)
-      {} // of another program
+    catch (const OtherProgram &)
+      {}
     return std::nullopt;
   }
 } // namespace Debond

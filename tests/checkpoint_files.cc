@@ -132,6 +132,12 @@ test_slots()
   put(slots[0], "");
   print_newest("Both are damaged");
 
+  // as a file that is not ours to read
+  fs::remove(slots[1]);
+  fs::create_symlink("checkpoint-2", slots[1]);
+  print_newest("One that cannot be read");
+
+  fs::remove(slots[1]);
   write_two();
   put(slots[1], "torn");
   CheckpointFiles          files{ResultDirectory(directory)};
@@ -224,6 +230,10 @@ test_scenes()
   print_found("Another console and more checkpoints",
               own,
               {"Output/Console=steps", "Output/Checkpoint every=1"});
+  print_found("Another title", own, {"Title=What it shows"});
+  print_error<InputError>("A run that begins anew",
+                          [] { DebondingProblem(small_scene()).run(); });
+  print_found("The checkpoint is still there", "");
   print_found("Another scene",
               own,
               {"Interface/Viscosity=0.5", "Load steps/Steps=1, 5"});

@@ -206,15 +206,16 @@ print_found(const std::string              &what,
 
 
 
-/** A run that leaves its checkpoints because its summary cannot be written. */
+/** A run that leaves its checkpoints because its last fields cannot be
+ *  written. */
 void
 leave_unfinished_run()
 {
   fs::remove_all(directory);
   put("results/pattern.pgm", "P2 2 2 255 0 255 255 255\n");
   fs::create_directories(directory);
-  fs::create_symlink("/dev/full", directory + "/summary.json.partial");
-  print_error<WriteError>("A summary on a full disk",
+  fs::create_symlink("/dev/full", directory + "/bulk-0005.vtu.partial");
+  print_error<WriteError>("Fields on a full disk",
                           [] { DebondingProblem(small_scene()).run(); });
 }
 

@@ -4,8 +4,9 @@
 
 #include <boost/crc.hpp>
 
+#include <cerrno>
 #include <cstdio>
-#include <filesystem>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 
@@ -66,22 +67,30 @@ namespace Debond
 
 
 
-    std::string
+    /** Nothing if there is no such file. Throws InputError if it cannot be
+     *  read. */
+    std::optional<std::string>
     bytes_of(const std::string &filename)
     {
+      std::ifstream file(filename, std::ios::binary);
+      if (!file && errno == ENOENT)
+        return std::nullopt;
+      if (!file)
+        throw InputError("cannot read '" + filename +
+                         "': " + std::strerror(errno));
       std::ostringstream bytes;
-      bytes << std::ifstream(filename, std::ios::binary).rdbuf();
+      bytes << file.rdbuf();
       return bytes.str();
     }
 
 
 
-    /** Nothing if the file is damaged. */
+    /** Nothing if these bytes of a file are damaged. */
     std::optional<FileContent>
-    read(const std::string &filename)
+    read(const std::string &bytes)
     {
       FileContent content;
-      content.text = bytes_of(filename);
+      content.text = bytes;
       // all CRC lines are equally long
       const std::size_t begin = first_line.size() + crc_line("").size();
       if (content.text.size() < begin ||
@@ -127,9 +136,10 @@ namespace Debond
     std::optional<FileContent> newest;
     for (unsigned int i = 0; i < 2; ++i)
       {
-        if (!std::filesystem::exists(files[i]))
+        const auto bytes = bytes_of(files[i]);
+        if (!bytes)
           continue;
-        auto content = read(files[i]);
+        auto content = read(*bytes);
         if (!content)
           remarks.push_back("'" + files[i] + "' is damaged");
         else if (!newest || content->step >= newest->step)
@@ -141,11 +151,11 @@ namespace Debond
     if (!newest)
       return std::nullopt;
     if (!newest->has_known_members || newest->program != DEBOND_VERSION)
-      throw InputError("'" + files[1 - next] + "' was written by debond " +
-                       newest->program + ", format " + newest->format +
-                       ", and this is debond " DEBOND_VERSION ", format " +
-                       std::to_string(format) +
-                       ": only the same program can go on with the run");
+      throw OtherProgram("'" + files[1 - next] + "' was written by debond " +
+                         newest->program + ", format " + newest->format +
+                         ", and this is debond " DEBOND_VERSION ", format " +
+                         std::to_string(format) +
+                         ": only the same program can go on with the run");
     return Checkpoint{newest->step,
                       newest->text.substr(newest->begin, newest->n_parameters),
                       newest->text.substr(newest->begin + newest->n_parameters,

@@ -433,6 +433,7 @@ namespace Debond
         console.row(next, loads.size() - 1);
         profiles.write(next.angle_deg, *model);
       }
+    writer.finish();
     console.warn("profile", profiles.finish());
     warn_of_jumps(console);
     write_summary(directory, profiles, console, seconds_before_steps);

@@ -71,14 +71,22 @@ namespace Debond
 
 
   void
+  Console::go_on_after(const unsigned int step)
+  {
+    first_step = step;
+  }
+
+
+
+  void
   Console::show_progress(const unsigned int step, const unsigned int n_steps)
   {
     const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
         .count();
-    if (step == 0 || step == n_steps)
+    if (step <= first_step || step == n_steps)
       return;
-    const double left = seconds * (n_steps - step) / step;
+    const double left = seconds * (n_steps - step) / (step - first_step);
     char         line[120];
     std::snprintf(line,
                   sizeof(line),

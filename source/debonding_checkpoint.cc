@@ -1,5 +1,6 @@
 #include <debond/checkpoint.h>
 #include <debond/debonding_run.h>
+#include <debond/input_error.h>
 #include <debond/interruption.h>
 #include <debond/serialization.h>
 
@@ -36,6 +37,29 @@ namespace Debond
 
 
   void
+  DebondingProblem::keep_checkpoint() const
+  {
+    const std::string       &directory = state->directory->path();
+    std::vector<std::string> damaged; // of no use to anyone
+    try
+      {
+        const auto checkpoint = state->checkpoints->newest(damaged);
+        if (checkpoint)
+          throw InputError(
+            directory +
+            " holds the checkpoint of a run that was interrupted after step " +
+            std::to_string(checkpoint->step) + ": debond --resume " +
+            directory + " goes on with it, --force begins anew");
+      }
+    catch (const OtherProgram &error)
+      {
+        throw InputError(std::string(error.what()) + "; --force begins anew");
+      }
+  }
+
+
+
+  void
   DebondingProblem::restore(const Checkpoint &checkpoint)
   {
     unsigned int end = 0;
@@ -56,6 +80,7 @@ namespace Debond
     text << "Going on after step " << state->step << ", time " << state->time
          << ", angle " << state->rows.back().angle_deg << " deg";
     state->console.headline(text.str());
+    state->console.go_on_after(state->step);
   }
 
 

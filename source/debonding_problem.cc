@@ -59,6 +59,7 @@ namespace Debond
     try
       {
         solve_rows();
+        state->torque_writer->finish();
       }
     catch (const InputError &error)
       {
@@ -186,7 +187,9 @@ namespace Debond
                 std::make_unique<ResultDirectory>(scene.output,
                                                   scene.completed_parameters);
     state->checkpoints = std::make_unique<CheckpointFiles>(*state->directory);
-    state->reference   = read_reference_curve(scene.output.reference_curve);
+    if (!resumes && !scene.output.overwrite_other_results)
+      keep_checkpoint();
+    state->reference = read_reference_curve(scene.output.reference_curve);
     state->profiles = std::make_unique<ProfileOutput>(scene, *state->directory);
   }
 

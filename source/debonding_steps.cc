@@ -334,8 +334,9 @@ namespace Debond
     if (state->last_failure.empty() && scene.interface.viscosity == 0.)
       {
         std::ostringstream message;
-        message << "Step " << state->step << ", after time " << state->time
-                << ": " << describe_softening(summary);
+        // there is one row for each step that is done, the first one's is 0
+        message << "Step " << state->rows.size() << ", after time "
+                << state->time << ": " << describe_softening(summary);
         throw RunError(message.str());
       }
     state->last_failure +=

@@ -34,7 +34,8 @@ study: all variants are run and gathered in study.csv.
   --set ENTRY=VALUE   override an entry of the scene; may be repeated
                       --set "Interface/Penalty stiffness=1800"
   --force             write into a directory that holds results of another
-                      scene; run variants of a study again that are done
+                      scene, or the checkpoint of an interrupted run, which is
+                      lost then; run variants of a study again that are done
   --resume DIR        go on with the interrupted run whose results are in DIR, from
                       its last checkpoint; with SCENE.prm only if that is the
                       same scene

@@ -1,4 +1,5 @@
 #include <debond/allowed_values.h>
+#include <debond/directory_lock.h>
 #include <debond/earlier_results.h>
 #include <debond/input_error.h>
 #include <debond/result_files.h>
@@ -131,6 +132,7 @@ namespace Debond
   {
     while (directory.size() > 1 && directory.back() == '/')
       directory.pop_back();
+    lock = DirectoryLock::take(directory);
   }
 
 
@@ -146,6 +148,8 @@ namespace Debond
     if (error)
       throw InputError(
         entry + ": this directory cannot be created: " + error.message());
+    if (!lock) // there was no directory yet
+      lock = DirectoryLock::take(directory);
 
     const bool is_of_other_scene =
       content_of_result_directory(output, completed_parameters) ==

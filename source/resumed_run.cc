@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <set>
 #include <sstream>
 
@@ -13,7 +14,8 @@ namespace Debond
   namespace
   {
     /** Entries that change nothing in the results. */
-    const std::set<std::string> free_entries{"Output / Directory",
+    const std::set<std::string> free_entries{"Title",
+                                             "Output / Directory",
                                              "Output / Console",
                                              "Output / Checkpoint every"};
 
@@ -145,7 +147,8 @@ namespace Debond
   {
     const std::string option = "--resume '" + directory + "'";
     check_directory(directory, option);
-    const ResultDirectory results(directory);
+    const auto lock = std::make_shared<const ResultDirectory>(directory);
+    const ResultDirectory &results = *lock;
     refuse_other_directory(overrides, results.path(), option);
     const std::string stored = results.file("parameters.prm");
     if (Scene::from_file(stored).model != ModelKind::finite_elements)
@@ -155,6 +158,7 @@ namespace Debond
       return std::nullopt;
 
     ResumedRun run;
+    run.directory         = lock;
     const auto checkpoint = CheckpointFiles(results).newest(run.remarks);
     if (!checkpoint)
       throw InputError(option + ": there is no checkpoint to go on from" +
@@ -188,8 +192,8 @@ namespace Debond
               .empty())
           return checkpoint;
       }
-    catch (const InputError &)
-      {} // of another program
+    catch (const OtherProgram &)
+      {}
     return std::nullopt;
   }
 } // namespace Debond

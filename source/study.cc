@@ -1,5 +1,6 @@
 #include <debond/csv_table.h>
 #include <debond/debonding_problem.h>
+#include <debond/directory_lock.h>
 #include <debond/ensemble.h>
 #include <debond/input_error.h>
 #include <debond/interruption.h>
@@ -341,9 +342,16 @@ namespace Debond
 
 
   // Refuses before anything runs, and finds what is there already.
-  void
+  std::shared_ptr<const DirectoryLock>
   Study::prepare(const bool force)
   {
+    std::error_code error;
+    std::filesystem::create_directories(directory, error);
+    if (error)
+      throw InputError(
+        "Output / Directory = '" + directory +
+        "': this directory cannot be created: " + error.message());
+    const auto lock = DirectoryLock::take(directory);
     for (Variant &variant : variants)
       {
         OutputParameters &output       = variant.scene.output;
@@ -360,12 +368,7 @@ namespace Debond
         if (force || variant.content != DirectoryContent::same_scene)
           forget_repetitions(variant);
       }
-    std::error_code error;
-    std::filesystem::create_directories(directory, error);
-    if (error)
-      throw InputError(
-        "Output / Directory = '" + directory +
-        "': this directory cannot be created: " + error.message());
+    return lock;
   }
 
 
@@ -385,13 +388,16 @@ namespace Debond
     void
     run_variant(const Scene &scene, const std::shared_ptr<BodyPair> &bodies)
     {
-      const bool begins_anew = scene.model != ModelKind::finite_elements ||
-                               scene.output.overwrite_other_results;
+      const bool without = scene.model != ModelKind::finite_elements ||
+                           scene.output.overwrite_other_results;
       if (const auto checkpoint =
-            begins_anew ? std::nullopt : find_checkpoint(scene))
-        DebondingProblem(scene, bodies).resume(*checkpoint);
-      else
-        Problem::create(scene, bodies)->run();
+            without ? std::nullopt : find_checkpoint(scene))
+        return DebondingProblem(scene, bodies).resume(*checkpoint);
+      // a checkpoint that is of no use is not kept; the study has made sure
+      // that there are no results of another scene
+      Scene anew                          = scene;
+      anew.output.overwrite_other_results = true;
+      Problem::create(anew, bodies)->run();
     }
 
 
@@ -535,7 +541,7 @@ namespace Debond
   void
   Study::run(const unsigned int n_jobs, const bool force, std::ostream &out)
   {
-    prepare(force);
+    const auto lock = prepare(force);
     std::signal(SIGCHLD,
                 SIG_DFL); // ignored, it would leave nothing to wait for
     const auto n_done = std::count_if(variants.begin(),

@@ -126,6 +126,14 @@ namespace Debond
 
 
 
+  void
+  TorqueCurveWriter::finish()
+  {
+    file.finish();
+  }
+
+
+
   ReferenceCurve
   read_reference_curve(const std::string &filename)
   {

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 namespace Debond
 {
@@ -28,7 +29,7 @@ namespace Debond
 
 
 
-    /** Closes a file at the end of its scope. */
+    /** Closes a file at the end of its scope, if not before. */
     struct OpenFile
     {
       OpenFile(const std::string &filename, const int flags)
@@ -39,7 +40,14 @@ namespace Debond
         if (descriptor >= 0)
           close(descriptor);
       }
-      const int descriptor;
+      /** False if that fails, which may be how a network's file system says
+       * that the disk is full. */
+      bool
+      is_closed()
+      {
+        return close(std::exchange(descriptor, -1)) == 0;
+      }
+      int descriptor;
     };
 
 
@@ -71,7 +79,9 @@ namespace Debond
       const auto     parent = std::filesystem::path(filename).parent_path();
       const OpenFile directory(parent.empty() ? "." : parent.string(),
                                O_RDONLY | O_DIRECTORY);
-      if (directory.descriptor < 0 || fsync(directory.descriptor) != 0)
+      // some file systems cannot do that with a directory
+      if (directory.descriptor < 0 || (fsync(directory.descriptor) != 0 &&
+                                       errno != EINVAL && errno != ENOTSUP))
         fail(filename);
     }
   } // namespace
@@ -87,9 +97,9 @@ namespace Debond
     const bool        on_disk   = durability == Durability::on_disk;
     bool              written   = false;
     {
-      const OpenFile file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
+      OpenFile file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
       written = file.descriptor >= 0 && write_all(file.descriptor, text) &&
-                (!on_disk || fsync(file.descriptor) == 0);
+                (!on_disk || fsync(file.descriptor) == 0) && file.is_closed();
     }
     if (!written || std::rename(temporary.c_str(), filename.c_str()) != 0)
       {
@@ -137,7 +147,17 @@ namespace Debond
 
   GrowingFile::~GrowingFile()
   {
-    close(descriptor);
+    if (descriptor >= 0)
+      close(descriptor);
+  }
+
+
+
+  void
+  GrowingFile::finish()
+  {
+    if (close(std::exchange(descriptor, -1)) != 0)
+      fail(filename);
   }
 
 

@@ -132,6 +132,12 @@ test_slots()
   put(slots[0], "");
   print_newest("Both are damaged");
 
+  // as a file that is not ours to read
+  fs::remove(slots[1]);
+  fs::create_symlink("checkpoint-2", slots[1]);
+  print_newest("One that cannot be read");
+
+  fs::remove(slots[1]);
   write_two();
   put(slots[1], "torn");
   CheckpointFiles          files{ResultDirectory(directory)};
@@ -200,15 +206,15 @@ print_found(const std::string              &what,
 
 
 
-/** A run that leaves its checkpoints because its last fields cannot be written.
- */
+/** A run that leaves its checkpoints because its last fields cannot be
+ *  written. */
 void
 leave_unfinished_run()
 {
   fs::remove_all(directory);
   put("results/pattern.pgm", "P2 2 2 255 0 255 255 255\n");
   fs::create_directories(directory);
-  fs::create_symlink("/dev/full", directory + "/interface-0005.vtu.partial");
+  fs::create_symlink("/dev/full", directory + "/bulk-0005.vtu.partial");
   print_error<WriteError>("Fields on a full disk",
                           [] { DebondingProblem(small_scene()).run(); });
 }
@@ -225,6 +231,10 @@ test_scenes()
   print_found("Another console and more checkpoints",
               own,
               {"Output/Console=steps", "Output/Checkpoint every=1"});
+  print_found("Another title", own, {"Title=What it shows"});
+  print_error<InputError>("A run that begins anew",
+                          [] { DebondingProblem(small_scene()).run(); });
+  print_found("The checkpoint is still there", "");
   print_found("Another scene",
               own,
               {"Interface/Viscosity=0.5", "Load steps/Steps=1, 5"});

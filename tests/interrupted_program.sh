@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # The program under signals: it stops after the step at work with 128 + the signal's number, says how to go on, and
-# then leaves the torque curve of a run in one go; what nohup ignores stays ignored; a study ends with its variants and
-# goes on. usage: interrupted_program.sh DEBOND
+# then leaves the torque curve of a run in one go; what nohup ignores stays ignored; a directory belongs to
+# one run at a time; a checkpoint is not destroyed unasked; a study ends with its variants and goes on from their
+# checkpoints. usage: interrupted_program.sh DEBOND
 set -euo pipefail
 set -m # else the shell lets its background processes ignore SIGINT
 debond=$1
@@ -101,8 +102,38 @@ wait $process || fail "an ignored signal ends the run"
 cmp results/nohup/torque.csv results/whole/torque.csv || fail "an ignored signal changes the results"
 echo "an ignored signal is ignored: yes"
 
+exec_run results/busy > busy.log 2>&1 &
+process=$!
+wait_for_lines results/busy/torque.csv 20
+kill -s STOP $process # it is not to end before the others come
+for others in "scene.prm --set Output/Directory=results/busy --force" "--resume results/busy" \
+  "scene.prm --set Output/Directory=results/busy --set Interface/Viscosity={{0|1}}"; do
+  code=0
+  # shellcheck disable=SC2086
+  "$debond" $others > others.log 2>&1 || code=$?
+  [ $code = 1 ] || fail "exit code $code of another run in the same directory: $others"
+  grep -q "another run of debond is at work in results/busy: wait for it" others.log || fail "message of $others"
+done
+kill -s CONT $process
+wait $process || fail "a run that others wanted to disturb"
+cmp results/busy/torque.csv results/whole/torque.csv || fail "others change the results"
+echo "a directory belongs to one run: yes"
+
+interrupt results/anew TERM
+ls -l --full-time results/anew > before.log
+if run results/anew > anew.log 2>&1; then
+  fail "a checkpoint is destroyed without --force"
+fi
+grep -q "results/anew holds the checkpoint of a run that was interrupted after step [0-9]*: debond --resume" anew.log ||
+  fail "message about a checkpoint"
+[ "$(ls results/anew)" = "$(awk 'NF > 2 {print $NF}' before.log)" ] || fail "files are lost"
+"$debond" scene.prm --threads 1 --set Output/Directory=results/anew --force > anew.log 2>&1 || fail "--force"
+cmp results/anew/torque.csv results/whole/torque.csv || fail "other results with --force"
+echo "a checkpoint is kept: yes"
+
+# The variants have the same bodies, which they share.
 study() {
-  exec "$debond" scene.prm --set Output/Directory=results/study --jobs 2 --set "Interface/Penalty stiffness={{585|1000|1800}}"
+  exec "$debond" scene.prm --set Output/Directory=results/study --set "Output/Checkpoint every=7" --jobs 2 --set "Interface/Penalty stiffness={{585|1000|1800}}"
 }
 study > study.log 2>&1 &
 wait_for_lines results/study/variant-001/torque.csv 20
@@ -114,6 +145,12 @@ grep -q "interrupted by SIGTERM: [0-2] of 3 variants are done" study.log || fail
 n=$(wc -l < results/study/variant-001/torque.csv)
 sleep 0.3
 [ "$(wc -l < results/study/variant-001/torque.csv)" = "$n" ] || fail "a variant outlives its study"
+ls results/study/variant-001/checkpoint-? > /dev/null || fail "a variant leaves no checkpoint"
+first_fields() {
+  stat -c %y results/study/variant-001/bulk-0000.vtu # written once: by a run from its beginning
+}
+before=$(first_fields)
 (study > study.log 2>&1) || fail "the study does not go on"
+[ "$(first_fields)" = "$before" ] || fail "a variant does not go on from its checkpoint"
 cmp results/study/variant-001/torque.csv results/whole/torque.csv || fail "another variant"
 echo "a study ends with its variants and goes on: yes"

@@ -4,6 +4,7 @@
 
 #include <debond/debonding_problem.h>
 #include <debond/interruption.h>
+#include <debond/result_files.h>
 #include <debond/resumed_run.h>
 #include <debond/runtime.h>
 
@@ -121,11 +122,24 @@ end
 
 
 
+/** A part of a planned step, of which the second phase of the base has twelve.
+ */
+bool
+has_halved_steps(const std::string &directory)
+{
+  const std::string smallest =
+    JsonObject::from_file(directory + "/summary.json").value("smallest_step");
+  return std::stod(smallest) < 0.9 / 12;
+}
+
+
+
 /** Stops after @p legs rows each, and then goes on to the end. */
 void
 check(const std::string               &name,
       const std::string               &changes,
-      const std::vector<unsigned int> &legs = {1, 2, 6})
+      const std::vector<unsigned int> &legs         = {1, 2, 6},
+      const bool                       halves_steps = false)
 {
   std::cout << name << std::endl;
   const std::string whole = "results/whole", parts = "results/parts";
@@ -150,6 +164,8 @@ check(const std::string               &name,
   report("  stops " + std::to_string(n) + " times", all);
   report("  reaches the end", last == 0);
   report("  the same files", same_files(whole, parts));
+  if (halves_steps)
+    report("  steps are halved", has_halved_steps(whole));
 }
 
 
@@ -268,10 +284,13 @@ main()
         set Value = 0.2 * max(t - 1.2, 0)
       end
     end)");
-  check("Steps that are halved", R"(
+  check("Steps that are halved",
+        R"(
     subsection Interface
       set Sliding threshold = 0.002
       set Transition factor = 0.3
       set Viscosity         = 0.5
-    end)");
+    end)",
+        {1, 2, 6},
+        true);
 }

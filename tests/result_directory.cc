@@ -1,9 +1,14 @@
 // A directory with results of another scene is only used when this is wanted,
-// and what that scene left is gone then, but nothing that is not ours; JSON
+// and what that scene left is gone then, but nothing that is not ours; none is
+// used that another run is at work in; JSON
 // files keep their order, escape text and know no infinities.
 
 #include <debond/input_error.h>
 #include <debond/result_files.h>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -63,6 +68,21 @@ namespace
     for (const std::string &name : names)
       std::cout << "  " << name << '\n';
   }
+
+  /** While another has the directory: a lock belongs to an open descriptor, so
+   *  that one of this process is as good as another process. */
+  void
+  test_lock()
+  {
+    const int other = ::open("results/a", O_RDONLY | O_DIRECTORY);
+    flock(other, LOCK_EX);
+    open("results/a", "a third scene", true);
+    list("results/a");
+    close(other);
+    open("results/a", "a third scene", true);
+    const Debond::ResultDirectory directory("results/a");
+    open("results/a", "a third scene", true);
+  }
 } // namespace
 
 
@@ -79,6 +99,8 @@ main()
   open("results/a", "another scene", true);
   list("results/a");
   open("results/a/parameters.prm", "a file is no directory", false);
+
+  test_lock();
 
   Debond::JsonObject object;
   object.add("text", "quote \", backslash \\, tab \t");

@@ -1,6 +1,8 @@
 #ifndef debond_checkpoint_h
 #define debond_checkpoint_h
 
+#include <debond/input_error.h>
+
 #include <array>
 #include <optional>
 #include <string>
@@ -9,6 +11,13 @@
 namespace Debond
 {
   class ResultDirectory;
+
+  /** A checkpoint that only another version of the program can go on from. */
+  class OtherProgram : public InputError
+  {
+  public:
+    using InputError::InputError;
+  };
 
   /** A run after one of its rows. */
   struct Checkpoint
@@ -40,8 +49,9 @@ namespace Debond
     write(const Checkpoint &checkpoint);
 
     /** The newest checkpoint that is whole; none if there is none. @p remarks
-     *  gets a line for each file that is damaged. Throws InputError if it is
-     *  one of another version of the program. */
+     *  gets a line for each file that is damaged. Throws InputError if a file
+     *  cannot be read, OtherProgram if it is one of another version of the
+     *  program. */
     std::optional<Checkpoint>
     newest(std::vector<std::string> &remarks);
 

@@ -24,6 +24,10 @@ namespace Debond
      *  number is not known). */
     void
     row(const TorqueRow &row, unsigned int n_steps);
+    /** The steps up to this one were not this run's: its pace is that of those
+     *  that follow. */
+    void
+    go_on_after(unsigned int step);
     /** Printed the first time only; kept for the summary. An empty text is no
      *  warning. */
     void
@@ -62,6 +66,7 @@ namespace Debond
     std::ostream            &out;
     const bool               on_terminal;
     bool                     progress_shown = false, columns_named = false;
+    unsigned int             first_step = 0; ///< from which this run goes on
     std::vector<std::string> warning_keys, warning_texts;
     const std::chrono::steady_clock::time_point start;
   };

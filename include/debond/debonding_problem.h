@@ -139,6 +139,9 @@ namespace Debond
     //@{
     void
     save_checkpoint();
+    /** Throws InputError if a run that begins anew would destroy one. */
+    void
+    keep_checkpoint() const;
     void
     restore(const Checkpoint &checkpoint);
     /** Throws Interrupted, after a checkpoint, if a signal asks for it. */

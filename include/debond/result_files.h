@@ -3,6 +3,7 @@
 
 #include <debond/written_files.h>
 
+#include <memory>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -37,8 +38,9 @@ namespace Debond
     bool                friction_law_curve = false; ///< write friction_law.csv
     unsigned int        checkpoint_every = 0; ///< rows; 0: if interrupted only
     ConsoleKind         console          = ConsoleKind::steps;
-    /** Use a directory that holds results of another scene. No entry of the
-     *  scene: the option --force of the program. */
+    /** Use a directory that holds results of another scene, or the checkpoint
+     * of an interrupted run. No entry of the scene: the option --force of the
+     *  program. */
     bool overwrite_other_results = false;
     /** Whether a run leaves a checkpoint when it is interrupted. No entry of
      *  the scene: false for runs that are part of a larger one. */
@@ -63,7 +65,10 @@ namespace Debond
   content_of_result_directory(const OutputParameters &output,
                               const std::string      &completed_parameters);
 
-  /** The directory that a run writes to. */
+  class DirectoryLock;
+
+  /** The directory that a run writes to. No other process can open it while
+   * this object or a copy of it lives; that process gets an InputError. */
   class ResultDirectory
   {
   public:
@@ -92,7 +97,8 @@ namespace Debond
     }
 
   private:
-    std::string directory;
+    std::string                          directory;
+    std::shared_ptr<const DirectoryLock> lock;
   };
 
   /** A flat JSON object whose members keep the order in which they are added;

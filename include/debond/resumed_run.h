@@ -4,6 +4,7 @@
 #include <debond/checkpoint.h>
 #include <debond/scene.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,8 @@ namespace Debond
     Checkpoint checkpoint;
     /** What a user has to know about the checkpoint. */
     std::vector<std::string> remarks;
+    /** Keeps others out until the run has opened it. */
+    std::shared_ptr<const ResultDirectory> directory;
   };
 
   /**
@@ -26,8 +29,8 @@ namespace Debond
    * finished.
    *
    * Throws InputError if there is no run to go on with, or if the scene differs
-   * from that of the checkpoint in more than Output / Directory, Console and
-   * Checkpoint every; the message lists the entries.
+   * from that of the checkpoint in more than Title and Output / Directory,
+   * Console and Checkpoint every; the message lists the entries.
    */
   std::optional<ResumedRun>
   find_interrupted_run(const std::string              &directory,
@@ -35,7 +38,8 @@ namespace Debond
                        const std::vector<std::string> &overrides);
 
   /** The checkpoint from which a run of @p scene into its directory can go on;
-   *  none if there is none, or one of another scene or program. */
+   *  none if there is none, or one of another scene or program. Throws
+   * InputError if it cannot be read. */
   std::optional<Checkpoint>
   find_checkpoint(const Scene &scene);
 } // namespace Debond

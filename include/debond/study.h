@@ -7,6 +7,7 @@
 #include <deal.II/base/timer.h>
 
 #include <iosfwd>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -70,7 +71,8 @@ namespace Debond
 
     std::string
     describe(unsigned int variant) const;
-    void
+    /** Returns what keeps others out of the directory of the study. */
+    std::shared_ptr<const DirectoryLock>
     prepare(bool force);
     void
     report(unsigned int variant, std::ostream &out) const;

@@ -85,6 +85,10 @@ namespace Debond
     void
     write(const TorqueRow &row);
 
+    /** After the last row. Throws WriteError. */
+    void
+    finish();
+
   private:
     GrowingFile file;
   };

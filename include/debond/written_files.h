@@ -46,6 +46,11 @@ namespace Debond
     void
     append(const std::string &text);
 
+    /** Nothing more is to come. Throws WriteError if the system says only now
+     *  that it could not write all. */
+    void
+    finish();
+
   private:
     const std::string filename;
     int               descriptor = -1;

@@ -80,6 +80,19 @@ namespace Debond
 
 
 
+    /** Whether anything but the interface stores energy; what that does is
+     *  judged point by point (ContactInterface::Summary::steepest_softening).
+     */
+    bool
+    can_jump(const Scene &scene, const CoupledSystem &system)
+    {
+      return scene.bone.material != Material::rigid ||
+             scene.implant.material != Material::rigid ||
+             system.chuck.has_compliant_machine();
+    }
+
+
+
     /** What follows the state where it jumps. */
     std::string
     advice(const Scene &scene)
@@ -123,7 +136,7 @@ namespace Debond
              << advice(scene);
         note_violation("jump", text.str());
       }
-    else if (released_energy.may_hide_a_jump())
+    else if (released_energy.may_hide_a_jump() && can_jump(scene, system))
       note_violation("steep fall",
                      where + "in one step " + change +
                        ": too much to tell a jump from a steep fall; smaller "

@@ -154,12 +154,9 @@ namespace Debond
       const double n = scene.interface.quadrature_points;
       return double(cells[0]) * cells[1] * n * n;
     }
-  } // namespace
 
 
 
-  namespace
-  {
     /** The parts of an estimate [bytes]. */
     struct Parts
     {

@@ -21,7 +21,10 @@ namespace Debond
                    const ContactInterface::Summary &summary,
                    const double                     reaction_defect)
   {
-    last_reaction_defect = reaction_defect;
+    const bool           is_first        = !energy_balance.has_state();
+    const Chuck::Vector6 forces_before   = energy_balance.forces();
+    const Chuck::Vector6 position_before = energy_balance.position();
+    last_reaction_defect                 = reaction_defect;
     energy_balance.add(system.chuck_forces(),
                        system.chuck.position(),
                        system.bone.energy() + system.implant.energy(),
@@ -30,9 +33,11 @@ namespace Debond
     const std::string where = "step " + std::to_string(step) + ": ";
     // the explicit law does not spend what friction_work() says
     if (!scene.interface.explicit_friction)
-      check_for_jump(where, system, summary);
+      check_for_jump(where, forces_before, system, summary);
     check_interface(where, system, summary);
-    check_turn(where, system);
+    if (!is_first)
+      check_turn(where,
+                 (system.chuck.position() - position_before).tail<3>().norm());
     check_reaction(where);
     check_energy_balance(where, system.interface.step_dissipation());
   }
@@ -111,6 +116,7 @@ namespace Debond
   // Whether the state just accepted is on another branch of equilibrium.
   void
   StateChecks::check_for_jump(const std::string               &where,
+                              const Chuck::Vector6            &forces_before,
                               const CoupledSystem             &system,
                               const ContactInterface::Summary &summary)
   {
@@ -124,8 +130,7 @@ namespace Debond
     now.bound                  = interface.friction_work_bound();
     const double      released = released_energy.add(now);
     const std::string change =
-      describe_change(last_forces, now.forces, system.R);
-    last_forces = now.forces;
+      describe_change(forces_before, now.forces, system.R);
     if (released > 0.)
       {
         std::ostringstream text;
@@ -198,11 +203,9 @@ namespace Debond
   // Planned turns are divided; jumps and loaded chucks turn as far as they
   // like.
   void
-  StateChecks::check_turn(const std::string &where, const CoupledSystem &system)
+  StateChecks::check_turn(const std::string &where, const double turn)
   {
-    const Eigen::Vector3d rotation = system.chuck.position().tail<3>();
-    const double          turn     = (rotation - last_rotation).norm();
-    if (started && turn > 1.001 * largest_turn &&
+    if (turn > 1.001 * largest_turn &&
         scene.interface.friction.kind != FrictionLawKind::frictionless)
       {
         std::ostringstream text;
@@ -213,8 +216,6 @@ namespace Debond
              << 1. - std::cos(0.5 * turn) << " of itself";
         note_violation("turn", text.str());
       }
-    last_rotation = rotation;
-    started       = true;
   }
 
 

@@ -23,6 +23,25 @@ namespace Debond
         double                energy_interface,
         double                dissipation);
 
+    /** @name The last state that was noted, zero before the first one */
+    //@{
+    bool
+    has_state() const
+    {
+      return started;
+    }
+    const Chuck::Vector6 &
+    forces() const
+    {
+      return last_forces;
+    }
+    const Chuck::Vector6 &
+    position() const
+    {
+      return last_position;
+    }
+    //@}
+
     double
     work() const
     {
@@ -55,9 +74,10 @@ namespace Debond
     }
 
   private:
-    bool           started = false;
-    Chuck::Vector6 last_forces, last_position;
-    double         W = 0, max_W = 0, bound = 0;
+    bool           started       = false;
+    Chuck::Vector6 last_forces   = Chuck::Vector6::Zero(),
+                   last_position = Chuck::Vector6::Zero();
+    double W = 0, max_W = 0, bound = 0;
     double stored = 0, dissipated = 0, first_stored = 0, first_dissipated = 0;
   };
 

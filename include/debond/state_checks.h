@@ -64,8 +64,7 @@ namespace Debond
     serialize(Archive &archive, const unsigned int)
     {
       archive &energy_balance &released_energy &violated;
-      archive &last_reaction_defect            &last_forces;
-      archive &started                         &last_rotation;
+      archive                                  &last_reaction_defect;
     }
 
   private:
@@ -73,6 +72,7 @@ namespace Debond
     note_violation(const std::string &check, const std::string &text);
     void
     check_for_jump(const std::string               &where,
+                   const Chuck::Vector6            &forces_before,
                    const CoupledSystem             &system,
                    const ContactInterface::Summary &summary);
     void
@@ -80,7 +80,7 @@ namespace Debond
                     const CoupledSystem             &system,
                     const ContactInterface::Summary &summary);
     void
-    check_turn(const std::string &where, const CoupledSystem &system);
+    check_turn(const std::string &where, double turn);
     void
     check_reaction(const std::string &where);
     void
@@ -92,9 +92,6 @@ namespace Debond
     ReleasedEnergy        released_energy;
     std::set<std::string> violated;
     double                last_reaction_defect = 0;
-    Chuck::Vector6        last_forces          = Chuck::Vector6::Zero();
-    bool                  started              = false;
-    Eigen::Vector3d       last_rotation        = Eigen::Vector3d::Zero();
   };
 
   /** Why the bond would break in a jump, for messages. */

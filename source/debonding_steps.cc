@@ -358,10 +358,12 @@ namespace Debond
           std::fmin(state->smallest_step, std::abs(time - state->time));
       }
     system.commit(state->path ? state->accepted_steps : time);
-    state->time = time;
     state->checks.add(state->step,
+                      state->time,
+                      time,
                       system,
                       state->interface_summary,
                       reaction_defect);
+    state->time = time;
   }
 } // namespace Debond

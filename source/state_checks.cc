@@ -11,12 +11,15 @@ namespace Debond
   StateChecks::StateChecks(const Scene &scene, Console &console)
     : scene(scene)
     , console(console)
+    , way(scene.chuck)
   {}
 
 
 
   void
   StateChecks::add(const unsigned int               step,
+                   const double                     from,
+                   const double                     to,
                    const CoupledSystem             &system,
                    const ContactInterface::Summary &summary,
                    const double                     reaction_defect)
@@ -35,9 +38,14 @@ namespace Debond
     if (!scene.interface.explicit_friction)
       check_for_jump(where, forces_before, system, summary);
     check_interface(where, system, summary);
-    if (!is_first)
-      check_turn(where,
-                 (system.chuck.position() - position_before).tail<3>().norm());
+    if (!is_first &&
+        scene.interface.friction.kind != FrictionLawKind::frictionless)
+      {
+        way.add(system.chuck, from, to);
+        check_way(where);
+        check_turn(
+          where, (system.chuck.position() - position_before).tail<3>().norm());
+      }
     check_reaction(where);
     check_energy_balance(where, system.interface.step_dissipation());
   }
@@ -200,13 +208,28 @@ namespace Debond
 
 
 
+  // Sliding distances come out too small by as much.
+  void
+  StateChecks::check_way(const std::string &where)
+  {
+    if (way.missed_share() > largest_missed_share)
+      note_violation("way",
+                     where +
+                       "steps go straight from state to state, and have "
+                       "missed " +
+                       way.describe() +
+                       " so far: what turns back or goes along a curve needs "
+                       "shorter steps, or Load steps / Times where it turns");
+  }
+
+
+
   // Planned turns are divided; jumps and loaded chucks turn as far as they
   // like.
   void
   StateChecks::check_turn(const std::string &where, const double turn)
   {
-    if (turn > 1.001 * largest_turn &&
-        scene.interface.friction.kind != FrictionLawKind::frictionless)
+    if (turn > 1.001 * largest_turn)
       {
         std::ostringstream text;
         text << where << "the implant turned by " << turn * 180. / M_PI

@@ -1,6 +1,7 @@
 #ifndef debond_state_checks_h
 #define debond_state_checks_h
 
+#include <debond/chuck_way.h>
 #include <debond/contact_interface.h>
 #include <debond/energy_balance.h>
 
@@ -19,6 +20,11 @@ namespace Debond
    * cost a thousandth of the friction. */
   constexpr double largest_turn = 5. * M_PI / 180.;
 
+  /** Share of the chuck's way that steps may miss. A circle in 23 steps does;
+   *  they lie 8 degrees off the direction at their end, and friction is 0.9 %
+   *  too small. */
+  constexpr double largest_missed_share = 0.003;
+
 
 
   /** What a user has to know about the states that a run has accepted. That
@@ -29,11 +35,14 @@ namespace Debond
     /** Keeps references to both. */
     StateChecks(const Scene &scene, Console &console);
 
-    /** Notes a state that has just been accepted in a planned step. @p summary
-     *  and @p reaction_defect are those of the state before commit(). A check
-     *  that it does not pass is a warning, once, and counts in the next row. */
+    /** Notes a state that has just been accepted in a planned step, with the
+     *  time @p to, the one before having had the time @p from. @p summary and
+     *  @p reaction_defect are those of the state before commit(). A check that
+     *  it does not pass is a warning, once, and counts in the next row. */
     void
     add(unsigned int                     step,
+        double                           from,
+        double                           to,
         const CoupledSystem             &system,
         const ContactInterface::Summary &summary,
         double                           reaction_defect);
@@ -63,8 +72,8 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &energy_balance &released_energy &violated;
-      archive                                  &last_reaction_defect;
+      archive &energy_balance &released_energy &way &violated;
+      archive                                       &last_reaction_defect;
     }
 
   private:
@@ -80,6 +89,8 @@ namespace Debond
                     const CoupledSystem             &system,
                     const ContactInterface::Summary &summary);
     void
+    check_way(const std::string &where);
+    void
     check_turn(const std::string &where, double turn);
     void
     check_reaction(const std::string &where);
@@ -90,6 +101,7 @@ namespace Debond
     Console              &console;
     EnergyBalance         energy_balance;
     ReleasedEnergy        released_energy;
+    ChuckWay              way;
     std::set<std::string> violated;
     double                last_reaction_defect = 0;
   };

@@ -1,0 +1,90 @@
+// Steps go straight from state to state: how much of the chuck's way they miss
+// when it turns back within a step, or goes along a curve.
+
+#include <debond/chuck.h>
+#include <debond/chuck_way.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "checks.h"
+
+using namespace Debond;
+
+/** The share missed at the last of @p n_steps, whose times go from 0 to 1. */
+double
+missed_share(const unsigned int     n_steps,
+             const ChuckParameters &parameters,
+             const bool             aloud = true)
+{
+  const Chuck chuck(parameters, Eigen::Vector3d::Zero(), 1.);
+  ChuckWay    way(parameters);
+  for (unsigned int i = 0; i < n_steps; ++i)
+    way.add(chuck, double(i) / n_steps, double(i + 1) / n_steps);
+  if (aloud)
+    std::cout << "  " << way.describe() << std::endl;
+  return way.missed_share();
+}
+
+
+
+void
+check_straight_motion()
+{
+  std::cout << "straight on, at any speed" << std::endl;
+  ChuckParameters parameters;
+  parameters.component[0].value  = "t^2";
+  parameters.component[1].value  = "-2 * t^2";
+  parameters.component[2].loaded = true;
+  parameters.component[2].value  = "-50 * t";
+  parameters.component[5].value  = "10 * t^3";
+  report("  missed", missed_share(3, parameters, false), 1e-14);
+}
+
+
+
+// The lowest point lies in the middle of the last of 14 steps, of which a
+// period has 18; its step and that of the highest point miss
+// 2 (1 - cos(pi/18)) each.
+void
+check_turning_back()
+{
+  std::cout << "a sine" << std::endl;
+  const double    c     = std::cos(M_PI / 18);
+  const double    exact = 4 * (1 - c) / (4 - c);
+  ChuckParameters parameters;
+  for (const bool loaded : {false, true})
+    {
+      parameters.component[5].loaded = loaded;
+      parameters.component[5].value  = "5 * sin(2 * pi * 14 / 18 * t)";
+      report("  differs from the exact share",
+             std::abs(missed_share(14, parameters) - exact),
+             1e-14);
+    }
+}
+
+
+
+// Chords of a circle in 12 steps, and of 8 times as many.
+void
+check_curve()
+{
+  std::cout << "a circle" << std::endl;
+  ChuckParameters parameters;
+  parameters.component[0].value = "3 * cos(2 * pi * t)";
+  parameters.component[1].value = "3 * sin(2 * pi * t)";
+  report("  differs from the exact share",
+         std::abs(missed_share(12, parameters) -
+                  (1 - std::sin(M_PI / 12) / (8 * std::sin(M_PI / 96)))),
+         1e-14);
+}
+
+
+
+int
+main()
+{
+  check_straight_motion();
+  check_turning_back();
+  check_curve();
+}

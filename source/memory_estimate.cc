@@ -1,17 +1,13 @@
+#include <debond/available_memory.h>
 #include <debond/body_mesh.h>
 #include <debond/contact_interface.h>
 #include <debond/memory_estimate.h>
 #include <debond/scene.h>
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <iomanip>
-#include <limits>
 #include <sstream>
 
 namespace Debond
@@ -201,35 +197,6 @@ namespace Debond
 
   namespace
   {
-    /** What the system says it could give away without swapping [bytes]. */
-    double
-    memory_of_machine()
-    {
-      std::ifstream file("/proc/meminfo");
-      std::string   name, unit;
-      double        kB = 0.;
-      while (file >> name >> kB && std::getline(file, unit))
-        if (name == "MemAvailable:")
-          return 1024. * kB;
-      return double(sysconf(_SC_PHYS_PAGES)) * sysconf(_SC_PAGESIZE);
-    }
-
-
-
-    /** What a limit of the address space leaves [bytes]. */
-    double
-    memory_within_limit()
-    {
-      rlimit limit{};
-      if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
-        return std::numeric_limits<double>::infinity();
-      double pages = 0.;
-      std::ifstream("/proc/self/statm") >> pages;
-      return std::max(0., limit.rlim_cur - pages * sysconf(_SC_PAGESIZE));
-    }
-
-
-
     /** Two digits, without exponent. */
     std::string
     in_words(const double MB)
@@ -242,14 +209,6 @@ namespace Debond
       return text.str();
     }
   } // namespace
-
-
-
-  double
-  available_memory_MB()
-  {
-    return 1e-6 * std::min(memory_of_machine(), memory_within_limit());
-  }
 
 
 

@@ -28,11 +28,6 @@ namespace Debond
   double
   estimated_memory_MB(const Scene &scene);
 
-  /** Memory that this process can still take [MB]: what the machine has left,
-   *  or what a limit (`ulimit -v`) leaves it, whichever is less. */
-  double
-  available_memory_MB();
-
   /** Throws NotEnoughMemory, whose message begins with the name of the entry
    *  that needs most, if the estimate is more than what is available. */
   void

@@ -4,6 +4,7 @@
 // coupled system a dense matrix, and a thick mesh. The measured peak is that of
 // the process, so each case needs more than the one before.
 
+#include <debond/available_memory.h>
 #include <debond/memory_estimate.h>
 #include <debond/problem.h>
 

@@ -1,10 +1,7 @@
 #include <debond/body_mesh.h>
-#include <debond/chuck.h>
-#include <debond/chunks.h>
 #include <debond/closest_point.h>
 #include <debond/contact_interface.h>
-
-#include <Eigen/Geometry>
+#include <debond/contact_tangent.h>
 
 #include <algorithm>
 #include <sstream>
@@ -29,7 +26,7 @@ namespace Debond
     points.reserve(quadrature.size());
     for (const auto &quadrature_point : quadrature)
       {
-        Point point;
+        SlavePoint point;
         point.element = quadrature_point.element;
         point.xi      = quadrature_point.xi;
         point.X       = quadrature_point.X;
@@ -43,32 +40,6 @@ namespace Debond
          surface_quadrature(implant.surface(), parameters.quadrature_points))
       area_of_implant += quadrature_point.JxW;
   }
-
-
-
-  namespace
-  {
-    Eigen::Vector3d
-    interpolate(const SurfaceBasis &basis, const ControlNet &nodes)
-    {
-      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      for (unsigned int a = 0; a < basis.size; ++a)
-        sum += basis.N[a] * nodes.col(basis.control_point[a]);
-      return sum;
-    }
-
-
-
-    ContactInterface::NodalSums
-    total(const std::array<ContactInterface::NodalSums, n_chunks> &sums)
-    {
-      ContactInterface::NodalSums result = sums[0];
-      for (unsigned int chunk = 1; chunk < n_chunks; ++chunk)
-        for (unsigned int side = 0; side < 2; ++side)
-          result[side] += sums[chunk][side];
-      return result;
-    }
-  } // namespace
 
 
 
@@ -99,7 +70,7 @@ namespace Debond
   ContactInterface::mean_seen_bonding() const
   {
     double sum = 0., area = 0.;
-    for (const Point &point : points)
+    for (const SlavePoint &point : points)
       if (point.faces_implant)
         {
           sum += point.phi_0 * point.JxW;
@@ -122,7 +93,7 @@ namespace Debond
 
   void
   ContactInterface::project_accepted(
-    Point                        &point,
+    SlavePoint                   &point,
     const MasterSurface          &master,
     const InterfaceConfiguration &configuration,
     const bool                    use_guess)
@@ -162,7 +133,7 @@ namespace Debond
     for (unsigned int side = 0; side < 2; ++side)
       accepted_positions[side] = configuration.side[side].positions;
     unprojected = 0;
-    for (Point &point : points)
+    for (SlavePoint &point : points)
       project_accepted(point, master(configuration), configuration, false);
     assign_bonding();
   }
@@ -176,35 +147,25 @@ namespace Debond
     const MasterSurface surface = master(configuration);
     const double        moved   = motion(configuration);
     mode_now                    = mode;
-    std::array<NodalSums, n_chunks> sums;
-    std::array<int, n_chunks>       failed;
-    for_each_chunk(points.size(),
-                   [&](const unsigned int chunk,
-                       const unsigned int first,
-                       const unsigned int end) {
-                     failed[chunk] = -1;
-                     for (unsigned int side = 0; side < 2; ++side)
-                       sums[chunk][side].setZero(3, forces[side].cols());
-                     for (unsigned int q = first; q < end; ++q)
-                       {
-                         update(points[q], configuration, surface, moved, mode);
-                         if (points[q].trial.failed && failed[chunk] < 0)
-                           failed[chunk] = q;
-                         add_forces(points[q], sums[chunk]);
-                       }
-                   });
-    forces       = total(sums);
-    failed_point = -1;
-    for (const int q : failed)
-      if (failed_point < 0)
-        failed_point = q;
+    forces =
+      sum_in_chunks(points.size(),
+                    configuration,
+                    [&](const unsigned int q, NodalSums &sums) {
+                      update(points[q], configuration, surface, moved, mode);
+                      add_forces(points[q], sums);
+                    });
+    const auto failed =
+      std::find_if(points.begin(), points.end(), [](const SlavePoint &point) {
+        return point.trial.failed;
+      });
+    failed_point = failed == points.end() ? -1 : failed - points.begin();
     return failed_point < 0;
   }
 
 
 
   void
-  ContactInterface::update(Point                        &point,
+  ContactInterface::update(SlavePoint                   &point,
                            const InterfaceConfiguration &configuration,
                            const MasterSurface          &surface,
                            const double                  moved,
@@ -238,216 +199,14 @@ namespace Debond
 
 
   void
-  ContactInterface::add_forces(const Point &point, NodalSums &sums) const
+  ContactInterface::add_forces(const SlavePoint &point, NodalSums &sums) const
   {
     if (point.trial.state.status == PointStatus::open)
       return;
     const Eigen::Vector3d f = point.JxW * point.trial.traction;
-    for (unsigned int a = 0; a < point.basis.size; ++a)
-      sums[slave].col(point.basis.control_point[a]) += point.basis.N[a] * f;
-    const SurfaceBasis &basis = point.trial.basis;
-    for (unsigned int b = 0; b < basis.size; ++b)
-      sums[master_side()].col(basis.control_point[b]) -= basis.N[b] * f;
+    spread(point.basis, f, sums[slave]);
+    spread(point.trial.basis, -f, sums[master_side()]);
   }
-
-
-
-  namespace
-  {
-    // The local tangent of one point. Columns: x (slave nodes), y, a_1, a_2
-    // (master nodes at xi_hat), y_n (master nodes at xi_hat^n), chuck unknowns.
-    // It is assembled for all of them at once: [dt; dxi] = D * column.
-    class PointTangent
-    {
-    public:
-      using Columns =
-        Eigen::Matrix<double, 5, Eigen::Dynamic, 0, 5, 3 * 27 + 6>;
-
-      PointTangent(const ContactInterface::Point &point,
-                   const InterfaceConfiguration  &configuration,
-                   const unsigned int             slave)
-        : point(point)
-        , configuration(configuration)
-        , slave(slave)
-      {
-        D.topRows<3>()             = point.trial.dt;
-        D.bottomRows<2>()          = point.trial.dxi;
-        const Eigen::Matrix3d &Q_s = configuration.side[slave].frame;
-        const Eigen::Matrix3d &Q_m = configuration.side[1 - slave].frame;
-        D_body.leftCols<3>()       = D.leftCols<3>() * Q_s;
-        for (unsigned int block = 1; block < 5; ++block)
-          D_body.middleCols<3>(3 * block) = D.middleCols<3>(3 * block) * Q_m;
-        const bool slips = point.trial.state.status == PointStatus::slip;
-        const bool same =
-          slips && point.trial.old_basis.element == point.trial.basis.element;
-        const unsigned int n_s = point.basis.size, n_m = point.trial.basis.size;
-        const unsigned int n_o =
-          slips && !same ? point.trial.old_basis.size : 0;
-        const unsigned int n_k = configuration.chuck_unknowns.size();
-        columns.resize(5, 3 * (n_s + n_m + n_o) + n_k);
-        add_slave_columns(point.basis);
-        add_master_columns(point.trial.basis,
-                           slips && same ? &point.trial.old_basis : nullptr);
-        if (n_o > 0)
-          add_old_master_columns(point.trial.old_basis);
-        for (const auto &[component, number] : configuration.chuck_unknowns)
-          {
-            columns.col(n_columns)        = D * chuck_direction(component);
-            number_of_column[n_columns++] = number;
-          }
-      }
-
-      // dw/dq_k: the implant's side of w moves with the chuck.
-      Eigen::Matrix<double, 15, 1>
-      chuck_direction(const unsigned int k) const
-      {
-        Eigen::Matrix<double, 15, 1> dw = Eigen::Matrix<double, 15, 1>::Zero();
-        const Chuck                 &chuck = *configuration.chuck;
-        if (slave == 1)
-          dw.head<3>() = chuck.velocity(
-            k, interpolate(point.basis, configuration.side[1].positions));
-        else
-          {
-            SurfaceGeometry geometry;
-            contract(point.trial.basis,
-                     configuration.side[1].positions,
-                     false,
-                     geometry);
-            dw.segment<3>(3) = chuck.velocity(k, geometry.y);
-            dw.segment<3>(6) = chuck.velocity_of_direction(k, geometry.a1);
-            dw.segment<3>(9) = chuck.velocity_of_direction(k, geometry.a2);
-            if (point.trial.state.status == PointStatus::slip)
-              dw.segment<3>(12) =
-                chuck.velocity(k,
-                               interpolate(point.trial.old_basis,
-                                           configuration.side[1].positions));
-          }
-        return dw;
-      }
-
-      void
-      add_to(Eigen::MatrixXd &matrix) const
-      {
-        const Eigen::Matrix3d &Q_s = configuration.side[slave].frame;
-        const Eigen::Matrix3d &Q_m = configuration.side[1 - slave].frame;
-        const auto             dt  = columns.topRows<3>().leftCols(n_columns);
-        const auto dxi = columns.bottomRows<2>().leftCols(n_columns);
-        using Rows = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3 * 27 + 6>;
-        const Rows            slave_rows  = point.JxW * Q_s.transpose() * dt;
-        const Rows            master_rows = -point.JxW * Q_m.transpose() * dt;
-        const Eigen::Vector3d t_m =
-          -point.JxW * Q_m.transpose() * point.trial.traction;
-
-        const auto &slave_unknown  = configuration.side[slave].unknown_of;
-        const auto &master_unknown = configuration.side[1 - slave].unknown_of;
-        const SurfaceBasis &basis  = point.trial.basis;
-        for (unsigned int j = 0; j < n_columns; ++j)
-          {
-            if (number_of_column[j] < 0)
-              continue;
-            double *column = &matrix(0, number_of_column[j]);
-            for (unsigned int a = 0; a < point.basis.size; ++a)
-              for (unsigned int c = 0; c < 3; ++c)
-                {
-                  const int row =
-                    slave_unknown[3 * point.basis.control_point[a] + c];
-                  if (row >= 0)
-                    column[row] += point.basis.N[a] * slave_rows(c, j);
-                }
-            for (unsigned int b = 0; b < basis.size; ++b)
-              {
-                const double along =
-                  basis.N_1[b] * dxi(0, j) + basis.N_2[b] * dxi(1, j);
-                for (unsigned int c = 0; c < 3; ++c)
-                  {
-                    const int row =
-                      master_unknown[3 * basis.control_point[b] + c];
-                    if (row >= 0)
-                      column[row] +=
-                        basis.N[b] * master_rows(c, j) + along * t_m[c];
-                  }
-              }
-            add_chuck_rows(j, column);
-          }
-      }
-
-    private:
-      void
-      add_columns(const Eigen::Matrix<double, 5, 3> &block,
-                  const unsigned int                 side,
-                  const unsigned int                 control_point)
-      {
-        for (unsigned int c = 0; c < 3; ++c)
-          {
-            columns.col(n_columns) = block.col(c);
-            number_of_column[n_columns++] =
-              configuration.side[side].unknown_of[3 * control_point + c];
-          }
-      }
-
-      void
-      add_slave_columns(const SurfaceBasis &basis)
-      {
-        for (unsigned int a = 0; a < basis.size; ++a)
-          add_columns(basis.N[a] * D_body.leftCols<3>(),
-                      slave,
-                      basis.control_point[a]);
-      }
-
-      void
-      add_master_columns(const SurfaceBasis &basis, const SurfaceBasis *old)
-      {
-        for (unsigned int b = 0; b < basis.size; ++b)
-          {
-            Eigen::Matrix<double, 5, 3> block =
-              basis.N[b] * D_body.middleCols<3>(3) +
-              basis.N_1[b] * D_body.middleCols<3>(6) +
-              basis.N_2[b] * D_body.middleCols<3>(9);
-            if (old != nullptr)
-              block += old->N[b] * D_body.middleCols<3>(12);
-            add_columns(block, 1 - slave, basis.control_point[b]);
-          }
-      }
-
-      void
-      add_old_master_columns(const SurfaceBasis &basis)
-      {
-        for (unsigned int b = 0; b < basis.size; ++b)
-          add_columns(basis.N[b] * D_body.middleCols<3>(12),
-                      1 - slave,
-                      basis.control_point[b]);
-      }
-
-      // r_k = sum over points of f . dx/dq_k, f acting on the implant
-      void
-      add_chuck_rows(const unsigned int j, double *column) const
-      {
-        for (const auto &[component, number] : configuration.chuck_unknowns)
-          {
-            const Eigen::Matrix<double, 15, 1> velocity =
-              chuck_direction(component);
-            if (slave == 1)
-              column[number] +=
-                point.JxW * velocity.head<3>().dot(columns.col(j).head<3>());
-            else
-              column[number] -=
-                point.JxW *
-                (velocity.segment<3>(3).dot(columns.col(j).head<3>()) +
-                 point.trial.traction.dot(
-                   velocity.segment<3>(6) * columns(3, j) +
-                   velocity.segment<3>(9) * columns(4, j)));
-          }
-      }
-
-      const ContactInterface::Point &point;
-      const InterfaceConfiguration  &configuration;
-      const unsigned int             slave;
-      Eigen::Matrix<double, 5, 15>   D, D_body;
-      Columns                        columns;
-      std::array<int, 3 * 27 + 6>    number_of_column;
-      unsigned int                   n_columns = 0;
-    };
-  } // namespace
 
 
 
@@ -455,9 +214,7 @@ namespace Debond
   ContactInterface::add_tangent(const InterfaceConfiguration &configuration,
                                 Eigen::MatrixXd              &matrix) const
   {
-    for (const Point &point : points)
-      if (point.trial.state.status != PointStatus::open)
-        PointTangent(point, configuration, slave).add_to(matrix);
+    add_contact_tangent(points, slave, configuration, matrix);
   }
 
 
@@ -467,74 +224,7 @@ namespace Debond
                                   const Eigen::VectorXd        &direction,
                                   Eigen::VectorXd              &result) const
   {
-    const Chuck &chuck = *configuration.chuck;
-    NodalSums    moved;
-    for (unsigned int s = 0; s < 2; ++s)
-      {
-        const auto &side = configuration.side[s];
-        moved[s].setZero(3, side.positions.cols());
-        for (unsigned int i = 0; i < side.unknown_of.size(); ++i)
-          if (side.unknown_of[i] >= 0)
-            moved[s](i % 3, i / 3) = direction[side.unknown_of[i]];
-        moved[s] = (side.frame * moved[s]).eval();
-        if (s == 1)
-          for (const auto &[component, number] : configuration.chuck_unknowns)
-            for (unsigned int A = 0; A < side.positions.cols(); ++A)
-              moved[s].col(A) +=
-                direction[number] *
-                chuck.velocity(component, side.positions.col(A));
-      }
-
-    std::array<NodalSums, n_chunks> sums;
-    for_each_chunk(points.size(),
-                   [&](const unsigned int chunk,
-                       const unsigned int first,
-                       const unsigned int end) {
-                     for (unsigned int side = 0; side < 2; ++side)
-                       sums[chunk][side].setZero(3, moved[side].cols());
-                     for (unsigned int q = first; q < end; ++q)
-                       add_change(points[q], moved, sums[chunk]);
-                   });
-    NodalSums change = total(sums);
-    for (const auto &[component, number] : configuration.chuck_unknowns)
-      for (unsigned int A = 0; A < change[1].cols(); ++A)
-        result[number] += change[1].col(A).dot(
-          chuck.velocity(component, configuration.side[1].positions.col(A)));
-    for (unsigned int s = 0; s < 2; ++s)
-      {
-        const auto &side = configuration.side[s];
-        change[s]        = (side.frame.transpose() * change[s]).eval();
-        for (unsigned int i = 0; i < side.unknown_of.size(); ++i)
-          if (side.unknown_of[i] >= 0)
-            result[side.unknown_of[i]] += change[s](i % 3, i / 3);
-      }
-  }
-
-
-
-  void
-  ContactInterface::add_change(const Point     &point,
-                               const NodalSums &moved,
-                               NodalSums       &sums) const
-  {
-    if (point.trial.state.status == PointStatus::open)
-      return;
-    const SurfaceBasis          &basis = point.trial.basis;
-    Eigen::Matrix<double, 15, 1> dw;
-    SurfaceGeometry              master_change;
-    contract(basis, moved[master_side()], false, master_change);
-    dw << interpolate(point.basis, moved[slave]), master_change.y,
-      master_change.a1, master_change.a2, Eigen::Vector3d::Zero();
-    if (point.trial.state.status == PointStatus::slip)
-      dw.tail<3>() = interpolate(point.trial.old_basis, moved[master_side()]);
-    const Eigen::Vector3d dt  = point.JxW * (point.trial.dt * dw);
-    const Eigen::Vector2d dxi = point.trial.dxi * dw;
-    const Eigen::Vector3d t   = point.JxW * point.trial.traction;
-    for (unsigned int a = 0; a < point.basis.size; ++a)
-      sums[slave].col(point.basis.control_point[a]) += point.basis.N[a] * dt;
-    for (unsigned int b = 0; b < basis.size; ++b)
-      sums[master_side()].col(basis.control_point[b]) -=
-        basis.N[b] * dt + (basis.N_1[b] * dxi[0] + basis.N_2[b] * dxi[1]) * t;
+    apply_contact_tangent(points, slave, configuration, direction, result);
   }
 
 
@@ -549,7 +239,7 @@ namespace Debond
     for (unsigned int side = 0; side < 2; ++side)
       result.gradient[side].setZero(3, forces[side].cols());
     double area = 0.;
-    for (const Point &point : points)
+    for (const SlavePoint &point : points)
       {
         const ContactPointResult &trial = point.trial;
         if (!point.faces_implant)
@@ -591,7 +281,7 @@ namespace Debond
 
 
   FrictionCoefficient
-  ContactInterface::friction(const Point &point) const
+  ContactInterface::friction(const SlavePoint &point) const
   {
     return friction(point, point.trial.state);
   }
@@ -599,7 +289,7 @@ namespace Debond
 
 
   FrictionCoefficient
-  ContactInterface::friction(const Point             &point,
+  ContactInterface::friction(const SlavePoint        &point,
                              const ContactPointState &state) const
   {
     return friction_coefficient(parameters.friction,
@@ -610,7 +300,8 @@ namespace Debond
 
 
   void
-  ContactInterface::add_friction_work(const Point &point, const double viscous)
+  ContactInterface::add_friction_work(const SlavePoint &point,
+                                      const double      viscous)
   {
     // the viscous traction is anything between its two ends
     accepted_friction_work += viscous;
@@ -649,7 +340,7 @@ namespace Debond
       accepted_positions[side] = configuration.side[side].positions;
     unprojected               = 0;
     accepted_step_dissipation = 0.;
-    for (Point &point : points)
+    for (SlavePoint &point : points)
       {
         if (!point.accepted.has_partner && point.clearance > moved)
           {
@@ -693,7 +384,7 @@ namespace Debond
   {
     std::vector<PointStatus> result;
     result.reserve(points.size());
-    for (const Point &point : points)
+    for (const SlavePoint &point : points)
       result.push_back(point.trial.state.status);
     return result;
   }
@@ -703,9 +394,11 @@ namespace Debond
   bool
   ContactInterface::has_open_points() const
   {
-    return std::any_of(points.begin(), points.end(), [](const Point &point) {
-      return point.trial.state.status == PointStatus::open;
-    });
+    return std::any_of(points.begin(),
+                       points.end(),
+                       [](const SlavePoint &point) {
+                         return point.trial.state.status == PointStatus::open;
+                       });
   }
 
 
@@ -714,7 +407,7 @@ namespace Debond
   ContactInterface::touched_bone_elements() const
   {
     std::vector<bool> touched(mesh[0]->surface().n_elements(), false);
-    for (const Point &point : points)
+    for (const SlavePoint &point : points)
       if (point.trial.state.status != PointStatus::open)
         {
           touched[slave == 0 ? point.element : point.trial.basis.element] =
@@ -791,8 +484,8 @@ namespace Debond
 
 
   void
-  ContactInterface::add_steepest_softening(const Point &point,
-                                           Summary     &summary) const
+  ContactInterface::add_steepest_softening(const SlavePoint &point,
+                                           Summary          &summary) const
   {
     const ContactPointState &old = point.accepted;
     const double             slope =
@@ -816,7 +509,7 @@ namespace Debond
   {
     Summary summary;
     double  area = 0.;
-    for (const Point &point : points)
+    for (const SlavePoint &point : points)
       {
         const ContactPointResult &trial = point.trial;
         summary.normal_force += point.JxW * trial.pressure;
@@ -874,7 +567,7 @@ namespace Debond
   {
     if (failed_point < 0)
       return "";
-    const Point       &point = points[failed_point];
+    const SlavePoint  &point = points[failed_point];
     std::ostringstream text;
     text << "no solution of the friction law at the "
          << (slave == 1 ? "implant" : "bone")

@@ -331,21 +331,7 @@ namespace Debond
       }
     const auto   mean   = interface.mean_slip(configuration);
     const double weight = reference / path.slip;
-    for (unsigned int s = 0; s < 2; ++s)
-      {
-        const auto      &side     = configuration.side[s];
-        const ControlNet in_frame = side.frame.transpose() * mean.gradient[s];
-        for (unsigned int i = 0; i < side.unknown_of.size(); ++i)
-          if (side.unknown_of[i] >= 0)
-            path.gradient[side.unknown_of[i]] +=
-              weight * in_frame(i % 3, i / 3);
-      }
-    const auto &x = configuration.side[1].positions;
-    for (const auto &[component, number] : configuration.chuck_unknowns)
-      for (unsigned int A = 0; A < x.cols(); ++A)
-        path.gradient[number] +=
-          weight *
-          mean.gradient[1].col(A).dot(chuck.velocity(component, x.col(A)));
+    add_in_unknowns(mean.gradient, configuration, weight, path.gradient);
     residual[path.number] = weight * (mean.value - path.old_slip - path.slip);
     return residual[path.number];
   }
@@ -382,7 +368,7 @@ namespace Debond
       else
         matrix(number, path.number) =
           -chuck.machine_load_per_value(k) * path.rates[k];
-    matrix.row(path.number) = path.gradient;
+    matrix.row(path.number) = path.gradient.transpose();
   }
 
 

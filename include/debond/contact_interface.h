@@ -2,37 +2,17 @@
 #define debond_contact_interface_h
 
 #include <debond/bonding_pattern.h>
-#include <debond/contact_point.h>
 #include <debond/interface_parameters.h>
+#include <debond/nodal_sums.h>
+#include <debond/slave_point.h>
 
-#include <array>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace Debond
 {
   class BodyMesh;
-  class Chuck;
-
-  /** The two contact surfaces in space and how their control points are
-   *  numbered in the coupled system. Index 0 is the bone, 1 the implant. */
-  struct InterfaceConfiguration
-  {
-    struct Side
-    {
-      ControlNet positions; ///< spatial positions of the control points [mm]
-      Eigen::Matrix3d frame = Eigen::Matrix3d::Identity(); ///< Q of the body
-      /** For 3 (control point) + component (body frame): number in the coupled
-       *  system, -1: none. */
-      std::vector<int> unknown_of;
-    };
-    std::array<Side, 2> side;
-    /** Numbers of the chuck components that are unknowns. */
-    std::vector<std::pair<unsigned int, unsigned int>> chuck_unknowns;
-    const Chuck                                       *chuck = nullptr;
-  };
 
   /**
    * The interface: the slave quadrature points, their history, the forces they
@@ -65,9 +45,6 @@ namespace Debond
       return 1 - slave;
     }
 
-    /** Vectors at the control points of bone and implant. */
-    using NodalSums = std::array<ControlNet, 2>;
-
     /** Faces every point with its closest point on the master. */
     void
     initialise(const InterfaceConfiguration &configuration);
@@ -85,15 +62,10 @@ namespace Debond
       return forces[side];
     }
 
-    /** Adds the tangent of the last evaluate() to a dense matrix: rows are
-     *  equations of control points in their bodies' frames and of chuck
-     *  components, d(force)/d(unknowns), without the terms that come from the
-     *  rotation of frames and lever arms (see CoupledSystem). */
+    /** Tangent of the last evaluate(), see add_contact_tangent(). */
     void
     add_tangent(const InterfaceConfiguration &configuration,
                 Eigen::MatrixXd              &matrix) const;
-    /** The product of that tangent with a vector of unknowns, added to @p
-     * result. */
     void
     apply_tangent(const InterfaceConfiguration &configuration,
                   const Eigen::VectorXd        &direction,
@@ -136,47 +108,14 @@ namespace Debond
     bone_elements_under_implant(
       const InterfaceConfiguration &configuration) const;
 
-    struct Point
-    {
-      unsigned int      element = 0;
-      Eigen::Vector2d   xi; ///< on the slave
-      Eigen::Vector3d   X;  ///< reference position [mm]
-      SurfaceBasis      basis;
-      double            JxW   = 0; ///< reference area [mm^2]
-      double            phi_0 = 0;
-      ContactPointState accepted;
-      /** For points beyond the master's edge: how far the surfaces may still
-       *  move before such a point has to be projected again [mm]. */
-      double clearance = 0;
-      /** Tangential traction of the accepted state in the master's frame [MPa].
-       */
-      Eigen::Vector3d    accepted_traction         = Eigen::Vector3d::Zero();
-      Eigen::Vector3d    accepted_viscous_traction = Eigen::Vector3d::Zero();
-      double             accepted_pressure         = 0; ///< [MPa]
-      ContactPointResult trial;
-      /** False for points of a bone that does not face the implant at the
-       *  start: their area does not count. */
-      bool faces_implant = true;
-
-      /** See serialization.h. */
-      template <class Archive>
-      void
-      serialize(Archive &archive, const unsigned int)
-      {
-        archive &accepted &clearance       &accepted_traction;
-        archive &accepted_viscous_traction &accepted_pressure;
-        if (Archive::is_loading::value)
-          trial.state = accepted;
-      }
-    };
-    const std::vector<Point> &
+    const std::vector<SlavePoint> &
     get_points() const
     {
       return points;
     }
     /** phi and mu of a point in its trial state. */
     FrictionCoefficient
-    friction(const Point &point) const;
+    friction(const SlavePoint &point) const;
     /** The mean of phi_0 over the slave's quadrature points that face the
      *  implant at the start: that of the pattern if the implant is the slave.
      */
@@ -292,7 +231,7 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      for (Point &point : points)
+      for (SlavePoint &point : points)
         archive &point;
       archive &forces                &accepted_positions;
       archive &accepted_dissipation  &accepted_adhesive_work;
@@ -306,25 +245,21 @@ namespace Debond
     void
     assign_bonding();
     FrictionCoefficient
-    friction(const Point &point, const ContactPointState &state) const;
+    friction(const SlavePoint &point, const ContactPointState &state) const;
     void
-    update(Point                        &point,
+    update(SlavePoint                   &point,
            const InterfaceConfiguration &configuration,
            const MasterSurface          &surface,
            double                        moved,
            const ContactPointMode       &mode) const;
     void
-    add_steepest_softening(const Point &point, Summary &summary) const;
+    add_steepest_softening(const SlavePoint &point, Summary &summary) const;
     void
-    add_forces(const Point &point, NodalSums &sums) const;
+    add_forces(const SlavePoint &point, NodalSums &sums) const;
     void
-    add_friction_work(const Point &point, double viscous);
+    add_friction_work(const SlavePoint &point, double viscous);
     void
-    add_change(const Point     &point,
-               const NodalSums &moved,
-               NodalSums       &sums) const;
-    void
-    project_accepted(Point                        &point,
+    project_accepted(SlavePoint                   &point,
                      const MasterSurface          &master,
                      const InterfaceConfiguration &configuration,
                      bool                          use_guess);
@@ -339,7 +274,7 @@ namespace Debond
     const unsigned int                    slave; ///< 0: bone, 1: implant
     std::array<const BodyMesh *, 2>       mesh;
     ContactPointLaw                       law;
-    std::vector<Point>                    points;
+    std::vector<SlavePoint>               points;
     double                                area_of_implant = 0;
     std::unique_ptr<const BondingPattern> pattern;
     NodalSums                             forces, accepted_positions;

@@ -300,37 +300,6 @@ namespace Debond
 
 
   void
-  ContactInterface::add_friction_work(const SlavePoint &point,
-                                      const double      viscous)
-  {
-    // the viscous traction is anything between its two ends
-    accepted_friction_work += viscous;
-    accepted_friction_work_bound += viscous;
-    const ContactPointResult &trial = point.trial;
-    const double              p     = point.accepted_pressure,
-                 t                  = point.accepted_traction.norm();
-    if (trial.state.status == PointStatus::open)
-      {
-        accepted_friction_work_bound +=
-          0.5 * point.JxW *
-          (p * p / law.normal_penalty + t * t / law.tangential_penalty);
-        return;
-      }
-    if (mode_now.frictionless)
-      return;
-    const double per_pressure =
-      point.JxW * friction_strength(parameters.friction,
-                                    trial.state.broken ? 0. : point.phi_0,
-                                    point.accepted.slip,
-                                    trial.state.slip);
-    accepted_friction_work += 0.5 * (p + trial.pressure) * per_pressure;
-    accepted_friction_work_bound +=
-      0.5 * std::abs(p - trial.pressure) * per_pressure;
-  }
-
-
-
-  void
   ContactInterface::commit(const InterfaceConfiguration &configuration)
   {
     const MasterSurface    surface = master(configuration);
@@ -338,8 +307,8 @@ namespace Debond
     const double           moved   = motion(configuration);
     for (unsigned int side = 0; side < 2; ++side)
       accepted_positions[side] = configuration.side[side].positions;
-    unprojected               = 0;
-    accepted_step_dissipation = 0.;
+    unprojected = 0;
+    spent.begin_step();
     for (SlavePoint &point : points)
       {
         if (!point.accepted.has_partner && point.clearance > moved)
@@ -347,27 +316,9 @@ namespace Debond
             point.clearance -= moved;
             continue;
           }
+        spent.add(point, law, mode_now.frictionless, Q);
         const ContactPointResult &trial = point.trial;
-        accepted_step_dissipation +=
-          point.JxW * trial.tangential_traction.dot(trial.slip_increment);
-        accepted_dissipation +=
-          0.5 * point.JxW *
-          (Q * point.accepted_traction + trial.tangential_traction)
-            .dot(trial.slip_increment);
-        const double viscous =
-          0.5 * point.JxW *
-          (Q * point.accepted_viscous_traction + trial.viscous_traction)
-            .dot(trial.slip_increment);
-        accepted_viscous_work += viscous;
-        if (!mode_now.frictionless)
-          accepted_adhesive_work +=
-            point.JxW * 0.5 * (point.accepted_pressure + trial.pressure) *
-            adhesive_strength(parameters.friction,
-                              trial.state.broken ? 0. : point.phi_0,
-                              point.accepted.slip,
-                              trial.state.slip);
-        add_friction_work(point, viscous);
-        point.accepted          = trial.state;
+        point.accepted                  = trial.state;
         point.accepted_traction = Q.transpose() * trial.tangential_traction;
         point.accepted_viscous_traction =
           Q.transpose() * trial.viscous_traction;

@@ -29,7 +29,7 @@ namespace Debond
                        system.chuck.position(),
                        system.bone.energy() + system.implant.energy(),
                        summary.energy,
-                       system.interface.dissipation());
+                       system.interface.work().dissipation);
     const std::string where = "step " + std::to_string(step) + ": ";
     // the explicit law does not spend what friction_work() says
     if (!scene.interface.explicit_friction)
@@ -39,7 +39,7 @@ namespace Debond
       check_turn(where,
                  (system.chuck.position() - position_before).tail<3>().norm());
     check_reaction(where);
-    check_energy_balance(where, system.interface.step_dissipation());
+    check_energy_balance(where, system.interface.work().step_dissipation);
   }
 
 
@@ -126,8 +126,8 @@ namespace Debond
     now.position = system.chuck.machine_position();
     now.stored   = system.chuck.machine_energy() + system.bone.energy() +
                  system.implant.energy() + summary.energy;
-    now.spent                  = interface.friction_work();
-    now.bound                  = interface.friction_work_bound();
+    now.spent                  = interface.work().friction;
+    now.bound                  = interface.work().friction_bound;
     const double      released = released_energy.add(now);
     const std::string change =
       describe_change(forces_before, now.forces, system.R);

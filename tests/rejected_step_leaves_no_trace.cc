@@ -79,8 +79,8 @@ public:
     system.evaluate(ContactPointMode());
     result.forces = {{system.interface.force(0), system.interface.force(1)}};
     result.chuck_forces  = system.chuck_forces();
-    result.dissipation   = system.interface.dissipation();
-    result.adhesive_work = system.interface.adhesive_work();
+    result.dissipation   = system.interface.work().dissipation;
+    result.adhesive_work = system.interface.work().adhesive;
     result.energy        = system.bone.energy() + system.implant.energy();
     return result;
   }

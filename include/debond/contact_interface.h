@@ -3,6 +3,7 @@
 
 #include <debond/bonding_pattern.h>
 #include <debond/interface_parameters.h>
+#include <debond/interface_work.h>
 #include <debond/nodal_sums.h>
 #include <debond/slave_point.h>
 
@@ -174,52 +175,11 @@ namespace Debond
       return area_of_implant;
     }
 
-    /** Dissipated work and the part of it that the law spends on adhesion
-     *  (D_adh, integral of (mu - mu_b) p dg_s) up to the accepted state [N mm]:
-     *  a trapezoid in the traction, and the mean pressure times the exact
-     *  integral over the sliding distance. */
-    double
-    dissipation() const
+    /** What has been spent up to the accepted state. */
+    const InterfaceWork &
+    work() const
     {
-      return accepted_dissipation;
-    }
-
-    /** Slip of the step to the accepted state times the tractions at its end
-     *  [N mm]. A trapezoid may be negative where the slip reverses; this is so
-     *  only where points slide along their traction. */
-    double
-    step_dissipation() const
-    {
-      return accepted_step_dissipation;
-    }
-    double
-    adhesive_work() const
-    {
-      return accepted_adhesive_work;
-    }
-    /** The part of the dissipation that the viscosity makes up [N mm]. */
-    double
-    viscous_work() const
-    {
-      return accepted_viscous_work;
-    }
-
-    /** Work of friction up to the accepted state with the integral of the law
-     *  over the sliding distance instead of a trapezoid, and of viscosity
-     *  [N mm]: a step that jumps spends no more than that. */
-    double
-    friction_work() const
-    {
-      return accepted_friction_work;
-    }
-    /** How far friction_work() and the stored energy may be wrong because the
-     *  pressure or the speed changes while a point slides, and because points
-     *  that open slide before they do; a bound of the sum over all steps [N
-     * mm]. */
-    double
-    friction_work_bound() const
-    {
-      return accepted_friction_work_bound;
+      return spent;
     }
 
     /** Where the last evaluate() failed, for messages; empty if it did not. */
@@ -233,10 +193,7 @@ namespace Debond
     {
       for (SlavePoint &point : points)
         archive &point;
-      archive &forces                &accepted_positions;
-      archive &accepted_dissipation  &accepted_adhesive_work;
-      archive &accepted_viscous_work &accepted_friction_work;
-      archive                        &accepted_friction_work_bound;
+      archive &forces &accepted_positions &spent;
     }
 
   private:
@@ -257,8 +214,6 @@ namespace Debond
     void
     add_forces(const SlavePoint &point, NodalSums &sums) const;
     void
-    add_friction_work(const SlavePoint &point, double viscous);
-    void
     project_accepted(SlavePoint                   &point,
                      const MasterSurface          &master,
                      const InterfaceConfiguration &configuration,
@@ -278,12 +233,10 @@ namespace Debond
     double                                area_of_implant = 0;
     std::unique_ptr<const BondingPattern> pattern;
     NodalSums                             forces, accepted_positions;
-    double accepted_dissipation = 0, accepted_step_dissipation = 0,
-           accepted_adhesive_work = 0, accepted_viscous_work = 0;
-    double       accepted_friction_work = 0, accepted_friction_work_bound = 0;
-    unsigned int unprojected  = 0;
-    int          failed_point = -1;
-    ContactPointMode mode_now; ///< of the last evaluate()
+    InterfaceWork                         spent;
+    unsigned int                          unprojected  = 0;
+    int                                   failed_point = -1;
+    ContactPointMode                      mode_now; ///< of the last evaluate()
   };
 } // namespace Debond
 #endif

@@ -99,16 +99,6 @@ namespace Debond
     /** Whether any point of the last evaluate() is open. */
     bool
     has_open_points() const;
-    /** Elements of the bone's surface that closed points of the last
-     *  evaluate() lie on. */
-    std::vector<bool>
-    touched_bone_elements() const;
-    /** Elements of the bone's surface under the implant's contact face, its
-     *  edge included, in this configuration. */
-    std::vector<bool>
-    bone_elements_under_implant(
-      const InterfaceConfiguration &configuration) const;
-
     const std::vector<SlavePoint> &
     get_points() const
     {

@@ -229,72 +229,10 @@ namespace Debond
 
 
 
-  // g_s grows by |y(xi_hat) - y(xi_hat^n)|, whose change is that of the
-  // difference along its direction; xi_hat moves as the equations of the slip
-  // want it.
-  ContactInterface::MeanSlip
-  ContactInterface::mean_slip(const InterfaceConfiguration &configuration) const
-  {
-    MeanSlip result;
-    for (unsigned int side = 0; side < 2; ++side)
-      result.gradient[side].setZero(3, forces[side].cols());
-    double area = 0.;
-    for (const SlavePoint &point : points)
-      {
-        const ContactPointResult &trial = point.trial;
-        if (!point.faces_implant)
-          continue;
-        area += point.JxW;
-        result.value += point.JxW * trial.state.slip;
-        const double distance = trial.slip_increment.norm();
-        if (trial.state.status != PointStatus::slip || mode_now.frictionless ||
-            distance == 0.)
-          continue;
-        const SurfaceBasis   &basis     = trial.basis;
-        const Eigen::Vector3d direction = trial.slip_increment / distance;
-        SurfaceGeometry       y;
-        contract(basis, configuration.side[master_side()].positions, false, y);
-        Eigen::Matrix<double, 15, 1> d =
-          trial.dxi.transpose() *
-          Eigen::Vector2d(direction.dot(y.a1), direction.dot(y.a2));
-        d.segment<3>(3) += direction;
-        d.segment<3>(12) -= direction;
-        d *= point.JxW;
-        NodalSums &sums = result.gradient;
-        for (unsigned int a = 0; a < point.basis.size; ++a)
-          sums[slave].col(point.basis.control_point[a]) +=
-            point.basis.N[a] * d.segment<3>(0);
-        for (unsigned int b = 0; b < basis.size; ++b)
-          sums[master_side()].col(basis.control_point[b]) +=
-            basis.N[b] * d.segment<3>(3) + basis.N_1[b] * d.segment<3>(6) +
-            basis.N_2[b] * d.segment<3>(9);
-        for (unsigned int b = 0; b < trial.old_basis.size; ++b)
-          sums[master_side()].col(trial.old_basis.control_point[b]) +=
-            trial.old_basis.N[b] * d.segment<3>(12);
-      }
-    result.value /= area;
-    for (ControlNet &gradient : result.gradient)
-      gradient /= area;
-    return result;
-  }
-
-
-
   FrictionCoefficient
   ContactInterface::friction(const SlavePoint &point) const
   {
-    return friction(point, point.trial.state);
-  }
-
-
-
-  FrictionCoefficient
-  ContactInterface::friction(const SlavePoint        &point,
-                             const ContactPointState &state) const
-  {
-    return friction_coefficient(parameters.friction,
-                                state.broken ? 0. : point.phi_0,
-                                state.slip);
+    return point.friction(law.friction, point.trial.state);
   }
 
 
@@ -354,81 +292,21 @@ namespace Debond
 
 
 
-  void
-  ContactInterface::add_steepest_softening(const SlavePoint &point,
-                                           Summary          &summary) const
+  MeanSlip
+  ContactInterface::mean_slip(const InterfaceConfiguration &configuration) const
   {
-    const ContactPointState &old = point.accepted;
-    const double             slope =
-      old.broken ? 0. :
-                               steepest_fall(parameters.friction, point.phi_0, old.slip);
-    const double softening =
-      slope * point.trial.pressure /
-      (parameters.tangential_penalty + viscous_stiffness(law, mode_now));
-    if (softening > summary.steepest_softening)
-      {
-        summary.steepest_softening = softening;
-        summary.softening_pressure = point.trial.pressure;
-        summary.softening_slope    = slope;
-      }
+    return Debond::mean_slip(points,
+                             slave,
+                             configuration,
+                             mode_now.frictionless);
   }
 
 
 
-  ContactInterface::Summary
+  InterfaceSummary
   ContactInterface::summarise() const
   {
-    Summary summary;
-    double  area = 0.;
-    for (const SlavePoint &point : points)
-      {
-        const ContactPointResult &trial = point.trial;
-        summary.normal_force += point.JxW * trial.pressure;
-        if (point.faces_implant)
-          {
-            area += point.JxW;
-            summary.phi_mean += point.JxW * friction(point).phi;
-            switch (trial.state.status)
-              {
-                case PointStatus::open:
-                  summary.share_open += point.JxW;
-                  break;
-                case PointStatus::stick:
-                  summary.share_stick += point.JxW;
-                  break;
-                case PointStatus::slip:
-                  summary.share_slip += point.JxW;
-                  break;
-              }
-          }
-        if (trial.state.status == PointStatus::open)
-          {
-            // whether it was bonded: opening itself may have broken it
-            if (parameters.friction.kind == FrictionLawKind::modified_coulomb &&
-                point.accepted.status != PointStatus::open &&
-                friction(point, point.accepted).phi > 0.)
-              ++summary.bonded_opened;
-            continue;
-          }
-        ++summary.n_closed;
-        summary.energy +=
-          0.5 * point.JxW *
-          (trial.pressure * trial.pressure / parameters.normal_penalty +
-           trial.tangential_traction.squaredNorm() /
-             parameters.tangential_penalty);
-        summary.max_softening =
-          std::max(summary.max_softening, trial.softening);
-        if (!parameters.explicit_friction && !mode_now.frictionless)
-          add_steepest_softening(point, summary);
-        summary.max_penetration =
-          std::max(summary.max_penetration, -trial.normal_gap);
-      }
-    for (double *share : {&summary.phi_mean,
-                          &summary.share_stick,
-                          &summary.share_slip,
-                          &summary.share_open})
-      *share /= area;
-    return summary;
+    return Debond::summarise(points, law, mode_now);
   }
 
 

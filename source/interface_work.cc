@@ -35,7 +35,7 @@ namespace Debond
     if (!frictionless)
       adhesive += point.JxW * 0.5 * (point.accepted_pressure + trial.pressure) *
                   adhesive_strength(law.friction,
-                                    trial.state.broken ? 0. : point.phi_0,
+                                    trial.state.bond_left(point.phi_0),
                                     point.accepted.slip,
                                     trial.state.slip);
     add_friction(point, law, frictionless);
@@ -62,7 +62,7 @@ namespace Debond
       return;
     const double per_pressure =
       point.JxW * friction_strength(law.friction,
-                                    trial.state.broken ? 0. : point.phi_0,
+                                    trial.state.bond_left(point.phi_0),
                                     point.accepted.slip,
                                     trial.state.slip);
     friction += 0.5 * (p + trial.pressure) * per_pressure;

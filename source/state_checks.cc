@@ -16,10 +16,10 @@ namespace Debond
 
 
   void
-  StateChecks::add(const unsigned int               step,
-                   const CoupledSystem             &system,
-                   const ContactInterface::Summary &summary,
-                   const double                     reaction_defect)
+  StateChecks::add(const unsigned int      step,
+                   const CoupledSystem    &system,
+                   const InterfaceSummary &summary,
+                   const double            reaction_defect)
   {
     const bool           is_first        = !energy_balance.has_state();
     const Chuck::Vector6 forces_before   = energy_balance.forces();
@@ -86,7 +86,7 @@ namespace Debond
 
 
     /** Whether anything but the interface stores energy; what that does is
-     *  judged point by point (ContactInterface::Summary::steepest_softening).
+     *  judged point by point (InterfaceSummary::steepest_softening).
      */
     bool
     can_jump(const Scene &scene, const CoupledSystem &system)
@@ -115,10 +115,10 @@ namespace Debond
 
   // Whether the state just accepted is on another branch of equilibrium.
   void
-  StateChecks::check_for_jump(const std::string               &where,
-                              const Chuck::Vector6            &forces_before,
-                              const CoupledSystem             &system,
-                              const ContactInterface::Summary &summary)
+  StateChecks::check_for_jump(const std::string      &where,
+                              const Chuck::Vector6   &forces_before,
+                              const CoupledSystem    &system,
+                              const InterfaceSummary &summary)
   {
     const ContactInterface &interface = system.interface;
     ReleasedEnergy::State   now;
@@ -167,9 +167,9 @@ namespace Debond
 
 
   void
-  StateChecks::check_interface(const std::string               &where,
-                               const CoupledSystem             &system,
-                               const ContactInterface::Summary &summary)
+  StateChecks::check_interface(const std::string      &where,
+                               const CoupledSystem    &system,
+                               const InterfaceSummary &summary)
   {
     if (summary.bonded_opened > 0)
       note_violation(
@@ -264,7 +264,7 @@ namespace Debond
 
 
   std::string
-  describe_softening(const ContactInterface::Summary &summary)
+  describe_softening(const InterfaceSummary &summary)
   {
     const double       slope = summary.softening_slope;
     std::ostringstream text;

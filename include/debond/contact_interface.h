@@ -3,9 +3,9 @@
 
 #include <debond/bonding_pattern.h>
 #include <debond/interface_parameters.h>
+#include <debond/interface_summary.h>
 #include <debond/interface_work.h>
-#include <debond/nodal_sums.h>
-#include <debond/slave_point.h>
+#include <debond/mean_slip.h>
 
 #include <memory>
 #include <string>
@@ -99,6 +99,7 @@ namespace Debond
     /** Whether any point of the last evaluate() is open. */
     bool
     has_open_points() const;
+
     const std::vector<SlavePoint> &
     get_points() const
     {
@@ -124,39 +125,14 @@ namespace Debond
       return parameters;
     }
 
-    /** Area mean of the sliding distance g_s over the contact face in the last
-     *  evaluate() [mm], and its derivatives with respect to the positions of
-     *  the control points of both surfaces, in space. */
-    struct MeanSlip
-    {
-      double    value = 0;
-      NodalSums gradient;
-    };
+    /** Of the last evaluate(), see mean_slip.h. */
     MeanSlip
     mean_slip(const InterfaceConfiguration &configuration) const;
 
     /** Sums over all points of the last evaluate(). */
-    struct Summary
-    {
-      double normal_force = 0; ///< int p dA [N]
-      double phi_mean     = 0; ///< area mean over the implant's contact face
-      double share_stick = 0, share_slip = 0, share_open = 0; ///< of that area
-      double energy = 0;                                      ///< stored [N mm]
-      /** Largest |d mu/d g_s| p / (eps_t + eta / dt). */
-      double max_softening = 0;
-      /** The same where the law of a point falls steepest from the g_s on that
-       *  the step began with: the local solution is unique while this is below
-       *  1. Zero for the explicit law, which does not ask. */
-      double steepest_softening = 0;
-      /** p, and |d mu/d g_s| of that point [MPa, 1/mm]. */
-      double       softening_pressure = 0, softening_slope = 0;
-      double       max_penetration = 0; ///< [mm]
-      unsigned int bonded_opened =
-        0; ///< points with phi > 0 that opened in this step
-      unsigned int n_closed = 0;
-    };
-    Summary
+    InterfaceSummary
     summarise() const;
+
     /** Reference area of the implant's contact face by quadrature weights
      * [mm^2]. */
     double
@@ -188,19 +164,13 @@ namespace Debond
 
   private:
     void
-    make_points();
-    void
     assign_bonding();
-    FrictionCoefficient
-    friction(const SlavePoint &point, const ContactPointState &state) const;
     void
     update(SlavePoint                   &point,
            const InterfaceConfiguration &configuration,
            const MasterSurface          &surface,
            double                        moved,
            const ContactPointMode       &mode) const;
-    void
-    add_steepest_softening(const SlavePoint &point, Summary &summary) const;
     void
     add_forces(const SlavePoint &point, NodalSums &sums) const;
     void

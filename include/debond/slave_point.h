@@ -29,6 +29,14 @@ namespace Debond
      *  start: their area does not count. */
     bool faces_implant = true;
 
+    /** phi and mu in one of its states. */
+    FrictionCoefficient
+    friction(const FrictionParameters &law,
+             const ContactPointState  &state) const
+    {
+      return friction_coefficient(law, state.bond_left(phi_0), state.slip);
+    }
+
     /** See serialization.h. */
     template <class Archive>
     void

@@ -33,10 +33,10 @@ namespace Debond
      *  and @p reaction_defect are those of the state before commit(). A check
      *  that it does not pass is a warning, once, and counts in the next row. */
     void
-    add(unsigned int                     step,
-        const CoupledSystem             &system,
-        const ContactInterface::Summary &summary,
-        double                           reaction_defect);
+    add(unsigned int            step,
+        const CoupledSystem    &system,
+        const InterfaceSummary &summary,
+        double                  reaction_defect);
 
     const EnergyBalance &
     energy() const
@@ -71,14 +71,14 @@ namespace Debond
     void
     note_violation(const std::string &check, const std::string &text);
     void
-    check_for_jump(const std::string               &where,
-                   const Chuck::Vector6            &forces_before,
-                   const CoupledSystem             &system,
-                   const ContactInterface::Summary &summary);
+    check_for_jump(const std::string      &where,
+                   const Chuck::Vector6   &forces_before,
+                   const CoupledSystem    &system,
+                   const InterfaceSummary &summary);
     void
-    check_interface(const std::string               &where,
-                    const CoupledSystem             &system,
-                    const ContactInterface::Summary &summary);
+    check_interface(const std::string      &where,
+                    const CoupledSystem    &system,
+                    const InterfaceSummary &summary);
     void
     check_turn(const std::string &where, double turn);
     void
@@ -96,6 +96,6 @@ namespace Debond
 
   /** Why the bond would break in a jump, for messages. */
   std::string
-  describe_softening(const ContactInterface::Summary &summary);
+  describe_softening(const InterfaceSummary &summary);
 } // namespace Debond
 #endif

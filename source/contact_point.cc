@@ -548,7 +548,7 @@ namespace Debond
       mode.stick_first ? mode.touch_tolerance : -mode.touch_tolerance;
     const bool          closed = normal_gap < touch;
     const PointFriction friction{law.friction,
-                                 start.broken ? 0. : phi_0,
+                                 start.bond_left(phi_0),
                                  mode.frictionless,
                                  start.slip,
                                  law.explicit_friction,

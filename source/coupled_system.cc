@@ -1,3 +1,4 @@
+#include <debond/contact_zone.h>
 #include <debond/coupled_system.h>
 
 #include <Eigen/Geometry>
@@ -79,25 +80,6 @@ namespace Debond
 
 
 
-  namespace
-  {
-    // The control points that belong to the marked elements.
-    std::vector<bool>
-    control_points_of(const NurbsSurface      &surface,
-                      const std::vector<bool> &elements)
-    {
-      std::vector<bool>  result(surface.n_control_points(), false);
-      const unsigned int n = (surface.degree() + 1) * (surface.degree() + 1);
-      for (unsigned int element = 0; element < elements.size(); ++element)
-        if (elements[element])
-          for (unsigned int a = 0; a < n; ++a)
-            result[surface.element_control_points(element)[a]] = true;
-      return result;
-    }
-  } // namespace
-
-
-
   void
   CoupledSystem::start(const double time)
   {
@@ -108,9 +90,8 @@ namespace Debond
       interface.initialise(configuration);
     }
     const dealii::TimerOutput::Scope t(timer, "condensation");
-    bone.set_contact_control_points(
-      control_points_of(bone.surface(),
-                        interface.bone_elements_under_implant(configuration)));
+    bone.set_contact_control_points(bone_control_points_under_implant(
+      bone.surface(), implant.surface(), configuration));
     implant.set_contact_control_points(
       std::vector<bool>(implant.surface().n_control_points(), true));
     number_unknowns();
@@ -125,7 +106,9 @@ namespace Debond
       return false;
     std::vector<bool>       wanted = bone.contact_control_points();
     const std::vector<bool> touched =
-      control_points_of(bone.surface(), interface.touched_bone_elements());
+      touched_bone_control_points(bone.surface(),
+                                  interface.get_points(),
+                                  interface.slave_side());
     bool grown = false;
     for (unsigned int A = 0; A < wanted.size(); ++A)
       if (touched[A] && !wanted[A])
@@ -134,8 +117,9 @@ namespace Debond
       return false;
     // everything under the implant now, so that this happens seldom
     const std::vector<bool> under =
-      control_points_of(bone.surface(),
-                        interface.bone_elements_under_implant(configuration));
+      bone_control_points_under_implant(bone.surface(),
+                                        implant.surface(),
+                                        configuration);
     for (unsigned int A = 0; A < wanted.size(); ++A)
       wanted[A] = wanted[A] || under[A];
     const dealii::TimerOutput::Scope t(timer, "condensation");
@@ -331,21 +315,7 @@ namespace Debond
       }
     const auto   mean   = interface.mean_slip(configuration);
     const double weight = reference / path.slip;
-    for (unsigned int s = 0; s < 2; ++s)
-      {
-        const auto      &side     = configuration.side[s];
-        const ControlNet in_frame = side.frame.transpose() * mean.gradient[s];
-        for (unsigned int i = 0; i < side.unknown_of.size(); ++i)
-          if (side.unknown_of[i] >= 0)
-            path.gradient[side.unknown_of[i]] +=
-              weight * in_frame(i % 3, i / 3);
-      }
-    const auto &x = configuration.side[1].positions;
-    for (const auto &[component, number] : configuration.chuck_unknowns)
-      for (unsigned int A = 0; A < x.cols(); ++A)
-        path.gradient[number] +=
-          weight *
-          mean.gradient[1].col(A).dot(chuck.velocity(component, x.col(A)));
+    add_in_unknowns(mean.gradient, configuration, weight, path.gradient);
     residual[path.number] = weight * (mean.value - path.old_slip - path.slip);
     return residual[path.number];
   }
@@ -382,7 +352,7 @@ namespace Debond
       else
         matrix(number, path.number) =
           -chuck.machine_load_per_value(k) * path.rates[k];
-    matrix.row(path.number) = path.gradient;
+    matrix.row(path.number) = path.gradient.transpose();
   }
 
 

@@ -33,11 +33,11 @@ namespace Debond
     row.work_Nmm             = state->checks.energy().work();
     row.energy_bulk_Nmm      = system.bone.energy() + system.implant.energy();
     row.energy_interface_Nmm = summary.energy;
-    row.dissipation_Nmm      = system.interface.dissipation();
-    row.adhesive_work_Nmm    = system.interface.adhesive_work();
+    row.dissipation_Nmm      = system.interface.work().dissipation;
+    row.adhesive_work_Nmm    = system.interface.work().adhesive;
     row.energy_defect_bound  = state->checks.energy().defect_bound();
     row.reaction_defect      = state->checks.reaction_defect();
-    row.viscous_work_Nmm     = system.interface.viscous_work();
+    row.viscous_work_Nmm     = system.interface.work().viscous;
     row.warnings             = state->checks.take_violations();
     row.machine_angle_deg    = system.chuck.machine_position()[5] * 180. / M_PI;
     row.released_energy_Nmm  = state->checks.released().total();

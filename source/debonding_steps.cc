@@ -327,8 +327,8 @@ namespace Debond
   bool
   DebondingProblem::is_unique()
   {
-    ContactInterface::Summary &summary = state->interface_summary;
-    summary                            = state->system->interface.summarise();
+    InterfaceSummary &summary = state->interface_summary;
+    summary                   = state->system->interface.summarise();
     if (summary.steepest_softening < 1.)
       return true;
     if (state->last_failure.empty() && scene.interface.viscosity == 0.)

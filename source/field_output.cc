@@ -499,9 +499,9 @@ namespace Debond
         return n * n * element + i % n + n * (j % n);
       }
 
-      const std::vector<ContactInterface::Point> &points;
-      const unsigned int                          n, n_elements_1;
-      std::array<std::vector<double>, 2>          coordinates;
+      const std::vector<SlavePoint>     &points;
+      const unsigned int                 n, n_elements_1;
+      std::array<std::vector<double>, 2> coordinates;
     };
 
 
@@ -523,7 +523,7 @@ namespace Debond
     /** Fields of a quadrature point that are continuous over the patch, one
      *  after the other. */
     std::vector<double>
-    continuous_values(const ContactInterface::Point &point)
+    continuous_values(const SlavePoint &point)
     {
       std::vector<double> values{point.trial.pressure};
       append_values(values, -point.trial.tangential_traction);

@@ -58,7 +58,7 @@ namespace Debond
     {
       const double        sign = interface.slave_side() == 1 ? 1. : -1.;
       std::vector<double> tractions;
-      for (const ContactInterface::Point &point : interface.get_points())
+      for (const SlavePoint &point : interface.get_points())
         {
           const Eigen::Vector3d &X = point.X, &t = point.accepted_traction;
           const double           r = std::hypot(X[0], X[1]);
@@ -86,7 +86,7 @@ namespace Debond
     FoundationStiffness stiffness;
     stiffness.normal =
       system.chuck_resultant()[2] / (-depth * system.interface.implant_area());
-    for (const ContactInterface::Point &point : system.interface.get_points())
+    for (const SlavePoint &point : system.interface.get_points())
       stiffness.points.push_back(
         {std::hypot(point.X[0], point.X[1]),
          point.faces_implant ? point.JxW : 0.,

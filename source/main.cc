@@ -2,6 +2,7 @@
 #include <debond/input_error.h>
 #include <debond/interruption.h>
 #include <debond/memory_estimate.h>
+#include <debond/parameter_loop.h>
 #include <debond/problem.h>
 #include <debond/resumed_run.h>
 #include <debond/runtime.h>

@@ -176,7 +176,7 @@ namespace Debond
                dense * body.condensed * body.condensed / squares;
       };
       // those of the bonding pattern are similar, and smaller
-      constexpr double bytes_per_point = 2. * sizeof(ContactInterface::Point);
+      constexpr double bytes_per_point = 2. * sizeof(SlavePoint);
       return {part(bone),
               part(implant),
               bytes_per_point * number_of_points(scene)};

@@ -92,7 +92,7 @@ namespace Debond
   {
     if (!reaches(angle_deg))
       return;
-    for (const ContactInterface::Point &point : interface.get_points())
+    for (const SlavePoint &point : interface.get_points())
       if (point.faces_implant)
         {
           const auto             coefficient = interface.friction(point);

@@ -17,12 +17,12 @@ namespace Debond
 
 
   void
-  StateChecks::add(const unsigned int               step,
-                   const double                     from,
-                   const double                     to,
-                   const CoupledSystem             &system,
-                   const ContactInterface::Summary &summary,
-                   const double                     reaction_defect)
+  StateChecks::add(const unsigned int      step,
+                   const double            from,
+                   const double            to,
+                   const CoupledSystem    &system,
+                   const InterfaceSummary &summary,
+                   const double            reaction_defect)
   {
     const bool           is_first        = !energy_balance.has_state();
     const Chuck::Vector6 forces_before   = energy_balance.forces();
@@ -32,7 +32,7 @@ namespace Debond
                        system.chuck.position(),
                        system.bone.energy() + system.implant.energy(),
                        summary.energy,
-                       system.interface.dissipation());
+                       system.interface.work().dissipation);
     const std::string where = "step " + std::to_string(step) + ": ";
     // the explicit law does not spend what friction_work() says
     if (!scene.interface.explicit_friction)
@@ -47,7 +47,7 @@ namespace Debond
           where, (system.chuck.position() - position_before).tail<3>().norm());
       }
     check_reaction(where);
-    check_energy_balance(where, system.interface.step_dissipation());
+    check_energy_balance(where, system.interface.work().step_dissipation);
   }
 
 
@@ -94,7 +94,7 @@ namespace Debond
 
 
     /** Whether anything but the interface stores energy; what that does is
-     *  judged point by point (ContactInterface::Summary::steepest_softening).
+     *  judged point by point (InterfaceSummary::steepest_softening).
      */
     bool
     can_jump(const Scene &scene, const CoupledSystem &system)
@@ -123,10 +123,10 @@ namespace Debond
 
   // Whether the state just accepted is on another branch of equilibrium.
   void
-  StateChecks::check_for_jump(const std::string               &where,
-                              const Chuck::Vector6            &forces_before,
-                              const CoupledSystem             &system,
-                              const ContactInterface::Summary &summary)
+  StateChecks::check_for_jump(const std::string      &where,
+                              const Chuck::Vector6   &forces_before,
+                              const CoupledSystem    &system,
+                              const InterfaceSummary &summary)
   {
     const ContactInterface &interface = system.interface;
     ReleasedEnergy::State   now;
@@ -134,8 +134,8 @@ namespace Debond
     now.position = system.chuck.machine_position();
     now.stored   = system.chuck.machine_energy() + system.bone.energy() +
                  system.implant.energy() + summary.energy;
-    now.spent                  = interface.friction_work();
-    now.bound                  = interface.friction_work_bound();
+    now.spent                  = interface.work().friction;
+    now.bound                  = interface.work().friction_bound;
     const double      released = released_energy.add(now);
     const std::string change =
       describe_change(forces_before, now.forces, system.R);
@@ -175,9 +175,9 @@ namespace Debond
 
 
   void
-  StateChecks::check_interface(const std::string               &where,
-                               const CoupledSystem             &system,
-                               const ContactInterface::Summary &summary)
+  StateChecks::check_interface(const std::string      &where,
+                               const CoupledSystem    &system,
+                               const InterfaceSummary &summary)
   {
     if (summary.bonded_opened > 0)
       note_violation(
@@ -287,7 +287,7 @@ namespace Debond
 
 
   std::string
-  describe_softening(const ContactInterface::Summary &summary)
+  describe_softening(const InterfaceSummary &summary)
   {
     const double       slope = summary.softening_slope;
     std::ostringstream text;

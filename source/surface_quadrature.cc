@@ -1,3 +1,4 @@
+#include <debond/surface_geometry.h>
 #include <debond/surface_quadrature.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -22,17 +23,11 @@ namespace Debond
                    size.cwiseProduct(Eigen::Vector2d(quadrature.point(q)[0],
                                                      quadrature.point(q)[1]));
         surface.evaluate_in_element(element, point.xi, point.basis, false);
-        Eigen::Vector3d a1 = Eigen::Vector3d::Zero(), a2 = a1;
-        point.X = Eigen::Vector3d::Zero();
-        for (unsigned int a = 0; a < point.basis.size; ++a)
-          {
-            const auto P =
-              surface.control_points().col(point.basis.control_point[a]);
-            point.X += point.basis.N[a] * P;
-            a1 += point.basis.N_1[a] * P;
-            a2 += point.basis.N_2[a] * P;
-          }
-        point.JxW = a1.cross(a2).norm() * size.prod() * quadrature.weight(q);
+        SurfaceGeometry geometry;
+        contract(point.basis, surface.control_points(), false, geometry);
+        point.X   = geometry.y;
+        point.JxW = geometry.a1.cross(geometry.a2).norm() * size.prod() *
+                    quadrature.weight(q);
       }
     return points;
   }

@@ -16,12 +16,12 @@ using namespace Debond;
 /** A copy of everything a run knows of its accepted state. */
 struct State
 {
-  std::vector<ContactInterface::Point> points;
-  std::array<std::vector<bool>, 2>     is_contact;
-  std::array<ControlNet, 2>            surface_displacements, forces;
-  std::array<Eigen::VectorXd, 2>       displacements;
-  Chuck::Vector6                       position, chuck_forces;
-  double                               dissipation, adhesive_work, energy;
+  std::vector<SlavePoint>          points;
+  std::array<std::vector<bool>, 2> is_contact;
+  std::array<ControlNet, 2>        surface_displacements, forces;
+  std::array<Eigen::VectorXd, 2>   displacements;
+  Chuck::Vector6                   position, chuck_forces;
+  double                           dissipation, adhesive_work, energy;
 };
 
 /** One simulation, driven step by step. */
@@ -79,8 +79,8 @@ public:
     system.evaluate(ContactPointMode());
     result.forces = {{system.interface.force(0), system.interface.force(1)}};
     result.chuck_forces  = system.chuck_forces();
-    result.dissipation   = system.interface.dissipation();
-    result.adhesive_work = system.interface.adhesive_work();
+    result.dissipation   = system.interface.work().dissipation;
+    result.adhesive_work = system.interface.work().adhesive;
     result.energy        = system.bone.energy() + system.implant.energy();
     return result;
   }
@@ -124,7 +124,7 @@ identical(const State &before, const State &after)
     }
   for (unsigned int q = 0; q < before.points.size(); ++q)
     {
-      const ContactInterface::Point &p = before.points[q], &r = after.points[q];
+      const SlavePoint &p = before.points[q], &r = after.points[q];
       result = result && same_history(p.accepted, r.accepted) &&
                p.clearance == r.clearance &&
                p.accepted_traction == r.accepted_traction &&

@@ -4,6 +4,7 @@
 // the stiffness of the bodies is close to them.
 
 #include <debond/input_error.h>
+#include <debond/parameter_loop.h>
 #include <debond/study.h>
 
 #include <algorithm>

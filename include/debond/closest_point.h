@@ -1,25 +1,10 @@
 #ifndef debond_closest_point_h
 #define debond_closest_point_h
 
-#include <debond/nurbs_surface.h>
+#include <debond/surface_geometry.h>
 
 namespace Debond
 {
-  /** Position, tangents and second derivatives of a surface at a point. */
-  struct SurfaceGeometry
-  {
-    Eigen::Vector3d y, a1, a2;     ///< position [mm], a_alpha, Eq. (23)
-    Eigen::Vector3d a11, a12, a22; ///< second derivatives
-  };
-
-  /** Contracts a basis with a control net (any: positions, velocities...).
-   *  Second derivatives only if @p second_derivatives. */
-  void
-  contract(const SurfaceBasis &basis,
-           const ControlNet   &control_points,
-           bool                second_derivatives,
-           SurfaceGeometry    &geometry);
-
   struct ClosestPoint
   {
     Eigen::Vector2d xi = Eigen::Vector2d::Zero();

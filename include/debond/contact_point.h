@@ -31,6 +31,13 @@ namespace Debond
     /** Accumulated sliding distance g_s [mm], Eq. (12). */
     double slip = 0;
 
+    /** @p phi_0, or 0 if the bond is gone for good. */
+    double
+    bond_left(const double phi_0) const
+    {
+      return broken ? 0. : phi_0;
+    }
+
     /** See serialization.h. */
     template <class Archive>
     void

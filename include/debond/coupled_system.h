@@ -242,9 +242,9 @@ namespace Debond
       double slip     = 0;
       double old_slip = 0; ///< mean slip of the accepted state [mm]
       /** d equation / d unknowns, of the last evaluate(). */
-      Eigen::RowVectorXd gradient;
-      Chuck::Vector6     rates;         ///< of the scene's values, by time
-      double             stiffness = 0; ///< of the equations q_k [N/mm]
+      Eigen::VectorXd gradient;
+      Chuck::Vector6  rates;         ///< of the scene's values, by time
+      double          stiffness = 0; ///< of the equations q_k [N/mm]
     };
     Path path;
   };

@@ -68,9 +68,9 @@ namespace Debond
 
     /** @name Of the step at work */
     //@{
-    PathFollowing::Step       path_step;
-    ContactInterface::Summary interface_summary;
-    std::string               last_failure;
+    PathFollowing::Step path_step;
+    InterfaceSummary    interface_summary;
+    std::string         last_failure;
     //@}
 
     double seconds_before_steps = 0;

@@ -57,7 +57,7 @@ namespace Debond
     bool
     dissipates_too_much() const;
     /** Whether sliding gave energy back: @p step_dissipation is
-     *  ContactInterface::step_dissipation(). */
+     *  InterfaceWork::step_dissipation. */
     bool
     is_given_back(double step_dissipation) const;
     /** Is more missing, or left over, than trapezoids can account for? */

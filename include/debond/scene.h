@@ -4,8 +4,8 @@
 #include <debond/body_parameters.h>
 #include <debond/chuck.h>
 #include <debond/closed_form_parameters.h>
-#include <debond/contact_interface.h>
 #include <debond/input_error.h>
+#include <debond/interface_parameters.h>
 #include <debond/load_stepping.h>
 #include <debond/result_files.h>
 #include <debond/scene_file.h>

@@ -40,12 +40,12 @@ namespace Debond
      *  @p reaction_defect are those of the state before commit(). A check that
      *  it does not pass is a warning, once, and counts in the next row. */
     void
-    add(unsigned int                     step,
-        double                           from,
-        double                           to,
-        const CoupledSystem             &system,
-        const ContactInterface::Summary &summary,
-        double                           reaction_defect);
+    add(unsigned int            step,
+        double                  from,
+        double                  to,
+        const CoupledSystem    &system,
+        const InterfaceSummary &summary,
+        double                  reaction_defect);
 
     const EnergyBalance &
     energy() const
@@ -80,14 +80,14 @@ namespace Debond
     void
     note_violation(const std::string &check, const std::string &text);
     void
-    check_for_jump(const std::string               &where,
-                   const Chuck::Vector6            &forces_before,
-                   const CoupledSystem             &system,
-                   const ContactInterface::Summary &summary);
+    check_for_jump(const std::string      &where,
+                   const Chuck::Vector6   &forces_before,
+                   const CoupledSystem    &system,
+                   const InterfaceSummary &summary);
     void
-    check_interface(const std::string               &where,
-                    const CoupledSystem             &system,
-                    const ContactInterface::Summary &summary);
+    check_interface(const std::string      &where,
+                    const CoupledSystem    &system,
+                    const InterfaceSummary &summary);
     void
     check_way(const std::string &where);
     void
@@ -108,6 +108,6 @@ namespace Debond
 
   /** Why the bond would break in a jump, for messages. */
   std::string
-  describe_softening(const ContactInterface::Summary &summary);
+  describe_softening(const InterfaceSummary &summary);
 } // namespace Debond
 #endif

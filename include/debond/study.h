@@ -1,22 +1,17 @@
 #ifndef debond_study_h
 #define debond_study_h
 
-#include <debond/parameter_loop.h>
-#include <debond/scene.h>
+#include <debond/variant.h>
 
 #include <deal.II/base/timer.h>
 
 #include <iosfwd>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace Debond
 {
-  /** Columns of study.csv and their values, of one variant. */
-  using StudyRow = std::vector<std::pair<std::string, std::string>>;
-
   /**
    * A scene whose entries hold several values: runs every variant, several at a
    * time, into DIR/variant-001 and so on, and gathers them in DIR/study.csv.
@@ -57,18 +52,6 @@ namespace Debond
     check(std::ostream &out);
 
   private:
-    struct Variant
-    {
-      Scene                    scene;
-      std::vector<std::string> values; ///< of the varied entries
-      DirectoryContent         content = DirectoryContent::no_results;
-      StudyRow                 summary;          ///< its summary.json
-      bool                     compared = false; ///< with the reference variant
-      bool                     done     = false;
-      std::string              failure;     ///< why it failed, if it did
-      std::vector<StudyRow>    repetitions; ///< summaries of all its runs
-    };
-
     std::string
     describe(unsigned int variant) const;
     /** Returns what keeps others out of the directory of the study. */
@@ -76,18 +59,6 @@ namespace Debond
     prepare(bool force);
     void
     report(unsigned int variant, std::ostream &out) const;
-    void
-    look_up(Variant &variant) const;
-    void
-    keep_repetition(Variant &variant) const;
-    void
-    end_run(Variant &variant, const std::string &failure);
-    static void
-    forget_repetitions(Variant &variant);
-    bool
-    wants_another_run(const Variant &variant) const;
-    void
-    compare_with_reference();
     StudyRow
     table_row(unsigned int variant) const;
     /** Ends a study that a signal asks to stop: throws Interrupted. */
@@ -104,7 +75,6 @@ namespace Debond
     std::vector<Variant>     variants;
     std::string              directory;
     unsigned int             reference = 0; ///< number of a variant, 0: none
-    unsigned int             n_repetitions = 1;
     dealii::Timer            since_table;
     double                   time_between_tables = 2; ///< [s]
   };

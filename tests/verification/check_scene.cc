@@ -10,6 +10,7 @@
 //   check_scene SCENE.prm DIRECTORY    results go there; exit code 0 only if
 //                                      all expectations are met
 
+#include <debond/parameter_loop.h>
 #include <debond/problem.h>
 #include <debond/runtime.h>
 #include <debond/scene.h>

@@ -31,10 +31,13 @@ namespace Debond
     , timer(timer)
     , force_floor(scene.interface.normal_penalty * interface.implant_area() *
                   1e-6 * R)
+    , matrix(bone, implant, interface, configuration, path)
   {
     configuration.chuck = &chuck;
     path.follow         = scene.load_steps.follow_path;
-    path.stiffness = scene.interface.normal_penalty * interface.implant_area();
+    for (unsigned int k = 0; k < 6; ++k)
+      path.stiffness[k] = scene.interface.normal_penalty *
+                          interface.implant_area() * std::pow(scale_of(k), 2);
   }
 
 
@@ -288,7 +291,11 @@ namespace Debond
           std::max(result.reference, std::abs(load) / scale_of(component));
       }
     if (path.follow)
-      norm_squared += std::pow(evaluate_path(result.reference), 2);
+      {
+        residual[path.number] =
+          path.evaluate(interface, configuration, trial_time, result.reference);
+        norm_squared += std::pow(residual[path.number], 2);
+      }
     result.norm  = std::sqrt(norm_squared);
     result.valid = std::isfinite(result.norm) && std::isfinite(force);
     if (!result.valid)
@@ -296,174 +303,6 @@ namespace Debond
     result.interior_share =
       norm_squared > 0. ? interior_squared / norm_squared : 0.;
     return result;
-  }
-
-
-
-  // The equation of the step in units of force, such that the whole slip step
-  // weighs as much as all contact forces. Returns its residual.
-  double
-  CoupledSystem::evaluate_path(const double reference)
-  {
-    path.gradient.setZero(unknowns);
-    path.rates            = chuck.rates(trial_time);
-    residual[path.number] = 0.;
-    if (path.slip == 0.)
-      {
-        path.gradient[path.number] = reference;
-        return 0.; // the time is what it should be
-      }
-    const auto   mean   = interface.mean_slip(configuration);
-    const double weight = reference / path.slip;
-    add_in_unknowns(mean.gradient, configuration, weight, path.gradient);
-    residual[path.number] = weight * (mean.value - path.old_slip - path.slip);
-    return residual[path.number];
-  }
-
-
-
-  // The rows of prescribed components, the column of the time, and its row.
-  void
-  CoupledSystem::apply_path(const Eigen::VectorXd &x, Eigen::VectorXd &y) const
-  {
-    const double dt = x[path.number];
-    for (const auto &[k, number] : configuration.chuck_unknowns)
-      if (chuck.is_prescribed(k))
-        y[number] = path.stiffness * std::pow(scale_of(k), 2) *
-                    (x[number] - path.rates[k] * dt);
-      else
-        y[number] -= chuck.machine_load_per_value(k) * path.rates[k] * dt;
-    y[path.number] = path.gradient.dot(x);
-  }
-
-
-
-  void
-  CoupledSystem::assemble_path(Eigen::MatrixXd &matrix) const
-  {
-    for (const auto &[k, number] : configuration.chuck_unknowns)
-      if (chuck.is_prescribed(k))
-        {
-          const double stiffness = path.stiffness * std::pow(scale_of(k), 2);
-          matrix.row(number).setZero();
-          matrix(number, number)      = stiffness;
-          matrix(number, path.number) = -stiffness * path.rates[k];
-        }
-      else
-        matrix(number, path.number) =
-          -chuck.machine_load_per_value(k) * path.rates[k];
-    matrix.row(path.number) = path.gradient.transpose();
-  }
-
-
-
-  // Terms of the tangent that come from the rotation of the implant's frame and
-  // of lever arms with the unknown rotations of the chuck:
-  // (dQ^T/dq_k) f, f . (b_k x dx) and f . d^2x/dq_k dq_l.
-  void
-  CoupledSystem::add_geometric_part(const Eigen::VectorXd &x,
-                                    Eigen::VectorXd       &y) const
-  {
-    const auto &side = configuration.side[1];
-    for (const auto &[k, row] : configuration.chuck_unknowns)
-      {
-        y[row] -= chuck.machine_stiffness(k) * x[row];
-        if (k < 3)
-          continue;
-        for (unsigned int A = 0; A < side.positions.cols(); ++A)
-          {
-            const Eigen::Vector3d f = interface.force(1).col(A);
-            const Eigen::Vector3d turned =
-              side.frame.transpose() * f.cross(chuck.axis(k));
-            for (unsigned int c = 0; c < 3; ++c)
-              {
-                const int number = side.unknown_of[3 * A + c];
-                if (number >= 0)
-                  {
-                    y[number] += turned[c] * x[row];
-                    y[row] += turned[c] * x[number];
-                  }
-              }
-            for (const auto &[l, column] : configuration.chuck_unknowns)
-              y[row] +=
-                f.dot(chuck.second_derivative(k, l, side.positions.col(A))) *
-                x[column];
-          }
-      }
-  }
-
-
-
-  Eigen::VectorXd
-  CoupledSystem::interface_product(const Eigen::VectorXd &x) const
-  {
-    Eigen::VectorXd y = Eigen::VectorXd::Zero(unknowns);
-    interface.apply_tangent(configuration, x, y);
-    add_geometric_part(x, y);
-    if (path.follow)
-      apply_path(x, y);
-    return y;
-  }
-
-
-
-  Eigen::VectorXd
-  CoupledSystem::product(const Eigen::VectorXd &x) const
-  {
-    const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
-    Eigen::VectorXd    y = interface_product(x);
-    y.head(n_b) += bone.condensed_product(x.head(n_b));
-    y.segment(n_b, n_i) += implant.condensed_product(x.segment(n_b, n_i));
-    return y;
-  }
-
-
-
-  // The bulk does not resist the chuck.
-  bool
-  CoupledSystem::bulk_is_regular() const
-  {
-    return configuration.chuck_unknowns.empty();
-  }
-
-
-
-  Eigen::VectorXd
-  CoupledSystem::solve_bulk(const Eigen::VectorXd &b) const
-  {
-    const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
-    Eigen::VectorXd    x(unknowns);
-    x << bone.condensed_solve(b.head(n_b)),
-      implant.condensed_solve(b.segment(n_b, n_i));
-    return x;
-  }
-
-
-
-  void
-  CoupledSystem::assemble(Eigen::MatrixXd &matrix) const
-  {
-    const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
-    matrix.setZero(unknowns, unknowns);
-    if (n_b > 0)
-      matrix.topLeftCorner(n_b, n_b) = bone.condensed_stiffness();
-    if (n_i > 0)
-      matrix.block(n_b, n_b, n_i, n_i) = implant.condensed_stiffness();
-    interface.add_tangent(configuration, matrix);
-    Eigen::VectorXd unit = Eigen::VectorXd::Zero(unknowns), column(unknowns);
-    for (const auto &[k, number] : configuration.chuck_unknowns)
-      {
-        unit[number] = 1.;
-        column.setZero();
-        add_geometric_part(unit, column);
-        matrix.col(number) += column;
-        // the v-part of the border is symmetric
-        matrix.row(number).head(n_b + n_i) +=
-          column.head(n_b + n_i).transpose();
-        unit[number] = 0.;
-      }
-    if (path.follow)
-      assemble_path(matrix);
   }
 
 
@@ -485,7 +324,7 @@ namespace Debond
     Eigen::VectorXd &correction = last_correction;
     {
       const dealii::TimerOutput::Scope t(timer, "dense solve");
-      correction = solver.solve(*this, residual, relative_tolerance);
+      correction = solver.solve(matrix, residual, relative_tolerance);
     }
     if (!correction.allFinite())
       {

@@ -109,11 +109,11 @@ check(const std::string    &name,
   // what is tested
   const unsigned int n = system.n_unknowns();
   Eigen::MatrixXd    tangent, applied(n, n);
-  system.assemble(tangent);
+  system.tangent().assemble(tangent);
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(n, n);
   Eigen::VectorXd       column(n);
   for (unsigned int j = 0; j < n; ++j)
-    applied.col(j) = system.product(identity.col(j));
+    applied.col(j) = system.tangent().product(identity.col(j));
   Eigen::MatrixXd interface_tangent = Eigen::MatrixXd::Zero(n, n);
   Eigen::MatrixXd interface_applied(n, n);
   system.interface.add_tangent(system.configuration, interface_tangent);

@@ -78,10 +78,10 @@ check(const std::string &slave)
          summary.share_stick > 0.05 && summary.share_slip > 0.05);
 
   Eigen::MatrixXd tangent, applied(n, n);
-  system.assemble(tangent);
+  system.tangent().assemble(tangent);
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(n, n);
   for (unsigned int j = 0; j < n; ++j)
-    applied.col(j) = system.product(identity.col(j));
+    applied.col(j) = system.tangent().product(identity.col(j));
   report("  assembled against applied",
          (tangent - applied).cwiseAbs().maxCoeff() /
            tangent.cwiseAbs().maxCoeff(),

@@ -4,7 +4,9 @@
 #include <debond/body.h>
 #include <debond/chuck.h>
 #include <debond/contact_interface.h>
+#include <debond/coupled_tangent.h>
 #include <debond/dense_solver.h>
+#include <debond/path_equation.h>
 #include <debond/scene.h>
 
 #include <deal.II/base/timer.h>
@@ -34,14 +36,12 @@ namespace Debond
    *
    *   S v_c + Q^T f_contact(v_c, q) = 0,   sum_A f_A . dx_A/dq_k - load_k = 0.
    *
-   * Where the scene follows a path of equilibrium, all six chuck components and
-   * the time are unknowns too, with the equations q_k = value_k(time) for
-   * prescribed components and, for the time, that it or the mean sliding
-   * distance has a given value.
+   * Where the scene follows a path of equilibrium, PathEquation says what else
+   * is unknown.
    *
    * Everything here is a trial state until commit().
    */
-  class CoupledSystem : private SplitMatrix
+  class CoupledSystem
   {
     std::shared_ptr<BodyPair> both_bodies;
 
@@ -110,21 +110,19 @@ namespace Debond
     Residual
     evaluate(const ContactPointMode &mode);
 
-    /** @name Residual and tangent of the last evaluate()
-     *  in the contact unknowns of the bone, those of the implant and the
-     * unknown chuck components, as the Newton iteration uses them [N, N mm;
-     * N/mm ...]. */
-    //@{
+    /** Residual of the last evaluate() in the contact unknowns of the bone,
+     *  those of the implant and the unknown chuck components [N, N mm]. */
     const Eigen::VectorXd &
     residual_vector() const
     {
       return residual;
     }
-    Eigen::VectorXd
-    product(const Eigen::VectorXd &x) const override;
-    void
-    assemble(Eigen::MatrixXd &tangent) const override;
-    //@}
+    /** Its derivative. */
+    const CoupledTangent &
+    tangent() const
+    {
+      return matrix;
+    }
 
     /** Solves for the Newton correction to @p relative_tolerance and applies
      * it. Returns why that was impossible, or an empty text. */
@@ -205,26 +203,12 @@ namespace Debond
     extend_contact_unknowns();
     bool
     complete_surfaces();
-    Eigen::VectorXd
-    interface_product(const Eigen::VectorXd &x) const override;
-    bool
-    bulk_is_regular() const override;
-    Eigen::VectorXd
-    solve_bulk(const Eigen::VectorXd &b) const override;
-    void
-    add_geometric_part(const Eigen::VectorXd &x, Eigen::VectorXd &y) const;
     double
     scale_of(unsigned int chuck_component) const;
-    double
-    evaluate_path(double reference);
     /** Moves the chuck and, along a path, the time by @p factor times the last
      *  correction. */
     void
     correct_chuck(double factor);
-    void
-    apply_path(const Eigen::VectorXd &x, Eigen::VectorXd &y) const;
-    void
-    assemble_path(Eigen::MatrixXd &matrix) const;
 
     dealii::TimerOutput &timer;
     unsigned int         unknowns    = 0;
@@ -232,21 +216,8 @@ namespace Debond
     Eigen::VectorXd      residual, last_correction;
     DenseSolver          solver;
     double               trial_time = 0;
-
-    /** Following a path of equilibrium. */
-    struct Path
-    {
-      bool         follow = false;
-      unsigned int number = 0; ///< of the time among the unknowns
-      /** Growth of the mean slip in this step [mm]; 0: the time is given. */
-      double slip     = 0;
-      double old_slip = 0; ///< mean slip of the accepted state [mm]
-      /** d equation / d unknowns, of the last evaluate(). */
-      Eigen::VectorXd gradient;
-      Chuck::Vector6  rates;         ///< of the scene's values, by time
-      double          stiffness = 0; ///< of the equations q_k [N/mm]
-    };
-    Path path;
+    PathEquation         path;
+    const CoupledTangent matrix;
   };
 } // namespace Debond
 #endif

@@ -93,10 +93,6 @@ namespace Debond
     append(Series &series, double time, const std::string &vtu) const;
     void
     write_series(const Series &series) const;
-    std::string
-    bulk_vtu() const;
-    std::string
-    interface_vtu() const;
 
     const ResultDirectory      &directory;
     const std::array<Body *, 2> bodies; ///< bone, implant

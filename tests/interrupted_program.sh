@@ -115,7 +115,7 @@ for others in "scene.prm --set Output/Directory=results/busy --force" "--resume 
   grep -q "another run of debond is at work in results/busy: wait for it" others.log || fail "message of $others"
 done
 kill -s CONT $process
-wait $process || fail "a run that others wanted to disturb"
+wait -f $process || fail "a run that others wanted to disturb" # -f: it may still be known as stopped
 cmp results/busy/torque.csv results/whole/torque.csv || fail "others change the results"
 echo "a directory belongs to one run: yes"
 

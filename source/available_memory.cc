@@ -61,16 +61,17 @@ namespace Debond
     /** What the files of control groups are called. */
     struct ControlGroupFiles
     {
-      const char *folder, *limit, *taken, *cached;
+      const char *folder, *limit, *taken;
+      const char *prefix_of_sums; ///< over a group and those that it holds
     };
     constexpr ControlGroupFiles version_1 = {"memory",
                                              "memory.limit_in_bytes",
                                              "memory.usage_in_bytes",
-                                             "total_inactive_file"};
+                                             "total_"};
     constexpr ControlGroupFiles version_2 = {"",
                                              "memory.max",
                                              "memory.current",
-                                             "inactive_file"};
+                                             ""};
 
 
 
@@ -84,7 +85,10 @@ namespace Debond
       if (!(std::ifstream(group / files.limit) >> limit) ||
           !(std::ifstream(group / files.taken) >> taken))
         return no_limit;
-      const double cached = entry(group / "memory.stat", files.cached);
+      const std::string           prefix = files.prefix_of_sums;
+      const std::filesystem::path sums   = group / "memory.stat";
+      const double cached = entry(sums, prefix + "inactive_file") +
+                            entry(sums, prefix + "active_file");
       return std::max(0., limit - std::max(0., taken - cached));
     }
   } // namespace

@@ -18,10 +18,13 @@ namespace Debond
     const Vector6 change = to - from;
     Ways          result = Ways::Zero();
     for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
-      if (k < 3 && !parameters.component[k].loaded)
-        result[translation] = std::hypot(result[translation], change[k]);
+      if (parameters.component[k].loaded || k == 5)
+        result[2 + k] = std::abs(change[k]);
       else
-        result[1 + k] = std::abs(change[k]);
+        {
+          double &way = result[k < 3 ? translations : tilts];
+          way         = std::hypot(way, change[k]);
+        }
     return result;
   }
 
@@ -30,18 +33,18 @@ namespace Debond
   void
   ChuckWay::add(const Chuck &chuck, const double from, const double to)
   {
-    constexpr unsigned int n_parts = 8;
+    constexpr unsigned int n_parts = 32;
     const Vector6          start   = chuck.values(from);
     Vector6                here = start, next = start;
-    Ways                   way = Ways::Zero();
+    length_now.setZero();
     for (unsigned int i = 1; i <= n_parts; ++i, here = next)
       {
         next =
           chuck.values(i < n_parts ? from + i * (to - from) / n_parts : to);
-        way += distances(here, next);
+        length_now += distances(here, next);
       }
-    missed_now = way - distances(start, next);
-    length += way;
+    missed_now = length_now - distances(start, next);
+    length += length_now;
     missed += missed_now;
   }
 
@@ -50,9 +53,9 @@ namespace Debond
   ChuckWay::Ways
   ChuckWay::missed_shares() const
   {
-    // rounding is no way
-    constexpr double nothing = 1e-9;
-    return (missed_now.array() > nothing)
+    constexpr double rounding = 1e-9;
+    return (missed_now.array() >
+            largest_missed_share * length_now.array() + rounding)
       .select(missed.cwiseQuotient(length), Ways::Zero());
   }
 
@@ -72,13 +75,15 @@ namespace Debond
     Eigen::Index       way;
     const double       share = missed_shares().maxCoeff(&way);
     std::ostringstream text;
-    text.precision(2);
+    text.precision(3);
     text << 100. * share << " % of the way of ";
-    if (way == translation)
+    if (way == translations)
       text << "the translations";
+    else if (way == tilts)
+      text << "the tilts (Rotation x, y)";
     else
-      text << (parameters.component[way - 1].loaded ? "the load of " : "")
-           << ChuckParameters::names[way - 1];
+      text << (parameters.component[way - 2].loaded ? "the load of " : "")
+           << ChuckParameters::names[way - 2];
     text << " of the chuck";
     return text.str();
   }

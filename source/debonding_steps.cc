@@ -298,11 +298,7 @@ namespace Debond
     options.duration          = time - state->time;
     options.shorten_in_cycles = start == Start::as_before;
     options.touch_tolerance   = 1e-12 * system.R;
-    // a planned time, up to rounding
-    options.frictionless =
-      state->time <
-      scene.interface.friction.starts_at -
-        1e-9 * (scene.load_steps.times.back() - scene.load_steps.times.front());
+    options.frictionless      = !next_step_has_friction();
     start_trial(time, extrapolate);
     if (start == Start::beyond)
       {
@@ -318,6 +314,17 @@ namespace Debond
     if (!accepted)
       system.rollback();
     return result.iterations;
+  }
+
+
+
+  // It starts at a planned time, up to rounding.
+  bool
+  DebondingProblem::next_step_has_friction() const
+  {
+    const std::vector<double> &times = scene.load_steps.times;
+    return state->time >= scene.interface.friction.starts_at -
+                            1e-9 * (times.back() - times.front());
   }
 
 
@@ -356,14 +363,15 @@ namespace Debond
         ++state->accepted_steps;
         state->smallest_step =
           std::fmin(state->smallest_step, std::abs(time - state->time));
+        if (next_step_has_friction() &&
+            scene.interface.friction.kind != FrictionLawKind::frictionless)
+          state->checks.add_way(state->step, system.chuck, state->time, time);
       }
     system.commit(state->path ? state->accepted_steps : time);
+    state->time = time;
     state->checks.add(state->step,
-                      state->time,
-                      time,
                       system,
                       state->interface_summary,
                       reaction_defect);
-    state->time = time;
   }
 } // namespace Debond

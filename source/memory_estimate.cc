@@ -201,6 +201,8 @@ namespace Debond
     std::string
     in_words(const double MB)
     {
+      if (MB < 0.1)
+        return "0 MB";
       const double number = MB < 1000. ? MB : 1e-3 * MB;
       const double unit   = std::pow(10., std::floor(std::log10(number)) - 1.);
       std::ostringstream text;

@@ -18,8 +18,6 @@ namespace Debond
 
   void
   StateChecks::add(const unsigned int      step,
-                   const double            from,
-                   const double            to,
                    const CoupledSystem    &system,
                    const InterfaceSummary &summary,
                    const double            reaction_defect)
@@ -34,20 +32,35 @@ namespace Debond
                        summary.energy,
                        system.interface.work().dissipation);
     const std::string where = "step " + std::to_string(step) + ": ";
-    // the explicit law does not spend what friction_work() says
+    // the explicit law does not spend what InterfaceWork::friction says
     if (!scene.interface.explicit_friction)
       check_for_jump(where, forces_before, system, summary);
     check_interface(where, system, summary);
-    if (!is_first &&
-        scene.interface.friction.kind != FrictionLawKind::frictionless)
-      {
-        way.add(system.chuck, from, to);
-        check_way(where);
-        check_turn(
-          where, (system.chuck.position() - position_before).tail<3>().norm());
-      }
+    if (!is_first)
+      check_turn(where,
+                 (system.chuck.position() - position_before).tail<3>().norm());
     check_reaction(where);
     check_energy_balance(where, system.interface.work().step_dissipation);
+  }
+
+
+
+  // What slides does so by less than it should.
+  void
+  StateChecks::add_way(const unsigned int step,
+                       const Chuck       &chuck,
+                       const double       from,
+                       const double       to)
+  {
+    way.add(chuck, from, to);
+    if (way.missed_share() > ChuckWay::largest_missed_share)
+      note_violation("way",
+                     "step " + std::to_string(step) +
+                       ": steps go straight from state to state, and have "
+                       "missed " +
+                       way.describe() +
+                       " so far: what turns back or goes along a curve needs "
+                       "shorter steps, or Load steps / Times where it turns");
   }
 
 
@@ -208,28 +221,13 @@ namespace Debond
 
 
 
-  // Sliding distances come out too small by as much.
-  void
-  StateChecks::check_way(const std::string &where)
-  {
-    if (way.missed_share() > largest_missed_share)
-      note_violation("way",
-                     where +
-                       "steps go straight from state to state, and have "
-                       "missed " +
-                       way.describe() +
-                       " so far: what turns back or goes along a curve needs "
-                       "shorter steps, or Load steps / Times where it turns");
-  }
-
-
-
   // Planned turns are divided; jumps and loaded chucks turn as far as they
   // like.
   void
   StateChecks::check_turn(const std::string &where, const double turn)
   {
-    if (turn > 1.001 * largest_turn)
+    if (turn > 1.001 * largest_turn &&
+        scene.interface.friction.kind != FrictionLawKind::frictionless)
       {
         std::ostringstream text;
         text << where << "the implant turned by " << turn * 180. / M_PI

@@ -50,9 +50,6 @@ namespace Debond
         line += (&text == &texts.front() ? "" : ",") + csv_field(text);
       return line + "\n";
     }
-
-
-
   } // namespace
 
 

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <limits>
 
 namespace
 {
@@ -42,8 +41,9 @@ main()
 
   write(mount / "jobs/memory.max", "8000000000\n");
   write(mount / "jobs/memory.current", "3000000000\n");
-  write(mount / "jobs/memory.stat",
-        "anon 1500000000\nfile 1500000000\ninactive_file 1000000000\n");
+  write(
+    mount / "jobs/memory.stat",
+    "anon 1500000000\nfile 1500000000\ninactive_file 600000000\nactive_file 400000000\n");
   write(mount / "jobs/step/memory.max", "max\n");
   write(mount / "jobs/step/memory.current", "2500000000\n");
   show("version 2, limit of the group that holds it", "0::/jobs/step\n");

@@ -65,18 +65,36 @@ check_turning_back()
 
 
 
-// Chords of a circle in 12 steps, and of 8 times as many.
+// Up for four steps and a 16th of the fifth, then down: it misses an eighth of
+// a step of five.
 void
-check_curve()
+check_turning_soon()
+{
+  std::cout << "a triangle" << std::endl;
+  ChuckParameters parameters;
+  parameters.component[0].value = "min(t, 1.625 - t)";
+  report("  differs from the exact share",
+         std::abs(missed_share(5, parameters) - 0.025),
+         1e-14);
+}
+
+
+
+// Chords of a circle in 12 steps, and of 32 times as many; of a larger number,
+// which is as many as it takes.
+void
+check_curve(const unsigned int component)
 {
   std::cout << "a circle" << std::endl;
   ChuckParameters parameters;
-  parameters.component[0].value = "3 * cos(2 * pi * t)";
-  parameters.component[1].value = "3 * sin(2 * pi * t)";
+  parameters.component[component].value     = "3 * cos(2 * pi * t)";
+  parameters.component[component + 1].value = "3 * sin(2 * pi * t)";
   report("  differs from the exact share",
          std::abs(missed_share(12, parameters) -
-                  (1 - std::sin(M_PI / 12) / (8 * std::sin(M_PI / 96)))),
+                  (1 - std::sin(M_PI / 12) / (32 * std::sin(M_PI / 384)))),
          1e-14);
+  report("  23 steps miss too much", missed_share(23, parameters) > 0);
+  report("  24 do not", missed_share(24, parameters, false) == 0);
 }
 
 
@@ -86,5 +104,7 @@ main()
 {
   check_straight_motion();
   check_turning_back();
-  check_curve();
+  check_turning_soon();
+  check_curve(0); // translations
+  check_curve(3); // tilts
 }

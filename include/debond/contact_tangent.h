@@ -10,7 +10,7 @@ namespace Debond
    *  states to a dense matrix: rows are equations of control points in their
    *  bodies' frames and of chuck components, d(force)/d(unknowns), without the
    *  terms that come from the rotation of frames and lever arms (see
-   *  CoupledSystem). @p slave: 0 bone, 1 implant. */
+   *  CoupledTangent). @p slave: 0 bone, 1 implant. */
   void
   add_contact_tangent(const std::vector<SlavePoint> &points,
                       unsigned int                   slave,

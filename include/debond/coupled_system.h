@@ -53,6 +53,8 @@ namespace Debond
     CoupledSystem(const Scene              &scene,
                   dealii::TimerOutput      &timer,
                   std::shared_ptr<BodyPair> bodies = nullptr);
+    /** Its parts refer to each other. */
+    CoupledSystem(const CoupledSystem &) = delete;
 
     std::shared_ptr<BodyPair>
     bodies() const

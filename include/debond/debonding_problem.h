@@ -97,6 +97,8 @@ namespace Debond
      *  direction of slip. */
     bool
     turns_too_far(double time);
+    bool
+    next_step_has_friction() const;
     /** Tries one sub-step; returns the Newton iterations spent, and whether it
      *  was accepted in @p accepted. */
     unsigned int

@@ -20,11 +20,6 @@ namespace Debond
    * cost a thousandth of the friction. */
   constexpr double largest_turn = 5. * M_PI / 180.;
 
-  /** Share of the chuck's way that steps may miss. A circle in 23 steps does;
-   *  they lie 8 degrees off the direction at their end, and friction is 0.9 %
-   *  too small. */
-  constexpr double largest_missed_share = 0.003;
-
 
 
   /** What a user has to know about the states that a run has accepted. That
@@ -35,14 +30,17 @@ namespace Debond
     /** Keeps references to both. */
     StateChecks(const Scene &scene, Console &console);
 
-    /** Notes a state that has just been accepted in a planned step, with the
-     *  time @p to, the one before having had the time @p from. @p summary and
-     *  @p reaction_defect are those of the state before commit(). A check that
-     *  it does not pass is a warning, once, and counts in the next row. */
+    /** Notes the way of the chuck in a step with friction from time @p from to
+     *  time @p to, that is about to be accepted as a part of the planned @p
+     * step. Throws InputError if a value on the way is not finite. */
+    void
+    add_way(unsigned int step, const Chuck &chuck, double from, double to);
+
+    /** Notes a state that has just been accepted in a planned step. @p summary
+     *  and @p reaction_defect are those of the state before commit(). A check
+     *  that it does not pass is a warning, once, and counts in the next row. */
     void
     add(unsigned int            step,
-        double                  from,
-        double                  to,
         const CoupledSystem    &system,
         const InterfaceSummary &summary,
         double                  reaction_defect);
@@ -88,8 +86,6 @@ namespace Debond
     check_interface(const std::string      &where,
                     const CoupledSystem    &system,
                     const InterfaceSummary &summary);
-    void
-    check_way(const std::string &where);
     void
     check_turn(const std::string &where, double turn);
     void

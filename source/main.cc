@@ -1,13 +1,13 @@
-#include <debond/debonding_problem.h>
-#include <debond/input_error.h>
-#include <debond/interruption.h>
-#include <debond/memory_estimate.h>
-#include <debond/parameter_loop.h>
-#include <debond/problem.h>
-#include <debond/resumed_run.h>
-#include <debond/runtime.h>
-#include <debond/scene.h>
-#include <debond/study.h>
+#include <debond/campaigns/study.h>
+#include <debond/input/parameter_loop.h>
+#include <debond/models/debonding_problem.h>
+#include <debond/models/memory_estimate.h>
+#include <debond/models/problem.h>
+#include <debond/models/resumed_run.h>
+#include <debond/scene/scene.h>
+#include <debond/support/input_error.h>
+#include <debond/support/interruption.h>
+#include <debond/support/runtime.h>
 
 #include <deal.II/base/config.h>
 #include <deal.II/base/exceptions.h>

@@ -2,11 +2,11 @@
 // ends without reaching the tolerance, and the parts of its estimates. That
 // the estimates bound the error is tested by prm/verification/auto.prm.
 
-#include <debond/auto_problem.h>
-#include <debond/closed_forms.h>
-#include <debond/curve_error.h>
-#include <debond/foundation_error.h>
-#include <debond/input_error.h>
+#include <debond/campaigns/auto_problem.h>
+#include <debond/models/closed_forms.h>
+#include <debond/models/curve_error.h>
+#include <debond/models/foundation_error.h>
+#include <debond/support/input_error.h>
 
 #include <filesystem>
 #include <fstream>

@@ -2,11 +2,11 @@
 // means over elements, the orientation of images, values from CSV files, and
 // what is said of those that are wrong.
 
-#include <debond/body_mesh.h>
-#include <debond/bonding_pattern.h>
-#include <debond/grey_image.h>
-#include <debond/input_error.h>
-#include <debond/scene.h>
+#include <debond/bulk/body_mesh.h>
+#include <debond/interface/bonding_pattern.h>
+#include <debond/interface/grey_image.h>
+#include <debond/scene/scene.h>
+#include <debond/support/input_error.h>
 
 #include <fstream>
 #include <functional>

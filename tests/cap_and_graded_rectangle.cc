@@ -3,9 +3,9 @@
 // that of its area with the fourth. The graded rectangle: knot lines where they
 // should be, an affine map, and closest points that are found.
 
-#include <debond/body_mesh.h>
-#include <debond/closest_point.h>
-#include <debond/surface_quadrature.h>
+#include <debond/bulk/body_mesh.h>
+#include <debond/geometry/closest_point.h>
+#include <debond/geometry/surface_quadrature.h>
 
 #include <Eigen/Geometry>
 

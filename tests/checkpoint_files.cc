@@ -2,13 +2,13 @@
 // mentioned, what does not fit is refused with the reason, what cannot be
 // written is an error that names the file, and nothing is left half written.
 
-#include <debond/checkpoint.h>
-#include <debond/debonding_problem.h>
-#include <debond/input_error.h>
-#include <debond/result_files.h>
-#include <debond/resumed_run.h>
-#include <debond/run_error.h>
-#include <debond/runtime.h>
+#include <debond/models/debonding_problem.h>
+#include <debond/models/resumed_run.h>
+#include <debond/output/checkpoint.h>
+#include <debond/output/result_files.h>
+#include <debond/support/input_error.h>
+#include <debond/support/run_error.h>
+#include <debond/support/runtime.h>
 
 #include <sys/resource.h>
 

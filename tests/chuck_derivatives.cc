@@ -2,7 +2,7 @@
 // of the motion at small, moderate and large angles, its frame is a rotation,
 // and that rotation is the exponential of the rotation vector times the spin.
 
-#include <debond/chuck.h>
+#include <debond/bulk/chuck.h>
 
 #include <Eigen/Geometry>
 

@@ -1,8 +1,8 @@
 // Steps go straight from state to state: how much of the chuck's way they miss
 // when it turns back within a step, or goes along a curve.
 
-#include <debond/chuck.h>
-#include <debond/chuck_way.h>
+#include <debond/bulk/chuck.h>
+#include <debond/system/chuck_way.h>
 
 #include <cmath>
 #include <iostream>

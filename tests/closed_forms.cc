@@ -5,7 +5,7 @@
 // model against its integral done by hand. Mathieu's model: its torque against
 // the integral of its traction, its limits.
 
-#include <debond/closed_forms.h>
+#include <debond/models/closed_forms.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/numbers.h>

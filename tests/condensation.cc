@@ -2,7 +2,7 @@
 // algebra for few, many, scattered, all and no condensed unknowns in any order,
 // and refuses matrices that are not positive definite.
 
-#include <debond/condensation.h>
+#include <debond/bulk/condensation.h>
 
 #include <Eigen/Dense>
 

@@ -5,7 +5,7 @@
 // only if its trial traction is within the friction limit. So do viscous
 // sliding, an explicit friction coefficient and a given direction of slip.
 
-#include <debond/contact_point.h>
+#include <debond/interface/contact_point.h>
 
 #include <Eigen/Geometry>
 

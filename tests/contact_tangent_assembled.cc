@@ -4,8 +4,8 @@
 // stick, slip and are open. The interface's part is the same assembled and
 // applied column by column.
 
-#include <debond/coupled_system.h>
-#include <debond/runtime.h>
+#include <debond/support/runtime.h>
+#include <debond/system/coupled_system.h>
 
 #include <algorithm>
 #include <sstream>

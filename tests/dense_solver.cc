@@ -2,7 +2,7 @@
 // and saves every factorisation; a stiff one, and one whose bulk is singular,
 // is factorised once for many similar matrices. The answer is the same.
 
-#include <debond/dense_solver.h>
+#include <debond/system/dense_solver.h>
 
 #include <Eigen/Dense>
 

@@ -4,9 +4,9 @@
 // What compiled tests of whole scenes share: scenes that are taken step by
 // step with the state at hand, and scenes that the program runs.
 
-#include <debond/debonding_problem.h>
-#include <debond/newton.h>
-#include <debond/runtime.h>
+#include <debond/models/debonding_problem.h>
+#include <debond/support/runtime.h>
+#include <debond/system/newton.h>
 
 #include <cmath>
 #include <iostream>

@@ -4,8 +4,8 @@
 // leave an error of a known size, which falls with the mesh, and so does that
 // of the volume of the coin.
 
-#include <debond/enriched_cells.h>
-#include <debond/surface_quadrature.h>
+#include <debond/bulk/enriched_cells.h>
+#include <debond/geometry/surface_quadrature.h>
 
 #include <Eigen/Geometry>
 

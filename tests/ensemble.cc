@@ -1,10 +1,10 @@
 // The statistics of ensembles against numbers computed by hand, curves that do
 // not have the same rows, and a study over seeds of which one member fails.
 
-#include <debond/csv_table.h>
-#include <debond/ensemble.h>
-#include <debond/input_error.h>
-#include <debond/study.h>
+#include <debond/campaigns/ensemble.h>
+#include <debond/campaigns/study.h>
+#include <debond/input/csv_table.h>
+#include <debond/support/input_error.h>
 
 #include <filesystem>
 #include <fstream>

@@ -3,13 +3,13 @@
 // those of the closed form; a bonding pattern is as sharp as the elements; the
 // series names files and times; nothing depends on the date.
 
-#include <debond/body.h>
-#include <debond/chuck.h>
-#include <debond/closed_forms.h>
-#include <debond/contact_interface.h>
-#include <debond/field_output.h>
-#include <debond/friction_law.h>
-#include <debond/result_files.h>
+#include <debond/bulk/body.h>
+#include <debond/bulk/chuck.h>
+#include <debond/interface/contact_interface.h>
+#include <debond/interface/friction_law.h>
+#include <debond/models/closed_forms.h>
+#include <debond/output/field_output.h>
+#include <debond/output/result_files.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>

@@ -2,7 +2,7 @@
 // sine down, broken beyond (1 + 2 b_s) a_s; its derivative is that of central
 // differences, its integral that of Simpson's rule.
 
-#include <debond/friction_law.h>
+#include <debond/interface/friction_law.h>
 
 #include <string>
 

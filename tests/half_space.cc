@@ -4,8 +4,7 @@
 // the wedge; full stick through an elastic layer. The curves in
 // prm/verification/data are theirs.
 
-#include <debond/half_space.h>
-#include <debond/torque_curve.h>
+#include <debond/output/torque_curve.h>
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
@@ -18,6 +17,7 @@
 #include <vector>
 
 #include "checks.h"
+#include "exact_half_space.h"
 
 using namespace Debond;
 

@@ -2,11 +2,11 @@
 // checkpoint, leaves the same files as one that never was, byte for byte:
 // torque curve, fields, profiles, and the summary but for seconds and memory.
 
-#include <debond/debonding_problem.h>
-#include <debond/interruption.h>
-#include <debond/result_files.h>
-#include <debond/resumed_run.h>
-#include <debond/runtime.h>
+#include <debond/models/debonding_problem.h>
+#include <debond/models/resumed_run.h>
+#include <debond/output/result_files.h>
+#include <debond/support/interruption.h>
+#include <debond/support/runtime.h>
 
 #include <sys/wait.h>
 #include <unistd.h>

@@ -3,11 +3,11 @@
 // the steps since the last checkpoint are lost, and the files at the end are
 // those of a run in one go, byte for byte.
 
-#include <debond/checkpoint.h>
-#include <debond/debonding_problem.h>
-#include <debond/result_files.h>
-#include <debond/resumed_run.h>
-#include <debond/runtime.h>
+#include <debond/models/debonding_problem.h>
+#include <debond/models/resumed_run.h>
+#include <debond/output/checkpoint.h>
+#include <debond/output/result_files.h>
+#include <debond/support/runtime.h>
 
 #include <sys/wait.h>
 #include <unistd.h>

@@ -3,8 +3,8 @@
 // step. Adaptive steps keep a known curve within the tolerance, with not many
 // more than the fewest possible, and end phases exactly.
 
-#include <debond/adaptive_stepping.h>
-#include <debond/load_stepping.h>
+#include <debond/system/adaptive_stepping.h>
+#include <debond/system/load_stepping.h>
 
 #include <string>
 #include <utility>

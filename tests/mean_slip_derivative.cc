@@ -3,8 +3,8 @@
 // control points of both bodies and all six chuck components; the system with
 // it is the same assembled and applied.
 
-#include <debond/coupled_system.h>
-#include <debond/runtime.h>
+#include <debond/support/runtime.h>
+#include <debond/system/coupled_system.h>
 
 #include <sstream>
 #include <string>

@@ -1,7 +1,7 @@
 // Degrees of freedom of the paper's three meshes, unknowns, layers with
 // grading, nodes of cells, and what is fixed and what is tied.
 
-#include <debond/body_mesh.h>
+#include <debond/bulk/body_mesh.h>
 
 #include <algorithm>
 #include <set>

@@ -2,7 +2,7 @@
 // enriched, agree with automatic differentiation of the energy, written here
 // anew from the deformation gradient. Small strains cost no digits.
 
-#include <debond/enriched_cells.h>
+#include <debond/bulk/enriched_cells.h>
 
 #include <Eigen/Geometry>
 

@@ -2,8 +2,8 @@
 // interface slips and softens. Bodies are linear, so everything nonlinear is
 // the interface, and the last iterations show whether its tangent is exact.
 
-#include <debond/newton.h>
-#include <debond/runtime.h>
+#include <debond/support/runtime.h>
+#include <debond/system/newton.h>
 
 #include <sstream>
 #include <string>

@@ -1,7 +1,7 @@
 // First and second derivatives of the NURBS basis agree with automatic
 // differentiation of the Cox-de Boor recursion and the rational weights.
 
-#include <debond/nurbs_surface.h>
+#include <debond/geometry/nurbs_surface.h>
 
 #include <Sacado.hpp>
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Knot insertion does not change the surface; knots that cannot be inserted
 // are refused.
 
-#include <debond/nurbs_surface.h>
+#include <debond/geometry/nurbs_surface.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // NURBS basis functions are a partition of unity, not negative, and with
 // control points at the Greville abscissae the rectangle is an affine map.
 
-#include <debond/nurbs_surface.h>
+#include <debond/geometry/nurbs_surface.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 // by area and averaged over the angles; the interpolation is exact for
 // parabolas and of third order for smooth fields; references along a radius.
 
-#include <debond/input_error.h>
-#include <debond/profile_comparison.h>
+#include <debond/output/profile_comparison.h>
+#include <debond/support/input_error.h>
 
 #include <cmath>
 #include <fstream>

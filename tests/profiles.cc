@@ -5,7 +5,7 @@
 // pressure is 1 % higher and whose sliding distance is 2 % larger they are
 // that.
 
-#include <debond/closed_forms.h>
+#include <debond/models/closed_forms.h>
 
 #include <cstdlib>
 #include <filesystem>

@@ -7,7 +7,7 @@
 // on. Compliant bodies behave alike. Stiffness before sliding and torque at 10
 // degrees are the same for all patterns.
 
-#include <debond/closed_forms.h>
+#include <debond/models/closed_forms.h>
 
 #include <iomanip>
 

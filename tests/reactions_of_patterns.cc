@@ -3,7 +3,7 @@
 // and, with the pattern turned by 90 degrees, those of the first turned by 90
 // degrees, all else being the same.
 
-#include <debond/closed_forms.h>
+#include <debond/models/closed_forms.h>
 
 #include <deal.II/base/quadrature_lib.h>
 

@@ -2,8 +2,8 @@
 // forces right afterwards are bit for bit those before, and small steps from
 // there lead to the same states as in a run without failures.
 
-#include <debond/newton.h>
-#include <debond/runtime.h>
+#include <debond/support/runtime.h>
+#include <debond/system/newton.h>
 
 #include <sstream>
 #include <string>

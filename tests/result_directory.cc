@@ -3,8 +3,8 @@
 // used that another run is at work in; JSON
 // files keep their order, escape text and know no infinities.
 
-#include <debond/input_error.h>
-#include <debond/result_files.h>
+#include <debond/output/result_files.h>
+#include <debond/support/input_error.h>
 
 #include <fcntl.h>
 #include <sys/file.h>

@@ -2,7 +2,7 @@
 // falls with the order of the quadrature, and the traction is that of the
 // closed form at each quadrature point.
 
-#include <debond/closed_forms.h>
+#include <debond/models/closed_forms.h>
 
 #include <functional>
 

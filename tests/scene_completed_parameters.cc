@@ -1,7 +1,7 @@
 // The completed parameters name every entry with its value and give the same
 // scene again; so does what --print-parameters prints.
 
-#include <debond/scene.h>
+#include <debond/scene/scene.h>
 
 #include <iostream>
 #include <sstream>

@@ -1,7 +1,7 @@
 // A scene may include another and set its entries again; files that include
 // each other, or that set again what the including file has set, are refused.
 
-#include <debond/scene.h>
+#include <debond/scene/scene.h>
 
 #include <fstream>
 #include <iostream>

@@ -1,7 +1,7 @@
 // Every kind of mistake in a scene is answered by one message that says where
 // it is, what was read and what is allowed.
 
-#include <debond/scene.h>
+#include <debond/scene/scene.h>
 
 #include <iostream>
 #include <string>

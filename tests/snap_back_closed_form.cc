@@ -3,7 +3,7 @@
 // computation finds, and the energy released in the jump against the integral
 // between spring and torque.
 
-#include <debond/closed_forms.h>
+#include <debond/models/closed_forms.h>
 
 #include <boost/math/quadrature/gauss.hpp>
 

@@ -3,9 +3,9 @@
 // medians, and the comparison of its curves; and that the foundation model with
 // the stiffness of the bodies is close to them.
 
-#include <debond/input_error.h>
-#include <debond/parameter_loop.h>
-#include <debond/study.h>
+#include <debond/campaigns/study.h>
+#include <debond/input/parameter_loop.h>
+#include <debond/support/input_error.h>
 
 #include <algorithm>
 #include <cmath>

@@ -4,9 +4,9 @@
 // bodies that cannot be built are left to the variants; and only the last ones
 // are kept.
 
-#include <debond/coupled_system.h>
-#include <debond/study.h>
-#include <debond/variant_queue.h>
+#include <debond/campaigns/study.h>
+#include <debond/campaigns/variant_queue.h>
+#include <debond/system/coupled_system.h>
 
 #include <filesystem>
 #include <fstream>

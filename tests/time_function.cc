@@ -1,7 +1,7 @@
 // Expressions in t know pi and R; those without a value are refused.
 
-#include <debond/input_error.h>
-#include <debond/time_function.h>
+#include <debond/input/time_function.h>
+#include <debond/support/input_error.h>
 
 #include <iostream>
 

@@ -3,9 +3,9 @@
 // null where undefined; messages about reference curves that cannot be read;
 // the columns of torque.csv and the members of summary.json.
 
-#include <debond/input_error.h>
-#include <debond/result_files.h>
-#include <debond/torque_curve.h>
+#include <debond/output/result_files.h>
+#include <debond/output/torque_curve.h>
+#include <debond/support/input_error.h>
 
 #include <deal.II/base/numbers.h>
 

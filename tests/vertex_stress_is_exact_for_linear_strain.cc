@@ -2,7 +2,7 @@
 // curved cells too, and where it varies linearly within the cells of a block
 // (which tells whether every corner gets its own value). Zero in a rigid body.
 
-#include <debond/vertex_stress.h>
+#include <debond/bulk/vertex_stress.h>
 
 #include <cmath>
 #include <iostream>

@@ -7,8 +7,8 @@
 // integrated in time by Boost; and the smaller the viscosity, the closer its
 // work comes to the energy that the closed form of the jump releases.
 
-#include <debond/closed_forms.h>
-#include <debond/friction_law.h>
+#include <debond/interface/friction_law.h>
+#include <debond/models/closed_forms.h>
 
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/numeric/odeint.hpp>

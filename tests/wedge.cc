@@ -5,8 +5,7 @@
 // quadrature points of the wedge; the height of the wedge from the balance of
 // the vertical force.
 
-#include <debond/contact_point.h>
-#include <debond/half_space.h>
+#include <debond/interface/contact_point.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -16,6 +15,7 @@
 #include <vector>
 
 #include "checks.h"
+#include "exact_half_space.h"
 
 using namespace Debond;
 using Eigen::Vector3d;

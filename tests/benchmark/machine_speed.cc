@@ -4,7 +4,7 @@
 // benchmark divided by these can be compared between machines, and on one
 // machine between hours. Prints the median of five, all on one thread.
 
-#include <debond/runtime.h>
+#include <debond/support/runtime.h>
 
 #include <Eigen/Dense>
 
@@ -22,11 +22,12 @@ namespace
   void
   small_kernels()
   {
-    Eigen::Matrix<double, 3, 12> a = Eigen::Matrix<double, 3, 12>::Constant(0.1);
-    Eigen::Matrix3d              m = Eigen::Matrix3d::Identity();
+    Eigen::Matrix<double, 3, 12> a =
+      Eigen::Matrix<double, 3, 12>::Constant(0.1);
+    Eigen::Matrix3d m = Eigen::Matrix3d::Identity();
     for (unsigned int i = 0; i < 2000000; ++i)
       {
-        a = (m * a).eval();
+        a                     = (m * a).eval();
         m(i % 3, (i + 1) % 3) = 1e-9 * a.sum();
       }
     sum += a.sum();
@@ -63,9 +64,9 @@ main()
       small_kernels();
       factorisation();
       triangular_solves(L);
-      time = std::chrono::duration<double>(std::chrono::steady_clock::now() -
-                                           start)
-               .count();
+      time =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
+          .count();
     }
   std::sort(seconds.begin(), seconds.end());
   std::cout << seconds[2] << (sum == 0.12345 ? " " : "") << std::endl;

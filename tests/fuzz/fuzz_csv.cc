@@ -1,10 +1,10 @@
 // Fuzz target: the tables that a scene may name: reference curve, reference
 // profiles and bonding pattern, each of which is read from the same bytes.
 
-#include <debond/body_mesh.h>
-#include <debond/bonding_pattern.h>
-#include <debond/profile_comparison.h>
-#include <debond/torque_curve.h>
+#include <debond/bulk/body_mesh.h>
+#include <debond/interface/bonding_pattern.h>
+#include <debond/output/profile_comparison.h>
+#include <debond/output/torque_curve.h>
 
 #include "fuzz_target.h"
 

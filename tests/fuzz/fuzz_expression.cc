@@ -1,7 +1,7 @@
 // Fuzz target: expressions in time and in place, read and evaluated.
 
-#include <debond/expression_parser.h>
-#include <debond/time_function.h>
+#include <debond/input/expression_parser.h>
+#include <debond/input/time_function.h>
 
 #include "fuzz_target.h"
 

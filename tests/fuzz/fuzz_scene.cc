@@ -1,8 +1,8 @@
 // Fuzz target: reading a scene with all its checks, or the variants of a study.
 
-#include <debond/allowed_values.h>
-#include <debond/parameter_loop.h>
-#include <debond/scene.h>
+#include <debond/input/allowed_values.h>
+#include <debond/input/parameter_loop.h>
+#include <debond/scene/scene.h>
 
 #include "fuzz_target.h"
 

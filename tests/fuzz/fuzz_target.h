@@ -1,8 +1,8 @@
 #ifndef debond_fuzz_target_h
 #define debond_fuzz_target_h
 
-#include <debond/input_error.h>
-#include <debond/runtime.h>
+#include <debond/support/input_error.h>
+#include <debond/support/runtime.h>
 
 #include <sys/mman.h>
 #include <unistd.h>

@@ -4,9 +4,9 @@
 // coupled system a dense matrix, and a thick mesh. The measured peak is that of
 // the process, so each case needs more than the one before.
 
-#include <debond/available_memory.h>
-#include <debond/memory_estimate.h>
-#include <debond/problem.h>
+#include <debond/models/memory_estimate.h>
+#include <debond/models/problem.h>
+#include <debond/support/available_memory.h>
 
 #include <sys/resource.h>
 

@@ -20,10 +20,10 @@
 // Results go to the directory. Prints the judgements and, as the last line, the
 // row of doc/stability.md. Exit code 0 if the outcome is the expected one.
 
-#include <debond/input_error.h>
-#include <debond/problem.h>
-#include <debond/runtime.h>
-#include <debond/scene.h>
+#include <debond/models/problem.h>
+#include <debond/scene/scene.h>
+#include <debond/support/input_error.h>
+#include <debond/support/runtime.h>
 
 #include <algorithm>
 #include <exception>

@@ -10,11 +10,11 @@
 //   check_scene SCENE.prm DIRECTORY    results go there; exit code 0 only if
 //                                      all expectations are met
 
-#include <debond/parameter_loop.h>
-#include <debond/problem.h>
-#include <debond/runtime.h>
-#include <debond/scene.h>
-#include <debond/study.h>
+#include <debond/campaigns/study.h>
+#include <debond/input/parameter_loop.h>
+#include <debond/models/problem.h>
+#include <debond/scene/scene.h>
+#include <debond/support/runtime.h>
 
 #include <exception>
 #include <iostream>

@@ -2,12 +2,12 @@
 // conditions and load steps, the interface as surface-to-surface penalty
 // contact. See README.md here for what is the same and what is not.
 
-#include <debond/body_mesh.h>
-#include <debond/chuck.h>
-#include <debond/input_error.h>
-#include <debond/load_stepping.h>
-#include <debond/runtime.h>
-#include <debond/scene.h>
+#include <debond/bulk/body_mesh.h>
+#include <debond/bulk/chuck.h>
+#include <debond/scene/scene.h>
+#include <debond/support/input_error.h>
+#include <debond/support/runtime.h>
+#include <debond/system/load_stepping.h>
 
 #include <array>
 #include <cmath>

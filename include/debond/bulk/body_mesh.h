@@ -1,0 +1,178 @@
+#ifndef debond_bulk_body_mesh_h
+#define debond_bulk_body_mesh_h
+
+#include <debond/bulk/body_parameters.h>
+#include <debond/geometry/nurbs_surface.h>
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/grid/tria.h>
+#include <deal.II/lac/affine_constraints.h>
+
+#include <vector>
+
+namespace Debond
+{
+  enum class BodySide
+  {
+    bone,
+    implant
+  };
+
+  /** The contact face of a body in its reference configuration. */
+  NurbsSurface
+  make_contact_surface(const BodyParameters &parameters);
+
+
+
+  /**
+   * Mesh, numbering and boundary conditions of one body.
+   *
+   * The bulk is a deal.II triangulation with FESystem(FE_Q(1), 3). Degrees of
+   * freedom are numbered node by node, three to a node: first the vertices (as
+   * the DoFHandler numbers them), then the control points of the contact
+   * surface. In the layer of cells that touches the contact surface the contact
+   * face is interpolated by the NURBS surface (Corbett & Sauer 2014, 2015), so
+   * the vertices on it are no unknowns: constraints tie them to the control
+   * points, v_vertex = sum_A N_A(vertex) v_A.
+   *
+   * With the contact surface `bilinear` the surface is of degree 1, has one
+   * control point at each surface vertex, and everything else stays the same.
+   */
+  class BodyMesh
+  {
+  public:
+    /** The bone is fixed at the bottom and held normal to its sides, contact
+     *  face on top; the implant is held at its top, contact face at the bottom.
+     *  Both contact faces lie in z = 0; that of a cap touches it. */
+    BodyMesh(const BodyParameters &parameters, BodySide side);
+
+    const BodyParameters &
+    parameters() const
+    {
+      return body_parameters;
+    }
+    BodySide
+    side() const
+    {
+      return body_side;
+    }
+    const NurbsSurface &
+    surface() const
+    {
+      return contact_surface;
+    }
+    /** +1 or -1: this factor times a_1 x a_2 points out of the body. */
+    double
+    outward_sign() const
+    {
+      return body_side == BodySide::bone ? 1. : -1.;
+    }
+
+    unsigned int
+    n_vertices() const
+    {
+      return dof_handler.n_dofs() / 3;
+    }
+    unsigned int
+    n_nodes() const
+    {
+      return n_vertices() + contact_surface.n_control_points();
+    }
+    /** Node number of a control point of the contact surface. */
+    unsigned int
+    control_point_node(unsigned int control_point) const
+    {
+      return n_vertices() + control_point;
+    }
+
+    /** Degrees of freedom as the paper counts them: all vertices and, with
+     *  NURBS, all control points, three each. */
+    unsigned int
+    n_dofs_as_published() const;
+    /** The same less the surface vertices that follow the control points. */
+    unsigned int
+    n_unknowns() const;
+
+    /** Reference position of a node [mm] (vertices and control points). */
+    const Eigen::Vector3d &
+    reference_position(unsigned int node) const
+    {
+      return reference_positions[node];
+    }
+    /** True where the boundary conditions fix this component of this node. */
+    bool
+    is_fixed(unsigned int node, unsigned int component) const
+    {
+      return fixed[3 * node + component];
+    }
+    /** True for vertices of the contact surface. */
+    bool
+    is_tied(unsigned int node) const
+    {
+      return tied[node];
+    }
+    /** Fills in the tied vertices of a displacement vector (3 n_nodes). */
+    void
+    distribute(Eigen::VectorXd &v) const;
+
+    /** A cell of the bulk: the eight vertices of a trilinear hexahedron in
+     *  deal.II's order, or, in the contact layer, the control points of its
+     *  surface element followed by the four vertices of the opposite face. */
+    struct Cell
+    {
+      bool                        enriched        = false;
+      unsigned int                surface_element = 0; ///< if enriched
+      std::vector<unsigned int>   nodes;
+      std::array<unsigned int, 8> vertices; ///< all vertices, deal.II's order
+    };
+    const std::vector<Cell> &
+    cells() const
+    {
+      return bulk_cells;
+    }
+
+    /** dealii's objects, for output and for sparsity patterns. */
+    const dealii::DoFHandler<3> &
+    get_dof_handler() const
+    {
+      return dof_handler;
+    }
+    const dealii::AffineConstraints<double> &
+    get_constraints() const
+    {
+      return constraints;
+    }
+
+  private:
+    void
+    make_surface();
+    void
+    make_triangulation();
+    void
+    number_nodes();
+    void
+    collect_cells();
+    void
+    make_constraints();
+    double
+    layer_height(unsigned int layer, double height_of_face) const;
+
+    const BodyParameters body_parameters;
+    const BodySide       body_side;
+
+    NurbsSurface                      contact_surface;
+    dealii::Triangulation<3>          triangulation;
+    dealii::FESystem<3>               fe;
+    dealii::DoFHandler<3>             dof_handler;
+    dealii::AffineConstraints<double> constraints;
+
+    /** Lattice index (i, j, layer from the contact face) of each vertex node.
+     */
+    std::vector<std::array<unsigned int, 3>> lattice;
+    std::vector<Eigen::Vector3d>             reference_positions;
+    std::vector<bool>                        fixed, tied;
+    std::vector<Cell>                        bulk_cells;
+  };
+} // namespace Debond
+#endif

@@ -1,0 +1,77 @@
+#ifndef debond_bulk_body_parameters_h
+#define debond_bulk_body_parameters_h
+
+#include <array>
+#include <vector>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace Debond
+{
+  enum class BodyShape
+  {
+    block,
+    coin,
+    cap
+  };
+  enum class Material
+  {
+    rigid,
+    linear,
+    neo_hookean
+  };
+  enum class SurfaceKind
+  {
+    nurbs,
+    bilinear
+  };
+
+  /** The subsections `Bone` and `Implant` of a scene. */
+  struct BodyParameters
+  {
+    BodyShape             shape = BodyShape::block;
+    std::array<double, 3> size{{12.5, 12.5, 5}}; ///< block [mm]
+    double                radius     = 2.5;      ///< coin, cap [mm]
+    double                height     = 3;        ///< coin, cap: axis [mm]
+    double                cap_radius = 50;       ///< of the sphere [mm]
+    /** Number of cells in x, y, z; z along the axis (`Cells = n, m` of a coin
+     *  or a cap becomes n, n, m). */
+    std::array<unsigned int, 3> cells{{15, 15, 2}};
+    double                      lateral_grading = 1; ///< block
+    double                      layer_grading   = 1;
+    Material                    material        = Material::neo_hookean;
+    double                      young_modulus   = 18000; ///< [MPa]
+    double                      poisson_ratio   = 0.3;
+    SurfaceKind                 contact_surface = SurfaceKind::nurbs;
+
+    /** Whether the body is a disk seen from above: a coin or a cap. */
+    bool
+    is_round() const;
+    /** Height of the body on its axis [mm]. */
+    double
+    thickness() const;
+    /** Size of the contact face along x (0) or y (1), seen from above [mm]. */
+    double
+    width(unsigned int direction) const;
+    /** Height of the rim of the contact face above its centre [mm]. */
+    double
+    rise() const;
+    /** Radius of a coin or a cap, half the shorter side of a block [mm]: the
+     * `R` of expressions and of length tolerances. */
+    double
+    characteristic_radius() const;
+
+    static void
+    declare_bone(dealii::ParameterHandler &prm);
+    static void
+    declare_implant(dealii::ParameterHandler &prm);
+    void
+    parse_bone(dealii::ParameterHandler &prm);
+    void
+    parse_implant(dealii::ParameterHandler &prm);
+  };
+} // namespace Debond
+#endif

@@ -1,0 +1,210 @@
+#ifndef debond_bulk_chuck_h
+#define debond_bulk_chuck_h
+
+#include <debond/input/time_function.h>
+#include <debond/support/accepted_state.h>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace Debond
+{
+  /** One of the six subsections of `Chuck`. */
+  struct ChuckComponentParameters
+  {
+    bool loaded = false; ///< force or moment instead of displacement or angle
+    /** Expression in t (constants pi, R). Units: mm, degrees, N, N mm. */
+    std::string value     = "0";
+    double      stiffness = 0; ///< of the machine [N/mm or N mm/rad]; 0: rigid
+  };
+
+  /** The subsection `Chuck`: Translation x, y, z, Rotation x, y, z. */
+  struct ChuckParameters
+  {
+    static constexpr unsigned int n_components = 6;
+    /** "Translation x" ... "Rotation z". */
+    static const std::array<const char *, n_components> names;
+
+    std::array<ChuckComponentParameters, n_components> component;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+  };
+
+  /**
+   * The rigid top face of the implant, and with it the implant's moving frame:
+   *
+   *   x = C + u + Q (X - C + v),   Q = exp(skew(a)) R_z(gamma),
+   *
+   * with six components q = (u, a_x, a_y, gamma): translations [mm], a rotation
+   * vector in space and the angle about the implant's own axis [rad]. Each is
+   * prescribed, or an unknown with an equation of its own if it is loaded or if
+   * the machine that drives it is compliant.
+   */
+  class Chuck
+  {
+  public:
+    using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+    /** @p centre is C; @p radius the `R` of expressions [mm]. */
+    Chuck(const ChuckParameters &parameters,
+          const Eigen::Vector3d &centre,
+          double                 radius);
+
+    /** Components that are unknowns, in ascending order. */
+    const std::vector<unsigned int> &
+    unknowns() const
+    {
+      return unknown_components;
+    }
+
+    /** Places the implant where the scene wants it at @p time: all components
+     *  but the loaded ones, which start at zero. This is the accepted state. */
+    void
+    place(double time);
+    /** Sets the prescribed components of the trial state and the loads to
+     *  their values at @p time. */
+    void
+    prescribe(double time);
+    /** The six values of the scene at a time, in internal units (radians). */
+    Vector6
+    values(double time) const;
+
+    /** Their rates of change with time, by differences. */
+    Vector6
+    rates(double time) const;
+    /** Whether a component is where the scene wants it, at any load. */
+    bool
+    is_prescribed(const unsigned int k) const
+    {
+      return !parameters.component[k].loaded &&
+             parameters.component[k].stiffness == 0.;
+    }
+
+    const Vector6 &
+    position() const
+    {
+      return q;
+    }
+    /** Position of the machine: the scene's values where the machine is
+     *  compliant, else that of the chuck. */
+    Vector6
+    machine_position() const;
+    /** Energy stored in a compliant machine [N mm]. */
+    double
+    machine_energy() const;
+    void
+    correct(unsigned int component, double dq);
+    /** Moves components with a compliant machine to where its springs are
+     *  relaxed. */
+    void
+    relax_machine();
+    bool
+    has_compliant_machine() const;
+    void
+    commit(double time);
+    void
+    rollback();
+    /** Starts from the accepted state; unknown components are extrapolated
+     *  linearly to @p time if asked and if two states are known. */
+    void
+    predict(double time, bool extrapolate);
+
+    /** Q of the trial state. */
+    const Eigen::Matrix3d &
+    rotation() const
+    {
+      return Q;
+    }
+    const Eigen::Vector3d &
+    reference_centre() const
+    {
+      return C;
+    }
+    /** C + u. */
+    Eigen::Vector3d
+    centre() const
+    {
+      return C + q.head<3>();
+    }
+    /** Spatial position of the material point X + v. */
+    Eigen::Vector3d
+    map(const Eigen::Vector3d &X, const Eigen::Vector3d &v) const
+    {
+      return centre() + Q * ((X - C) + v);
+    }
+
+    /** dx/dq_k of a point at spatial position x: e_k, or b_k x (x - C - u). */
+    Eigen::Vector3d
+    velocity(unsigned int k, const Eigen::Vector3d &x) const;
+    /** The same for a direction carried along: 0, or b_k x d. */
+    Eigen::Vector3d
+    velocity_of_direction(unsigned int k, const Eigen::Vector3d &d) const;
+    /** d^2 x / dq_k dq_l. */
+    Eigen::Vector3d
+    second_derivative(unsigned int           k,
+                      unsigned int           l,
+                      const Eigen::Vector3d &x) const;
+    /** Axis b_k of a rotation (k = 3, 4, 5), in space; b_5 is the implant's own
+     * axis. */
+    const Eigen::Vector3d &
+    axis(unsigned int k) const
+    {
+      return b[k - 3];
+    }
+
+    /** Force or moment that the machine applies to component k at its trial
+     *  position [N, N mm]: the load, or stiffness times the lag behind the
+     *  prescribed value. Only for unknown components. */
+    double
+    machine_load(unsigned int k) const;
+    /** d machine_load / d value of the scene. */
+    double
+    machine_load_per_value(const unsigned int k) const
+    {
+      return parameters.component[k].loaded ? 1. :
+                                              parameters.component[k].stiffness;
+    }
+    /** d machine_load / dq_k. */
+    double
+    machine_stiffness(unsigned int k) const;
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &q &accepted &target;
+      if (Archive::is_loading::value)
+        update_frame();
+    }
+
+  private:
+    void
+    update_frame();
+
+    const ChuckParameters     parameters;
+    const Eigen::Vector3d     C;
+    std::vector<TimeFunction> value_functions;
+    std::vector<unsigned int> unknown_components;
+
+    Vector6                q = Vector6::Zero(); ///< trial position
+    AcceptedState<Vector6> accepted{q};
+    Vector6 target = Vector6::Zero(); ///< values of the scene at the trial time
+
+    Eigen::Matrix3d                               Q;
+    std::array<Eigen::Vector3d, 3>                b;
+    std::array<std::array<Eigen::Vector3d, 3>, 3> db; ///< db[k][l] = db_k/dq_l
+  };
+} // namespace Debond
+#endif

@@ -1,0 +1,94 @@
+#ifndef debond_bulk_condensation_h
+#define debond_bulk_condensation_h
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <vector>
+
+namespace Debond
+{
+  /** A symmetric sparse matrix, lower triangle in compressed columns with
+   *  sorted rows (CHOLMOD's format with stype = -1). */
+  struct SymmetricSparseMatrix
+  {
+    int                 n = 0;
+    std::vector<int>    column_start, row;
+    std::vector<double> value;
+  };
+
+  /**
+   * Static condensation of a symmetric positive definite matrix K on a few of
+   * its unknowns c (i are the others):
+   *
+   *   S = K_cc - K_ci K_ii^-1 K_ic.
+   *
+   * The unknowns c are ordered last in a sparse Cholesky factorisation
+   * P K P^T = L L^T (CHOLMOD, nested dissection of the rest), so that
+   * S = L_cc L_cc^T falls out of the factor. Solves with K_ii use the other
+   * columns of the factor only, those with S only the block L_cc.
+   */
+  class Condensation
+  {
+  public:
+    Condensation();
+    ~Condensation();
+    Condensation(Condensation &&);
+    Condensation &
+    operator=(Condensation &&);
+
+    /** Factorises @p K. @p condensed lists the unknowns c; their order is the
+     *  order of the rows of S. Returns false if K is not positive definite
+     *  (this object is then unusable until the next successful call). */
+    bool
+    factorise(const SymmetricSparseMatrix &K,
+              const std::vector<int>      &condensed);
+
+    unsigned int
+    n_condensed() const
+    {
+      return n_c;
+    }
+
+    /** S, n_c x n_c; formed at every call. */
+    Eigen::MatrixXd
+    schur_complement() const;
+    /** S x. */
+    Eigen::VectorXd
+    schur_product(const Eigen::VectorXd &x) const;
+    /** S^-1 b. */
+    Eigen::VectorXd
+    schur_solve(const Eigen::VectorXd &b) const;
+
+    /** Forward half: returns r_c - K_ci K_ii^-1 r_i for a vector r over all
+     *  unknowns and keeps what backward() needs. */
+    Eigen::VectorXd
+    forward(const Eigen::VectorXd &r);
+    /** Backward half: given x_c, returns x over all unknowns with
+     *  x_i = K_ii^-1 (r_i - K_ic x_c), r the vector of the last forward(). */
+    Eigen::VectorXd
+    backward(const Eigen::VectorXd &x_c);
+    /** The same with r_i = 0: the equilibrium shape that belongs to x_c. */
+    Eigen::VectorXd
+    extend(const Eigen::VectorXd &x_c);
+
+  private:
+    struct Cholmod;
+    std::unique_ptr<Cholmod> cholmod;
+
+    void
+    extract_trailing_block();
+    /** x_i <- L_ii^-1 x_i, x_c <- x_c - L_ci x_i, in the factor's order. */
+    void
+    eliminate_interior(Eigen::VectorXd &x) const;
+    /** x_i <- L_ii^-T (x_i - L_ci^T x_c), in the factor's order. */
+    void
+    recover_interior(Eigen::VectorXd &x) const;
+
+    unsigned int     n_total = 0, n_c = 0;
+    std::vector<int> permutation;  ///< new -> old
+    Eigen::MatrixXd  L_cc;         ///< lower triangular
+    Eigen::VectorXd  forward_part; ///< L_ii^-1 (P r)_i of the last forward()
+  };
+} // namespace Debond
+#endif

@@ -1,0 +1,124 @@
+#ifndef debond_bulk_enriched_cells_h
+#define debond_bulk_enriched_cells_h
+
+#include <debond/bulk/body_mesh.h>
+#include <debond/bulk/neo_hookean.h>
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace Debond
+{
+  /**
+   * Shape functions of one cell at a point of the reference cell [-1,1]^3:
+   * 8 trilinear ones, or those of an enriched cell (theory: Corbett & Sauer),
+   *
+   *   x = (1-zeta)/2 sum_A N_A(xi,eta) x_A + (1+zeta)/2 sum_a L_a(xi,eta) x_a,
+   *
+   * zeta = -1 on the contact face. Gradients are with respect to the reference
+   * position X [1/mm]; @p determinant is |dX/d(xi,eta,zeta)| [mm^3].
+   */
+  struct CellShape
+  {
+    std::vector<double>          N;
+    std::vector<Eigen::Vector3d> gradient;
+    double                       determinant = 0;
+    Eigen::Vector3d              X; ///< reference position [mm]
+  };
+  CellShape
+  shape_functions(const BodyMesh        &mesh,
+                  const BodyMesh::Cell  &cell,
+                  const Eigen::Vector3d &point);
+
+  /**
+   * The element kernel of the bulk: 2x2x2 Gauss points, reference gradients
+   * stored once, all eight points of a cell side by side so that the compiler
+   * vectorises over them.
+   */
+  class EnrichedCells
+  {
+  public:
+    static constexpr unsigned int n_q       = 8;
+    static constexpr unsigned int max_nodes = SurfaceBasis::max_size + 4;
+
+    EnrichedCells(const BodyMesh &mesh, const NeoHookean &material);
+
+    unsigned int
+    n_cells() const
+    {
+      return n_cell_nodes.size();
+    }
+    unsigned int
+    n_nodes(const unsigned int cell) const
+    {
+      return n_cell_nodes[cell];
+    }
+    /** Node numbers (degrees of freedom 3 node + component) of a cell. */
+    const unsigned int *
+    nodes(const unsigned int cell) const
+    {
+      return &node_list[first_node[cell]];
+    }
+
+    /** Adds the internal forces of all cells [N] to @p force (3 n_nodes of the
+     *  mesh) at the displacement @p v [mm] and returns the strain energy
+     *  [N mm]. False if a cell is turned inside out (J <= 0) or a value is not
+     *  finite; @p force and @p energy are then useless. */
+    bool
+    internal_forces(const Eigen::VectorXd &v,
+                    Eigen::VectorXd       &force,
+                    double                &energy) const;
+
+    /** Tangent stiffness of one cell [N/mm], 3 n x 3 n, at the displacement v.
+     */
+    void
+    tangent(unsigned int           cell,
+            const Eigen::VectorXd &v,
+            Eigen::MatrixXd       &K) const;
+
+    /** Displacement gradients H at the Gauss points of a cell. */
+    void
+    displacement_gradients(unsigned int           cell,
+                           const Eigen::VectorXd &v,
+                           double (&H)[n_q][3][3]) const;
+
+    /** Reference volume [mm^3]. */
+    double
+    volume() const;
+
+    const NeoHookean &
+    material() const
+    {
+      return bulk_material;
+    }
+
+  private:
+    /** Gradient of shape function a in direction d at point q:
+     *  gradients(cell)[(3 a + d) n_q + q]. */
+    const double *
+    gradients(const unsigned int cell) const
+    {
+      return &gradient_list[3 * n_q * first_node[cell]];
+    }
+    /** One number for each Gauss point of a cell. */
+    using PointValues = Eigen::Array<double, n_q, 1>;
+    void
+    gradient_at_points(unsigned int           cell,
+                       const Eigen::VectorXd &v,
+                       PointValues (&H)[3][3]) const;
+    /** Adds what one cell contributes to internal_forces(). */
+    void
+    add_internal_force(unsigned int           cell,
+                       const Eigen::VectorXd &v,
+                       Eigen::VectorXd       &force,
+                       double                &energy,
+                       double                &smallest_j) const;
+
+    const NeoHookean          bulk_material;
+    std::vector<unsigned int> n_cell_nodes, first_node, node_list;
+    std::vector<double>       gradient_list;
+    std::vector<double>       JxW; ///< n_q per cell [mm^3]
+  };
+} // namespace Debond
+#endif

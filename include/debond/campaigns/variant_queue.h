@@ -1,0 +1,69 @@
+#ifndef debond_campaigns_variant_queue_h
+#define debond_campaigns_variant_queue_h
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace Debond
+{
+  struct BodyPair;
+  struct Scene;
+
+  /**
+   * The variants of a study that wait to be run, and the bodies that they
+   * share: variants that agree in all that their bodies and the condensation on
+   * the contact surfaces depend on follow each other, and those bodies are
+   * built once, by the process that then starts the variants by fork(), which
+   * inherit them (the pages of memory are copied when they change). Results are
+   * the same to the last digit.
+   *
+   * Building takes one thread, whatever the variants use: a pool of threads
+   * would not survive fork(). Only the bodies of the last variant are kept.
+   */
+  class VariantQueue
+  {
+  public:
+    /** @p n_jobs variants run at a time: fewer than that share nothing, because
+     *  they would wait for each other. */
+    explicit VariantQueue(unsigned int n_jobs);
+    ~VariantQueue();
+
+    /** Appends a variant. @p scene must outlive the queue. @p may_share: false
+     *  if the seconds of its set-up are of interest. */
+    void
+    add(unsigned int variant, const Scene &scene, bool may_share);
+
+    bool
+    empty() const
+    {
+      return groups.empty();
+    }
+
+    struct Next
+    {
+      unsigned int variant;
+      /** None if it shares them with no other or if they cannot be built: then
+       *  the variant is to build them, and to say what is wrong with them. */
+      std::shared_ptr<BodyPair> bodies;
+    };
+    /** Removes the variant that is to be started next. */
+    Next
+    next();
+
+  private:
+    struct Group
+    {
+      std::deque<std::pair<unsigned int, const Scene *>> variants;
+      bool                                               may_share = false;
+      bool                                               is_begun  = false;
+    };
+
+    const unsigned int                            n_jobs;
+    std::deque<std::shared_ptr<Group>>            groups;
+    std::map<std::string, std::shared_ptr<Group>> group_of;
+    std::shared_ptr<BodyPair>                     bodies;
+  };
+} // namespace Debond
+#endif

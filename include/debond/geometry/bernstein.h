@@ -1,0 +1,75 @@
+#ifndef debond_geometry_bernstein_h
+#define debond_geometry_bernstein_h
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+namespace Debond
+{
+  /** Largest polynomial degree of a contact surface. */
+  constexpr unsigned int max_degree = 2;
+
+  /** Values and first two derivatives, with respect to u, of the p+1 Bernstein
+   *  polynomials of degree p <= max_degree at u in [0,1]. */
+  struct BernsteinValues
+  {
+    std::array<double, max_degree + 1> B, dB, ddB;
+  };
+  BernsteinValues
+  bernstein(unsigned int degree, double u);
+
+  /**
+   * An open knot vector over [0,1] and the Bezier extraction operators of its
+   * knot spans (Borden, Scott, Evans, Hughes 2011).
+   */
+  class KnotVector
+  {
+  public:
+    KnotVector() = default;
+    /** @p knots: non-decreasing, first and last repeated degree+1 times. */
+    KnotVector(unsigned int degree, const std::vector<double> &knots);
+    static KnotVector
+    uniform(unsigned int degree, unsigned int n_spans);
+    /** Simple inner knots (1 + sign(s) |s|^g)/2 with g = @p grading and s
+     *  equally spaced in [-1,1]: g > 1 makes the spans in the middle short. */
+    static KnotVector
+    graded(unsigned int degree, unsigned int n_spans, double grading);
+
+    unsigned int
+    degree() const;
+    const std::vector<double> &
+    knots() const;
+    unsigned int
+    n_basis_functions() const;
+    /** Number of spans of positive length. */
+    unsigned int
+    n_spans() const;
+    /** The n_spans()+1 distinct knots. */
+    const std::vector<double> &
+    breakpoints() const;
+    /** Span (numbering only those of positive length) that contains u. */
+    unsigned int
+    span_of(double u) const;
+    /** Index of the first basis function that lives on a span. */
+    unsigned int
+    first_basis_function(unsigned int span) const;
+    /** C of Eq. (35): B-splines on the span = C * Bernstein, (p+1) x (p+1). */
+    const Eigen::Matrix3d &
+    extraction_operator(unsigned int span) const;
+
+    /** B-spline values and derivatives (with respect to the knot parameter) on
+     *  a span; u need not lie inside the span. */
+    BernsteinValues
+    evaluate(unsigned int span, double u) const;
+
+  private:
+    unsigned int              p = 0;
+    std::vector<double>       knot_values, breaks;
+    std::vector<unsigned int> first_function;
+    std::vector<Eigen::Matrix3d>
+      extraction; // upper left (p+1)x(p+1) block used
+  };
+} // namespace Debond
+#endif

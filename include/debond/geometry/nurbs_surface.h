@@ -1,0 +1,159 @@
+#ifndef debond_geometry_nurbs_surface_h
+#define debond_geometry_nurbs_surface_h
+
+#include <debond/geometry/bernstein.h>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+namespace Debond
+{
+  /**
+   * The basis functions of one surface element, evaluated at one parametric
+   * point xi = (xi^1, xi^2). Derivatives are with respect to the parameters
+   * of the patch (which run over [0,1] in both directions), not of the
+   * element. Only the first @p size entries of each array are valid.
+   */
+  struct SurfaceBasis
+  {
+    static constexpr unsigned int max_size = 9;
+
+    unsigned int size    = 0; ///< (p+1)^2: 9 biquadratic, 4 bilinear
+    unsigned int element = 0; ///< element index, first parameter fastest
+    std::array<unsigned int, max_size> control_point; ///< global indices
+    std::array<double, max_size>       N;             ///< values
+    std::array<double, max_size>       N_1;           ///< d/dxi^1
+    std::array<double, max_size>       N_2;           ///< d/dxi^2
+    std::array<double, max_size>       N_11, N_12, N_22;
+  };
+
+  /**
+   * Control points as the columns of a 3 x n matrix [mm]; the same layout is
+   * used for displacements of control points.
+   */
+  using ControlNet = Eigen::Matrix<double, 3, Eigen::Dynamic>;
+
+  /** Height [mm] at the distance @p r from the axis of a sphere that touches
+   *  z = 0 at the origin from above. */
+  double
+  height_on_sphere(double r, double sphere_radius);
+
+  /**
+   * One NURBS patch with equal degree (1 or 2) in both directions: knots,
+   * weights and the *reference* control points. Eqs. (34) and (35) of the
+   * paper: Bezier extraction of each knot span times Bernstein polynomials,
+   * made rational by the weights. The basis does not depend on positions, so
+   * the deformed surface is the same basis over another ControlNet.
+   */
+  class NurbsSurface
+  {
+  public:
+    /** Tensor product surface; weights and points with the first index fastest.
+     */
+    NurbsSurface(const KnotVector          &knots_1,
+                 const KnotVector          &knots_2,
+                 const ControlNet          &control_points,
+                 const std::vector<double> &weights);
+
+    unsigned int
+    degree() const;
+    /** Number of elements (knot spans of positive length) per direction. */
+    std::array<unsigned int, 2>
+    n_elements_per_direction() const;
+    unsigned int
+    n_elements() const;
+    unsigned int
+    n_control_points() const;
+    std::array<unsigned int, 2>
+    n_control_points_per_direction() const;
+
+    const KnotVector &
+    knots(unsigned int direction) const;
+    const ControlNet &
+    control_points() const;
+    const std::vector<double> &
+    weights() const;
+
+    /** Element that contains @p xi; points on an inner knot belong to the
+     *  element on the right, xi = 1 to the last one. xi is clamped to [0,1]^2.
+     */
+    unsigned int
+    element_of(const Eigen::Vector2d &xi) const;
+    /** Lower left and upper right parameters of an element. */
+    std::array<Eigen::Vector2d, 2>
+    element_bounds(unsigned int element) const;
+
+    /** Basis with first and, if asked, second derivatives at @p xi (clamped to
+     *  [0,1]^2), in the element that contains it. No allocation. */
+    void
+    evaluate(const Eigen::Vector2d &xi,
+             SurfaceBasis          &basis,
+             bool                   second_derivatives) const;
+
+    /** The same in a given element, whose polynomials are used even when xi
+     *  lies on its border (for quadrature and for one-sided values). */
+    void
+    evaluate_in_element(unsigned int           element,
+                        const Eigen::Vector2d &xi,
+                        SurfaceBasis          &basis,
+                        bool                   second_derivatives) const;
+
+    /** Control points of an element, in the order of SurfaceBasis. */
+    std::array<unsigned int, SurfaceBasis::max_size>
+    element_control_points(unsigned int element) const;
+
+    /** Reference position of a point of the surface. */
+    Eigen::Vector3d
+    point(const Eigen::Vector2d &xi) const;
+
+    /** The same surface with one more knot (Boehm); repeated calls refine. */
+    NurbsSurface
+    insert_knot(unsigned int direction, double knot) const;
+    /** The same surface with n1 x n2 equal knot spans. Starts from one span. */
+    NurbsSurface
+    refine_uniformly(unsigned int n1, unsigned int n2) const;
+
+    /** The exact disk of radius @p R around the origin in the plane z = 0 as
+     * one rational biquadratic patch (theory: corners (+-R/sqrt2, +-R/sqrt2)
+     *  weight 1; edge mid points (0, +-R sqrt2), (+-R sqrt2, 0) weight
+     *  1/sqrt2; centre weight 1), refined to n x n elements. Oriented so that
+     *  a_1 x a_2 points to +z. The four patch corners are singular. */
+    static NurbsSurface
+    disk(double R, unsigned int n);
+
+    /** The disk with the heights of a sphere of radius @p cap_radius > @p R
+     *  that touches z = 0 at the origin from above. The control points stand
+     *  over those of the disk; the surface meets the sphere at the Greville
+     *  abscissae and leaves it by O(1/n^3) in between (one rational biquadratic
+     *  patch over the disk cannot be a part of a sphere). */
+    static NurbsSurface
+    cap(double R, double cap_radius, unsigned int n);
+
+    /** The rectangle [-lx/2,lx/2] x [-ly/2,ly/2] in z = 0 of the given degree
+     *  (2 or 1) with n1 x n2 elements, weights 1, open knot vectors and
+     *  control points at the Greville abscissae, so that the map from
+     *  parameters to positions is affine, whatever the grading (see
+     *  KnotVector::graded()). a_1 x a_2 points to +z. */
+    static NurbsSurface
+    rectangle(double       lx,
+              double       ly,
+              unsigned int n1,
+              unsigned int n2,
+              unsigned int degree  = 2,
+              double       grading = 1);
+
+    /** Degree-1 surface with the same elements whose control points are the
+     *  surface's points at the knots: the `bilinear` contact surface. */
+    NurbsSurface
+    bilinear_interpolant() const;
+
+  private:
+    std::array<KnotVector, 2> knot_vectors;
+    ControlNet                points;
+    std::vector<double>       weight;
+    bool                      is_rational; ///< any weight differs from 1
+  };
+} // namespace Debond
+#endif

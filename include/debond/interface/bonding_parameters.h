@@ -1,0 +1,64 @@
+#ifndef debond_interface_bonding_parameters_h
+#define debond_interface_bonding_parameters_h
+
+#include <cstdint>
+#include <string>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace Debond
+{
+  struct BodyParameters;
+
+  enum class BondingPatternKind
+  {
+    homogeneous,
+    disk,
+    annulus,
+    random,
+    expression,
+    image,
+    file
+  };
+  enum class BondingResolution
+  {
+    element,
+    quadrature_point
+  };
+
+  /** How messages name the subsection. */
+  inline const std::string bonding_section = "Interface / Bonding / ";
+
+  /** The subsection `Interface / Bonding` of a scene. */
+  struct BondingParameters
+  {
+    BondingPatternKind pattern            = BondingPatternKind::homogeneous;
+    double             initial_bonding    = 1;   ///< multiplies the pattern
+    double             bonded_fraction    = 1;   ///< of the contact area
+    std::uint64_t      seed               = 1;   ///< random
+    double             correlation_length = 0;   ///< random [mm]
+    std::string        expression         = "1"; ///< phi_0(x, y, r, angle)
+    std::string        file;                     ///< image or CSV
+    double             threshold  = -1; ///< image; -1: grey levels as they are
+    BondingResolution  resolution = BondingResolution::element;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+
+    /** Refuses entries that contradict each other, and the pattern if it
+     *  cannot be formed on this implant: throws InputError whose message begins
+     *  with the name of the entry. */
+    void
+    check(const BodyParameters &implant) const;
+  };
+
+  /** As the scene names it: `quadrature point`. */
+  std::string
+  name_of(BondingPatternKind pattern);
+} // namespace Debond
+#endif

@@ -1,0 +1,112 @@
+#ifndef debond_interface_bonding_pattern_h
+#define debond_interface_bonding_pattern_h
+
+#include <debond/geometry/surface_quadrature.h>
+#include <debond/interface/bonding_parameters.h>
+
+#include <string>
+#include <vector>
+
+namespace Debond
+{
+  struct BodyParameters;
+
+  /**
+   * phi_0 over the contact face of the implant. The face consists of parts that
+   * have one phi_0 each: elements or, with that resolution, quadrature points.
+   * Areas are sums of quadrature weights, so that a bonded fraction is met
+   * exactly: the patterns disk, annulus and random put the parts into an order,
+   * by the radius of their centroids or by chance; parts of equal rank form one
+   * group, and the group that crosses the fraction shares the remainder
+   * equally, which keeps the symmetry of the mesh.
+   */
+  class BondingPattern
+  {
+  public:
+    /** @p surface: the contact face of the @p implant. @p n: quadrature points
+     *  per direction and element. Throws InputError that begins with the name
+     *  of an entry if the expression, the image or the file is not as it should
+     *  be. */
+    BondingPattern(const BondingParameters &parameters,
+                   const BodyParameters    &implant,
+                   const NurbsSurface      &surface,
+                   unsigned int             n);
+
+    struct Part
+    {
+      Eigen::Vector2d centre = Eigen::Vector2d::Zero(); ///< [mm]
+      double          area   = 0;                       ///< [mm^2]
+      double          phi_0  = 0;
+    };
+    const std::vector<Part> &
+    parts() const
+    {
+      return all_parts;
+    }
+
+    /** phi_0 at a quadrature point, numbered as surface_quadrature() does. */
+    double
+    at(unsigned int quadrature_point) const
+    {
+      return all_parts[part_of(quadrature_point)].phi_0;
+    }
+    /** phi_0 at any point of the surface: that of the quadrature point whose
+     *  share of the element contains it. */
+    double
+    at(const Eigen::Vector2d &xi) const;
+
+    /** What the pattern amounts to. */
+    struct Report
+    {
+      double       area        = 0; ///< of the contact face [mm^2]
+      double       mean        = 0; ///< area mean of phi_0
+      double       bonded_area = 0; ///< integral of phi_0 over the face [mm^2]
+      unsigned int patches     = 0; ///< see patches()
+      double       largest_patch = 0; ///< [mm^2]
+      std::string  remark; ///< what a user should know of it, if anything
+    };
+    const Report &
+    report() const
+    {
+      return summary;
+    }
+
+    /** One line for people. */
+    std::string
+    description() const;
+
+    /** The parts as CSV that the pattern `file` reads again: element (or
+     *  point), x_mm, y_mm, area_mm2, phi_0. */
+    std::string
+    table() const;
+
+  private:
+    unsigned int
+    part_of(const unsigned int quadrature_point) const
+    {
+      return by_element ? quadrature_point / (n * n) : quadrature_point;
+    }
+    void
+    make_parts();
+    void
+    fill(const BondingParameters &parameters, const BodyParameters &implant);
+    /** Bonds the parts of smallest rank; ranks that differ by at most
+     *  @p tolerance are equal. */
+    void
+    bond_in_order(const std::vector<double> &rank,
+                  double                     tolerance,
+                  double                     bonded_fraction);
+    void
+    bond_at_random(const BondingParameters &parameters);
+    void
+    count_patches();
+
+    const NurbsSurface &surface;
+    const unsigned int  n;
+    const bool          by_element;
+    std::vector<Part>   all_parts;
+    std::vector<double> shares; ///< ends of the points' shares of [0,1]
+    Report              summary;
+  };
+} // namespace Debond
+#endif

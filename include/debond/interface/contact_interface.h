@@ -1,0 +1,202 @@
+#ifndef debond_interface_contact_interface_h
+#define debond_interface_contact_interface_h
+
+#include <debond/interface/bonding_pattern.h>
+#include <debond/interface/interface_parameters.h>
+#include <debond/interface/interface_summary.h>
+#include <debond/interface/interface_work.h>
+#include <debond/interface/mean_slip.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Debond
+{
+  class BodyMesh;
+
+  /**
+   * The interface: the slave quadrature points, their history, the forces they
+   * exert on the control points of both surfaces, and the tangent.
+   *
+   * evaluate() computes a *trial* result of every point from the accepted
+   * history and never changes that history; commit() is the only way to accept
+   * it. A rejected step therefore leaves no trace.
+   */
+  class ContactInterface
+  {
+  public:
+    ContactInterface(const InterfaceParameters &parameters,
+                     const BodyMesh            &bone,
+                     const BodyMesh            &implant);
+
+    unsigned int
+    n_points() const
+    {
+      return points.size();
+    }
+    unsigned int
+    slave_side() const
+    {
+      return slave;
+    }
+    unsigned int
+    master_side() const
+    {
+      return 1 - slave;
+    }
+
+    /** Faces every point with its closest point on the master. */
+    void
+    initialise(const InterfaceConfiguration &configuration);
+
+    /** Updates all points. Returns false if a point found no solution. */
+    bool
+    evaluate(const InterfaceConfiguration &configuration,
+             const ContactPointMode       &mode);
+
+    /** Nodal forces of the last evaluate() on the control points of a side, in
+     *  space, as they enter the residual [N]. */
+    const ControlNet &
+    force(const unsigned int side) const
+    {
+      return forces[side];
+    }
+
+    /** Tangent of the last evaluate(), see add_contact_tangent(). */
+    void
+    add_tangent(const InterfaceConfiguration &configuration,
+                Eigen::MatrixXd              &matrix) const;
+    void
+    apply_tangent(const InterfaceConfiguration &configuration,
+                  const Eigen::VectorXd        &direction,
+                  Eigen::VectorXd              &result) const;
+
+    /** Accepts the last evaluate(): history, and the works it sums up. Open
+     *  points are projected anew in the accepted configuration. */
+    void
+    commit(const InterfaceConfiguration &configuration);
+
+    /** Control points of a side in the accepted configuration [mm]. */
+    const ControlNet &
+    accepted_surface(const unsigned int side) const
+    {
+      return accepted_positions[side];
+    }
+
+    /** Number of open points whose projection on the master in the accepted
+     *  configuration was not found: they stay open. */
+    unsigned int
+    n_unprojected() const
+    {
+      return unprojected;
+    }
+
+    /** Of all points in the last evaluate(). */
+    std::vector<PointStatus>
+    statuses() const;
+
+    /** Whether any point of the last evaluate() is open. */
+    bool
+    has_open_points() const;
+
+    const std::vector<SlavePoint> &
+    get_points() const
+    {
+      return points;
+    }
+    /** phi and mu of a point in its trial state. */
+    FrictionCoefficient
+    friction(const SlavePoint &point) const;
+    /** The mean of phi_0 over the slave's quadrature points that face the
+     *  implant at the start: that of the pattern if the implant is the slave.
+     */
+    double
+    mean_seen_bonding() const;
+    /** phi_0 over the implant's contact face; known from initialise() on. */
+    const BondingPattern &
+    bonding() const
+    {
+      return *pattern;
+    }
+    const InterfaceParameters &
+    get_parameters() const
+    {
+      return parameters;
+    }
+
+    /** Of the last evaluate(), see mean_slip.h. */
+    MeanSlip
+    mean_slip(const InterfaceConfiguration &configuration) const;
+
+    /** Sums over all points of the last evaluate(). */
+    InterfaceSummary
+    summarise() const;
+
+    /** Reference area of the implant's contact face by quadrature weights
+     * [mm^2]. */
+    double
+    implant_area() const
+    {
+      return area_of_implant;
+    }
+
+    /** What has been spent up to the accepted state. */
+    const InterfaceWork &
+    work() const
+    {
+      return spent;
+    }
+
+    /** Where the last evaluate() failed, for messages; empty if it did not. */
+    std::string
+    describe_failure() const;
+
+    /** See serialization.h.. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      for (SlavePoint &point : points)
+        archive &point;
+      archive &forces &accepted_positions &spent;
+    }
+
+  private:
+    void
+    assign_bonding();
+    void
+    update(SlavePoint                   &point,
+           const InterfaceConfiguration &configuration,
+           const MasterSurface          &surface,
+           double                        moved,
+           const ContactPointMode       &mode) const;
+    void
+    add_forces(const SlavePoint &point, NodalSums &sums) const;
+    void
+    project_accepted(SlavePoint                   &point,
+                     const MasterSurface          &master,
+                     const InterfaceConfiguration &configuration,
+                     bool                          use_guess);
+    /** Bound of how far points of the two surfaces have moved towards each
+     *  other since the accepted configuration [mm]. */
+    double
+    motion(const InterfaceConfiguration &configuration) const;
+    MasterSurface
+    master(const InterfaceConfiguration &configuration) const;
+
+    const InterfaceParameters             parameters;
+    const unsigned int                    slave; ///< 0: bone, 1: implant
+    std::array<const BodyMesh *, 2>       mesh;
+    ContactPointLaw                       law;
+    std::vector<SlavePoint>               points;
+    double                                area_of_implant = 0;
+    std::unique_ptr<const BondingPattern> pattern;
+    NodalSums                             forces, accepted_positions;
+    InterfaceWork                         spent;
+    unsigned int                          unprojected  = 0;
+    int                                   failed_point = -1;
+    ContactPointMode                      mode_now; ///< of the last evaluate()
+  };
+} // namespace Debond
+#endif

@@ -1,0 +1,37 @@
+#ifndef debond_interface_interface_parameters_h
+#define debond_interface_interface_parameters_h
+
+#include <debond/interface/bonding_parameters.h>
+#include <debond/interface/friction_law.h>
+
+namespace Debond
+{
+  enum class SlaveSide
+  {
+    implant,
+    bone
+  };
+
+  /** The subsection `Interface` of a scene. */
+  struct InterfaceParameters
+  {
+    SlaveSide    slave             = SlaveSide::implant;
+    unsigned int quadrature_points = 5;   ///< per direction and element
+    double       normal_penalty    = 585; ///< eps_n [MPa/mm]
+    double tangential_penalty      = 585; ///< eps_t [MPa/mm], resolved: never 0
+    bool   opening_breaks_bond     = false;
+    double viscosity               = 0; ///< eta [MPa per (mm per unit of time)]
+    /** Variants of the method that are there to be compared with: the direction
+     *  of slip is that of the previous gap, Eq. (31) as printed; mu at g_s^n.
+     */
+    bool slip_along_previous_gap = false, explicit_friction = false;
+    FrictionParameters friction;
+    BondingParameters  bonding;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+  };
+} // namespace Debond
+#endif

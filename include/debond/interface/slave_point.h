@@ -1,0 +1,52 @@
+#ifndef debond_interface_slave_point_h
+#define debond_interface_slave_point_h
+
+#include <debond/interface/contact_point.h>
+
+namespace Debond
+{
+  /** A quadrature point of the slave surface: where it lies, its history, and
+   *  what it contributes in the trial state. */
+  struct SlavePoint
+  {
+    unsigned int      element = 0;
+    Eigen::Vector2d   xi; ///< on the slave
+    Eigen::Vector3d   X;  ///< reference position [mm]
+    SurfaceBasis      basis;
+    double            JxW   = 0; ///< reference area [mm^2]
+    double            phi_0 = 0;
+    ContactPointState accepted;
+    /** For points beyond the master's edge: how far the surfaces may still
+     *  move before such a point has to be projected again [mm]. */
+    double clearance = 0;
+    /** Tangential traction of the accepted state in the master's frame [MPa].
+     */
+    Eigen::Vector3d    accepted_traction         = Eigen::Vector3d::Zero();
+    Eigen::Vector3d    accepted_viscous_traction = Eigen::Vector3d::Zero();
+    double             accepted_pressure         = 0; ///< [MPa]
+    ContactPointResult trial;
+    /** False for points of a bone that does not face the implant at the
+     *  start: their area does not count. */
+    bool faces_implant = true;
+
+    /** phi and mu in one of its states. */
+    FrictionCoefficient
+    friction(const FrictionParameters &law,
+             const ContactPointState  &state) const
+    {
+      return friction_coefficient(law, state.bond_left(phi_0), state.slip);
+    }
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &accepted &clearance       &accepted_traction;
+      archive &accepted_viscous_traction &accepted_pressure;
+      if (Archive::is_loading::value)
+        trial.state = accepted;
+    }
+  };
+} // namespace Debond
+#endif

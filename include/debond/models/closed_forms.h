@@ -1,0 +1,361 @@
+#ifndef debond_models_closed_forms_h
+#define debond_models_closed_forms_h
+
+#include <debond/interface/friction_law.h>
+
+#include <limits>
+#include <vector>
+
+namespace Debond
+{
+  /**
+   * Closed forms of a disk that is pressed on a surface and turned about its
+   * axis by a rotation that began at zero and never reversed. All fields depend
+   * on the radius r alone; points outside the stick radius c(theta) slide.
+   * Everything is odd in theta or even, as it should be.
+   */
+  class TorsionModel
+  {
+  public:
+    /** @p radius of the disk R [mm], @p pressure p [MPa], equal everywhere,
+     *  @p friction law. */
+    TorsionModel(double                    radius,
+                 double                    pressure,
+                 const FrictionParameters &friction)
+      : R(radius)
+      , p(pressure)
+      , friction(friction)
+    {}
+    virtual ~TorsionModel() = default;
+
+    double
+    radius() const
+    {
+      return R;
+    } ///< [mm]
+    double
+    pressure() const
+    {
+      return p;
+    } ///< [MPa]
+
+    /** The interface at one radius. NaN: not part of the model. */
+    struct Point
+    {
+      bool   sticks   = true;
+      double slip     = 0; ///< accumulated sliding distance g_s [mm]
+      double traction = 0; ///< tangential, with the sign of theta [MPa]
+      double phi      = 0; ///< bonding state
+      double mu       = 0; ///< friction coefficient
+    };
+    /** At the radius @p r in [0, R] [mm] and the angle @p theta [rad]. */
+    virtual Point
+    point(double r, double theta) const = 0;
+
+    /** Radius c in [0, R] inside which points stick [mm]. */
+    virtual double
+    stick_radius(double theta) const = 0;
+
+    /** Sums over the disk. NaN: not part of the model. */
+    struct State
+    {
+      double torque        = 0; ///< T [N mm]
+      double phi_mean      = 0; ///< area mean
+      double stored_energy = 0; ///< of the tangential traction [N mm]
+      double dissipation   = 0; ///< work of friction since theta = 0 [N mm]
+      double adhesive_work = 0; ///< its part above mu_b p, D_adh [N mm]
+    };
+    virtual State
+    state(double theta) const;
+
+    /** Torque T [N mm] at the angle @p theta [rad]: Eq. (37). */
+    double
+    torque(const double theta) const
+    {
+      return state(theta).torque;
+    }
+
+  protected:
+    /** Radii between which the fields are smooth [mm], in any order; those
+     *  outside of ]0, R[ do not matter. */
+    virtual std::vector<double>
+    kinks(double theta) const = 0;
+    /** phi_0 at a radius. */
+    virtual double
+    initial_bonding(double r) const = 0;
+    /** Stiffness lambda that the sticking traction is stored in [MPa/mm]. */
+    virtual double
+    stiffness() const = 0;
+
+    /** Sliding distances where s(g_s / a_s) of Eq. (13) begins and ceases to
+     *  fall [mm]. */
+    double
+    begin_of_decay() const;
+    double
+    end_of_decay() const;
+
+    const double             R, p;
+    const FrictionParameters friction;
+  };
+
+
+
+  /**
+   * Two rigid bodies on the elastic frictional interface: a disk is pressed
+   * down by a depth d and turned by an angle theta about its axis. This is the
+   * exact solution of the interface law for rigid bodies, so the finite element
+   * program must reproduce it up to quadrature.
+   *
+   * The pressure is p = eps_n d everywhere. A point at radius r sticks with the
+   * traction t = eps_t r theta while that is at most mu(0) p. Beyond, its path
+   * r theta is sliding plus elastic deformation of the interface,
+   *
+   *   r theta = g_s + t / eps_t,   t = mu(g_s) p,
+   *
+   * and the torque is T = 2 pi int_0^R r^2 t dr.
+   *
+   * With compliant bodies it still is a good estimate if eps_t is replaced by
+   * the stiffness lambda of the interface and the bulk in series, Eq. (39), and
+   * p by the mean pressure: `Model = foundation`.
+   */
+  class RigidBodiesTorsion : public TorsionModel
+  {
+  public:
+    struct Parameters
+    {
+      double radius             = 0; ///< R [mm]
+      double push_in            = 0; ///< d >= 0 [mm]
+      double normal_penalty     = 0; ///< eps_n [MPa/mm]
+      double tangential_penalty = 0; ///< eps_t [MPa/mm]
+      double phi_0              = 1; ///< initial bonding inside bonded_radius
+      /** Points further out are not bonded at the start [mm]. */
+      double bonded_radius = std::numeric_limits<double>::infinity();
+      FrictionParameters friction;
+    };
+
+    /** Throws dealii::ExcMessage unless has_unique_solution(). */
+    explicit RigidBodiesTorsion(const Parameters &parameters);
+
+    /** Whether the law softens slowly enough, |d mu/d g_s| p < eps_t
+     *  everywhere; otherwise the traction jumps at some angle. */
+    static bool
+    has_unique_solution(const Parameters &parameters);
+
+    /** Sliding distance g_s [mm] at the radius @p r [mm] and the angle @p theta
+     *  [rad] of a rotation that began at zero and never reversed. */
+    double
+    slip(double r, double theta) const;
+
+    /** Tangential traction t [MPa], with the sign of @p theta. */
+    double
+    traction(double r, double theta) const
+    {
+      return point(r, theta).traction;
+    }
+
+    Point
+    point(double r, double theta) const override;
+    double
+    stick_radius(double theta) const override;
+
+  private:
+    std::vector<double>
+    kinks(double theta) const override;
+    double
+    initial_bonding(double r) const override;
+    double
+    stiffness() const override
+    {
+      return parameters.tangential_penalty;
+    }
+    /** The path r theta at which the sliding distance is @p slip [mm]. */
+    double
+    path(double slip, double phi_0) const;
+
+    const Parameters parameters;
+  };
+
+
+
+  /**
+   * Two rigid bodies turned by a compliant machine: a torsion spring k stands
+   * between the machine and the disk, so that the machine's angle is
+   *
+   *   theta_m(theta) = theta + T(theta) / k.
+   *
+   * States of equilibrium are a curve with the disk's angle theta as parameter.
+   * Where T falls steeper than -k the machine's angle falls along the curve, it
+   * snaps back: a machine that turns on and on leaves the curve at the maximum
+   * of theta_m and jumps, at that angle, to the next theta that belongs to it.
+   * Stored energy is then released without equilibrium,
+   *
+   *   k/2 [(theta_m - theta_1)^2 - (theta_m - theta_2)^2]
+   *     - int_theta_1^theta_2 T dtheta.
+   *
+   * Angles are in radians and not negative.
+   */
+  class CompliantMachineTorsion
+  {
+  public:
+    /** @p bodies must outlive this object. @p stiffness k > 0 of the machine
+     *  [N mm/rad]; the curve is searched up to the angle @p largest_angle of
+     *  the disk [rad] at a few thousand points. */
+    CompliantMachineTorsion(const RigidBodiesTorsion &bodies,
+                            double                    stiffness,
+                            double                    largest_angle);
+
+    /** theta_m at the angle @p theta of the disk [rad]. */
+    double
+    machine_angle(const double theta) const
+    {
+      return theta + bodies.torque(theta) / stiffness;
+    }
+
+    /** A maximum or a minimum of theta_m along the curve. */
+    struct LimitPoint
+    {
+      double angle         = 0; ///< theta [rad]
+      double machine_angle = 0; ///< theta_m [rad]
+      double torque        = 0; ///< [N mm]
+      bool   is_maximum    = false;
+    };
+    /** In the order of theta. */
+    const std::vector<LimitPoint> &
+    limit_points() const
+    {
+      return limits;
+    }
+
+    /** What a machine that turns on and on cannot follow. */
+    struct Jump
+    {
+      double machine_angle = 0;                   ///< [rad]
+      double angle_before = 0, angle_after = 0;   ///< theta [rad]
+      double torque_before = 0, torque_after = 0; ///< [N mm]
+      double released_energy = 0;                 ///< [N mm]
+    };
+    const std::vector<Jump> &
+    jumps() const
+    {
+      return all_jumps;
+    }
+
+    /** theta [rad] when a machine that turns on and on has come to @p
+     *  machine_angle <= `largest_angle` [rad]; at a jump the angle before. */
+    double
+    angle(double machine_angle) const;
+
+  private:
+    void
+    find_limit_points();
+    void
+    find_jumps();
+    double
+    angle_between(double begin, double end, double machine_angle) const;
+
+    const RigidBodiesTorsion &bodies;
+    const double              stiffness, largest_angle;
+    std::vector<LimitPoint>   limits;
+    std::vector<Jump>         all_jumps;
+  };
+
+
+
+  /**
+   * The analytical model of the paper with the modified Coulomb law, Eqs. (17),
+   * (18), (37), (49): c(theta) = R theta_lin / theta; inside, the traction is
+   * t_max r / c with t_max = mu(0) p; outside it is mu(g_s) p with g_s = 0
+   * while theta < theta_max and g_s = r (theta - theta_max + theta_lin) from
+   * then on.
+   *
+   * The sliding distance of Eq. (49) is not the motion that the traction works
+   * on, so this model does not balance energy.
+   */
+  class AnalyticalTorsion : public TorsionModel
+  {
+  public:
+    struct Parameters
+    {
+      double             radius       = 0; ///< R [mm]
+      double             pressure     = 0; ///< p [MPa]
+      double             linear_limit = 0; ///< theta_lin > 0 [rad]
+      double             full_sliding = 0; ///< theta_max >= theta_lin [rad]
+      double             phi_0        = 1; ///< initial bonding, uniform
+      FrictionParameters friction;
+    };
+    explicit AnalyticalTorsion(const Parameters &parameters);
+
+    Point
+    point(double r, double theta) const override;
+    double
+    stick_radius(double theta) const override;
+
+  private:
+    std::vector<double>
+    kinks(double theta) const override;
+    double
+    initial_bonding(double) const override
+    {
+      return parameters.phi_0;
+    }
+    double
+    stiffness() const override;
+    /** g_s / r of sliding points, Eq. (49) [rad]. */
+    double
+    slip_per_radius(double theta) const;
+
+    const Parameters parameters;
+  };
+
+
+
+  /**
+   * The model of Mathieu et al. (2012) as the paper prints it, Eqs. (14) to
+   * (16): a circular mode III crack runs inwards through the bond between a
+   * rigid disk and an elastic half space; behind its tip the constant friction
+   * tau_0 acts. Before the crack starts, the bonded disk of Reissner and
+   * Sagoci.
+   */
+  class MathieuTorsion : public TorsionModel
+  {
+  public:
+    struct Parameters
+    {
+      double radius          = 0; ///< R [mm]
+      double shear_modulus   = 0; ///< G > 0 [MPa]
+      double adhesion_energy = 0; ///< w_adh >= 0 [N/mm]
+      double friction_stress = 0; ///< tau_0 >= 0 [MPa]
+      /** Not part of the model: what tau_0 was found from [MPa]. */
+      double pressure = std::numeric_limits<double>::quiet_NaN();
+    };
+    explicit MathieuTorsion(const Parameters &parameters);
+
+    /** Angle at which the crack has the radius @p c [mm]: Eq. (14) [rad]. */
+    double
+    angle(double c) const;
+
+    /** Eqs. (15) and (16); the traction is infinite at the crack tip. */
+    Point
+    point(double r, double theta) const override;
+    /** Radius of the crack: the inverse of Eq. (14). */
+    double
+    stick_radius(double theta) const override;
+    /** With Eq. (37) integrated in closed form. */
+    State
+    state(double theta) const override;
+
+  private:
+    std::vector<double>
+    kinks(double theta) const override;
+    double
+    initial_bonding(double) const override
+    {
+      return 1.;
+    }
+    double
+    stiffness() const override;
+
+    const Parameters parameters;
+  };
+} // namespace Debond
+#endif

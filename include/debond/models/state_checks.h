@@ -1,0 +1,109 @@
+#ifndef debond_models_state_checks_h
+#define debond_models_state_checks_h
+
+#include <debond/interface/contact_interface.h>
+#include <debond/system/chuck_way.h>
+#include <debond/system/energy_balance.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+
+namespace Debond
+{
+  class Console;
+  class CoupledSystem;
+  struct Scene;
+
+  /** Largest rotation in a step [rad]. A sliding point is pulled along the
+   * chord of its way, at half this angle to its direction at the end: 5 degrees
+   * cost a thousandth of the friction. */
+  constexpr double largest_turn = 5. * M_PI / 180.;
+
+
+
+  /** What a user has to know about the states that a run has accepted. That
+   *  they solve the equations, and are the only solution, was asked before. */
+  class StateChecks
+  {
+  public:
+    /** Keeps references to both. */
+    StateChecks(const Scene &scene, Console &console);
+
+    /** Notes the way of the chuck in a step with friction from time @p from to
+     *  time @p to, that is about to be accepted as a part of the planned @p
+     * step. Throws InputError if a value on the way is not finite. */
+    void
+    add_way(unsigned int step, const Chuck &chuck, double from, double to);
+
+    /** Notes a state that has just been accepted in a planned step. @p summary
+     *  and @p reaction_defect are those of the state before commit(). A check
+     *  that it does not pass is a warning, once, and counts in the next row. */
+    void
+    add(unsigned int            step,
+        const CoupledSystem    &system,
+        const InterfaceSummary &summary,
+        double                  reaction_defect);
+
+    const EnergyBalance &
+    energy() const
+    {
+      return energy_balance;
+    }
+    const ReleasedEnergy &
+    released() const
+    {
+      return released_energy;
+    }
+    /** Of the last state. */
+    double
+    reaction_defect() const
+    {
+      return last_reaction_defect;
+    }
+    /** How many checks were not passed by a state since the last call. */
+    unsigned int
+    take_violations();
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &energy_balance &released_energy &way &violated;
+      archive                                       &last_reaction_defect;
+    }
+
+  private:
+    void
+    note_violation(const std::string &check, const std::string &text);
+    void
+    check_for_jump(const std::string      &where,
+                   const Chuck::Vector6   &forces_before,
+                   const CoupledSystem    &system,
+                   const InterfaceSummary &summary);
+    void
+    check_interface(const std::string      &where,
+                    const CoupledSystem    &system,
+                    const InterfaceSummary &summary);
+    void
+    check_turn(const std::string &where, double turn);
+    void
+    check_reaction(const std::string &where);
+    void
+    check_energy_balance(const std::string &where, double step_dissipation);
+
+    const Scene          &scene;
+    Console              &console;
+    EnergyBalance         energy_balance;
+    ReleasedEnergy        released_energy;
+    ChuckWay              way;
+    std::set<std::string> violated;
+    double                last_reaction_defect = 0;
+  };
+
+  /** Why the bond would break in a jump, for messages. */
+  std::string
+  describe_softening(const InterfaceSummary &summary);
+} // namespace Debond
+#endif

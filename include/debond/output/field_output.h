@@ -1,0 +1,106 @@
+#ifndef debond_output_field_output_h
+#define debond_output_field_output_h
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace Debond
+{
+  class Body;
+  class Chuck;
+  class ContactInterface;
+  class ResultDirectory;
+
+  /**
+   * Writes what ParaView shows: bulk-NNNN.vtu and interface-NNNN.vtu with the
+   * series bulk.pvd and interface.pvd, which are replaced as a whole after each
+   * call, so that the files of an interrupted run can be opened. No file holds
+   * a date: equal runs write equal files.
+   *
+   * Points lie at their *reference* positions X, and the array `displacement`
+   * is x - X in space, the rigid motion of the implant included: the filter
+   * Warp By Vector shows the deformed state. Curved cells and surfaces are
+   * drawn as the model has them, finely subdivided.
+   *
+   * Arrays of the bulk (both bodies):
+   *  - displacement [mm]; displacement_in_frame, v in the body's own frame
+   * [mm];
+   *  - von_Mises_MPa and stress_MPa, the Cauchy stress in space as a tensor
+   * (see vertex_stress(); zero in a rigid body);
+   *  - body: 0 bone, 1 implant.
+   *
+   * Arrays of the interface (the slave surface):
+   *  - pressure_MPa; traction_MPa, the tangential traction that acts *on the
+   *    slave* (minus ContactPointResult::tangential_traction);
+   *  - gap_mm, normal, negative in contact; 0 where `state` is 0 and the point
+   *    has no partner because it lies beyond the master's edge;
+   *  - slip_mm, the accumulated sliding distance g_s; phi_0, phi, mu;
+   *  - state: 0 open, 1 stick, 2 slip;
+   *  - displacement [mm].
+   * They are known at the quadrature points. Between these they are
+   * interpolated bilinearly in the parameters of the surface, across the
+   * borders of elements, and constant beyond the outermost points, so that
+   * nothing overshoots; `state` is that of the nearest point. phi_0, which may
+   * jump from element to element, is interpolated between the points of each
+   * element alone, and phi and mu are those of the friction law for this phi_0
+   * and the interpolated sliding distance.
+   */
+  class FieldOutput
+  {
+  public:
+    /** Keeps references to everything. */
+    FieldOutput(const ResultDirectory  &directory,
+                Body                   &bone,
+                Body                   &implant,
+                const ContactInterface &interface,
+                const Chuck            &chuck);
+
+    /** Writes the trial state (the accepted one, if called after commit()) as
+     *  the next file of both series. Throws WriteError if that is impossible.
+     */
+    void
+    write(double time);
+
+    /** For a run that goes on from a checkpoint: forgets what was written after
+     *  it. Returns a warning if a file of before is missing, or nothing. */
+    std::string
+    forget_later_files();
+    /** Waits until all files are on the disk. Throws WriteError. */
+    void
+    put_on_disk();
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &bulk_series.files &interface_series.files;
+    }
+
+  private:
+    /** Files of one kind and their times. */
+    struct Series
+    {
+      std::string                                 name;
+      std::vector<std::pair<double, std::string>> files;
+    };
+    std::string
+    file_name(const Series &series, unsigned int number) const;
+    /** Writes the next file of a series, and the series. */
+    void
+    append(Series &series, double time, const std::string &vtu) const;
+    void
+    write_series(const Series &series) const;
+
+    const ResultDirectory      &directory;
+    const std::array<Body *, 2> bodies; ///< bone, implant
+    const ContactInterface     &interface;
+    const Chuck                &chuck;
+    Series                      bulk_series{"bulk", {}};
+    Series                      interface_series{"interface", {}};
+    std::size_t                 n_on_disk = 0; ///< files of each series
+  };
+} // namespace Debond
+#endif

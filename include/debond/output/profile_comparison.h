@@ -1,0 +1,62 @@
+#ifndef debond_output_profile_comparison_h
+#define debond_output_profile_comparison_h
+
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace Debond
+{
+  /** What a profiles.csv holds of one point, as far as it is compared. */
+  struct ProfilePoint
+  {
+    double x = 0, y = 0; ///< reference position [mm]
+    double area     = 0; ///< weight [mm^2]
+    double pressure = 0; ///< [MPa]
+    double slip     = 0; ///< g_s [mm]; NaN: not part of the model
+  };
+
+  /** Angle [deg] -> points. */
+  using Profiles = std::map<double, std::vector<ProfilePoint>>;
+
+  /** Reads a profiles.csv. Throws InputError that names the entry `Output /
+   *  Reference profiles`, the file, the line and what was expected. An empty
+   *  @p filename gives no profiles. */
+  Profiles
+  read_profiles(const std::string &filename);
+
+  /** Distance of local values from those of a reference; NaN where undefined.
+   */
+  struct ProfileMeasures
+  {
+    /** Root mean square of the difference over all points, weighted by their
+     *  areas, relative to the area mean of the reference, and then over the
+     *  angles that both have. */
+    double       pressure_difference = std::numeric_limits<double>::quiet_NaN();
+    double       slip_difference     = std::numeric_limits<double>::quiet_NaN();
+    unsigned int angles_used         = 0;
+  };
+
+  /**
+   * Compares local values at the points of @p profiles with those of a
+   * reference, whose points lie elsewhere: at each point a parabola in x and y
+   * is fitted to the 20 nearest points of the reference, the nearer the more
+   * weight (moving least squares, Lancaster and Salkauskas 1981). The error of
+   * this interpolation falls with the third power of the distance of the
+   * reference's points, which therefore should lie more densely.
+   *
+   * A reference whose points all have y = 0, as those of closed forms, holds at
+   * that radius in every direction. Angles that only one of both has are left
+   * out.
+   */
+  ProfileMeasures
+  compare_profiles(const Profiles &profiles, const Profiles &reference);
+
+  /** The members of summary.json that hold these measures:
+   *  pressure_difference_rms, slip_difference_rms, reference_angles_used. */
+  std::vector<std::pair<std::string, double>>
+  error_measures(const ProfileMeasures &measures);
+} // namespace Debond
+#endif

@@ -1,0 +1,68 @@
+#ifndef debond_output_profile_output_h
+#define debond_output_profile_output_h
+
+#include <debond/interface/contact_interface.h>
+#include <debond/models/closed_forms.h>
+#include <debond/output/profile_comparison.h>
+#include <debond/output/result_files.h>
+#include <debond/scene/scene.h>
+
+#include <string>
+#include <vector>
+
+namespace Debond
+{
+  /**
+   * Tables of the interface for plotting, as CSV:
+   *
+   * profiles.csv holds every slave point (of closed forms: points along a
+   * radius) at the rows whose angle first reaches one of `Output / Profile
+   * angles`: reference position, pressure, magnitude of the tangential
+   * traction, sliding distance, bonding state, friction coefficient, state,
+   * area that the point stands for.
+   *
+   * friction_law.csv holds phi and mu over the sliding distance g_s, if
+   * `Output / Friction law curve` asks for it.
+   */
+  class ProfileOutput
+  {
+  public:
+    ProfileOutput(const Scene &scene, const ResultDirectory &directory);
+
+    /** Adds the state of a row if its angle [deg] reaches a profile angle. */
+    void
+    write(double angle_deg, const ContactInterface &interface);
+    void
+    write(double angle_deg, const TorsionModel &model);
+
+    /** Writes profiles.csv, if there is any angle to write about. Returns a
+     *  warning about angles that were never reached, or nothing. */
+    std::string
+    finish();
+
+    /** Distance of the written profiles from `Output / Reference profiles`;
+     *  undefined without any. To be called after finish(). */
+    ProfileMeasures
+    measures() const;
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &angles_to_come &has_points &table;
+    }
+
+  private:
+    bool
+    reaches(double angle_deg);
+
+    const ResultDirectory &directory;
+    std::vector<double>    angles_to_come; ///< ascending [deg]
+    const Profiles         reference;      ///< empty: none
+    bool                   wanted;
+    bool                   has_points = false;
+    std::string            table;
+  };
+} // namespace Debond
+#endif

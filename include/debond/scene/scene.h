@@ -1,0 +1,119 @@
+#ifndef debond_scene_scene_h
+#define debond_scene_scene_h
+
+#include <debond/bulk/body_parameters.h>
+#include <debond/bulk/chuck.h>
+#include <debond/input/scene_file.h>
+#include <debond/interface/interface_parameters.h>
+#include <debond/output/result_files.h>
+#include <debond/scene/closed_form_parameters.h>
+#include <debond/support/input_error.h>
+#include <debond/system/load_stepping.h>
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace Debond
+{
+  /** What is solved: two bodies of finite elements, one of the closed forms of
+   *  closed_forms.h, or the cheapest of these models that is accurate enough.
+   */
+  enum class ModelKind
+  {
+    finite_elements,
+    foundation,
+    analytical,
+    mathieu,
+    automatic ///< `auto`
+  };
+
+  /** The subsection `Auto`, for `Model = auto`. */
+  struct AutoParameters
+  {
+    unsigned int largest_number_of_unknowns = 250000;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+  };
+
+  /** The subsection `Study`, for scenes whose entries hold several values. */
+  struct StudyParameters
+  {
+    unsigned int reference_variant = 0; ///< 0: none
+    unsigned int factors_at_once   = 0; ///< 0: all combinations
+    unsigned int repetitions       = 1; ///< runs of each variant
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+  };
+
+  /** Everything a `.prm` file says. A plain value: copy it, change it, run it.
+   */
+  struct Scene
+  {
+    std::string            title;
+    ModelKind              model = ModelKind::finite_elements;
+    BodyParameters         bone;
+    BodyParameters         implant;
+    InterfaceParameters    interface;
+    ChuckParameters        chuck;
+    LoadSteppingParameters load_steps;
+    ClosedFormParameters   closed_form;
+    AutoParameters         automatic;
+    StudyParameters        study;
+    OutputParameters       output;
+
+    /** The entries that the scene sets, and its name: where to look for a
+     *  mistake. */
+    std::vector<SceneEntry> entries;
+    std::string             name;
+
+    /** @p message, which begins with the name of an entry, with file and line
+     *  before it and, if the name is followed by a colon, the value of the
+     *  entry after its name; with the name of the scene if it does not set the
+     *  entry. A message that has its place already stays as it is. */
+    std::string
+    with_place(const std::string &message) const;
+
+    /** All entries, completed with defaults, as a `.prm` text that gives the
+     *  same scene again. Filled when the scene is read. */
+    std::string completed_parameters;
+
+    /** Reads a file, then the overrides "Subsection/Entry=value" in order.
+     *  Throws InputError with file, line, entry, value, what is allowed. */
+    static Scene
+    from_file(const std::string              &filename,
+              const std::vector<std::string> &overrides = {});
+    /** The same from entries; @p name stands for the file in messages. */
+    static Scene
+    from_entries(const std::vector<SceneEntry> &entries,
+                 const std::string             &name);
+    /** The same from a text; @p name stands for the file in messages. */
+    static Scene
+    from_text(const std::string              &text,
+              const std::vector<std::string> &overrides = {},
+              const std::string              &name      = "scene");
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+
+    /** Refuses what is allowed entry by entry but makes no sense together:
+     *  throws InputError whose message begins with the name of the entry. Done
+     *  by from_file() and from_text(); for scenes that a program changes. */
+    void
+    check() const;
+  };
+
+  /** Writes all entries with documentation, what they allow and their values:
+   *  those of @p scene, or the defaults without one. */
+  void
+  print_parameters(std::ostream &out, const Scene *scene = nullptr);
+} // namespace Debond
+#endif

@@ -1,0 +1,45 @@
+#ifndef debond_support_interruption_h
+#define debond_support_interruption_h
+
+#include <stdexcept>
+#include <string>
+
+namespace Debond
+{
+  /** A run or a study that a signal has ended; the message says how to go on.
+   */
+  class Interrupted : public std::runtime_error
+  {
+  public:
+    Interrupted(const int signal, const std::string &message)
+      : std::runtime_error(message)
+      , signal(signal)
+    {}
+
+    const int signal;
+  };
+
+  /** From now on SIGINT, SIGTERM and SIGHUP, but for those that are ignored,
+   *  only ask to stop; a second one ends the process at once. */
+  void
+  catch_interruptions();
+
+  /** For the processes of a study: what a terminal sends to all of them is for
+   *  the one that started them; SIGTERM ends them at once. */
+  void
+  leave_interruptions_to_parent();
+
+  /** The signal that has asked to stop; 0: none. */
+  int
+  interrupting_signal();
+
+  /** "SIGTERM". */
+  std::string
+  signal_name(int signal);
+
+  /** What poll() can wait for: it becomes readable when a signal asks to stop.
+   *  -1 if none is caught. */
+  int
+  interruption_descriptor();
+} // namespace Debond
+#endif

@@ -1,0 +1,225 @@
+#ifndef debond_system_coupled_system_h
+#define debond_system_coupled_system_h
+
+#include <debond/bulk/body.h>
+#include <debond/bulk/chuck.h>
+#include <debond/interface/contact_interface.h>
+#include <debond/scene/scene.h>
+#include <debond/system/coupled_tangent.h>
+#include <debond/system/dense_solver.h>
+#include <debond/system/path_equation.h>
+
+#include <deal.II/base/timer.h>
+
+#include <memory>
+#include <string>
+
+namespace Debond
+{
+  /** The two bodies of a scene. */
+  struct BodyPair
+  {
+    explicit BodyPair(const Scene &scene);
+
+    Body bone, implant;
+    /** Seconds that a study has spent on them for all variants that use them.
+     */
+    double seconds_shared = 0;
+  };
+
+
+
+  /**
+   * The two bodies, the chuck and the interface as one system of equations in
+   * the unknowns that matter to friction: the contact unknowns of the bone,
+   * those of the implant, and the chuck components that are not prescribed,
+   *
+   *   S v_c + Q^T f_contact(v_c, q) = 0,   sum_A f_A . dx_A/dq_k - load_k = 0.
+   *
+   * Where the scene follows a path of equilibrium, PathEquation says what else
+   * is unknown.
+   *
+   * Everything here is a trial state until commit().
+   */
+  class CoupledSystem
+  {
+    std::shared_ptr<BodyPair> both_bodies;
+
+  public:
+    /** Seconds go to the sections `bulk`, `condensation`, `contact` and `dense
+     *  solve` of @p timer, which must outlive this object. @p bodies: those of
+     *  the scene if they have been built already, at rest; they are this
+     *  system's from now on. */
+    CoupledSystem(const Scene              &scene,
+                  dealii::TimerOutput      &timer,
+                  std::shared_ptr<BodyPair> bodies = nullptr);
+    /** Its parts refer to each other. */
+    CoupledSystem(const CoupledSystem &) = delete;
+
+    std::shared_ptr<BodyPair>
+    bodies() const
+    {
+      return both_bodies;
+    }
+
+    /** Places the implant as the scene says at @p time, undeformed, faces the
+     *  slave points with the master and chooses the contact unknowns. */
+    void
+    start(double time);
+
+    unsigned int
+    n_unknowns() const
+    {
+      return unknowns;
+    }
+
+    /** Starts a step to @p time from the accepted state. */
+    void
+    predict(double time, bool extrapolate)
+    {
+      predict(time, time, extrapolate);
+    }
+    /** Puts the implant's contact unknowns back to where they are in space in
+     *  the accepted state, after predict(). */
+    void
+    leave_surface_behind();
+    /** The same as predict() with another parameter than the time for the line
+     *  through the last two accepted states: what was given to commit() with
+     *  them. */
+    void
+    predict(double time, double parameter, bool extrapolate);
+    /** To be called after predict() with a guess of the time: the step grows
+     *  the mean sliding distance by @p slip [mm], and the time is found. Only
+     *  where the scene follows the path. */
+    void
+    prescribe_slip(double slip);
+    void
+    commit(double parameter);
+    void
+    rollback();
+
+    struct Residual
+    {
+      bool valid = false; ///< false: no residual could be formed, see why
+      std::string why;
+      double      norm      = 0; ///< Euclidean norm of the whole residual [N]
+      double      reference = 0; ///< norm of the contact forces [N]
+      double      interior_share =
+        0; ///< part of norm^2 that the bulk's interior makes up
+    };
+    /** Contact forces and residual of the trial state. Makes control points
+     *  contact unknowns where contact has spread to new ones. */
+    Residual
+    evaluate(const ContactPointMode &mode);
+
+    /** Residual of the last evaluate() in the contact unknowns of the bone,
+     *  those of the implant and the unknown chuck components [N, N mm]. */
+    const Eigen::VectorXd &
+    residual_vector() const
+    {
+      return residual;
+    }
+    /** Its derivative. */
+    const CoupledTangent &
+    tangent() const
+    {
+      return matrix;
+    }
+
+    /** Solves for the Newton correction to @p relative_tolerance and applies
+     * it. Returns why that was impossible, or an empty text. */
+    std::string
+    solve_and_correct(double relative_tolerance);
+    /** Takes back all of the last correction but @p fraction of it; evaluate()
+     *  is to follow. Fractions of several calls multiply. */
+    void
+    shorten_correction(double fraction);
+    /** Time of the trial state. */
+    double
+    time() const
+    {
+      return trial_time;
+    }
+    /** True if a loaded chuck component has nothing to act against because no
+     *  point is in contact. */
+    bool
+    is_unsupported() const;
+    /** Forms and condenses the bulk tangents at the trial state. False if one
+     *  is not positive definite. */
+    bool
+    refactor_bulk();
+
+    /** Where the residual of the last evaluate() is largest, for messages. */
+    std::string
+    describe_worst_point() const;
+
+    /** Generalised forces sum_A f_A . dx_A/dq_k of the trial state: what the
+     *  chuck exerts on the implant, conjugate to its six components [N, N mm].
+     */
+    Chuck::Vector6
+    chuck_forces() const;
+    /** Force and moment about C + u that the chuck exerts on the implant, in
+     *  space, from the contact forces [N, N mm]. */
+    Chuck::Vector6
+    chuck_resultant() const;
+    /** |contact resultant - reaction of the supports| of the implant relative
+     *  to the larger of the two, moments divided by R: 0 for a rigid implant.
+     */
+    double
+    reaction_defect();
+
+    Body            &bone, &implant;
+    Chuck            chuck;
+    ContactInterface interface;
+    /** Surfaces in space as of the last evaluate() or commit(). */
+    InterfaceConfiguration configuration;
+    const double           R; ///< characteristic radius of the implant [mm]
+
+    const DenseSolver &
+    linear_solver() const
+    {
+      return solver;
+    }
+
+    /** See serialization.h. To be called after start() and commit(). */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &bone &implant &chuck &interface;
+      archive &path.old_slip &trial_time;
+      if (Archive::is_loading::value)
+        {
+          update_configuration();
+          number_unknowns();
+        }
+      archive &solver; // its matrix has the size that is known only now
+    }
+
+  private:
+    void
+    update_configuration();
+    void
+    number_unknowns();
+    bool
+    extend_contact_unknowns();
+    bool
+    complete_surfaces();
+    double
+    scale_of(unsigned int chuck_component) const;
+    /** Moves the chuck and, along a path, the time by @p factor times the last
+     *  correction. */
+    void
+    correct_chuck(double factor);
+
+    dealii::TimerOutput &timer;
+    unsigned int         unknowns    = 0;
+    double               force_floor = 0; ///< [N]
+    Eigen::VectorXd      residual, last_correction;
+    DenseSolver          solver;
+    double               trial_time = 0;
+    PathEquation         path;
+    const CoupledTangent matrix;
+  };
+} // namespace Debond
+#endif

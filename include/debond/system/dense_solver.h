@@ -1,0 +1,104 @@
+#ifndef debond_system_dense_solver_h
+#define debond_system_dense_solver_h
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+namespace Debond
+{
+  /** An unsymmetric matrix A = B + C that is not stored: B the condensed bulk,
+   *  C the interface. */
+  class SplitMatrix
+  {
+  public:
+    virtual ~SplitMatrix() = default;
+    /** A x. */
+    virtual Eigen::VectorXd
+    product(const Eigen::VectorXd &x) const = 0;
+    /** C x. */
+    virtual Eigen::VectorXd
+    interface_product(const Eigen::VectorXd &x) const = 0;
+    /** Whether B has an inverse. */
+    virtual bool
+    bulk_is_regular() const = 0;
+    /** B^-1 b. */
+    virtual Eigen::VectorXd
+    solve_bulk(const Eigen::VectorXd &b) const = 0;
+    /** Writes A. */
+    virtual void
+    assemble(Eigen::MatrixXd &A) const = 0;
+  };
+
+  /**
+   * Solves dense unsymmetric systems whose matrix changes little from one call
+   * to the next, by GMRES.
+   *
+   * As long as the bulk is not much softer than the interface, B is all the
+   * preconditioner it takes: C B^-1 is small and compact, since the compliance
+   * of the bulk decays with the wave number. Otherwise it is the LU
+   * factorisation of an earlier matrix, formed anew when that no longer pays.
+   * Whether it pays is decided by the size of the system and the number of
+   * iterations only, so that results do not depend on the clock.
+   */
+  class DenseSolver
+  {
+  public:
+    /** Returns x with |b - A x| <= relative_tolerance |b|. */
+    Eigen::VectorXd
+    solve(const SplitMatrix     &A,
+          const Eigen::VectorXd &b,
+          double                 relative_tolerance);
+
+    /** Matrices to come have nothing to do with those before. */
+    void
+    forget()
+    {
+      preconditioner = Preconditioner::bulk;
+    }
+
+    unsigned int
+    n_factorisations() const
+    {
+      return factorisations;
+    }
+    unsigned int
+    n_iterations() const
+    {
+      return iterations;
+    }
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &preconditioner &factorisations &iterations;
+      if (preconditioner == Preconditioner::factorisation)
+        {
+          archive &matrix;
+          if (Archive::is_loading::value)
+            lu.compute(matrix);
+        }
+    }
+
+  private:
+    enum class Preconditioner
+    {
+      bulk,
+      factorisation
+    };
+    bool
+    iterate(const SplitMatrix     &A,
+            const Eigen::VectorXd &b,
+            double                 relative_tolerance,
+            Eigen::VectorXd       &x);
+    Eigen::VectorXd
+    factorise_and_solve(const SplitMatrix &A, const Eigen::VectorXd &b);
+
+    Preconditioner                       preconditioner = Preconditioner::bulk;
+    Eigen::MatrixXd                      matrix;
+    Eigen::PartialPivLU<Eigen::MatrixXd> lu;
+    unsigned int                         factorisations = 0, iterations = 0;
+  };
+} // namespace Debond
+#endif

@@ -1,0 +1,163 @@
+#ifndef debond_system_energy_balance_h
+#define debond_system_energy_balance_h
+
+#include <debond/bulk/chuck.h>
+
+namespace Debond
+{
+  /**
+   * The energy balance W = E_bulk + E_interface + D, counted from the first
+   * row. W is the work of the chuck, a trapezoid of the generalised forces over
+   * the motion of the six components; the trapezoid's own error is bounded by
+   * half the sum of |dF| |dq|.
+   */
+  class EnergyBalance
+  {
+  public:
+    /** Notes an accepted state. Forces and position: generalised, in internal
+     *  units; energies in N mm. */
+    void
+    add(const Chuck::Vector6 &forces,
+        const Chuck::Vector6 &position,
+        double                energy_bulk,
+        double                energy_interface,
+        double                dissipation);
+
+    /** @name The last state that was noted, zero before the first one */
+    //@{
+    bool
+    has_state() const
+    {
+      return started;
+    }
+    const Chuck::Vector6 &
+    forces() const
+    {
+      return last_forces;
+    }
+    const Chuck::Vector6 &
+    position() const
+    {
+      return last_position;
+    }
+    //@}
+
+    double
+    work() const
+    {
+      return W;
+    } ///< [N mm]
+    /** (W - E_bulk - E_interface - D) / max |W|, 0 while W = 0. */
+    double
+    defect() const;
+    /** Bound of the trapezoid's share in defect(). */
+    double
+    defect_bound() const;
+    /** Dissipated more than was put in, beyond the bound? */
+    bool
+    dissipates_too_much() const;
+    /** Whether sliding gave energy back: @p step_dissipation is
+     *  InterfaceWork::step_dissipation. */
+    bool
+    is_given_back(double step_dissipation) const;
+    /** Is more missing, or left over, than trapezoids can account for? */
+    bool
+    is_out_of_balance() const;
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &started &last_forces &last_position &W &max_W &bound;
+      archive &stored &dissipated &first_stored              &first_dissipated;
+    }
+
+  private:
+    bool           started       = false;
+    Chuck::Vector6 last_forces   = Chuck::Vector6::Zero(),
+                   last_position = Chuck::Vector6::Zero();
+    double W = 0, max_W = 0, bound = 0;
+    double stored = 0, dissipated = 0, first_stored = 0, first_dissipated = 0;
+  };
+
+
+
+  /**
+   * Finds steps that jump to another branch of equilibrium. What the machine
+   * puts in is stored by its spring, the bodies and the interface, or spent by
+   * friction along its law; a step that follows a path of equilibrium leaves
+   * nothing else. A step that leaves more than the errors of these sums can
+   * explain has released it without equilibrium: in nature it would become
+   * motion and heat.
+   */
+  class ReleasedEnergy
+  {
+  public:
+    struct State
+    {
+      Chuck::Vector6 forces;     ///< of the chuck, internal units
+      Chuck::Vector6 position;   ///< of the machine, internal units
+      double         stored = 0; ///< machine, bodies, interface [N mm]
+      double         spent  = 0; ///< work of friction [N mm]
+      double         bound  = 0; ///< sum of the errors of the two above [N mm]
+
+      /** See serialization.h. */
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &forces &position &stored &spent &bound;
+      }
+    };
+    /** Notes an accepted state. Returns what the step to it has released [N
+     *  mm]; 0 if it followed equilibrium. */
+    double
+    add(const State &state);
+
+    /** Whether a force fell so far in the last step that a jump could not be
+     * told from a steep fall. */
+    bool
+    may_hide_a_jump() const
+    {
+      return hidden;
+    }
+
+    /** Sum over all steps [N mm]. */
+    double
+    total() const
+    {
+      return released;
+    }
+    /** Number of steps that jumped. */
+    unsigned int
+    n_jumps() const
+    {
+      return jumps;
+    }
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &started &last &last_change &last_motion &greatest &largest_work
+        &work &released &jumps;
+    }
+
+  private:
+    bool
+    falls_steeply(const State &now, const Chuck::Vector6 &dq) const;
+
+    bool  started = false;
+    State last;
+    /** Of forces and position in the last step, absolute. */
+    Chuck::Vector6 last_change  = Chuck::Vector6::Zero(),
+                   last_motion  = Chuck::Vector6::Zero();
+    Chuck::Vector6 greatest     = Chuck::Vector6::Zero(); ///< forces, absolute
+    bool           hidden       = false;
+    double         largest_work = 0, work = 0, released = 0;
+    unsigned int   jumps = 0;
+  };
+} // namespace Debond
+#endif

@@ -1,0 +1,52 @@
+#ifndef debond_system_newton_h
+#define debond_system_newton_h
+
+#include <debond/system/coupled_system.h>
+
+#include <string>
+#include <vector>
+
+namespace Debond
+{
+  /** What the iteration of one step may do. */
+  struct NewtonOptions
+  {
+    double       residual_tolerance = 1e-8; ///< relative to the contact force
+    unsigned int max_iterations     = 25;
+    /** The first iteration takes every closed point as sticking. */
+    bool stick_first = false;
+    /** Gaps of this size are rounding of positions [mm]: the bodies touch. That
+     *  counts as closed in the first iteration if it is one with stick_first,
+     *  and as open otherwise. */
+    double touch_tolerance = 0;
+    bool   frictionless    = false;
+    /** Shorten corrections once the states of the points go round in a cycle.
+     *  Where the load cannot be followed, only full corrections find the state
+     *  that it jumps to. */
+    bool shorten_in_cycles = true;
+    /** Of the step [unit of time], for the viscosity. */
+    double duration = 0;
+  };
+
+  struct NewtonResult
+  {
+    bool         converged  = false;
+    unsigned int iterations = 0; ///< linear solves
+    std::string  why;            ///< if not converged
+    /** |residual| / reference force at each evaluation. */
+    std::vector<double> history;
+  };
+
+  /**
+   * Newton's method on the trial state of @p system from where it is. The
+   * interface's tangent is exact; for Neo-Hookean bodies the bulk's is the one
+   * that was condensed last, and is formed anew when the bulk's residual
+   * shrinks too slowly with it. Where points change between stick and slip
+   * without an end, corrections are shortened until the residual falls. Never
+   * returns converged = true unless the residual of the true law meets the
+   * tolerance.
+   */
+  NewtonResult
+  solve_newton(CoupledSystem &system, const NewtonOptions &options);
+} // namespace Debond
+#endif

@@ -1,0 +1,399 @@
+#include <debond/bulk/chuck.h>
+#include <debond/input/allowed_values.h>
+#include <debond/support/input_error.h>
+#include <debond/support/skew.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Debond
+{
+  const std::array<const char *, ChuckParameters::n_components>
+    ChuckParameters::names{{"Translation x",
+                            "Translation y",
+                            "Translation z",
+                            "Rotation x",
+                            "Rotation y",
+                            "Rotation z"}};
+
+
+
+  namespace
+  {
+    bool
+    is_rotation(const unsigned int component)
+    {
+      return component >= 3;
+    }
+
+
+
+    void
+    declare_component(dealii::ParameterHandler &prm,
+                      const unsigned int        component)
+    {
+      const bool        rotation = is_rotation(component);
+      const std::string axis(1, "xyz"[component % 3]);
+
+      prm.declare_entry(
+        "Control",
+        rotation ? "angle" : "displacement",
+        Allowed::choice(rotation ? "angle | moment" : "displacement | force"),
+        rotation ? "What Value means: `angle' [deg] or `moment' [N mm] of the "
+                   "chuck, positive about +" +
+                     axis + "." :
+                   "What Value means: `displacement' [mm] or `force' [N] of "
+                   "the chuck, positive along +" +
+                     axis + ".");
+      prm.declare_entry("Value",
+                        "0",
+                        Allowed::text(
+                          std::string("an expression in t, in ") +
+                          (rotation ? "degrees or N mm" : "mm or N")),
+                        std::string("Expression in the time t (muParser; "
+                                    "constants pi and R [mm]), in ") +
+                          (rotation ? "degrees for angle, N mm for moment" :
+                                      "mm for displacement, N for force") +
+                          ". Note that sin and cos expect radians: "
+                          "sin(2 * pi * t).");
+      prm.declare_entry("File",
+                        "",
+                        Allowed::only(""),
+                        "Reserved: a CSV table instead of Value.");
+      prm.declare_entry(
+        "Stiffness",
+        "0",
+        Allowed::number_from(0, rotation ? "N mm/rad" : "N/mm"),
+        std::string("Stiffness ") + (rotation ? "[N mm/rad]" : "[N/mm]") +
+          " of the machine in series with this component; 0: a rigid machine.");
+    }
+  } // namespace
+
+
+
+  void
+  ChuckParameters::declare(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Chuck");
+    for (unsigned int c = 0; c < n_components; ++c)
+      {
+        prm.enter_subsection(names[c]);
+        declare_component(prm, c);
+        prm.leave_subsection();
+      }
+    prm.leave_subsection();
+  }
+
+
+
+  void
+  ChuckParameters::parse(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Chuck");
+    for (unsigned int c = 0; c < n_components; ++c)
+      {
+        prm.enter_subsection(names[c]);
+        const std::string control = prm.get("Control");
+        component[c].loaded       = control == "force" || control == "moment";
+        component[c].value        = prm.get("Value");
+        component[c].stiffness    = prm.get_double("Stiffness");
+        prm.leave_subsection();
+      }
+    prm.leave_subsection();
+  }
+} // namespace Debond
+
+namespace Debond
+{
+  namespace
+  {
+    using Eigen::Matrix3d;
+    using Eigen::Vector3d;
+
+    // sin t / t, (1 - cos t)/t^2, (t - sin t)/t^3 and their derivatives divided
+    // by t, all even functions of t.
+    struct RotationCoefficients
+    {
+      std::array<double, 3> c, dc;
+
+      explicit RotationCoefficients(const double t)
+      {
+        const double t2 = t * t;
+        if (t < 0.3)
+          {
+            // power series: c_j = sum_m (-1)^m t^2m / (2m + 1 + j)!
+            for (unsigned int j = 0; j < 3; ++j)
+              {
+                double factorial = (j == 2 ? 6. : j == 1 ? 2. : 1.);
+                double power = 1., previous = 0.;
+                c[j] = dc[j] = 0.;
+                for (unsigned int m = 0; m < 10; ++m)
+                  {
+                    c[j] += power / factorial;
+                    dc[j] += 2. * m * previous / factorial;
+                    factorial *= (2. * m + 2. + j) * (2. * m + 3. + j);
+                    previous = -power;
+                    power *= -t2;
+                  }
+              }
+            return;
+          }
+        const double s = std::sin(t), k = std::cos(t);
+        c  = {{s / t, (1. - k) / t2, (t - s) / (t2 * t)}};
+        dc = {{(k - s / t) / t2,
+               (s * t - 2. * (1. - k)) / (t2 * t2),
+               ((1. - k) * t - 3. * (t - s)) / (t2 * t2 * t)}};
+      }
+    };
+  } // namespace
+
+
+
+  Chuck::Chuck(const ChuckParameters &parameters,
+               const Vector3d        &centre,
+               const double           radius)
+    : parameters(parameters)
+    , C(centre)
+  {
+    for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
+      {
+        const auto &component = parameters.component[k];
+        value_functions.emplace_back(component.value, radius);
+        if (!is_prescribed(k))
+          unknown_components.push_back(k);
+      }
+    update_frame();
+  }
+
+
+
+  Chuck::Vector6
+  Chuck::values(const double time) const
+  {
+    Vector6 result;
+    for (unsigned int k = 0; k < 6; ++k)
+      {
+        const bool is_angle = k >= 3 && !parameters.component[k].loaded;
+        try
+          {
+            result[k] =
+              value_functions[k](time) * (is_angle ? M_PI / 180. : 1.);
+          }
+        catch (const InputError &error)
+          {
+            throw InputError(std::string("Chuck / ") +
+                             ChuckParameters::names[k] +
+                             " / Value: " + error.what());
+          }
+      }
+    return result;
+  }
+
+
+
+  Chuck::Vector6
+  Chuck::rates(const double time) const
+  {
+    const double h = 1e-6 * std::max(1., std::abs(time));
+    return (values(time + h) - values(time - h)) / (2. * h);
+  }
+
+
+
+  Chuck::Vector6
+  Chuck::machine_position() const
+  {
+    Vector6 result = q;
+    for (unsigned int k = 0; k < 6; ++k)
+      if (parameters.component[k].stiffness > 0.)
+        result[k] = target[k];
+    return result;
+  }
+
+
+
+  double
+  Chuck::machine_energy() const
+  {
+    double sum = 0.;
+    for (unsigned int k = 0; k < 6; ++k)
+      if (parameters.component[k].stiffness > 0.)
+        sum += 0.5 * parameters.component[k].stiffness *
+               std::pow(target[k] - q[k], 2);
+    return sum;
+  }
+
+
+
+  void
+  Chuck::prescribe(const double time)
+  {
+    target = values(time);
+    for (unsigned int k = 0; k < 6; ++k)
+      if (is_prescribed(k))
+        q[k] = target[k];
+    update_frame();
+  }
+
+
+
+  void
+  Chuck::place(const double time)
+  {
+    target = values(time);
+    for (unsigned int k = 0; k < 6; ++k)
+      if (!parameters.component[k].loaded)
+        q[k] = target[k];
+    accepted = AcceptedState<Vector6>(q);
+    update_frame();
+  }
+
+
+
+  void
+  Chuck::correct(const unsigned int component, const double dq)
+  {
+    q[component] += dq;
+    update_frame();
+  }
+
+
+
+  void
+  Chuck::relax_machine()
+  {
+    for (const unsigned int k : unknown_components)
+      if (parameters.component[k].stiffness > 0.)
+        q[k] = target[k];
+    update_frame();
+  }
+
+
+
+  bool
+  Chuck::has_compliant_machine() const
+  {
+    return std::any_of(parameters.component.begin(),
+                       parameters.component.end(),
+                       [](const ChuckComponentParameters &component) {
+                         return component.stiffness > 0.;
+                       });
+  }
+
+
+
+  void
+  Chuck::commit(const double time)
+  {
+    accepted.commit(q, time);
+  }
+
+
+
+  void
+  Chuck::rollback()
+  {
+    q = accepted.value;
+    update_frame();
+  }
+
+
+
+  void
+  Chuck::predict(const double time, const bool extrapolate)
+  {
+    q = accepted.value;
+    if (extrapolate)
+      for (const unsigned int k : unknown_components)
+        q[k] = accepted.extrapolated(time)[k];
+    update_frame();
+  }
+
+
+
+  // Q = exp(skew(a)) R_z(gamma). A change of the rotation vector a turns space
+  // about b = J(a) da with J = c_0 I + c_1 skew(a) + c_2 a a^T, a change of
+  // gamma about the implant's own axis exp(skew(a)) e_z.
+  void
+  Chuck::update_frame()
+  {
+    const Vector3d             a(q[3], q[4], 0.);
+    const RotationCoefficients r(a.norm());
+    const Matrix3d             A = skew(a);
+    const Matrix3d tilt = Matrix3d::Identity() + r.c[0] * A + r.c[1] * (A * A);
+    const double   s = std::sin(q[5]), k = std::cos(q[5]);
+    Matrix3d       spin;
+    spin << k, -s, 0, s, k, 0, 0, 0, 1;
+    Q = tilt * spin;
+
+    const Matrix3d J =
+      r.c[0] * Matrix3d::Identity() + r.c[1] * A + r.c[2] * (a * a.transpose());
+    b = {{J.col(0), J.col(1), tilt.col(2)}};
+    for (unsigned int l = 0; l < 2; ++l)
+      {
+        const Vector3d e = Vector3d::Unit(l);
+        const Matrix3d dJ =
+          a[l] * (r.dc[0] * Matrix3d::Identity() + r.dc[1] * A +
+                  r.dc[2] * (a * a.transpose())) +
+          r.c[1] * skew(e) + r.c[2] * (e * a.transpose() + a * e.transpose());
+        db[0][l] = dJ.col(0);
+        db[1][l] = dJ.col(1);
+        db[2][l] = b[l].cross(b[2]);
+      }
+    db[0][2] = db[1][2] = db[2][2] = Vector3d::Zero();
+  }
+
+
+
+  Vector3d
+  Chuck::velocity(const unsigned int k, const Vector3d &x) const
+  {
+    return k < 3 ? Vector3d(Vector3d::Unit(k)) :
+                   Vector3d(axis(k).cross(x - centre()));
+  }
+
+
+
+  Vector3d
+  Chuck::velocity_of_direction(const unsigned int k, const Vector3d &d) const
+  {
+    return k < 3 ? Vector3d(Vector3d::Zero()) : Vector3d(axis(k).cross(d));
+  }
+
+
+
+  // x - C - u = Q(q) * const and dQ/dq_l = skew(b_l) Q.
+  Vector3d
+  Chuck::second_derivative(const unsigned int k,
+                           const unsigned int l,
+                           const Vector3d    &x) const
+  {
+    if (k < 3 || l < 3)
+      return Vector3d::Zero();
+    const Vector3d r = x - centre();
+    return db[k - 3][l - 3].cross(r) + axis(k).cross(axis(l).cross(r));
+  }
+
+
+
+  double
+  Chuck::machine_load(const unsigned int k) const
+  {
+    return parameters.component[k].loaded ?
+             target[k] :
+             parameters.component[k].stiffness * (target[k] - q[k]);
+  }
+
+
+
+  double
+  Chuck::machine_stiffness(const unsigned int k) const
+  {
+    return parameters.component[k].loaded ? 0. :
+                                            -parameters.component[k].stiffness;
+  }
+} // namespace Debond

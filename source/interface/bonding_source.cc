@@ -1,0 +1,508 @@
+#include <debond/bulk/body_parameters.h>
+#include <debond/geometry/closest_point.h>
+#include <debond/geometry/surface_quadrature.h>
+#include <debond/input/csv_table.h>
+#include <debond/input/expression_parser.h>
+#include <debond/interface/bonding_source.h>
+#include <debond/interface/grey_image.h>
+#include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <boost/geometry.hpp>
+#include <boost/geometry/index/rtree.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <utility>
+
+namespace Debond
+{
+  namespace
+  {
+    /** phi_0 as a function of the place (x, y) on the contact face [mm]. */
+    using PlaceFunction = std::function<double(const Eigen::Vector2d &)>;
+
+
+
+    PlaceFunction
+    function_of_expression(const std::string &expression, const double radius)
+    {
+      std::shared_ptr<dealii::FunctionParser<3>> parser;
+      try
+        {
+          parser = make_parser<3>("x,y,r,angle", expression, radius);
+        }
+      catch (const InputError &error)
+        {
+          throw InputError(bonding_section + "Expression: " + error.what());
+        }
+      return [parser, expression](const Eigen::Vector2d &place) {
+        const double r = place.norm();
+        parser->set_time(std::atan2(place[1], place[0]) * 180. / M_PI);
+        const double value =
+          parser->value(dealii::Point<3>(place[0], place[1], r));
+        // rounding may exceed the bounds by its own size
+        if (!(value >= -1e-12 && value <= 1. + 1e-12))
+          throw InputError(bonding_section + "Expression = '" +
+                           shortened(expression) + "': phi_0 " +
+                           (std::isfinite(value) ? "= " + to_text(value, 6) :
+                                                   "has no finite value") +
+                           " at x = " + to_text(place[0], 6) + " mm, y = " +
+                           to_text(place[1], 6) + " mm: expected 0 to 1");
+        return std::clamp(value, 0., 1.);
+      };
+    }
+
+
+
+    /** The picture over the square, or rectangle, around the face. */
+    PlaceFunction
+    function_of_image(GreyImage image, const BodyParameters &implant)
+    {
+      const Eigen::Array2d size(implant.width(0), implant.width(1));
+      const auto shared = std::make_shared<const GreyImage>(std::move(image));
+      return [shared, size](const Eigen::Vector2d &place) {
+        const Eigen::Array2d uv = place.array() / size + 0.5;
+        return shared->at(uv[0], uv[1]);
+      };
+    }
+
+
+
+    /** The area mean of @p function over every element, by at least @p n x @p n
+     *  and some @p n_across quadrature points across the face. */
+    std::vector<double>
+    element_means(const PlaceFunction &function,
+                  const NurbsSurface  &surface,
+                  const unsigned int   n,
+                  const unsigned int   n_across)
+    {
+      const auto         n_elements = surface.n_elements_per_direction();
+      const unsigned int across =
+        n * std::min(n_elements[0], n_elements[1]); // points of one copy
+      const dealii::QIterated<2> quadrature(dealii::QGauss<1>(n),
+                                            (n_across + across - 1) / across);
+      std::vector<double>        means;
+      for (unsigned int element = 0; element < surface.n_elements(); ++element)
+        {
+          double sum = 0., area = 0.;
+          for (const auto &point :
+               element_quadrature(surface, element, quadrature))
+            {
+              sum += point.JxW * function(point.X.head<2>());
+              area += point.JxW;
+            }
+          means.push_back(sum / area);
+        }
+      return means;
+    }
+
+
+
+    std::vector<double>
+    point_values(const PlaceFunction &function,
+                 const NurbsSurface  &surface,
+                 const unsigned int   n)
+    {
+      std::vector<double> values;
+      for (const auto &point : surface_quadrature(surface, n))
+        values.push_back(function(point.X.head<2>()));
+      return values;
+    }
+
+
+
+    std::vector<double>
+    values_of_image(const BondingParameters &parameters,
+                    const BodyParameters    &implant,
+                    const NurbsSurface      &surface,
+                    const unsigned int       n,
+                    std::string             &remark)
+    {
+      GreyImage image =
+        read_grey_image(parameters.file, bonding_section + "File");
+      const Eigen::Array2d size(implant.width(0), implant.width(1));
+      const double ratio = image.width / size[0] / (image.height / size[1]);
+      if (std::max(ratio, 1. / ratio) > 1.02)
+        remark = "the picture of " + std::to_string(image.width) + " x " +
+                 std::to_string(image.height) +
+                 " pixels is stretched over the " + to_text(size[0], 4) +
+                 " x " + to_text(size[1], 4) + " mm of the contact face";
+      if (parameters.threshold >= 0.)
+        image = image.threshold_at(parameters.threshold);
+      if (parameters.resolution == BondingResolution::quadrature_point)
+        return point_values(function_of_image(std::move(image), implant),
+                            surface,
+                            n);
+      image                       = image.reduced_to(256);
+      const unsigned int n_across = 2 * std::max(image.width, image.height);
+      return element_means(function_of_image(std::move(image), implant),
+                           surface,
+                           n,
+                           std::max(200U, n_across));
+    }
+  } // namespace
+
+
+
+  std::vector<double>
+  values_by_place(const BondingParameters &parameters,
+                  const BodyParameters    &implant,
+                  const NurbsSurface      &surface,
+                  const unsigned int       n,
+                  std::string             &remark)
+  {
+    if (parameters.pattern == BondingPatternKind::image)
+      return values_of_image(parameters, implant, surface, n, remark);
+    const PlaceFunction function =
+      function_of_expression(parameters.expression,
+                             implant.characteristic_radius());
+    return parameters.resolution == BondingResolution::element ?
+             element_means(function, surface, n, 200) :
+             point_values(function, surface, n);
+  }
+
+
+
+  namespace
+  {
+    /** Points of a CSV file with their phi_0. */
+    struct DataPoint
+    {
+      Eigen::Vector2d place; ///< [mm]
+      double          phi_0;
+      unsigned int    element = 0; ///< that it lies in
+    };
+
+
+
+    [[noreturn]] void
+    refuse_file(const std::string &filename, const std::string &why)
+    {
+      throw InputError(bonding_section + "File = '" + filename + "': " + why);
+    }
+
+
+
+    [[noreturn]] void
+    refuse_line(const std::string &filename,
+                const unsigned int line,
+                const std::string &why)
+    {
+      throw InputError(bonding_section + "File = '" + filename + "', line " +
+                       std::to_string(line) + ": " + why);
+    }
+
+
+
+    void
+    check_phi_0(const std::string &filename,
+                const double       phi_0,
+                const unsigned int line)
+    {
+      if (!(phi_0 >= 0. && phi_0 <= 1.))
+        refuse_line(filename,
+                    line,
+                    "phi_0 = " + to_text(phi_0) + ": expected 0 to 1");
+    }
+
+
+
+    /** A table with a row for each element: in order, or with the number of the
+     *  element in front. */
+    std::vector<double>
+    values_by_element(const std::string &filename,
+                      const bool         numbered,
+                      const unsigned int n_elements)
+    {
+      std::vector<unsigned int> lines;
+      const auto                rows =
+        read_csv_columns(filename,
+                         bonding_section + "File",
+                         numbered ?
+                           std::vector<std::string>{"element", "phi_0"} :
+                           std::vector<std::string>{"phi_0"},
+                         false,
+                         &lines);
+      if (rows.size() != n_elements)
+        refuse_file(filename,
+                    "it has " + std::to_string(rows.size()) +
+                      " rows, but the contact face has " +
+                      std::to_string(n_elements) +
+                      " elements: expected a row for each");
+      std::vector<double> values(n_elements, -1.);
+      for (unsigned int i = 0; i < n_elements; ++i)
+        {
+          check_phi_0(filename, rows[i].back(), lines[i]);
+          const double number = numbered ? rows[i][0] : i + 1.;
+          if (!(number >= 1. && number <= n_elements) ||
+              number != std::floor(number))
+            refuse_line(filename,
+                        lines[i],
+                        "there is no element " + to_text(number) +
+                          ": they are numbered from 1 to " +
+                          std::to_string(n_elements));
+          double &value = values[static_cast<unsigned int>(number) - 1];
+          if (value >= 0.)
+            refuse_line(filename,
+                        lines[i],
+                        "element " + to_text(number) + " is there twice");
+          value = rows[i].back();
+        }
+      return values;
+    }
+
+
+
+    double
+    size_of(const std::vector<Eigen::Vector2d> &centres)
+    {
+      double size = 0.;
+      for (const Eigen::Vector2d &centre : centres)
+        size = std::max(size, centre.norm());
+      return size;
+    }
+
+
+
+    /** Refuses a table of elements of another mesh, where it says where they
+     *  are. Rows: element, x, y. */
+    void
+    check_centres(const std::string                      &filename,
+                  const std::vector<std::vector<double>> &rows,
+                  const std::vector<Eigen::Vector2d>     &centres)
+    {
+      for (const auto &row : rows)
+        {
+          const Eigen::Vector2d &centre =
+            centres[static_cast<unsigned int>(row[0]) - 1];
+          if ((Eigen::Vector2d(row[1], row[2]) - centre).norm() >
+              1e-3 * size_of(centres))
+            refuse_file(filename,
+                        "it belongs to another mesh: element " +
+                          to_text(row[0]) + " is at x = " + to_text(row[1], 6) +
+                          " mm, y = " + to_text(row[2], 6) +
+                          " mm there and at " + to_text(centre[0], 6) + ", " +
+                          to_text(centre[1], 6) + " here");
+        }
+    }
+
+
+
+    /** The contact face seen from above: of a cap what its border encloses. */
+    ControlNet
+    seen_from_above(const NurbsSurface &surface)
+    {
+      ControlNet net = surface.control_points();
+      net.row(2).setZero();
+      return net;
+    }
+
+
+
+    /** Of the points those on the face, with the numbers of their elements;
+     *  refuses a file without any. */
+    std::vector<DataPoint>
+    points_on_face(const std::string            &filename,
+                   const std::vector<DataPoint> &points,
+                   const NurbsSurface           &surface,
+                   const double                  size)
+    {
+      const ControlNet       net = seen_from_above(surface);
+      std::vector<DataPoint> result;
+      for (DataPoint point : points)
+        {
+          const ClosestPoint closest =
+            closest_point(surface, net, {point.place[0], point.place[1], 0.});
+          if (closest.distance > 1e-9 * size)
+            continue;
+          point.element = surface.element_of(closest.xi);
+          result.push_back(point);
+        }
+      if (result.empty())
+        refuse_file(filename,
+                    "none of its " + std::to_string(points.size()) +
+                      " points lies on the contact face (x and y in mm, 0 at "
+                      "its centre)");
+      return result;
+    }
+
+
+
+    /** The mean over the points inside every element, where there are any; -1
+     *  elsewhere. */
+    std::vector<double>
+    means_of_points(const std::vector<DataPoint> &points,
+                    const unsigned int            n_elements)
+    {
+      std::vector<double>       sums(n_elements, 0.);
+      std::vector<unsigned int> counts(n_elements, 0);
+      for (const DataPoint &point : points)
+        {
+          sums[point.element] += point.phi_0;
+          ++counts[point.element];
+        }
+      for (unsigned int e = 0; e < n_elements; ++e)
+        sums[e] = counts[e] > 0 ? sums[e] / counts[e] : -1.;
+      return sums;
+    }
+
+
+
+    /** phi_0 of the data point nearest to a place. */
+    class NearestPoint
+    {
+    public:
+      explicit NearestPoint(const std::vector<DataPoint> &points)
+        : points(points)
+      {
+        std::vector<std::pair<Place, unsigned int>> entries;
+        for (unsigned int i = 0; i < points.size(); ++i)
+          entries.emplace_back(Place(points[i].place[0], points[i].place[1]),
+                               i);
+        tree = Tree(entries);
+      }
+
+      double
+      operator()(const Eigen::Vector2d &place) const
+      {
+        std::vector<std::pair<Place, unsigned int>> nearest;
+        tree.query(boost::geometry::index::nearest(Place(place[0], place[1]),
+                                                   1),
+                   std::back_inserter(nearest));
+        return points[nearest[0].second].phi_0;
+      }
+
+    private:
+      using Place = boost::geometry::model::
+        point<double, 2, boost::geometry::cs::cartesian>;
+      using Tree =
+        boost::geometry::index::rtree<std::pair<Place, unsigned int>,
+                                      boost::geometry::index::quadratic<16>>;
+
+      const std::vector<DataPoint> &points;
+      Tree                          tree;
+    };
+
+
+
+    std::vector<double>
+    values_of_points(const std::vector<DataPoint>       &points,
+                     const bool                          by_element,
+                     const NurbsSurface                 &surface,
+                     const std::vector<Eigen::Vector2d> &centres)
+    {
+      std::vector<double> values(centres.size(), -1.);
+      if (by_element)
+        values = means_of_points(points, surface.n_elements());
+      const NearestPoint nearest(points);
+      for (unsigned int i = 0; i < values.size(); ++i)
+        if (values[i] < 0.)
+          values[i] = nearest(centres[i]);
+      return values;
+    }
+  } // namespace
+
+
+
+  namespace
+  {
+    /** What the columns of a file say. */
+    enum class TableKind
+    {
+      in_order,
+      by_number,
+      points,
+      points_with_unit
+    };
+
+
+
+    TableKind
+    kind_of(const std::string &filename)
+    {
+      const auto columns = read_csv_header(filename, bonding_section + "File");
+      const auto has     = [&columns](const std::string &name) {
+        return std::find(columns.begin(), columns.end(), name) != columns.end();
+      };
+      if (has("phi_0"))
+        {
+          if (has("element"))
+            return TableKind::by_number;
+          if (has("x_mm") && has("y_mm"))
+            return TableKind::points_with_unit;
+          if (has("x") && has("y"))
+            return TableKind::points;
+          if (columns.size() == 1)
+            return TableKind::in_order;
+        }
+      if (columns.empty())
+        refuse_file(filename, "this file is empty");
+      std::string names;
+      for (const std::string &column : columns)
+        names += (names.empty() ? "" : ",") + column;
+      refuse_file(filename,
+                  "the first line must name the columns, separated by commas: "
+                  "element,phi_0 or phi_0 alone or x,y,phi_0 (x_mm,y_mm); it "
+                  "is '" +
+                    names.substr(0, 60) + "'");
+    }
+  } // namespace
+
+
+
+  std::vector<double>
+  values_from_file(const BondingParameters            &parameters,
+                   const NurbsSurface                 &surface,
+                   const std::vector<Eigen::Vector2d> &centres)
+  {
+    const std::string &filename = parameters.file;
+    const std::string  entry    = bonding_section + "File";
+    const TableKind    kind     = kind_of(filename);
+    const bool by_element = parameters.resolution == BondingResolution::element;
+    if (kind == TableKind::in_order || kind == TableKind::by_number)
+      {
+        const bool numbered = kind == TableKind::by_number;
+        if (!by_element)
+          refuse_file(filename,
+                      "a value for every element needs Resolution = element; "
+                      "with Resolution = quadrature point columns x,y,phi_0 "
+                      "are expected");
+        const auto values =
+          values_by_element(filename, numbered, surface.n_elements());
+        const auto columns = read_csv_header(filename, entry);
+        if (numbered &&
+            std::count(columns.begin(), columns.end(), "x_mm") == 1 &&
+            std::count(columns.begin(), columns.end(), "y_mm") == 1)
+          check_centres(filename,
+                        read_csv_columns(filename,
+                                         entry,
+                                         {"element", "x_mm", "y_mm"}),
+                        centres);
+        return values;
+      }
+
+    const bool                with_unit = kind == TableKind::points_with_unit;
+    std::vector<DataPoint>    points;
+    std::vector<unsigned int> lines;
+    for (const auto &row : read_csv_columns(
+           filename,
+           entry,
+           {with_unit ? "x_mm" : "x", with_unit ? "y_mm" : "y", "phi_0"},
+           false,
+           &lines))
+      {
+        check_phi_0(filename, row[2], lines[points.size()]);
+        points.push_back({{row[0], row[1]}, row[2], 0});
+      }
+    return values_of_points(
+      points_on_face(filename, points, surface, size_of(centres)),
+      by_element,
+      surface,
+      centres);
+  }
+} // namespace Debond

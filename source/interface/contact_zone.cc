@@ -1,0 +1,102 @@
+#include <debond/geometry/closest_point.h>
+#include <debond/interface/contact_zone.h>
+
+#include <algorithm>
+
+namespace Debond
+{
+  namespace
+  {
+    // The control points that belong to the marked elements.
+    std::vector<bool>
+    control_points_of(const NurbsSurface      &surface,
+                      const std::vector<bool> &elements)
+    {
+      std::vector<bool>  result(surface.n_control_points(), false);
+      const unsigned int n = (surface.degree() + 1) * (surface.degree() + 1);
+      for (unsigned int element = 0; element < elements.size(); ++element)
+        if (elements[element])
+          for (unsigned int a = 0; a < n; ++a)
+            result[surface.element_control_points(element)[a]] = true;
+      return result;
+    }
+
+
+
+    // Marks what lies between marked elements of a row or column: outlines of
+    // implants are convex, but samples may miss cells that grading made small.
+    void
+    fill_gaps(std::vector<bool> &marked, const std::array<unsigned int, 2> &n)
+    {
+      const std::array<unsigned int, 2> stride{{1, n[0]}};
+      for (unsigned int d = 0; d < 2; ++d)
+        for (unsigned int line = 0; line < n[1 - d]; ++line)
+          {
+            const auto element = [&](const unsigned int i) {
+              return i * stride[d] + line * stride[1 - d];
+            };
+            unsigned int first = 0, end = n[d];
+            while (first < end && !marked[element(first)])
+              ++first;
+            while (end > first && !marked[element(end - 1)])
+              --end;
+            for (unsigned int i = first; i < end; ++i)
+              marked[element(i)] = true;
+          }
+    }
+  } // namespace
+
+
+
+  std::vector<bool>
+  bone_control_points_under_implant(const NurbsSurface           &bone,
+                                    const NurbsSurface           &implant,
+                                    const InterfaceConfiguration &configuration)
+  {
+    std::vector<bool> under(bone.n_elements(), false);
+    const auto        n = implant.n_elements_per_direction();
+    // dense enough to meet every element of the bone that the edge crosses
+    const unsigned int finest  = std::max({n[0],
+                                           n[1],
+                                           bone.n_elements_per_direction()[0],
+                                           bone.n_elements_per_direction()[1]});
+    const unsigned int samples = 4 * finest;
+    SurfaceBasis       basis;
+    Eigen::Vector2d    guess(0.5, 0.5);
+    for (unsigned int j = 0; j <= samples; ++j)
+      for (unsigned int i = 0; i <= samples; ++i)
+        {
+          implant.evaluate({double(i) / samples, double(j) / samples},
+                           basis,
+                           false);
+          const ClosestPoint closest =
+            closest_point(bone,
+                          configuration.side[0].positions,
+                          interpolate(basis, configuration.side[1].positions),
+                          &guess);
+          guess                              = closest.xi;
+          under[bone.element_of(closest.xi)] = true;
+        }
+    fill_gaps(under, bone.n_elements_per_direction());
+    return control_points_of(bone, under);
+  }
+
+
+
+  std::vector<bool>
+  touched_bone_control_points(const NurbsSurface            &bone,
+                              const std::vector<SlavePoint> &points,
+                              const unsigned int             slave)
+  {
+    std::vector<bool> touched(bone.n_elements(), false);
+    for (const SlavePoint &point : points)
+      if (point.trial.state.status != PointStatus::open)
+        {
+          touched[slave == 0 ? point.element : point.trial.basis.element] =
+            true;
+          if (slave == 1 && point.trial.state.status == PointStatus::slip)
+            touched[point.trial.old_basis.element] = true;
+        }
+    return control_points_of(bone, touched);
+  }
+} // namespace Debond

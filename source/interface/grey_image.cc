@@ -1,0 +1,435 @@
+#include <debond/input/input_file.h>
+#include <debond/interface/grey_image.h>
+#include <debond/support/input_error.h>
+
+#include <boost/crc.hpp>
+
+#include <png.h>
+
+#include <algorithm>
+#include <csetjmp>
+#include <cstring>
+#include <sstream>
+
+namespace Debond
+{
+  namespace
+  {
+    /** For each of @p n_fine pixels the one or two of @p n_coarse that it lies
+     *  in, and the share of the area of those that it makes up. */
+    std::vector<std::vector<std::pair<unsigned int, double>>>
+    overlaps(const unsigned int n_fine, const unsigned int n_coarse)
+    {
+      std::vector<std::vector<std::pair<unsigned int, double>>> result(n_fine);
+      const double size = double(n_fine) / n_coarse; // of a coarse pixel
+      for (unsigned int i = 0; i < n_fine; ++i)
+        for (unsigned int k = static_cast<unsigned int>(i / size);
+             k < n_coarse && k * size < i + 1;
+             ++k)
+          {
+            const double share = (std::min((k + 1) * size, i + 1.) -
+                                  std::max(k * size, double(i))) /
+                                 size;
+            if (share > 0.)
+              result[i].emplace_back(k, share);
+          }
+      return result;
+    }
+  } // namespace
+
+
+
+  double
+  GreyImage::at(const double u, const double v) const
+  {
+    const auto pixel = [](const double t, const unsigned int n) {
+      return static_cast<unsigned int>(std::clamp(t * n, 0., n - 1.));
+    };
+    return levels[static_cast<std::size_t>(pixel(1. - v, height)) * width +
+                  pixel(u, width)];
+  }
+
+
+
+  GreyImage
+  GreyImage::threshold_at(const double threshold) const
+  {
+    GreyImage result = *this;
+    // as float, so that a threshold that is a grey level is not exceeded by it
+    for (float &level : result.levels)
+      level = level > static_cast<float>(threshold) ? 1.f : 0.f;
+    return result;
+  }
+
+
+
+  GreyImage
+  GreyImage::reduced_to(const unsigned int side) const
+  {
+    const unsigned int n = (std::max(width, height) + side - 1) / side;
+    if (n <= 1)
+      return *this;
+    // Blocks of equal size in the picture, not in pixels: a pixel on the border
+    // of two belongs to both in parts.
+    GreyImage result;
+    result.width                = (width + n - 1) / n;
+    result.height               = (height + n - 1) / n;
+    const auto          columns = overlaps(width, result.width);
+    const auto          rows    = overlaps(height, result.height);
+    std::vector<double> sums(std::size_t(result.width) * result.height);
+    for (unsigned int j = 0; j < height; ++j)
+      for (unsigned int i = 0; i < width; ++i)
+        for (const auto &[row, row_share] : rows[j])
+          for (const auto &[column, column_share] : columns[i])
+            sums[std::size_t(row) * result.width + column] +=
+              row_share * column_share * levels[std::size_t(j) * width + i];
+    result.levels.assign(sums.begin(), sums.end());
+    return result;
+  }
+
+
+
+  namespace
+  {
+    constexpr unsigned int largest_side = 10000; ///< pixels
+
+
+
+    /** For messages about one file. */
+    struct ImageFile
+    {
+      const std::string &name, &entry;
+
+      [[noreturn]] void
+      refuse(const std::string &why) const
+      {
+        throw InputError(entry + " = '" + name + "': " + why);
+      }
+
+      void
+      check_size(const double width, const double height) const
+      {
+        if (width < 1 || height < 1 || width > largest_side ||
+            height > largest_side)
+          {
+            std::ostringstream why;
+            why << "this picture has " << width << " x " << height
+                << " pixels: expected 1 to " << largest_side
+                << " in each direction";
+            refuse(why.str());
+          }
+      }
+    };
+
+
+
+    unsigned int
+    big_endian(const std::string &bytes, const std::size_t position)
+    {
+      unsigned int number = 0;
+      for (std::size_t i = position; i < position + 4; ++i)
+        number = 256 * number + static_cast<unsigned char>(bytes[i]);
+      return number;
+    }
+
+
+
+    /** Refuses what libpng would not take, or take apart, without saying why.
+     */
+    void
+    check_header(const ImageFile   &file,
+                 const std::string &bytes,
+                 const std::size_t  position)
+    {
+      file.check_size(big_endian(bytes, position),
+                      big_endian(bytes, position + 4));
+      if (bytes[position + 12] != 0)
+        file.refuse("interlaced PNG files are not read: save it without "
+                    "interlacing");
+    }
+
+
+
+    /** A PNG file with those chunks only that make up the picture, their sums
+     *  checked: others, such as those about colours, change no grey level. */
+    std::string
+    essence_of_png(const ImageFile &file, const std::string &bytes)
+    {
+      const std::size_t signature = 8, around = 12; // length, type, sum
+      if (bytes.compare(0, signature, "\x89PNG\r\n\x1a\n") != 0)
+        file.refuse("this PNG file is damaged");
+      std::string result   = bytes.substr(0, signature);
+      std::size_t position = signature;
+      for (std::string type; type != "IEND";)
+        {
+          const std::size_t left = bytes.size() - position;
+          const std::size_t length =
+            left < around ? left : big_endian(bytes, position);
+          if (left < around || length > left - around)
+            file.refuse("this PNG file is cut off");
+          type = bytes.substr(position + 4, 4);
+          boost::crc_32_type sum;
+          sum.process_bytes(bytes.data() + position + 4, length + 4);
+          if (sum.checksum() != big_endian(bytes, position + 8 + length))
+            file.refuse("this PNG file is damaged");
+          if (type == "IHDR" && length == 13)
+            check_header(file, bytes, position + 8);
+          for (const char *const wanted :
+               {"IHDR", "PLTE", "tRNS", "IDAT", "IEND"})
+            if (type == wanted)
+              result += bytes.substr(position, length + around);
+          position += length + around;
+        }
+      return result;
+    }
+
+
+
+    /** What libpng reads from. */
+    struct PngBytes
+    {
+      const std::string &bytes;
+      std::size_t        position;
+    };
+
+
+
+    void
+    copy_bytes(png_structp png, png_bytep to, const std::size_t n)
+    {
+      auto &source = *static_cast<PngBytes *>(png_get_io_ptr(png));
+      if (n > source.bytes.size() - source.position)
+        png_error(png, "cut off");
+      std::memcpy(to, source.bytes.data() + source.position, n);
+      source.position += n;
+    }
+
+
+
+    // Instead of writing to the error stream.
+    [[noreturn]] void
+    leave(png_structp png, png_const_charp)
+    {
+      png_longjmp(png, 1);
+    }
+    void
+    ignore(png_structp, png_const_charp)
+    {}
+
+
+
+    /** The level of a pixel of @p n channels of 16 bits: grey or red, green and
+     *  blue, then opacity if n is even; what is transparent is black. */
+    float
+    level_of(const unsigned char *const pixel, const unsigned int n)
+    {
+      const auto channel = [pixel](const unsigned int i) {
+        return (256. * pixel[2 * i] + pixel[2 * i + 1]) / 65535.;
+      };
+      const double level =
+        n < 3 ? channel(0) :
+                0.30 * channel(0) + 0.59 * channel(1) + 0.11 * channel(2);
+      return n % 2 == 0 ? level * channel(n - 1) : level;
+    }
+
+
+
+    void
+    read_rows(png_structp                 png,
+              png_infop                   info,
+              std::vector<unsigned char> &row,
+              GreyImage                  &image)
+    {
+      png_read_info(png, info);
+      png_set_expand(png);    // palettes, and fewer than 8 bits
+      png_set_expand_16(png); // fewer than 16 bits
+      png_read_update_info(png, info);
+      const unsigned int n = png_get_channels(png, info);
+      image.width          = png_get_image_width(png, info);
+      image.height         = png_get_image_height(png, info);
+      image.levels.reserve(std::size_t(image.width) * image.height);
+      row.resize(png_get_rowbytes(png, info));
+      for (unsigned int j = 0; j < image.height; ++j)
+        {
+          png_read_row(png, row.data(), nullptr);
+          for (unsigned int i = 0; i < image.width; ++i)
+            image.levels.push_back(level_of(&row[2 * n * i], n));
+        }
+      png_read_end(png, nullptr);
+    }
+
+
+
+    // libpng jumps back to setjmp() where it finds something wrong: nothing
+    // that has a destructor may begin to live between here and there.
+    bool
+    decode(png_structp                 png,
+           png_infop                   info,
+           std::vector<unsigned char> &row,
+           GreyImage                  &image)
+    {
+      if (setjmp(png_jmpbuf(png)) != 0)
+        return false;
+      read_rows(png, info, row, image);
+      return true;
+    }
+
+
+
+    // Boost.GIL reads PNG as well, but beyond the end of rows with fewer than 8
+    // bits for a pixel, and leaves libpng no way to be silent.
+    GreyImage
+    read_png(const ImageFile &file, const std::string &bytes)
+    {
+      const std::string          essence = essence_of_png(file, bytes);
+      PngBytes                   source{essence, 0};
+      GreyImage                  image;
+      std::vector<unsigned char> row;
+      png_structp                png =
+        png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, leave, ignore);
+      png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
+      bool      is_read = false;
+      if (info != nullptr)
+        {
+          png_set_read_fn(png, &source, copy_bytes);
+          is_read = decode(png, info, row, image);
+        }
+      png_destroy_read_struct(&png, &info, nullptr);
+      if (!is_read)
+        file.refuse("this file is damaged: it begins like a PNG file but "
+                    "cannot be read as one");
+      return image;
+    }
+
+
+
+    /** The numbers in the header of a PGM file, or all of a plain one. */
+    class PgmNumbers
+    {
+    public:
+      PgmNumbers(const ImageFile &file, const std::string &bytes)
+        : file(file)
+        , bytes(bytes)
+      {}
+
+      /** The next number, at most @p largest; comments from # to the end of
+       *  the line are passed over. */
+      unsigned int
+      next(const std::string &what, const unsigned int largest)
+      {
+        skip_blanks();
+        unsigned int value = 0;
+        const auto   begin = position;
+        for (; position < bytes.size() && bytes[position] >= '0' &&
+               bytes[position] <= '9';
+             ++position)
+          {
+            value = 10 * value + (bytes[position] - '0');
+            if (value > largest)
+              file.refuse(what + " is more than " + std::to_string(largest));
+          }
+        if (position == begin)
+          file.refuse("this PGM file is damaged or cut off: " + what +
+                      " is missing or no number");
+        return value;
+      }
+
+      /** Whether nothing but blanks and comments is left. */
+      bool
+      at_end()
+      {
+        skip_blanks();
+        return position == bytes.size();
+      }
+
+      /** Where the pixels of a raw file begin: after one white space. */
+      std::size_t
+      end_of_header() const
+      {
+        return position + 1;
+      }
+
+    private:
+      void
+      skip_blanks()
+      {
+        while (position < bytes.size() &&
+               (std::isspace(static_cast<unsigned char>(bytes[position])) ||
+                bytes[position] == '#'))
+          position = bytes[position] == '#' ?
+                       std::min(bytes.find('\n', position), bytes.size()) :
+                       position + 1;
+      }
+
+      const ImageFile   &file;
+      const std::string &bytes;
+      std::size_t        position = 2; ///< after P2 or P5
+    };
+
+
+
+    // Boost.GIL reads PGM, but up to 8 bits only, does not scale levels
+    // to the largest one, inverts those whose largest is 1, and takes a plain
+    // file that is cut off for a whole one.
+    GreyImage
+    read_pgm(const ImageFile &file, const std::string &bytes)
+    {
+      PgmNumbers numbers(file, bytes);
+      GreyImage  image;
+      image.width  = numbers.next("the width", 1000000);
+      image.height = numbers.next("the height", 1000000);
+      file.check_size(image.width, image.height);
+      const unsigned int largest = numbers.next("the largest level", 65535);
+      if (largest == 0)
+        file.refuse("the largest level of this PGM file is 0: expected 1 to "
+                    "65535");
+
+      const std::size_t n     = std::size_t(image.width) * image.height;
+      const bool        plain = bytes[1] == '2';
+      const std::size_t size  = largest > 255 ? 2 : 1; // bytes of a pixel
+      std::size_t       begin = numbers.end_of_header();
+      // one white space ends the header, but some write a carriage return more
+      if (!plain && bytes.size() == begin + n * size + 1 &&
+          bytes.compare(begin - 1, 2, "\r\n") == 0)
+        ++begin;
+      if (plain ? bytes.size() < n : bytes.size() < begin + n * size)
+        file.refuse("this PGM file is cut off: it has fewer pixels than its "
+                    "header says");
+      if (!plain && bytes.size() > begin + n * size)
+        file.refuse("this PGM file has more pixels than its header says");
+      image.levels.reserve(n);
+      for (std::size_t i = 0; i < n; ++i)
+        {
+          unsigned int level = 0;
+          if (plain)
+            level = numbers.next("a level", largest);
+          else
+            for (std::size_t b = 0; b < size; ++b)
+              level = 256 * level +
+                      static_cast<unsigned char>(bytes[begin + i * size + b]);
+          if (level > largest)
+            file.refuse("a level of this PGM file is more than its largest, " +
+                        std::to_string(largest));
+          image.levels.push_back(static_cast<float>(level) / largest);
+        }
+      if (plain && !numbers.at_end())
+        file.refuse("this PGM file has more pixels than its header says");
+      return image;
+    }
+  } // namespace
+
+
+
+  GreyImage
+  read_grey_image(const std::string &filename, const std::string &entry)
+  {
+    const ImageFile   file{filename, entry};
+    const std::string bytes =
+      read_input_bytes(filename, entry + " = '" + filename + "': ", 500);
+    if (bytes.compare(0, 4, "\x89PNG") == 0)
+      return read_png(file, bytes);
+    if (bytes.compare(0, 2, "P2") == 0 || bytes.compare(0, 2, "P5") == 0)
+      return read_pgm(file, bytes);
+    file.refuse("this is neither a PNG nor a PGM file");
+  }
+} // namespace Debond

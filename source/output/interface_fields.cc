@@ -1,0 +1,256 @@
+#include <debond/bulk/body.h>
+#include <debond/bulk/chuck.h>
+#include <debond/interface/contact_interface.h>
+#include <debond/output/interface_fields.h>
+#include <debond/output/vtu_patches.h>
+
+#include <algorithm>
+
+namespace Debond
+{
+  namespace
+  {
+    /** The quadrature points of a surface as one tensor grid over the patch. */
+    class QuadratureGrid
+    {
+    public:
+      QuadratureGrid(const ContactInterface &interface,
+                     const NurbsSurface     &surface)
+        : points(interface.get_points())
+        , n(interface.get_parameters().quadrature_points)
+        , n_elements_1(surface.n_elements_per_direction()[0])
+      {
+        for (unsigned int d = 0; d < 2; ++d)
+          for (unsigned int i = 0;
+               i < n * surface.n_elements_per_direction()[d];
+               ++i)
+            coordinates[d].push_back(
+              points[d == 0 ? index(i, 0) : index(0, i)].xi[d]);
+      }
+
+      /** Numbers of four points and their weights, and of the nearest point. */
+      struct Stencil
+      {
+        std::array<unsigned int, 4> point;
+        std::array<double, 4>       weight;
+        unsigned int                nearest;
+      };
+
+      /** For fields that are continuous over the whole patch. */
+      Stencil
+      across_elements(const Eigen::Vector2d &xi) const
+      {
+        const std::array<std::size_t, 2> ends{
+          {coordinates[0].size(), coordinates[1].size()}};
+        return stencil(xi, {{0, 0}}, ends);
+      }
+
+      /** For fields that may jump at its borders: points of @p element only. */
+      Stencil
+      within(const unsigned int element, const Eigen::Vector2d &xi) const
+      {
+        const std::size_t i = n * (element % n_elements_1);
+        const std::size_t j = n * (element / n_elements_1);
+        return stencil(xi, {{i, j}}, {{i + n, j + n}});
+      }
+
+    private:
+      /** Between the points from @p begin to before @p end in each direction;
+       *  constant beyond these. */
+      Stencil
+      stencil(const Eigen::Vector2d            &xi,
+              const std::array<std::size_t, 2> &begin,
+              const std::array<std::size_t, 2> &end) const
+      {
+        std::array<unsigned int, 2> first, second;
+        std::array<double, 2>       share; // of the second
+        for (unsigned int d = 0; d < 2; ++d)
+          {
+            const auto       &x     = coordinates[d];
+            const std::size_t upper = std::upper_bound(x.begin() + begin[d],
+                                                       x.begin() + end[d],
+                                                       xi[d]) -
+                                      x.begin();
+            first[d]  = std::max(upper, begin[d] + 1) - 1;
+            second[d] = std::min(upper, end[d] - 1);
+            share[d]  = first[d] == second[d] ?
+                          0. :
+                          (xi[d] - x[first[d]]) / (x[second[d]] - x[first[d]]);
+          }
+        Stencil result;
+        result.weight = bilinear(share[0], share[1]);
+        for (unsigned int a = 0; a < 4; ++a)
+          result.point[a] = index(a % 2 == 0 ? first[0] : second[0],
+                                  a / 2 == 0 ? first[1] : second[1]);
+        result.nearest = index(share[0] < 0.5 ? first[0] : second[0],
+                               share[1] < 0.5 ? first[1] : second[1]);
+        return result;
+      }
+
+      /** Points are numbered element by element, the first parameter fastest in
+       *  both; @p i and @p j count over the whole patch. */
+      unsigned int
+      index(const unsigned int i, const unsigned int j) const
+      {
+        const unsigned int element = i / n + n_elements_1 * (j / n);
+        return n * n * element + i % n + n * (j % n);
+      }
+
+      const std::vector<SlavePoint>     &points;
+      const unsigned int                 n, n_elements_1;
+      std::array<std::vector<double>, 2> coordinates;
+    };
+
+
+
+    /** Gap of a point that faces the master, 0 of one that does not: the
+     *  distance to the nearest border is no gap. An open point with a negative
+     *  gap is beyond the border, too. */
+    double
+    gap_to_partner(const ContactPointResult &result)
+    {
+      const bool is_open = (result.state.status == PointStatus::open);
+      return is_open && (!result.state.has_partner || result.normal_gap < 0.) ?
+               0. :
+               result.normal_gap;
+    }
+
+
+
+    /** Fields of a quadrature point that are continuous over the patch, one
+     *  after the other. */
+    std::vector<double>
+    continuous_values(const SlavePoint &point)
+    {
+      std::vector<double> values{point.trial.pressure};
+      append_values(values, -point.trial.tangential_traction);
+      values.push_back(gap_to_partner(point.trial));
+      values.push_back(point.trial.state.slip);
+      return values;
+    }
+
+
+
+    /** Sliding distance [mm] from those points that face the implant: the
+     *  others of a bone have never slid and would heal its bond at the rim. */
+    double
+    slip_under_implant(const ContactInterface        &interface,
+                       const QuadratureGrid::Stencil &stencil)
+    {
+      double slip = 0., weight = 0.;
+      for (unsigned int a = 0; a < 4; ++a)
+        {
+          const auto &point = interface.get_points()[stencil.point[a]];
+          if (!point.faces_implant)
+            continue;
+          slip += stencil.weight[a] * point.trial.state.slip;
+          weight += stencil.weight[a];
+        }
+      return weight > 0. ? slip / weight : 0.;
+    }
+
+
+
+    /**
+     * phi_0, phi and mu at a point of @p element. Patterns jump from element to
+     * element, so phi_0 is that of the element's own points; phi and mu follow
+     * from it and the sliding distance, which does not jump, by the friction
+     * law: they are as sharp as the pattern where it jumps, smooth elsewhere.
+     */
+    std::array<double, 3>
+    bonding_values(const ContactInterface &interface,
+                   const QuadratureGrid   &grid,
+                   const unsigned int      element,
+                   const Eigen::Vector2d  &xi)
+    {
+      const QuadratureGrid::Stencil own = grid.within(element, xi);
+      double phi_0 = 0., phi_0_left = 0.; // without bonds that opening broke
+      for (unsigned int a = 0; a < 4; ++a)
+        {
+          const auto  &point = interface.get_points()[own.point[a]];
+          const double part  = own.weight[a] * point.phi_0;
+          phi_0 += part;
+          if (!point.trial.state.broken)
+            phi_0_left += part;
+        }
+      const FrictionCoefficient friction =
+        friction_coefficient(interface.get_parameters().friction,
+                             phi_0_left,
+                             slip_under_implant(interface,
+                                                grid.across_elements(xi)));
+      return {{phi_0, friction.phi, friction.mu}};
+    }
+
+
+
+    /** x - X of the control points of a body's contact surface. */
+    ControlNet
+    control_point_displacement(const Body &body, const Chuck &chuck)
+    {
+      const ControlNet &X = body.surface().control_points();
+      ControlNet        u = body.contact_displacement();
+      if (body.mesh().side() == BodySide::implant)
+        for (unsigned int A = 0; A < u.cols(); ++A)
+          u.col(A) = chuck.map(X.col(A), u.col(A)) - X.col(A);
+      return u;
+    }
+  } // namespace
+
+
+
+  std::string
+  interface_vtu(const Body             &slave,
+                const ContactInterface &interface,
+                const Chuck            &chuck)
+  {
+    PatchSet<2> output({{"pressure_MPa", FieldSize::scalar},
+                        {"traction_MPa", FieldSize::vector},
+                        {"gap_mm", FieldSize::scalar},
+                        {"slip_mm", FieldSize::scalar},
+                        {"phi_0", FieldSize::scalar},
+                        {"phi", FieldSize::scalar},
+                        {"mu", FieldSize::scalar},
+                        {"state", FieldSize::scalar},
+                        {"displacement", FieldSize::vector}});
+
+    const NurbsSurface  &surface = slave.surface();
+    const ControlNet     u       = control_point_displacement(slave, chuck);
+    const QuadratureGrid grid(interface, surface);
+    std::vector<std::vector<double>> at_points;
+    for (const auto &point : interface.get_points())
+      at_points.push_back(continuous_values(point));
+
+    const unsigned int  n = n_pieces(surface, 96, 4, 16);
+    SurfaceBasis        basis;
+    SurfaceGeometry     position, displacement;
+    std::vector<double> values;
+    for (unsigned int element = 0; element < surface.n_elements(); ++element)
+      {
+        const auto bounds = surface.element_bounds(element);
+        output.add_patch(n);
+        for (unsigned int j = 0; j <= n; ++j)
+          for (unsigned int i = 0; i <= n; ++i)
+            {
+              const Eigen::Vector2d xi =
+                between(bounds, double(i) / n, double(j) / n);
+              surface.evaluate_in_element(element, xi, basis, false);
+              contract(basis, surface.control_points(), false, position);
+              contract(basis, u, false, displacement);
+
+              const QuadratureGrid::Stencil stencil = grid.across_elements(xi);
+              values.assign(at_points[0].size(), 0.);
+              for (unsigned int a = 0; a < 4; ++a)
+                for (unsigned int f = 0; f < values.size(); ++f)
+                  values[f] +=
+                    stencil.weight[a] * at_points[stencil.point[a]][f];
+              const auto bonding = bonding_values(interface, grid, element, xi);
+              values.insert(values.end(), bonding.begin(), bonding.end());
+              values.push_back(static_cast<double>(
+                interface.get_points()[stencil.nearest].trial.state.status));
+              append_values(values, displacement.y);
+              output.add_point(position.y, values);
+            }
+      }
+    return output.vtu();
+  }
+} // namespace Debond

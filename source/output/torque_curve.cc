@@ -1,0 +1,488 @@
+#include <debond/input/csv_table.h>
+#include <debond/output/result_files.h>
+#include <debond/output/torque_curve.h>
+#include <debond/support/input_error.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <locale>
+#include <sstream>
+
+namespace Debond
+{
+  namespace
+  {
+    using Columns = std::vector<std::pair<std::string, double>>;
+
+    /** Names and values of a row, in the order of the file. The first eighteen
+     *  are fixed: users' scripts count on them. */
+    Columns
+    columns(const TorqueRow &row)
+    {
+      Columns           result{{"step", row.step},
+                     {"time", row.time},
+                     {"angle_deg", row.angle_deg},
+                     {"torque_Nmm", row.torque_Nmm},
+                     {"force_N", row.force_N},
+                     {"pressure_MPa", row.pressure_MPa},
+                     {"phi_mean", row.phi_mean},
+                     {"share_stick", row.share_stick},
+                     {"share_slip", row.share_slip},
+                     {"share_open", row.share_open},
+                     {"newton_iterations", row.newton_iterations},
+                     {"energy_defect", row.energy_defect}};
+      const char *const reactions[] = {"chuck_Fx_N",
+                                       "chuck_Fy_N",
+                                       "chuck_Fz_N",
+                                       "chuck_Mx_Nmm",
+                                       "chuck_My_Nmm",
+                                       "chuck_Mz_Nmm"};
+      for (unsigned int k = 0; k < 6; ++k)
+        result.emplace_back(reactions[k], row.chuck_reaction[k]);
+
+      result.insert(result.end(),
+                    {{"work_Nmm", row.work_Nmm},
+                     {"energy_bulk_Nmm", row.energy_bulk_Nmm},
+                     {"energy_interface_Nmm", row.energy_interface_Nmm},
+                     {"dissipation_Nmm", row.dissipation_Nmm},
+                     {"adhesive_work_Nmm", row.adhesive_work_Nmm},
+                     {"energy_defect_bound", row.energy_defect_bound},
+                     {"reaction_defect", row.reaction_defect}});
+      const char *const positions[] = {"chuck_ux_mm",
+                                       "chuck_uy_mm",
+                                       "chuck_uz_mm",
+                                       "chuck_rx_deg",
+                                       "chuck_ry_deg",
+                                       "chuck_rz_deg"};
+      for (unsigned int k = 0; k < 6; ++k)
+        result.emplace_back(positions[k], row.chuck_position[k]);
+      result.insert(result.end(),
+                    {{"viscous_work_Nmm", row.viscous_work_Nmm},
+                     {"warnings", row.warnings}});
+      result.emplace_back("machine_angle_deg", row.machine_angle_deg);
+      result.emplace_back("released_energy_Nmm", row.released_energy_Nmm);
+      return result;
+    }
+
+
+
+    std::string
+    header()
+    {
+      std::string line;
+      for (const auto &column : columns(TorqueRow()))
+        line += (line.empty() ? "" : ",") + column.first;
+      return line + "\n";
+    }
+
+
+
+    std::string
+    line_of(const TorqueRow &row)
+    {
+      std::ostringstream line;
+      line.imbue(std::locale::classic());
+      line.precision(12);
+      bool first = true;
+      for (const auto &column : columns(row))
+        {
+          line << (first ? "" : ",") << column.second + 0.; // no "-0"
+          first = false;
+        }
+      return line.str() + "\n";
+    }
+
+
+
+    std::string
+    table_of(const std::vector<TorqueRow> &rows)
+    {
+      std::string table = header();
+      for (const TorqueRow &row : rows)
+        table += line_of(row);
+      return table;
+    }
+  } // namespace
+
+
+
+  TorqueCurveWriter::TorqueCurveWriter(const ResultDirectory        &directory,
+                                       const std::vector<TorqueRow> &rows)
+    : file(directory.file("torque.csv"), table_of(rows))
+  {}
+
+
+
+  void
+  TorqueCurveWriter::write(const TorqueRow &row)
+  {
+    file.append(line_of(row));
+  }
+
+
+
+  void
+  TorqueCurveWriter::finish()
+  {
+    file.finish();
+  }
+
+
+
+  ReferenceCurve
+  read_reference_curve(const std::string &filename)
+  {
+    ReferenceCurve curve;
+    if (!filename.empty())
+      for (const std::vector<double> &row : read_csv_columns(
+             filename, "Output / Reference curve", {"angle_deg", "torque_Nmm"}))
+        curve.emplace_back(row[0], row[1]);
+    return curve;
+  }
+
+
+
+  namespace
+  {
+    using Rows = std::vector<TorqueRow>;
+
+    double
+    radians(const double degrees)
+    {
+      return degrees * dealii::numbers::PI / 180.;
+    }
+
+
+
+    /** How the angle runs over the rows. Changes that are rounding errors of a
+     *  chuck that is free to turn are no rotation. */
+    struct Rotation
+    {
+      double       tolerance = 0; ///< [deg]
+      double       direction = 0; ///< +1, -1; 0: nothing rotates
+      bool         reverses  = false;
+      unsigned int first_row = 0; ///< the first one with another angle
+
+      explicit Rotation(const Rows &rows)
+      {
+        if (rows.empty())
+          return;
+        const double start  = rows.front().angle_deg;
+        double       lowest = start, highest = start;
+        for (const TorqueRow &row : rows)
+          {
+            lowest  = std::min(lowest, row.angle_deg);
+            highest = std::max(highest, row.angle_deg);
+          }
+        tolerance = 1e-9 * std::max(1., highest - lowest);
+        if (!(highest - lowest > tolerance))
+          return;
+
+        while (std::abs(rows[first_row].angle_deg - start) <= tolerance)
+          ++first_row;
+        direction       = (rows[first_row].angle_deg > start ? 1. : -1.);
+        double furthest = direction * start;
+        for (const TorqueRow &row : rows)
+          {
+            reverses =
+              reverses || direction * row.angle_deg < furthest - tolerance;
+            furthest = std::max(furthest, direction * row.angle_deg);
+          }
+      }
+
+      bool
+      is_one_way() const
+      {
+        return direction != 0. && !reverses;
+      }
+    };
+
+
+
+    /** The last angle with |T| >= 0.999 T_max, linear between rows. Unlike the
+     *  angle of the maximum itself, around which the curve is flat, it is a
+     *  well-conditioned quantity. */
+    double
+    last_angle_near_maximum(const Rows &rows, const double T_max)
+    {
+      const double threshold = 0.999 * T_max;
+      unsigned int i         = rows.size() - 1;
+      while (std::abs(rows[i].torque_Nmm) < threshold)
+        --i; // ends at the row of T_max
+      if (i + 1 == rows.size())
+        return rows[i].angle_deg;
+      const double sign  = (rows[i].torque_Nmm < 0. ? -1. : 1.);
+      const double above = sign * rows[i].torque_Nmm;
+      const double below = sign * rows[i + 1].torque_Nmm;
+      return rows[i].angle_deg + (above - threshold) / (above - below) *
+                                   (rows[i + 1].angle_deg - rows[i].angle_deg);
+    }
+
+
+
+    /** Eqs. (20) and (21). */
+    void
+    measure_energies(const Rows          &rows,
+                     const Rotation      &rotation,
+                     const CurveSettings &settings,
+                     CurveMeasures       &measures)
+    {
+      double E_deb = 0; // [N mm], as all energies here
+      for (unsigned int i = 0; i + 1 < rows.size(); ++i)
+        E_deb += 0.5 * (rows[i].torque_Nmm + rows[i + 1].torque_Nmm) *
+                 radians(rows[i + 1].angle_deg - rows[i].angle_deg);
+      measures.E_deb_Nm = 1e-3 * E_deb;
+
+      measures.theta_full_deg =
+        settings.full_sliding_angle_deg > 0. ?
+          rotation.direction * settings.full_sliding_angle_deg :
+          last_angle_near_maximum(rows, measures.T_max_Nmm);
+      const double sliding_deg =
+        rows.back().angle_deg - measures.theta_full_deg;
+      if (rotation.direction * sliding_deg < -rotation.tolerance)
+        return; // full sliding was not reached
+      const double E_fric = measures.T_inf_Nmm * radians(sliding_deg);
+      const double W_adh  = E_deb - E_fric;
+      measures.E_fric_Nm  = 1e-3 * E_fric;
+      measures.W_adh_Nm   = 1e-3 * W_adh;
+
+      // 1 N mm / mm^2 = 1000 N / m
+      measures.w_adh_star_N_per_m = 1e3 * W_adh / settings.contact_area_mm2;
+      if (settings.mean_phi_0 > 0.)
+        measures.w_adh_N_per_m =
+          measures.w_adh_star_N_per_m / settings.mean_phi_0;
+    }
+
+
+
+    /** Torque at an angle, linear between rows of a rotation that does not
+     *  reverse; NaN outside. */
+    double
+    torque_at(const Rows &rows, const Rotation &rotation, double angle_deg)
+    {
+      const double s = rotation.direction;
+      // the last row's angle went from degrees to radians and back
+      if (std::abs(angle_deg - rows.back().angle_deg) <= rotation.tolerance)
+        angle_deg = rows.back().angle_deg;
+      for (unsigned int i = 0; i + 1 < rows.size(); ++i)
+        {
+          const double begin = rows[i].angle_deg, end = rows[i + 1].angle_deg;
+          if (s * begin <= s * angle_deg && s * angle_deg <= s * end &&
+              begin != end)
+            return rows[i].torque_Nmm +
+                   (angle_deg - begin) / (end - begin) *
+                     (rows[i + 1].torque_Nmm - rows[i].torque_Nmm);
+        }
+      return CurveMeasures::undefined;
+    }
+
+
+
+    /** Eqs. (19) and (50). Rows of the reference with next to no torque would
+     *  dominate a relative error and are left out. */
+    void
+    measure_errors(const Rows           &rows,
+                   const Rotation       &rotation,
+                   const ReferenceCurve &reference,
+                   CurveMeasures        &measures)
+    {
+      double largest = 0;
+      for (const auto &[angle_deg, torque_Nmm] : reference)
+        largest = std::max(largest, std::abs(torque_Nmm));
+
+      double       sum_mp = 0, sum_difference = 0, max_difference = 0;
+      unsigned int n = 0;
+      for (const auto &[angle_deg, T_reference] : reference)
+        {
+          const double T = torque_at(rows, rotation, angle_deg);
+          if (rotation.direction * angle_deg > 0. &&
+              std::abs(T_reference) > 0.01 * largest && std::isfinite(T))
+            {
+              const double difference = std::abs(T - T_reference);
+              sum_mp += difference / std::abs(T_reference);
+              sum_difference += difference;
+              max_difference = std::max(max_difference, difference);
+              ++n;
+            }
+        }
+      measures.reference_rows_used = n;
+      if (n > 0)
+        {
+          measures.e_mp            = sum_mp / n;
+          measures.e_rel           = sum_difference / n / measures.T_max_Nmm;
+          measures.difference_mean = sum_difference / n / largest;
+          measures.difference_max  = max_difference / largest;
+        }
+    }
+
+
+
+    /** Pressure at the end of the last phase before the angle first changes. */
+    double
+    pressure_before_rotation(const Rows                &rows,
+                             const Rotation            &rotation,
+                             const std::vector<double> &phase_times)
+    {
+      const unsigned int last =
+        rotation.direction == 0. ? rows.size() - 1 : rotation.first_row - 1;
+      for (unsigned int i = last; i > 0; --i)
+        for (const double time : phase_times)
+          if (std::abs(rows[i].time - time) <=
+              1e-9 * (phase_times.back() - phase_times.front()))
+            return rows[i].pressure_MPa;
+      // no phase ends before: the first row, or what there is without rotation
+      return rows[rotation.direction == 0. ? last : 0].pressure_MPa;
+    }
+
+
+
+    /** A maximum that keeps a NaN. */
+    void
+    grow(double &maximum, const double value)
+    {
+      if (!std::isnan(maximum) && !(value <= maximum))
+        maximum = value;
+    }
+  } // namespace
+
+
+
+  CurveMeasures
+  measure_torque_curve(const std::vector<TorqueRow> &rows,
+                       const CurveSettings          &settings)
+  {
+    CurveMeasures measures;
+    if (rows.empty())
+      return measures;
+
+    const Rotation   rotation(rows);
+    const TorqueRow *peak          = &rows.front();
+    measures.largest_energy_defect = measures.largest_reaction_defect = 0;
+    for (const TorqueRow &row : rows)
+      {
+        if (std::abs(row.torque_Nmm) > std::abs(peak->torque_Nmm))
+          peak = &row;
+        grow(measures.largest_energy_defect, std::abs(row.energy_defect));
+        grow(measures.largest_reaction_defect, row.reaction_defect);
+      }
+    measures.T_max_Nmm = std::abs(peak->torque_Nmm);
+    measures.T_inf_Nmm = rows.back().torque_Nmm;
+    measures.pressure_MPa =
+      pressure_before_rotation(rows, rotation, settings.phase_times);
+    measures.D_adh_Nm               = 1e-3 * rows.back().adhesive_work_Nmm;
+    measures.dissipation_Nm         = 1e-3 * rows.back().dissipation_Nmm;
+    measures.viscous_dissipation_Nm = 1e-3 * rows.back().viscous_work_Nmm;
+    measures.force_end_N            = rows.back().force_N;
+    measures.work_Nm                = 1e-3 * rows.back().work_Nmm;
+    measures.E_bulk_Nm              = 1e-3 * rows.back().energy_bulk_Nmm;
+    measures.E_interface_Nm         = 1e-3 * rows.back().energy_interface_Nmm;
+    if (rotation.is_one_way())
+      {
+        measures.theta_max_deg = peak->angle_deg;
+        const TorqueRow &first = rows[rotation.first_row];
+        measures.initial_stiffness_Nm_per_rad =
+          1e-3 * (first.torque_Nmm - rows[rotation.first_row - 1].torque_Nmm) /
+          radians(first.angle_deg - rows[rotation.first_row - 1].angle_deg);
+        for (auto row = rows.rbegin(); row != rows.rend(); ++row)
+          if (row->phi_mean < rows.front().phi_mean * (1. - 1e-12))
+            measures.theta_debonding_deg = row->angle_deg;
+        measure_energies(rows, rotation, settings, measures);
+        measure_errors(rows, rotation, settings.reference, measures);
+      }
+    return measures;
+  }
+
+
+
+  namespace
+  {
+    /** Makes a name that programs can use: "set-up" becomes "set_up". */
+    std::string
+    with_underscores(std::string name)
+    {
+      std::replace_if(
+        name.begin(),
+        name.end(),
+        [](const unsigned char c) { return std::isalnum(c) == 0; },
+        '_');
+      return name;
+    }
+  } // namespace
+
+
+
+  std::string
+  warning_about_reference(const CurveMeasures &measures,
+                          const CurveSettings &settings)
+  {
+    return !settings.reference.empty() && measures.reference_rows_used == 0 ?
+             "no row of the reference curve could be compared with" :
+             "";
+  }
+
+
+
+  std::vector<std::pair<std::string, double>>
+  error_measures(const CurveMeasures &measures)
+  {
+    return {{"e_mp", measures.e_mp},
+            {"e_rel", measures.e_rel},
+            {"difference_max", measures.difference_max},
+            {"difference_mean", measures.difference_mean},
+            {"reference_rows_used", measures.reference_rows_used}};
+  }
+
+
+
+  void
+  add_summary(const RunSummary &summary, JsonObject &json)
+  {
+    const CurveMeasures &m = summary.measures;
+    json.add("T_max_Nmm", m.T_max_Nmm);
+    json.add("theta_max_deg", m.theta_max_deg);
+    json.add("theta_full_deg", m.theta_full_deg);
+    json.add("T_inf_Nmm", m.T_inf_Nmm);
+    json.add("pressure_MPa", m.pressure_MPa);
+    json.add("E_deb_Nm", m.E_deb_Nm);
+    json.add("E_fric_Nm", m.E_fric_Nm);
+    json.add("W_adh_Nm", m.W_adh_Nm);
+    json.add("w_adh_N_per_m", m.w_adh_N_per_m);
+    json.add("w_adh_star_N_per_m", m.w_adh_star_N_per_m);
+    json.add("D_adh_Nm", m.D_adh_Nm);
+    json.add("dissipation_Nm", m.dissipation_Nm);
+    for (const auto &[name, value] : error_measures(m))
+      if (name != "reference_rows_used") // stands further down
+        json.add(name, value);
+    json.add("steps", summary.steps);
+    json.add("newton_iterations", summary.newton_iterations);
+    json.add("dofs", summary.dofs);
+    json.add("unknowns", summary.unknowns);
+    json.add("wall_seconds", summary.wall_seconds);
+    json.add("converged", summary.converged);
+    json.add("reason", summary.reason);
+    json.add("warnings", summary.warnings);
+
+    json.add("condensed_unknowns", summary.condensed_unknowns);
+    json.add("peak_memory_MB", summary.peak_memory_MB);
+    json.add("reference_rows_used", m.reference_rows_used);
+    json.add("initial_stiffness_Nm_per_rad", m.initial_stiffness_Nm_per_rad);
+    json.add("theta_debonding_deg", m.theta_debonding_deg);
+    json.add("force_end_N", m.force_end_N);
+    json.add("work_Nm", m.work_Nm);
+    json.add("E_bulk_Nm", m.E_bulk_Nm);
+    json.add("E_interface_Nm", m.E_interface_Nm);
+    json.add("largest_energy_defect", m.largest_energy_defect);
+    json.add("largest_reaction_defect", m.largest_reaction_defect);
+    json.add("viscous_dissipation_Nm", m.viscous_dissipation_Nm);
+    json.add("smallest_step", summary.smallest_step);
+    for (const auto &[name, value] : error_measures(summary.profile_measures))
+      json.add(name, value);
+    for (const auto &[name, seconds] : summary.seconds)
+      json.add("seconds_" + with_underscores(name), seconds);
+  }
+} // namespace Debond

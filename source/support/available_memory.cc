@@ -1,0 +1,139 @@
+#include <debond/support/available_memory.h>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <string>
+
+namespace Debond
+{
+  namespace
+  {
+    constexpr double no_limit = std::numeric_limits<double>::infinity();
+
+
+
+    /** The number behind a name in a file of lines `name number`; 0 if it is
+     *  not there. */
+    double
+    entry(const std::filesystem::path &filename, const std::string &wanted)
+    {
+      std::ifstream file(filename);
+      std::string   name, rest;
+      double        number = 0.;
+      while (file >> name >> number && std::getline(file, rest))
+        if (name == wanted)
+          return number;
+      return 0.;
+    }
+
+
+
+    /** What the system says it could give away without swapping [bytes]. */
+    double
+    memory_of_machine()
+    {
+      const double kB = entry("/proc/meminfo", "MemAvailable:");
+      return kB > 0. ? 1024. * kB :
+                       double(sysconf(_SC_PHYS_PAGES)) * sysconf(_SC_PAGESIZE);
+    }
+
+
+
+    /** What a limit of the address space leaves [bytes]. */
+    double
+    memory_within_limit()
+    {
+      rlimit limit{};
+      if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+        return no_limit;
+      double pages = 0.;
+      std::ifstream("/proc/self/statm") >> pages;
+      return std::max(0., limit.rlim_cur - pages * sysconf(_SC_PAGESIZE));
+    }
+
+
+
+    /** What the files of control groups are called. */
+    struct ControlGroupFiles
+    {
+      const char *folder, *limit, *taken;
+      const char *prefix_of_sums; ///< over a group and those that it holds
+    };
+    constexpr ControlGroupFiles version_1 = {"memory",
+                                             "memory.limit_in_bytes",
+                                             "memory.usage_in_bytes",
+                                             "total_"};
+    constexpr ControlGroupFiles version_2 = {"",
+                                             "memory.max",
+                                             "memory.current",
+                                             ""};
+
+
+
+    /** What the limit of one control group leaves [bytes]. */
+    double
+    memory_within(const std::filesystem::path &group,
+                  const ControlGroupFiles     &files)
+    {
+      double limit = 0., taken = 0.;
+      // without a limit the file says `max', or is not there
+      if (!(std::ifstream(group / files.limit) >> limit) ||
+          !(std::ifstream(group / files.taken) >> taken))
+        return no_limit;
+      const std::string           prefix = files.prefix_of_sums;
+      const std::filesystem::path sums   = group / "memory.stat";
+      const double cached = entry(sums, prefix + "inactive_file") +
+                            entry(sums, prefix + "active_file");
+      return std::max(0., limit - std::max(0., taken - cached));
+    }
+  } // namespace
+
+
+
+  double
+  memory_within_control_groups_MB(const std::filesystem::path &groups,
+                                  const std::filesystem::path &mount)
+  {
+    double        bytes = no_limit;
+    std::ifstream file(groups);
+    // number:controllers:path, version 2 being `0::path'
+    for (std::string line; std::getline(file, line);)
+      {
+        std::istringstream fields(line);
+        std::string        number, controllers, path;
+        std::getline(fields, number, ':');
+        std::getline(fields, controllers, ':');
+        std::getline(fields, path);
+        const bool is_version_2 = number == "0" && controllers.empty();
+        if (!is_version_2 && controllers != "memory")
+          continue;
+        const ControlGroupFiles &files = is_version_2 ? version_2 : version_1;
+        // in a container, of these only the last may be there
+        for (std::filesystem::path group = path;; group = group.parent_path())
+          {
+            bytes = std::min(bytes,
+                             memory_within(mount / files.folder /
+                                             group.relative_path(),
+                                           files));
+            if (!group.has_relative_path())
+              break;
+          }
+      }
+    return 1e-6 * bytes;
+  }
+
+
+
+  double
+  available_memory_MB()
+  {
+    return std::min(1e-6 * std::min(memory_of_machine(), memory_within_limit()),
+                    memory_within_control_groups_MB("/proc/self/cgroup",
+                                                    "/sys/fs/cgroup"));
+  }
+} // namespace Debond

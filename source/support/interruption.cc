@@ -1,0 +1,99 @@
+#include <debond/support/interruption.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+
+namespace Debond
+{
+  namespace
+  {
+    volatile std::sig_atomic_t arrived = 0;
+    /** A pipe, because a signal may be handled by any thread and need not
+     *  interrupt what the main one waits for. */
+    int pipe_ends[2] = {-1, -1};
+
+
+
+    // Calls nothing but what a signal handler may call.
+    void
+    handle(const int signal)
+    {
+      const int reason = errno;
+      if (arrived != 0)
+        {
+          std::signal(signal, SIG_DFL);
+          std::raise(signal);
+        }
+      arrived               = signal;
+      const ssize_t ignored = write(pipe_ends[1], "", 1);
+      static_cast<void>(ignored);
+      errno = reason;
+    }
+  } // namespace
+
+
+
+  void
+  catch_interruptions()
+  {
+    if (pipe_ends[0] < 0 && pipe2(pipe_ends, O_CLOEXEC | O_NONBLOCK) != 0)
+      return; // then signals end the process as they always do
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+      {
+        struct sigaction action = {};
+        sigaction(signal, nullptr, &action);
+        if (action.sa_handler == SIG_IGN)
+          continue; // nohup
+        action.sa_handler = handle;
+        action.sa_flags   = SA_RESTART;
+        sigaction(signal, &action, nullptr);
+      }
+  }
+
+
+
+  void
+  leave_interruptions_to_parent()
+  {
+    std::signal(SIGINT, SIG_IGN);
+    std::signal(SIGHUP, SIG_IGN);
+    std::signal(SIGTERM, SIG_DFL);
+  }
+
+
+
+  int
+  interrupting_signal()
+  {
+    return arrived;
+  }
+
+
+
+  std::string
+  signal_name(const int signal)
+  {
+    switch (signal)
+      {
+        case SIGINT:
+          return "SIGINT";
+        case SIGTERM:
+          return "SIGTERM";
+        case SIGHUP:
+          return "SIGHUP";
+        default:
+          return "signal " + std::to_string(signal);
+      }
+  }
+
+
+
+  int
+  interruption_descriptor()
+  {
+    return pipe_ends[0];
+  }
+} // namespace Debond

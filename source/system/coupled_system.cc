@@ -1,0 +1,477 @@
+#include <debond/interface/contact_zone.h>
+#include <debond/system/coupled_system.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace Debond
+{
+  BodyPair::BodyPair(const Scene &scene)
+    : bone(scene.bone, BodySide::bone)
+    , implant(scene.implant, BodySide::implant)
+  {}
+
+
+
+  CoupledSystem::CoupledSystem(const Scene              &scene,
+                               dealii::TimerOutput      &timer,
+                               std::shared_ptr<BodyPair> bodies)
+    : both_bodies(bodies ? std::move(bodies) :
+                           std::make_shared<BodyPair>(scene))
+    , bone(both_bodies->bone)
+    , implant(both_bodies->implant)
+    , chuck(scene.chuck,
+            Eigen::Vector3d(0, 0, scene.implant.thickness()),
+            scene.implant.characteristic_radius())
+    , interface(scene.interface, bone.mesh(), implant.mesh())
+    , R(scene.implant.characteristic_radius())
+    , timer(timer)
+    , force_floor(scene.interface.normal_penalty * interface.implant_area() *
+                  1e-6 * R)
+    , matrix(bone, implant, interface, configuration, path)
+  {
+    configuration.chuck = &chuck;
+    path.follow         = scene.load_steps.follow_path;
+    for (unsigned int k = 0; k < 6; ++k)
+      path.stiffness[k] = scene.interface.normal_penalty *
+                          interface.implant_area() * std::pow(scale_of(k), 2);
+  }
+
+
+
+  void
+  CoupledSystem::update_configuration()
+  {
+    configuration.side[0].positions =
+      bone.surface().control_points() + bone.contact_displacement();
+    const auto  v         = implant.contact_displacement();
+    const auto &reference = implant.surface().control_points();
+    auto       &positions = configuration.side[1].positions;
+    positions.resize(3, reference.cols());
+    for (unsigned int A = 0; A < reference.cols(); ++A)
+      positions.col(A) = chuck.map(reference.col(A), v.col(A));
+    configuration.side[1].frame = chuck.rotation();
+  }
+
+
+
+  void
+  CoupledSystem::number_unknowns()
+  {
+    const std::array<const Body *, 2> body{{&bone, &implant}};
+    unsigned int                      first = 0;
+    for (unsigned int side = 0; side < 2; ++side)
+      {
+        configuration.side[side].unknown_of = body[side]->unknown_of();
+        for (int &number : configuration.side[side].unknown_of)
+          if (number >= 0)
+            number += first;
+        first += body[side]->n_unknowns();
+      }
+    configuration.chuck_unknowns.clear();
+    for (unsigned int component = 0; component < 6; ++component)
+      if (path.follow || !chuck.is_prescribed(component))
+        configuration.chuck_unknowns.emplace_back(component, first++);
+    path.number = first;
+    unknowns    = first + (path.follow ? 1 : 0);
+    residual.setZero(unknowns);
+    solver.forget();
+  }
+
+
+
+  void
+  CoupledSystem::start(const double time)
+  {
+    chuck.place(time);
+    update_configuration();
+    {
+      const dealii::TimerOutput::Scope t(timer, "contact");
+      interface.initialise(configuration);
+    }
+    const dealii::TimerOutput::Scope t(timer, "condensation");
+    bone.set_contact_control_points(bone_control_points_under_implant(
+      bone.surface(), implant.surface(), configuration));
+    implant.set_contact_control_points(
+      std::vector<bool>(implant.surface().n_control_points(), true));
+    number_unknowns();
+  }
+
+
+
+  bool
+  CoupledSystem::extend_contact_unknowns()
+  {
+    if (!bone.deformable())
+      return false;
+    std::vector<bool>       wanted = bone.contact_control_points();
+    const std::vector<bool> touched =
+      touched_bone_control_points(bone.surface(),
+                                  interface.get_points(),
+                                  interface.slave_side());
+    bool grown = false;
+    for (unsigned int A = 0; A < wanted.size(); ++A)
+      if (touched[A] && !wanted[A])
+        grown = wanted[A] = true;
+    if (!grown)
+      return false;
+    // everything under the implant now, so that this happens seldom
+    const std::vector<bool> under =
+      bone_control_points_under_implant(bone.surface(),
+                                        implant.surface(),
+                                        configuration);
+    for (unsigned int A = 0; A < wanted.size(); ++A)
+      wanted[A] = wanted[A] || under[A];
+    const dealii::TimerOutput::Scope t(timer, "condensation");
+    bone.set_contact_control_points(wanted);
+    number_unknowns();
+    return true;
+  }
+
+
+
+  // Open points may face what lies beside the contact unknowns.
+  bool
+  CoupledSystem::complete_surfaces()
+  {
+    if (!bone.surface_was_left_behind() && !implant.surface_was_left_behind())
+      return false;
+    if (!interface.has_open_points())
+      return false;
+    const dealii::TimerOutput::Scope t(timer, "bulk");
+    bone.complete_surface();
+    implant.complete_surface();
+    return true;
+  }
+
+
+
+  void
+  CoupledSystem::predict(const double time,
+                         const double parameter,
+                         const bool   extrapolate)
+  {
+    bone.predict(parameter, extrapolate);
+    implant.predict(parameter, extrapolate);
+    chuck.predict(parameter, extrapolate);
+    chuck.prescribe(time);
+    trial_time = time;
+    path.slip  = 0.;
+  }
+
+
+
+  void
+  CoupledSystem::leave_surface_behind()
+  {
+    const auto     &reference = implant.surface().control_points();
+    const auto      v         = implant.contact_displacement();
+    const auto      numbers   = implant.unknown_of();
+    Eigen::VectorXd dv        = Eigen::VectorXd::Zero(implant.n_unknowns());
+    for (unsigned int A = 0; A < reference.cols(); ++A)
+      {
+        const Eigen::Vector3d back = chuck.rotation().transpose() *
+                                     (interface.accepted_surface(1).col(A) -
+                                      chuck.map(reference.col(A), v.col(A)));
+        for (unsigned int c = 0; c < 3; ++c)
+          if (numbers[3 * A + c] >= 0)
+            dv[numbers[3 * A + c]] = back[c];
+      }
+    Eigen::VectorXd at_rest; // a Neo-Hookean body's interior follows from this
+    implant.residual(ControlNet::Zero(3, reference.cols()), at_rest);
+    implant.correct(dv);
+  }
+
+
+
+  void
+  CoupledSystem::prescribe_slip(const double slip)
+  {
+    path.slip = slip;
+  }
+
+
+
+  void
+  CoupledSystem::commit(const double parameter)
+  {
+    {
+      const dealii::TimerOutput::Scope t(timer, "bulk");
+      // closed points face contact unknowns only
+      const bool surface_is_seen = interface.has_open_points();
+      bone.commit(parameter, surface_is_seen);
+      implant.commit(parameter, surface_is_seen);
+    }
+    chuck.commit(parameter);
+    update_configuration();
+    const dealii::TimerOutput::Scope t(timer, "contact");
+    if (path.follow)
+      path.old_slip = interface.mean_slip(configuration).value;
+    interface.commit(configuration);
+  }
+
+
+
+  void
+  CoupledSystem::rollback()
+  {
+    bone.rollback();
+    implant.rollback();
+    chuck.rollback();
+  }
+
+
+
+  double
+  CoupledSystem::scale_of(const unsigned int chuck_component) const
+  {
+    return chuck_component < 3 ? 1. : R;
+  }
+
+
+
+  CoupledSystem::Residual
+  CoupledSystem::evaluate(const ContactPointMode &mode)
+  {
+    Residual result;
+    do
+      {
+        update_configuration();
+        const dealii::TimerOutput::Scope t(timer, "contact");
+        if (!interface.evaluate(configuration, mode))
+          {
+            result.why = interface.describe_failure();
+            return result;
+          }
+      }
+    while (extend_contact_unknowns() || complete_surfaces());
+
+    const dealii::TimerOutput::Scope t(timer, "bulk");
+    double                           norm_squared = 0., interior_squared = 0.;
+    unsigned int                     first = 0;
+    unsigned int                     side  = 0;
+    for (Body *body : {&bone, &implant})
+      {
+        Eigen::VectorXd condensed;
+        const auto      part =
+          body->residual(configuration.side[side].frame.transpose() *
+                           interface.force(side),
+                         condensed);
+        if (!part.valid)
+          {
+            result.why = std::string("a cell of the ") +
+                         (side == 0 ? "bone" : "implant") +
+                         " is turned inside out";
+            return result;
+          }
+        residual.segment(first, body->n_unknowns()) = condensed;
+        norm_squared += part.norm_squared;
+        interior_squared += part.interior_squared;
+        first += body->n_unknowns();
+        ++side;
+      }
+
+    const double force = interface.force(interface.slave_side()).norm();
+    result.reference   = std::max(force_floor, force);
+    const Chuck::Vector6 forces = chuck_forces();
+    for (const auto &[component, number] : configuration.chuck_unknowns)
+      {
+        if (chuck.is_prescribed(component))
+          {
+            residual[number] = 0.; // q_k is set with the time
+            continue;
+          }
+        const double load = chuck.machine_load(component);
+        residual[number]  = forces[component] - load;
+        norm_squared += std::pow(residual[number] / scale_of(component), 2);
+        result.reference =
+          std::max(result.reference, std::abs(load) / scale_of(component));
+      }
+    if (path.follow)
+      {
+        residual[path.number] =
+          path.evaluate(interface, configuration, trial_time, result.reference);
+        norm_squared += std::pow(residual[path.number], 2);
+      }
+    result.norm  = std::sqrt(norm_squared);
+    result.valid = std::isfinite(result.norm) && std::isfinite(force);
+    if (!result.valid)
+      result.why = "the residual is not finite";
+    result.interior_share =
+      norm_squared > 0. ? interior_squared / norm_squared : 0.;
+    return result;
+  }
+
+
+
+  bool
+  CoupledSystem::is_unsupported() const
+  {
+    bool free_chuck = false;
+    for (const unsigned int k : chuck.unknowns())
+      free_chuck = free_chuck || chuck.machine_stiffness(k) == 0.;
+    return free_chuck && interface.summarise().n_closed == 0;
+  }
+
+
+
+  std::string
+  CoupledSystem::solve_and_correct(const double relative_tolerance)
+  {
+    Eigen::VectorXd &correction = last_correction;
+    {
+      const dealii::TimerOutput::Scope t(timer, "dense solve");
+      correction = solver.solve(matrix, residual, relative_tolerance);
+    }
+    if (!correction.allFinite())
+      {
+        solver.forget();
+        return "the system of equations is singular";
+      }
+    for (const auto &[component, number] : configuration.chuck_unknowns)
+      if (!chuck.is_prescribed(component) &&
+          chuck.machine_stiffness(component) == 0. &&
+          std::abs(correction[number]) > (component < 3 ? 10. * R : 1.))
+        {
+          solver.forget();
+          return std::string("the loaded chuck component ") +
+                 ChuckParameters::names[component] + " meets no resistance";
+        }
+    const dealii::TimerOutput::Scope t(timer, "bulk");
+    const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
+    bone.correct(-correction.head(n_b));
+    implant.correct(-correction.segment(n_b, n_i));
+    correct_chuck(-1.);
+    return "";
+  }
+
+
+
+  void
+  CoupledSystem::correct_chuck(const double factor)
+  {
+    for (const auto &[component, number] : configuration.chuck_unknowns)
+      if (!chuck.is_prescribed(component))
+        chuck.correct(component, factor * last_correction[number]);
+    if (path.follow)
+      {
+        trial_time += factor * last_correction[path.number];
+        chuck.prescribe(trial_time);
+      }
+  }
+
+
+
+  void
+  CoupledSystem::shorten_correction(const double fraction)
+  {
+    bone.shorten_correction(fraction);
+    implant.shorten_correction(fraction);
+    correct_chuck(1. - fraction);
+    last_correction *= fraction;
+  }
+
+
+
+  bool
+  CoupledSystem::refactor_bulk()
+  {
+    const dealii::TimerOutput::Scope t(timer, "condensation");
+    solver.forget();
+    return bone.refactor() && implant.refactor();
+  }
+
+
+
+  std::string
+  CoupledSystem::describe_worst_point() const
+  {
+    int          worst = 0;
+    const double value =
+      residual.size() > 0 ? residual.cwiseAbs().maxCoeff(&worst) : 0.;
+    std::ostringstream text;
+    for (unsigned int side = 0; side < 2; ++side)
+      {
+        const auto &numbers = configuration.side[side].unknown_of;
+        const auto  found   = std::find(numbers.begin(), numbers.end(), worst);
+        if (residual.size() > 0 && found != numbers.end())
+          {
+            const unsigned int index = found - numbers.begin();
+            const auto x = configuration.side[side].positions.col(index / 3);
+            text << "residual " << value << " N in "
+                 << "xyz"[index % 3] << " at the "
+                 << (side == 0 ? "bone" : "implant") << "'s control point at ("
+                 << x[0] << ", " << x[1] << ", " << x[2] << ") mm";
+          }
+      }
+    for (const auto &[component, number] : configuration.chuck_unknowns)
+      if (number == static_cast<unsigned int>(worst))
+        text << "residual " << value << (component < 3 ? " N" : " N mm")
+             << " in the chuck's " << ChuckParameters::names[component];
+    return text.str();
+  }
+
+
+
+  Chuck::Vector6
+  CoupledSystem::chuck_forces() const
+  {
+    Chuck::Vector6 result = Chuck::Vector6::Zero();
+    const auto    &x      = configuration.side[1].positions;
+    for (unsigned int A = 0; A < x.cols(); ++A)
+      for (unsigned int k = 0; k < 6; ++k)
+        result[k] += interface.force(1).col(A).dot(chuck.velocity(k, x.col(A)));
+    return result;
+  }
+
+
+
+  Chuck::Vector6
+  CoupledSystem::chuck_resultant() const
+  {
+    Chuck::Vector6 result = Chuck::Vector6::Zero();
+    const auto    &x      = configuration.side[1].positions;
+    for (unsigned int A = 0; A < x.cols(); ++A)
+      {
+        const Eigen::Vector3d f = interface.force(1).col(A);
+        const Eigen::Vector3d r = x.col(A) - chuck.centre();
+        result.head<3>() += f;
+        result.tail<3>() += r.cross(f);
+      }
+    return result;
+  }
+
+
+
+  double
+  CoupledSystem::reaction_defect()
+  {
+    if (!implant.deformable())
+      return 0.;
+    // in the implant's frame; a linear body balances moments with reference
+    // lever arms only
+    const Eigen::Vector3d C         = chuck.reference_centre();
+    const auto           &reference = implant.surface().control_points();
+    const auto            v         = implant.contact_displacement();
+    Chuck::Vector6        contact   = Chuck::Vector6::Zero();
+    for (unsigned int A = 0; A < reference.cols(); ++A)
+      {
+        const Eigen::Vector3d f =
+          chuck.rotation().transpose() * interface.force(1).col(A);
+        Eigen::Vector3d arm = reference.col(A) - C;
+        if (implant.material() == Material::neo_hookean)
+          arm += v.col(A);
+        contact.head<3>() += f;
+        contact.tail<3>() += arm.cross(f);
+      }
+    Chuck::Vector6 support    = implant.support_reaction(C);
+    Chuck::Vector6 difference = contact - support;
+    for (Chuck::Vector6 *resultant : {&contact, &support, &difference})
+      resultant->tail<3>() /= R;
+    return difference.norm() /
+           std::max({contact.norm(), support.norm(), force_floor});
+  }
+} // namespace Debond

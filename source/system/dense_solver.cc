@@ -1,0 +1,132 @@
+#include <debond/system/dense_solver.h>
+
+#include <deal.II/lac/precondition.h>
+#include <deal.II/lac/solver_control.h>
+#include <deal.II/lac/solver_gmres.h>
+#include <deal.II/lac/vector.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace Debond
+{
+  namespace
+  {
+    using DealVector = dealii::Vector<double>;
+
+    Eigen::Map<Eigen::VectorXd>
+    as_eigen(DealVector &v)
+    {
+      return {v.begin(), static_cast<Eigen::Index>(v.size())};
+    }
+    Eigen::Map<const Eigen::VectorXd>
+    as_eigen(const DealVector &v)
+    {
+      return {v.begin(), static_cast<Eigen::Index>(v.size())};
+    }
+
+    // What deal.II's solvers ask of a matrix.
+    struct Operator
+    {
+      std::function<Eigen::VectorXd(const Eigen::VectorXd &)> product;
+
+      void
+      vmult(DealVector &y, const DealVector &x) const
+      {
+        as_eigen(y) = product(as_eigen(x));
+      }
+    };
+
+
+
+    // More iterations than this with the bulk as preconditioner, and those
+    // with a factorisation, which cost twice as much each but are fewer, are
+    // cheaper in the long run.
+    constexpr unsigned int max_bulk_iterations = 12;
+
+    // Iterations that are cheaper than a new factorisation: n^3 against n^2
+    // work, with a floor for small systems where overheads count.
+    unsigned int
+    affordable_iterations(const unsigned int n)
+    {
+      return std::clamp(n / 50, 6u, 40u);
+    }
+  } // namespace
+
+
+
+  Eigen::VectorXd
+  DenseSolver::factorise_and_solve(const SplitMatrix     &A,
+                                   const Eigen::VectorXd &b)
+  {
+    A.assemble(matrix);
+    lu.compute(matrix);
+    preconditioner = Preconditioner::factorisation;
+    ++factorisations;
+    return lu.solve(b);
+  }
+
+
+
+  // Preconditioned from the right with P: (A P^-1) y = b, x = P^-1 y, and with
+  // P = B there is no product with B: A B^-1 = 1 + C B^-1.
+  bool
+  DenseSolver::iterate(const SplitMatrix     &A,
+                       const Eigen::VectorXd &b,
+                       const double           relative_tolerance,
+                       Eigen::VectorXd       &x)
+  {
+    const bool     with_bulk = preconditioner == Preconditioner::bulk;
+    const Operator preconditioned{
+      [&](const Eigen::VectorXd &y) -> Eigen::VectorXd {
+        if (with_bulk)
+          return y + A.interface_product(A.solve_bulk(y));
+        return A.product(lu.solve(y));
+      }};
+    const unsigned int max_iterations =
+      with_bulk ? max_bulk_iterations : affordable_iterations(b.size());
+    dealii::SolverControl           control(max_iterations,
+                                  relative_tolerance * b.norm(),
+                                  false,
+                                  false);
+    dealii::SolverGMRES<DealVector> gmres(
+      control,
+      dealii::SolverGMRES<DealVector>::AdditionalData(max_iterations + 2));
+    DealVector y(b.size()), right_hand_side(b.size());
+    as_eigen(right_hand_side) = b;
+    bool converged            = true;
+    try
+      {
+        gmres.solve(preconditioned,
+                    y,
+                    right_hand_side,
+                    dealii::PreconditionIdentity());
+      }
+    catch (const dealii::SolverControl::NoConvergence &)
+      {
+        converged = false;
+      }
+    iterations += control.last_step();
+    if (converged)
+      x = with_bulk ? A.solve_bulk(as_eigen(y)) : lu.solve(as_eigen(y)).eval();
+    return converged;
+  }
+
+
+
+  Eigen::VectorXd
+  DenseSolver::solve(const SplitMatrix     &A,
+                     const Eigen::VectorXd &b,
+                     const double           relative_tolerance)
+  {
+    if (b.size() == 0 || b.isZero(0.))
+      return Eigen::VectorXd::Zero(b.size());
+    Eigen::VectorXd x;
+    const bool      can_iterate = preconditioner == Preconditioner::bulk ?
+                                    A.bulk_is_regular() :
+                                    lu.rows() == b.size();
+    if (can_iterate && iterate(A, b, relative_tolerance, x))
+      return x;
+    return factorise_and_solve(A, b);
+  }
+} // namespace Debond

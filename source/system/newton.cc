@@ -1,0 +1,191 @@
+#include <debond/system/newton.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace Debond
+{
+  namespace
+  {
+    // Linear systems need no more digits than the step to the tolerance asks
+    // for, and no fewer than quadratic convergence shows.
+    double
+    linear_tolerance(const double error, const double tolerance)
+    {
+      return std::clamp(0.1 * tolerance / error, 1e-9, 1e-3);
+    }
+
+
+
+    // The bulk's tangent is stale if the interior's residual, which an exact
+    // tangent would reduce quadratically, is what is left of the residual and
+    // has not become a tenth of what it was.
+    bool
+    bulk_contracts_poorly(const std::vector<double> &history,
+                          const double               interior_share)
+    {
+      const std::size_t n = history.size();
+      return n >= 2 && interior_share > 0.25 &&
+             history[n - 1] > 0.1 * history[n - 2];
+    }
+
+
+
+    // Neither converging nor about to: no new minimum worth the name in the
+    // last eight iterations, or a residual that explodes.
+    bool
+    hopeless(const std::vector<double> &history)
+    {
+      const std::size_t n = history.size();
+      if (n < 10)
+        return false;
+      const double recent = *std::min_element(history.end() - 8, history.end());
+      const double before =
+        *std::min_element(history.begin(), history.end() - 8);
+      return recent > 0.5 * before;
+    }
+
+
+
+    ContactPointMode
+    mode_of(const NewtonOptions &options, const unsigned int iteration)
+    {
+      ContactPointMode mode;
+      mode.frictionless    = options.frictionless;
+      mode.stick_first     = options.stick_first && iteration == 0;
+      mode.touch_tolerance = options.touch_tolerance;
+      mode.duration        = options.duration;
+      return mode;
+    }
+
+
+
+    // Recognises that points change between stick, slip and open without an
+    // end: all of them are in states that they were in before with a residual
+    // not much larger, or the residual has grown for the second time.
+    class CycleDetector
+    {
+    public:
+      bool
+      sees_cycle(const std::vector<PointStatus> &states, const double error)
+      {
+        if (!seen.empty() && error > seen.back().second)
+          ++n_grown;
+        const bool settled = !seen.empty() && states == seen.back().first;
+        const bool was_here =
+          std::any_of(seen.begin(), seen.end(), [&](const auto &before) {
+            return before.first == states && error > 0.5 * before.second;
+          });
+        seen.emplace_back(states, error);
+        return n_grown > 1 || (was_here && !settled);
+      }
+
+    private:
+      unsigned int                                             n_grown = 0;
+      std::vector<std::pair<std::vector<PointStatus>, double>> seen;
+    };
+
+
+
+    // Halves the last correction until the residual has become smaller; returns
+    // the residual where this ends.
+    CoupledSystem::Residual
+    evaluate_shortened(CoupledSystem          &system,
+                       const ContactPointMode &mode,
+                       const double            norm_before)
+    {
+      constexpr double   shortest = 1. / 32., descent = 0.1;
+      const unsigned int n_unknowns = system.n_unknowns();
+      double             fraction   = 1.;
+      auto               residual   = system.evaluate(mode);
+      // with new contact unknowns the old correction means nothing
+      while (fraction > shortest && system.n_unknowns() == n_unknowns &&
+             (!residual.valid ||
+              residual.norm > (1. - descent * fraction) * norm_before))
+        {
+          system.shorten_correction(0.5);
+          fraction *= 0.5;
+          residual = system.evaluate(mode);
+        }
+      return residual;
+    }
+
+
+
+    // Solves for a correction and applies it. Returns why that was impossible,
+    // or an empty text.
+    std::string
+    correct(CoupledSystem                 &system,
+            const NewtonOptions           &options,
+            const ContactPointMode        &mode,
+            const CoupledSystem::Residual &residual,
+            const std::vector<double>     &history)
+    {
+      if (bulk_contracts_poorly(history, residual.interior_share))
+        {
+          if (!system.refactor_bulk())
+            return "the stiffness of a body is not positive definite";
+          system.evaluate(mode); // condensed with the new factor
+        }
+      if (system.is_unsupported())
+        return "a loaded chuck has nothing to act against: the bodies are "
+               "not in contact";
+      return system.solve_and_correct(
+        linear_tolerance(history.back(), options.residual_tolerance));
+    }
+  } // namespace
+
+
+
+  NewtonResult
+  solve_newton(CoupledSystem &system, const NewtonOptions &options)
+  {
+    NewtonResult  result;
+    CycleDetector cycle_detector;
+    // iteration from which on corrections are shortened; 0: none
+    std::size_t cautious_from = 0;
+    double      last_norm     = 0.;
+    for (unsigned int iteration = 0; true; ++iteration)
+      {
+        const ContactPointMode mode     = mode_of(options, iteration);
+        const auto             residual = cautious_from > 0 ?
+                                            evaluate_shortened(system, mode, last_norm) :
+                                            system.evaluate(mode);
+        if (!residual.valid)
+          {
+            result.why = residual.why;
+            return result;
+          }
+        const double error = residual.norm / residual.reference;
+        last_norm          = residual.norm;
+        result.history.push_back(error);
+        if (error <= options.residual_tolerance)
+          {
+            if (mode.stick_first)
+              continue; // nothing to correct; now with the true law
+            result.converged = true;
+            return result;
+          }
+        if (iteration == options.max_iterations ||
+            hopeless(
+              {result.history.begin() + cautious_from, result.history.end()}))
+          {
+            std::ostringstream why;
+            why << "no convergence in " << iteration
+                << " iterations, relative residual " << error << ", largest "
+                << system.describe_worst_point();
+            result.why = why.str();
+            return result;
+          }
+        if (!mode.stick_first && cautious_from == 0 &&
+            options.shorten_in_cycles &&
+            cycle_detector.sees_cycle(system.interface.statuses(), error))
+          cautious_from = iteration;
+        result.why = correct(system, options, mode, residual, result.history);
+        if (!result.why.empty())
+          return result;
+        ++result.iterations;
+      }
+  }
+} // namespace Debond

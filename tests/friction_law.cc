@@ -152,4 +152,5 @@ main()
            friction_coefficient(none, 1., 0.03).dmu == 0. &&
            steepest_fall(none, 1.) == 0. &&
            adhesive_strength(none, 1., 0., 1.) == 0.);
+  return 0;
 }

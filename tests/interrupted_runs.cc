@@ -293,4 +293,5 @@ main()
     end)",
         {1, 2, 6},
         true);
+  return 0;
 }

@@ -290,4 +290,5 @@ main()
   std::cout << "Can be halved " << n << " times" << std::endl;
   report("1/64 is allowed", !take(stepping, 1, 1. / 64.).empty());
   report("1/128 is not", take(stepping, 1, 1. / 128.).empty());
+  return 0;
 }

@@ -221,4 +221,5 @@ main()
   bone.contact_surface = implant.contact_surface = SurfaceKind::bilinear;
   check_cells("Bone, bilinear", bone, BodySide::bone);
   check_cells("Coin, bilinear", implant, BodySide::implant);
+  return 0;
 }

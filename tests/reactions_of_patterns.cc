@@ -161,4 +161,5 @@ main()
   Debond::set_up_libraries();
   check_closed_form();
   check_turned();
+  return 0;
 }

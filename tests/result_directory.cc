@@ -112,4 +112,5 @@ main()
   object.add("warnings", std::vector<std::string>{"first", "second"});
   object.add("none", std::vector<std::string>{});
   std::cout << object.text();
+  return 0;
 }

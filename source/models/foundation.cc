@@ -74,13 +74,10 @@ namespace Debond
   FoundationStiffness
   foundation_stiffness(const Scene &scene)
   {
-    const double        R     = scene.implant.characteristic_radius();
-    const double        depth = 1e-6 * R, angle = 1e-6;
-    dealii::TimerOutput timer(std::cout,
-                              dealii::TimerOutput::never,
-                              dealii::TimerOutput::wall_times);
+    const double R     = scene.implant.characteristic_radius();
+    const double depth = 1e-6 * R, angle = 1e-6;
     require_memory(scene);
-    CoupledSystem system(sticking_scene(scene, depth, angle), timer);
+    CoupledSystem system(sticking_scene(scene, depth, angle));
     system.start(0.);
     solve(system, 1.);
     FoundationStiffness stiffness;

@@ -4,7 +4,7 @@
 #include <debond/bulk/body_parameters.h>
 #include <debond/bulk/chuck.h>
 #include <debond/interface/interface_parameters.h>
-#include <debond/system/load_stepping.h>
+#include <debond/system/load_step_parameters.h>
 
 namespace Debond
 {

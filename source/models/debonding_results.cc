@@ -53,7 +53,8 @@ namespace Debond
     state->console.row(row,
                        rows_are_accepted_steps() ? 0 :
                                                    state->stepping.n_steps());
-    state->profiles->write(row.angle_deg, system.interface);
+    state->profiles->write(row.angle_deg,
+                           [&] { return profile_points(system.interface); });
     if (state->field_output && fields_are_due())
       state->field_output->write(state->time);
   }

@@ -1,31 +1,35 @@
 #ifndef debond_models_debonding_problem_h
 #define debond_models_debonding_problem_h
 
-#include <debond/models/problem.h>
+#include <debond/output/torque_curve.h>
+#include <debond/scene/scene.h>
+#include <debond/support/run_error.h>
 
 #include <exception>
+#include <iosfwd>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace Debond
 {
+  struct BodyPair;
   struct Checkpoint;
 
   /**
    * The model `finite elements`: from a scene to torque curve, summary and
    * fields. run() reads like a table of contents.
    */
-  class DebondingProblem : public Problem
+  class DebondingProblem
   {
   public:
     /** @p bodies: see CoupledSystem. */
     explicit DebondingProblem(const Scene              &scene,
                               std::shared_ptr<BodyPair> bodies = nullptr);
-    ~DebondingProblem() override;
+    ~DebondingProblem();
 
     void
-    run() override;
+    run();
 
     /** The same from a checkpoint of a run of this scene: rows and files from
      *  there on are those of a run that was never interrupted, to the last bit.
@@ -36,10 +40,10 @@ namespace Debond
     /** Builds the meshes, prints degrees of freedom and what closed forms
      *  foretell, and runs nothing. */
     void
-    check(std::ostream &out) override;
+    check(std::ostream &out);
 
     const std::vector<TorqueRow> &
-    rows() const override;
+    rows() const;
 
   private:
     struct Run;

@@ -63,11 +63,8 @@ namespace Debond
       try
         {
           require_memory(scene);
-          dealii::Timer       clock;
-          dealii::TimerOutput timer(std::cout,
-                                    dealii::TimerOutput::never,
-                                    dealii::TimerOutput::wall_times);
-          CoupledSystem       system(scene, timer);
+          dealii::Timer clock;
+          CoupledSystem system(scene);
           system.start(scene.load_steps.times.front());
           system.bodies()->seconds_shared = clock.wall_time();
           return system.bodies();

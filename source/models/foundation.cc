@@ -4,8 +4,8 @@
 #include <debond/system/coupled_system.h>
 #include <debond/system/newton.h>
 
+#include <algorithm>
 #include <cmath>
-#include <iostream>
 
 namespace Debond
 {
@@ -24,10 +24,12 @@ namespace Debond
       scene.interface.friction.mu_broken = 1e6;
       scene.interface.friction.starts_at = 0;
       scene.chuck                        = ChuckParameters();
-      scene.chuck.component[2].value =
-        std::to_string(-1e9 * depth) + " * 1e-9 * min(t, 1)";
-      scene.chuck.component[5].value =
-        std::to_string(1e9 * angle * 180. / M_PI) + " * 1e-9 * max(t - 1, 0)";
+      scene.chuck.component[2].value     = [depth](const double t) {
+        return -depth * std::min(t, 1.);
+      };
+      scene.chuck.component[5].value = [angle](const double t) {
+        return angle * 180. / M_PI * std::max(t - 1., 0.);
+      };
       return scene;
     }
 
@@ -74,13 +76,10 @@ namespace Debond
   FoundationStiffness
   foundation_stiffness(const Scene &scene)
   {
-    const double        R     = scene.implant.characteristic_radius();
-    const double        depth = 1e-6 * R, angle = 1e-6;
-    dealii::TimerOutput timer(std::cout,
-                              dealii::TimerOutput::never,
-                              dealii::TimerOutput::wall_times);
+    const double R     = scene.implant.characteristic_radius();
+    const double depth = 1e-6 * R, angle = 1e-6;
     require_memory(scene);
-    CoupledSystem system(sticking_scene(scene, depth, angle), timer);
+    CoupledSystem system(sticking_scene(scene, depth, angle));
     system.start(0.);
     solve(system, 1.);
     FoundationStiffness stiffness;

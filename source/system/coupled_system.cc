@@ -9,34 +9,34 @@
 
 namespace Debond
 {
-  BodyPair::BodyPair(const Scene &scene)
-    : bone(scene.bone, BodySide::bone)
-    , implant(scene.implant, BodySide::implant)
+  BodyPair::BodyPair(const ModelParameters &parameters)
+    : bone(parameters.bone, BodySide::bone)
+    , implant(parameters.implant, BodySide::implant)
   {}
 
 
 
-  CoupledSystem::CoupledSystem(const Scene              &scene,
-                               dealii::TimerOutput      &timer,
-                               std::shared_ptr<BodyPair> bodies)
+  CoupledSystem::CoupledSystem(const ModelParameters    &parameters,
+                               std::shared_ptr<BodyPair> bodies,
+                               dealii::TimerOutput      *timer)
     : both_bodies(bodies ? std::move(bodies) :
-                           std::make_shared<BodyPair>(scene))
+                           std::make_shared<BodyPair>(parameters))
     , bone(both_bodies->bone)
     , implant(both_bodies->implant)
-    , chuck(scene.chuck,
-            Eigen::Vector3d(0, 0, scene.implant.thickness()),
-            scene.implant.characteristic_radius())
-    , interface(scene.interface, bone.mesh(), implant.mesh())
-    , R(scene.implant.characteristic_radius())
+    , chuck(parameters.chuck,
+            Eigen::Vector3d(0, 0, parameters.implant.thickness()),
+            parameters.implant.characteristic_radius())
+    , interface(parameters.interface, bone.mesh(), implant.mesh())
+    , R(parameters.implant.characteristic_radius())
     , timer(timer)
-    , force_floor(scene.interface.normal_penalty * interface.implant_area() *
-                  1e-6 * R)
+    , force_floor(parameters.interface.normal_penalty *
+                  interface.implant_area() * 1e-6 * R)
     , matrix(bone, implant, interface, configuration, path)
   {
     configuration.chuck = &chuck;
-    path.follow         = scene.load_steps.follow_path;
+    path.follow         = parameters.load_steps.follow_path;
     for (unsigned int k = 0; k < 6; ++k)
-      path.stiffness[k] = scene.interface.normal_penalty *
+      path.stiffness[k] = parameters.interface.normal_penalty *
                           interface.implant_area() * std::pow(scale_of(k), 2);
   }
 
@@ -89,10 +89,10 @@ namespace Debond
     chuck.place(time);
     update_configuration();
     {
-      const dealii::TimerOutput::Scope t(timer, "contact");
+      const TimedSection t(timer, "contact");
       interface.initialise(configuration);
     }
-    const dealii::TimerOutput::Scope t(timer, "condensation");
+    const TimedSection t(timer, "condensation");
     bone.set_contact_control_points(bone_control_points_under_implant(
       bone.surface(), implant.surface(), configuration));
     implant.set_contact_control_points(
@@ -125,7 +125,7 @@ namespace Debond
                                         configuration);
     for (unsigned int A = 0; A < wanted.size(); ++A)
       wanted[A] = wanted[A] || under[A];
-    const dealii::TimerOutput::Scope t(timer, "condensation");
+    const TimedSection t(timer, "condensation");
     bone.set_contact_control_points(wanted);
     number_unknowns();
     return true;
@@ -141,7 +141,7 @@ namespace Debond
       return false;
     if (!interface.has_open_points())
       return false;
-    const dealii::TimerOutput::Scope t(timer, "bulk");
+    const TimedSection t(timer, "bulk");
     bone.complete_surface();
     implant.complete_surface();
     return true;
@@ -199,7 +199,7 @@ namespace Debond
   CoupledSystem::commit(const double parameter)
   {
     {
-      const dealii::TimerOutput::Scope t(timer, "bulk");
+      const TimedSection t(timer, "bulk");
       // closed points face contact unknowns only
       const bool surface_is_seen = interface.has_open_points();
       bone.commit(parameter, surface_is_seen);
@@ -207,9 +207,8 @@ namespace Debond
     }
     chuck.commit(parameter);
     update_configuration();
-    const dealii::TimerOutput::Scope t(timer, "contact");
-    if (path.follow)
-      path.old_slip = interface.mean_slip(configuration).value;
+    const TimedSection t(timer, "contact");
+    path.old_slip = mean_slip();
     interface.commit(configuration);
   }
 
@@ -240,7 +239,7 @@ namespace Debond
     do
       {
         update_configuration();
-        const dealii::TimerOutput::Scope t(timer, "contact");
+        const TimedSection t(timer, "contact");
         if (!interface.evaluate(configuration, mode))
           {
             result.why = interface.describe_failure();
@@ -249,10 +248,10 @@ namespace Debond
       }
     while (extend_contact_unknowns() || complete_surfaces());
 
-    const dealii::TimerOutput::Scope t(timer, "bulk");
-    double                           norm_squared = 0., interior_squared = 0.;
-    unsigned int                     first = 0;
-    unsigned int                     side  = 0;
+    const TimedSection t(timer, "bulk");
+    double             norm_squared = 0., interior_squared = 0.;
+    unsigned int       first = 0;
+    unsigned int       side  = 0;
     for (Body *body : {&bone, &implant})
       {
         Eigen::VectorXd condensed;
@@ -323,7 +322,7 @@ namespace Debond
   {
     Eigen::VectorXd &correction = last_correction;
     {
-      const dealii::TimerOutput::Scope t(timer, "dense solve");
+      const TimedSection t(timer, "dense solve");
       correction = solver.solve(matrix, residual, relative_tolerance);
     }
     if (!correction.allFinite())
@@ -340,7 +339,7 @@ namespace Debond
           return std::string("the loaded chuck component ") +
                  ChuckParameters::names[component] + " meets no resistance";
         }
-    const dealii::TimerOutput::Scope t(timer, "bulk");
+    const TimedSection t(timer, "bulk");
     const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
     bone.correct(-correction.head(n_b));
     implant.correct(-correction.segment(n_b, n_i));
@@ -379,7 +378,7 @@ namespace Debond
   bool
   CoupledSystem::refactor_bulk()
   {
-    const dealii::TimerOutput::Scope t(timer, "condensation");
+    const TimedSection t(timer, "condensation");
     solver.forget();
     return bone.refactor() && implant.refactor();
   }

@@ -21,9 +21,9 @@ namespace Debond
   struct ChuckComponentParameters
   {
     bool loaded = false; ///< force or moment instead of displacement or angle
-    /** Expression in t (constants pi, R). Units: mm, degrees, N, N mm. */
-    std::string value     = "0";
-    double      stiffness = 0; ///< of the machine [N/mm or N mm/rad]; 0: rigid
+    /** Of t (expressions know pi and R). Units: mm, degrees, N, N mm. */
+    TimeExpression value = "0";
+    double stiffness     = 0; ///< of the machine [N/mm or N mm/rad]; 0: rigid
   };
 
   /** The subsection `Chuck`: Translation x, y, z, Rotation x, y, z. */

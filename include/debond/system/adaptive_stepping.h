@@ -2,8 +2,7 @@
 #define debond_system_adaptive_stepping_h
 
 #include <debond/system/load_stepping.h>
-
-#include <Eigen/Core>
+#include <debond/system/step_control.h>
 
 #include <array>
 
@@ -24,68 +23,66 @@ namespace Debond
    * straight line through the step before, in the first step of a phase from a
    * trial in its middle.
    */
-  class AdaptiveStepping
+  class AdaptiveStepping : public StepControl
   {
   public:
-    using Forces = Eigen::Matrix<double, 6, 1>;
+    using Forces = Chuck::Vector6;
 
     /** @p radius makes forces of moments, to compare them with [mm]. */
     AdaptiveStepping(const LoadSteppingParameters &parameters, double radius);
 
-    /** Goes to the beginning of a phase, where the chuck exerts @p forces and
-     *  the scene prescribes @p drive, displacements and angles or loads. */
-    void
-    begin_phase(unsigned int phase, const Forces &forces, const Forces &drive);
     bool
-    phase_is_finished() const
+    phase_is_due() const override
+    {
+      return phase == 0 || phase_is_finished();
+    }
+    void
+    begin_phase(const StepState &accepted) override;
+
+    /** First of all a trial in the middle, in the first step of a phase. */
+    Step
+    next() override;
+    /** Where the curves bend too much between the states before and @p state,
+     *  the step has to be smaller, if it can. */
+    bool
+    take(const Step &, const StepState &state, unsigned int) override;
+    /** Halves the step. */
+    bool
+    reject(const Step &) override;
+
+    bool
+    phase_is_finished() const override
     {
       return time == end;
     }
-
-    /** End of the step that is to be tried next. */
-    double
-    target_time() const;
-    /** Whether a trial in the middle of the step, at middle_time(), has to be
-     *  made before its end can be judged. */
     bool
-    wants_middle() const
+    is_finished() const override
     {
-      return !has_previous && !has_middle;
+      return phase == parameters.steps.size() && phase_is_finished();
     }
-    double
-    middle_time() const;
-    void
-    note_middle(const Forces &forces);
-
-    /** The error of the curves in the step relative to the tolerance, given
-     *  forces and drive at its end. */
-    double
-    error(const Forces &forces, const Forces &drive);
-    /** Takes the step; @p error is the above. */
-    void
-    accept(const Forces &forces, double error);
-    /** Makes the step smaller because of its @p error; false if it cannot be
-     *  smaller and has to be taken as it is. */
-    bool
-    shrink(double error);
-    /** Halves the step because it could not be solved; false if it cannot be
-     *  smaller. */
-    bool
-    reject();
+    std::string
+    reason_to_end() const override
+    {
+      return "the last time is reached";
+    }
 
     /** See serialization.h. */
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &time &end &size &largest &current &previous &middle;
-      archive &previous_time &previous_error &has_previous &has_middle;
-      archive &greatest &first_drive &has_first_drive      &is_driven;
+      archive &phase &time &end &size &largest &current &previous &middle;
+      archive &previous_time &previous_error &has_previous        &has_middle;
+      archive &greatest &first_drive &has_first_drive             &is_driven;
     }
 
   private:
     double
     smallest() const;
+    double
+    target_time() const;
+    double
+    error(const StepState &state) const;
     double
     relative_to_tolerance(const Forces &difference, const Forces &forces) const;
     void
@@ -95,6 +92,7 @@ namespace Debond
 
     const LoadSteppingParameters parameters;
     const double                 radius;
+    unsigned int                 phase = 0; ///< from 1; 0: none has begun
     double                       time = 0, end = 0, size = 0, largest = 0;
     Forces current        = Forces::Zero(); ///< at the beginning of the step
     Forces previous       = Forces::Zero(); ///< one step before

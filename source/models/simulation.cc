@@ -1,0 +1,355 @@
+#include <debond/models/memory_estimate.h>
+#include <debond/models/simulation.h>
+#include <debond/support/number_text.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace Debond
+{
+  namespace
+  {
+    /** Refuses before anything large is built. */
+    const Scene &
+    affordable(const Scene &scene)
+    {
+      require_memory(scene);
+      return scene;
+    }
+
+
+
+    std::vector<Warning>
+    warnings_of(const Scene &scene)
+    {
+      std::vector<Warning> warnings;
+      for (const auto &[body, name] :
+           {std::make_pair(&scene.bone, "Bone"),
+            std::make_pair(&scene.implant, "Implant")})
+        if (body->material != Material::rigid && body->poisson_ratio > 0.45)
+          warnings.push_back(
+            {std::string("locking of ") + name,
+             std::string(name) +
+               " / Poisson ratio = " + to_text(body->poisson_ratio) +
+               ": trilinear cells lock as it approaches 0.5, so that the body "
+               "is too stiff: compare with finer Cells"});
+      if (scene.load_steps.adaptive && scene.interface.viscosity > 0.)
+        warnings.push_back(
+          {"viscosity",
+           "Load steps / Tolerance does not cover the error in time of "
+           "Interface / Viscosity, which is of first order in the step: "
+           "compare with smaller Steps"});
+      return warnings;
+    }
+
+
+
+    /** Of the initial bonding as the interface has it. */
+    std::vector<Warning>
+    warnings_of(const ContactInterface &interface)
+    {
+      std::vector<Warning> warnings;
+      const auto          &report = interface.bonding().report();
+      const double         seen   = interface.mean_seen_bonding();
+      if (!report.remark.empty())
+        warnings.push_back({"picture", report.remark});
+      if (std::abs(seen - report.mean) > 0.01 * report.mean)
+        warnings.push_back(
+          {"bonding",
+           "the quadrature points of the bone, which is the slave, see a mean "
+           "phi_0 of " +
+             to_text(seen, 4) + " instead of " + to_text(report.mean, 4) +
+             ": Slave = implant meets it exactly, more elements of the bone "
+             "more closely"});
+      return warnings;
+    }
+  } // namespace
+
+
+
+  Simulation::Simulation(const Scene              &scene,
+                         std::shared_ptr<BodyPair> bodies,
+                         dealii::TimerOutput      *timer)
+    : the_scene(affordable(scene))
+    , coupled_system(the_scene, std::move(bodies), timer)
+    , solver(the_scene, coupled_system)
+    , steps(choose_steps(the_scene))
+    , step_control(
+        std::visit([](auto &chosen) -> StepControl & { return chosen; }, steps))
+    , state_checks(the_scene)
+  {
+    coupled_system.start(solver.time());
+    for (const auto &found :
+         {warnings_of(the_scene), warnings_of(coupled_system.interface)})
+      for (const Warning &warning : found)
+        warn(warning);
+  }
+
+
+
+  Simulation::Steps
+  Simulation::choose_steps(const Scene &scene)
+  {
+    const LoadSteppingParameters &load_steps = scene.load_steps;
+    const double                  R = scene.implant.characteristic_radius();
+    if (load_steps.adaptive)
+      return AdaptiveStepping(load_steps, R);
+    if (!load_steps.follow_path)
+      return PlannedSteps(load_steps);
+    // a twentieth of the distance over which friction falls
+    const FrictionParameters &friction = scene.interface.friction;
+    const double              fall     = friction.sliding_threshold *
+                        std::min(1., 2. * friction.transition_factor);
+    return PathFollowing(load_steps,
+                         load_steps.largest_slip_step > 0. ?
+                           load_steps.largest_slip_step :
+                           fall / 20.,
+                         load_steps.path_ends_at_slip > 0. ?
+                           load_steps.path_ends_at_slip :
+                           R);
+  }
+
+
+
+  void
+  Simulation::add(SimulationObserver &observer)
+  {
+    observers.push_back(&observer);
+  }
+
+
+
+  template <typename Function>
+  void
+  Simulation::tell(const Function &function) const
+  {
+    for (SimulationObserver *const observer : observers)
+      function(*observer);
+  }
+
+
+
+  void
+  Simulation::run()
+  {
+    tell([this](SimulationObserver &observer) { observer.started(*this); });
+    if (all_rows.empty())
+      advance();
+    while (!is_finished())
+      {
+        tell(
+          [this](SimulationObserver &observer) { observer.next_row(*this); });
+        advance();
+      }
+    judge_whole_run();
+    tell([this](SimulationObserver &observer) { observer.finished(*this); });
+  }
+
+
+
+  void
+  Simulation::judge_whole_run()
+  {
+    if (std::all_of(all_rows.begin(), all_rows.end(), [](const TorqueRow &row) {
+          return row.share_open == 1.;
+        }))
+      warn({"no contact", "the bodies are never in contact"});
+    const LoadSteppingParameters &load_steps = the_scene.load_steps;
+    if (time() != load_steps.times.back() && load_steps.path_ends_at_slip == 0.)
+      warn({"path",
+            "the last time is not reached: " + step_control.reason_to_end()});
+  }
+
+
+
+  void
+  Simulation::advance()
+  {
+    if (all_rows.empty())
+      solve_first_row();
+    else
+      solve_row();
+    tell([this](SimulationObserver &observer) {
+      observer.row(*this, all_rows.back());
+    });
+  }
+
+
+
+  // Row 0: the state at the first time, solved like a step.
+  void
+  Simulation::solve_first_row()
+  {
+    const StepResult result = solver.solve_first();
+    all_iterations += result.iterations;
+    refuse_jump(result);
+    if (!result.is_acceptable())
+      throw RunError("The state at the first time, " +
+                     std::to_string(solver.time()) +
+                     ", could not be found: " + result.why);
+    accept(result);
+    add_row(result.interface, result.iterations);
+  }
+
+
+
+  // A row ends with an accepted step; it may need several, and steps that fail
+  // or go too far are tried again as the control of steps says.
+  void
+  Simulation::solve_row()
+  {
+    if (step_control.phase_is_due())
+      step_control.begin_phase(state());
+    unsigned int iterations = 0;
+    while (true)
+      {
+        const Step       step   = step_control.next();
+        const StepResult result = solver.solve(step);
+        iterations += result.iterations;
+        all_iterations += result.iterations;
+        refuse_jump(result);
+        if (!result.is_acceptable())
+          {
+            if (!step_control.reject(step))
+              give_up(step, result);
+          }
+        else if (!step_control.take(step, state(), result.iterations))
+          coupled_system.rollback();
+        else
+          {
+            accept(result);
+            if (step_control.row_is_complete())
+              return add_row(result.interface, iterations);
+          }
+      }
+  }
+
+
+
+  StepState
+  Simulation::state() const
+  {
+    const double time = coupled_system.time();
+    return {time,
+            coupled_system.chuck_forces(),
+            coupled_system.chuck.values(time),
+            coupled_system.mean_slip()};
+  }
+
+
+
+  void
+  Simulation::refuse_jump(const StepResult &result) const
+  {
+    if (!result.hopeless)
+      return;
+    std::ostringstream message;
+    message << "Step " << all_rows.size() << ", after time " << solver.time()
+            << ": " << result.why;
+    throw RunError(message.str());
+  }
+
+
+
+  void
+  Simulation::give_up(const Step &step, const StepResult &result) const
+  {
+    const Chuck       &chuck = coupled_system.chuck;
+    std::ostringstream message;
+    message << "Step " << all_rows.size();
+    if (step_control.n_planned_rows() > 0)
+      message << " of " << step_control.n_planned_rows();
+    message << " failed at time "
+            << (step.by_slip() ? coupled_system.time() : step.whole_time)
+            << ", angle " << chuck.position()[5] * 180. / M_PI
+            << " deg, with the smallest allowed part of a step: " << result.why;
+    if (!the_scene.load_steps.follow_path && !chuck.unknowns().empty())
+      message << ". A prescribed load may be more than the interface can "
+                 "carry; prescribing the displacement or angle instead, or "
+                 "Load steps / Path following = slip, follows the fall";
+    throw RunError(message.str());
+  }
+
+
+
+  void
+  Simulation::accept(const StepResult &result)
+  {
+    const unsigned int row             = all_rows.size();
+    const double       from            = solver.time();
+    const double       to              = coupled_system.time();
+    const double       reaction_defect = coupled_system.reaction_defect();
+    if (row > 0)
+      {
+        shortest_step = std::fmin(shortest_step, std::abs(to - from));
+        if (the_scene.has_friction() && the_scene.has_friction_after(from))
+          state_checks.add_way(row, coupled_system.chuck, from, to);
+      }
+    solver.commit();
+    state_checks.add(row, coupled_system, result.interface, reaction_defect);
+    for (const Warning &warning : state_checks.take_warnings())
+      warn(warning);
+    tell(
+      [this](SimulationObserver &observer) { observer.step_accepted(*this); });
+  }
+
+
+
+  void
+  Simulation::warn(const Warning &warning)
+  {
+    if (std::any_of(all_warnings.begin(),
+                    all_warnings.end(),
+                    [&](const Warning &other) {
+                      return other.check == warning.check;
+                    }))
+      return;
+    all_warnings.push_back(warning);
+    tell([&](SimulationObserver &observer) { observer.warned(warning); });
+  }
+
+
+
+  void
+  Simulation::add_row(const InterfaceSummary &summary,
+                      const unsigned int      iterations)
+  {
+    const Chuck            &chuck     = coupled_system.chuck;
+    const ContactInterface &interface = coupled_system.interface;
+    const Chuck::Vector6   &q         = chuck.position();
+    const Chuck::Vector6    reaction  = coupled_system.chuck_resultant();
+
+    TorqueRow row;
+    row.step              = all_rows.size();
+    row.time              = solver.time();
+    row.angle_deg         = q[5] * 180. / M_PI;
+    row.torque_Nmm        = coupled_system.chuck_forces()[5];
+    row.force_N           = 0. - reaction[2]; // no negative zero
+    row.pressure_MPa      = row.force_N / interface.implant_area();
+    row.phi_mean          = summary.phi_mean;
+    row.share_stick       = summary.share_stick;
+    row.share_slip        = summary.share_slip;
+    row.share_open        = summary.share_open;
+    row.newton_iterations = iterations;
+    row.energy_defect     = state_checks.energy().defect();
+    row.work_Nmm          = state_checks.energy().work();
+    row.energy_bulk_Nmm =
+      coupled_system.bone.energy() + coupled_system.implant.energy();
+    row.energy_interface_Nmm = summary.energy;
+    row.dissipation_Nmm      = interface.work().dissipation;
+    row.adhesive_work_Nmm    = interface.work().adhesive;
+    row.energy_defect_bound  = state_checks.energy().defect_bound();
+    row.reaction_defect      = state_checks.reaction_defect();
+    row.viscous_work_Nmm     = interface.work().viscous;
+    row.warnings             = state_checks.take_violations();
+    row.machine_angle_deg    = chuck.machine_position()[5] * 180. / M_PI;
+    row.released_energy_Nmm  = state_checks.released().total();
+    for (unsigned int k = 0; k < 6; ++k)
+      {
+        row.chuck_reaction[k] = reaction[k];
+        row.chuck_position[k] = q[k] * (k < 3 ? 1. : 180. / M_PI);
+      }
+    all_rows.push_back(row);
+  }
+} // namespace Debond

@@ -10,12 +10,14 @@ namespace Debond
 {
   namespace
   {
-    /** Refuses before anything large is built. */
-    const Scene &
-    affordable(const Scene &scene)
+    CoupledSystem
+    build(const Scene              &scene,
+          std::shared_ptr<BodyPair> bodies,
+          dealii::TimerOutput      *timer)
     {
-      require_memory(scene);
-      return scene;
+      require_memory(scene); // before anything large is built
+      const TimedSection t(timer, "set-up");
+      return CoupledSystem(scene, std::move(bodies), timer);
     }
 
 
@@ -71,8 +73,8 @@ namespace Debond
   Simulation::Simulation(const Scene              &scene,
                          std::shared_ptr<BodyPair> bodies,
                          dealii::TimerOutput      *timer)
-    : the_scene(affordable(scene))
-    , coupled_system(the_scene, std::move(bodies), timer)
+    : the_scene(scene)
+    , coupled_system(build(the_scene, std::move(bodies), timer))
     , solver(the_scene, coupled_system)
     , steps(choose_steps(the_scene))
     , step_control(

@@ -21,6 +21,8 @@ std::vector<double>
 take(PlannedSteps &control, const double start, const double largest)
 {
   std::vector<double> times;
+  if (control.is_between_phases())
+    control.begin_phase(StepState());
   do
     {
       const Step   step = control.next();
@@ -101,7 +103,7 @@ adaptive_times(const double  tolerance,
   };
   while (!stepping.is_finished())
     {
-      if (stepping.phase_is_due())
+      if (stepping.is_between_phases())
         stepping.begin_phase(state_at(times.back()));
       const Step step = stepping.next();
       if (stepping.take(step, state_at(step.time), 1))
@@ -247,6 +249,7 @@ main()
          second.extrapolate && second.time == plan.time(2));
   whole.take(second, StepState(), 0);
   take(whole, plan.time(2), 0.4);
+  whole.begin_phase(StepState());
   report("One in a new phase is not", !whole.next().extrapolate);
 
   PlannedSteps halving(parameters);

@@ -4,25 +4,16 @@
 #include <debond/support/number_text.h>
 
 #include <cmath>
-#include <memory>
 
 namespace Debond
 {
-  TimeFunction::TimeFunction(const TimeExpression &expression,
-                             const double          radius)
-    : name(expression.function ? "the function of time" :
-                                 "the expression '" + expression.text + "'")
-    , function(expression.function)
-  {
-    if (function)
-      return;
-    // a FunctionParser cannot be copied, but what refers to it can
-    const std::shared_ptr<const dealii::FunctionParser<1>> parser =
-      make_parser<1>("t", expression.text, radius);
-    function = [parser](const double t) {
+  TimeFunction::TimeFunction(const std::string &expression, const double radius)
+    : name("the expression '" + expression + "'")
+    , function([parser = std::shared_ptr<const dealii::Function<1>>(
+                  make_parser<1>("t", expression, radius))](const double t) {
       return parser->value(dealii::Point<1>(t));
-    };
-  }
+    })
+  {}
 
 
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 
 namespace Debond
 {
@@ -25,10 +26,10 @@ namespace Debond
       scene.load_steps.times             = {0., 1., 2.};
       scene.load_steps.steps             = {1, 1};
       scene.chuck                        = ChuckParameters();
-      scene.chuck.component[2].value     = [depth](const double t) {
+      scene.chuck.component[2].function  = [depth](const double t) {
         return -depth * std::min(t, 1.);
       };
-      scene.chuck.component[5].value = [angle](const double t) {
+      scene.chuck.component[5].function = [angle](const double t) {
         return angle * 180. / M_PI * std::max(t - 1., 0.);
       };
       return scene;

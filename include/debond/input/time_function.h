@@ -3,41 +3,21 @@
 
 #include <functional>
 #include <string>
-#include <type_traits>
 
 namespace Debond
 {
-  /** How a function of time is given: by an expression in `t` with the
-   * constants `pi` and `R` (muParser syntax, as in deal.II's FunctionParser),
-   * by a constant, or by anything that can be called with a time. */
-  struct TimeExpression
-  {
-    template <typename Source,
-              typename = std::enable_if_t<
-                !std::is_same_v<std::decay_t<Source>, TimeExpression>>>
-    TimeExpression(const Source &source)
-    {
-      if constexpr (std::is_arithmetic_v<Source>)
-        function = [value = double(source)](double) { return value; };
-      else if constexpr (std::is_convertible_v<Source, std::string>)
-        text = source;
-      else
-        function = source;
-    }
-
-    std::string                   text;     ///< the expression, or empty
-    std::function<double(double)> function; ///< without an expression
-  };
-
-
-
-  /** A function of time. */
+  /** A function of time: an expression in `t` with the constants `pi` and `R`
+   *  (muParser syntax, as in deal.II's FunctionParser), or any function. */
   class TimeFunction
   {
   public:
     /** @p radius is the value of `R` [mm]. Throws InputError with the
      *  expression and the parser's own words if the expression is invalid. */
-    TimeFunction(const TimeExpression &expression, const double radius);
+    TimeFunction(const std::string &expression, const double radius);
+    explicit TimeFunction(const std::function<double(double)> &function)
+      : name("the function")
+      , function(function)
+    {}
 
     /** The value at time @p t, in the unit that the expression is written in.
      *  Throws InputError if it is not finite. */
@@ -45,7 +25,7 @@ namespace Debond
     operator()(const double t) const;
 
   private:
-    std::string                   name; ///< for messages
+    std::string                   name;
     std::function<double(double)> function;
   };
 } // namespace Debond

@@ -25,12 +25,12 @@ namespace Debond
       scene.interface.friction.mu_broken = 1e6;
       scene.interface.friction.starts_at = 0;
       scene.chuck                        = ChuckParameters();
-      scene.chuck.component[2].function  = [depth](const double t) {
-        return -depth * std::min(t, 1.);
-      };
-      scene.chuck.component[5].function = [angle](const double t) {
-        return angle * 180. / M_PI * std::max(t - 1., 0.);
-      };
+      scene.chuck.component[ChuckComponent::translation_z].function =
+        [depth](const double t) { return -depth * std::min(t, 1.); };
+      scene.chuck.component[ChuckComponent::rotation_z].function =
+        [angle](const double t) {
+          return angle * 180. / M_PI * std::max(t - 1., 0.);
+        };
       return scene;
     }
 
@@ -59,7 +59,7 @@ namespace Debond
     std::vector<double>
     traction_about_axis(const ContactInterface &interface)
     {
-      const double        sign = interface.slave_side() == 1 ? 1. : -1.;
+      const double sign = interface.slave_side() == Side::implant ? 1. : -1.;
       std::vector<double> tractions;
       for (const SlavePoint &point : interface.get_points())
         {
@@ -84,8 +84,8 @@ namespace Debond
     system.start(0.);
     solve(system, 1.);
     FoundationStiffness stiffness;
-    stiffness.normal =
-      system.chuck_resultant()[2] / (-depth * system.interface.implant_area());
+    stiffness.normal = system.chuck_resultant()[ChuckComponent::translation_z] /
+                       (-depth * system.interface.implant_area());
     for (const SlavePoint &point : system.interface.get_points())
       stiffness.points.push_back(
         {std::hypot(point.X[0], point.X[1]),
@@ -95,8 +95,8 @@ namespace Debond
          0.});
     const std::vector<double> pressed = traction_about_axis(system.interface);
     solve(system, 2.);
-    stiffness.torsional =
-      system.chuck_forces()[5] / (0.5 * M_PI * std::pow(R, 4) * angle);
+    stiffness.torsional = system.chuck_forces()[ChuckComponent::rotation_z] /
+                          (0.5 * M_PI * std::pow(R, 4) * angle);
     const std::vector<double> turned = traction_about_axis(system.interface);
     for (std::size_t i = 0; i < turned.size(); ++i)
       stiffness.points[i].stiffness =

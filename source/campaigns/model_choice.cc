@@ -73,36 +73,37 @@ namespace Debond
     void
     refuse_what_has_no_curve(const Scene &scene)
     {
+      constexpr auto    z     = ChuckComponent::rotation_z;
       const std::string entry = "Chuck / Rotation z / ";
-      if (scene.chuck.component[5].loaded)
+      if (scene.chuck.component[z].loaded)
         throw InputError(entry + "Control: Model = auto compares torques and "
                                  "takes this rotation as prescribed");
       const std::vector<Chuck::Vector6> values = prescribed_values(scene);
       Chuck::Vector6 rounding = Chuck::Vector6::Zero(), moved = rounding;
       for (const Chuck::Vector6 &value : values)
         rounding = rounding.cwiseMax(1e-12 * value.cwiseAbs());
-      unsigned int moves_in_hold = 5; // a component; 5: none
+      unsigned int moves_in_hold = z; // another component, if there is one
       for (std::size_t i = 1; i < values.size(); ++i)
         {
           const Chuck::Vector6 change =
             (values[i] - values[i - 1]).cwiseAbs().eval();
           moved += change;
-          for (unsigned int k = 0; k < moves_in_hold && moves_in_hold == 5; ++k)
-            if (moved[5] > rounding[5] && change[5] <= rounding[5] &&
+          for (unsigned int k = 0; k < z && moves_in_hold == z; ++k)
+            if (moved[z] > rounding[z] && change[z] <= rounding[z] &&
                 change[k] > rounding[k])
               moves_in_hold = k;
         }
-      if (moved[5] == 0.)
+      if (moved[z] == 0.)
         throw InputError(entry +
                          "Value: Model = auto judges a model by its torque "
                          "curve, and nothing rotates about z in this scene: "
                          "choose a model with Model");
-      if (moved[5] >
-          std::abs(values.back()[5] - values.front()[5]) * (1. + 1e-9))
+      if (moved[z] >
+          std::abs(values.back()[z] - values.front()[z]) * (1. + 1e-9))
         throw InputError(entry +
                          "Value: Model = auto compares torques over the angle "
                          "and knows no rotation that reverses");
-      if (moves_in_hold < 5)
+      if (moves_in_hold != z)
         throw InputError(std::string("Chuck / ") +
                          ChuckParameters::names[moves_in_hold] +
                          " / Value: Model = auto compares torques over the "

@@ -88,7 +88,8 @@ namespace Debond
       add_stiffness("normal_stiffness_MPa_per_mm", solution.normal_stiffness);
       add_stiffness("torsional_stiffness_MPa_per_mm",
                     solution.torsional_stiffness);
-      if (solution.scene.chuck.component[5].stiffness > 0.)
+      if (solution.scene.chuck.component[ChuckComponent::rotation_z].stiffness >
+          0.)
         {
           json.add("jumps", solution.jumps().size());
           json.add("released_energy_Nm",

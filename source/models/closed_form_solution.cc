@@ -21,6 +21,8 @@ namespace Debond
   namespace
   {
     constexpr double degree = M_PI / 180.;
+    constexpr auto   push   = ChuckComponent::translation_z;
+    constexpr auto   twist  = ChuckComponent::rotation_z;
 
 
 
@@ -76,10 +78,10 @@ namespace Debond
       for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
         {
           const ChuckComponentParameters &component = scene.chuck.component[k];
-          refuse_if(component.loaded && k != 2,
+          refuse_if(component.loaded && k != push,
                     chuck_entry(k, "Control"),
                     "closed forms take this motion as prescribed");
-          refuse_if(component.stiffness != 0 && !(k == 5 && is_foundation),
+          refuse_if(component.stiffness != 0 && !(k == twist && is_foundation),
                     chuck_entry(k, "Stiffness"),
                     "closed forms have no compliant machine, but that the "
                     "foundation's Rotation z may be driven by one");
@@ -113,12 +115,12 @@ namespace Debond
                       Eigen::Vector3d::Zero(),
                       scene.implant.radius);
     const Chuck::Vector6 q = chuck.values(time);
-    for (const unsigned int k : {0, 1, 3, 4})
-      if (q[k] != 0.)
+    for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
+      if (k != push && k != twist && q[k] != 0.)
         refuse(scene,
                chuck_entry(k, "Value"),
                "closed forms know Translation z and Rotation z only");
-    return {time, -q[2], q[5]};
+    return {time, -q[push], q[twist]};
   }
 
 
@@ -126,8 +128,8 @@ namespace Debond
   void
   ClosedFormSolution::check_loads() const
   {
-    const std::string pushed = chuck_entry(2, "Value"),
-                      turned = chuck_entry(5, "Value");
+    const std::string pushed = chuck_entry(push, "Value"),
+                      turned = chuck_entry(twist, "Value");
     if (loads.front().angle != 0.)
       refuse(scene, turned, "closed forms begin with an angle of zero");
     double largest_push = 0.;
@@ -212,7 +214,7 @@ namespace Debond
     normal_stiffness                  = given.normal_stiffness;
     torsional_stiffness               = given.torsional_stiffness;
     const bool needs_normal = normal_stiffness == 0. && given.pressure == 0. &&
-                              !scene.chuck.component[2].loaded;
+                              !scene.chuck.component[push].loaded;
     const bool needs_torsional =
       torsional_stiffness == 0. && scene.model == ModelKind::foundation;
     if (!needs_normal && !needs_torsional)
@@ -235,7 +237,7 @@ namespace Debond
       return final_push > 0. ? given * std::max(0., load.push) / final_push :
                                given;
     return std::max(0.,
-                    scene.chuck.component[2].loaded ?
+                    scene.chuck.component[push].loaded ?
                       load.push / (M_PI * R * R) :
                       load.push * normal_stiffness);
   }
@@ -253,7 +255,7 @@ namespace Debond
     disk.friction = scene.interface.friction;
     if (!(disk.pressure > 0.))
       refuse(scene,
-             chuck_entry(2, "Value"),
+             chuck_entry(push, "Value"),
              "closed forms need pressure while they turn");
 
     if (scene.model == ModelKind::foundation)
@@ -297,7 +299,7 @@ namespace Debond
              "the friction law softens faster than the foundation is "
              "stiff, so that the traction would jump");
     auto         foundation = std::make_unique<RigidBodiesTorsion>(parameters);
-    const double stiffness  = scene.chuck.component[5].stiffness;
+    const double stiffness  = scene.chuck.component[twist].stiffness;
     if (stiffness > 0.)
       machine =
         std::make_unique<CompliantMachineTorsion>(*foundation,
@@ -357,9 +359,9 @@ namespace Debond
     row.adhesive_work_Nmm    = state.adhesive_work;
     row.reaction_defect      = TorsionModel::undefined;
     row.chuck_reaction       = {{0, 0, -row.force_N, 0, 0, state.torque}};
-    row.chuck_position[2] =
-      scene.chuck.component[2].loaded ? TorsionModel::undefined : -load.push;
-    row.chuck_position[5] = row.angle_deg;
+    row.chuck_position[push] =
+      scene.chuck.component[push].loaded ? TorsionModel::undefined : -load.push;
+    row.chuck_position[twist] = row.angle_deg;
     for (const auto &jump : jumps())
       if (jump.machine_angle < std::abs(load.angle))
         row.released_energy_Nmm += jump.released_energy;
@@ -378,8 +380,8 @@ namespace Debond
       {
         TorqueRow      next  = row(step);
         Chuck::Vector6 force = Chuck::Vector6::Zero(), position = force;
-        force[5]    = next.torque_Nmm;
-        position[5] = angle_of_disk(loads[step]);
+        force[twist]    = next.torque_Nmm;
+        position[twist] = angle_of_disk(loads[step]);
         energy.add(
           force, position, 0., next.energy_interface_Nmm, next.dissipation_Nmm);
         next.work_Nmm            = energy.work();

@@ -537,7 +537,7 @@ namespace Debond
     const std::vector<double> &times     = scene.load_steps.times;
     out << unknowns_of(system) << '\n'
         << interface.n_points() << " slave quadrature points on the "
-        << (interface.slave_side() == 1 ? "implant" : "bone") << '\n'
+        << name_of(interface.slave_side()) << '\n'
         << "memory: some " << std::ceil(estimated_memory_MB(scene)) << " MB\n"
         << "initial bonding " << name_of(scene.interface.bonding.pattern)
         << ": " << interface.bonding().description() << '\n'

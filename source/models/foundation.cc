@@ -26,12 +26,12 @@ namespace Debond
       scene.load_steps.times             = {0., 1., 2.};
       scene.load_steps.steps             = {1, 1};
       scene.chuck                        = ChuckParameters();
-      scene.chuck.component[2].function  = [depth](const double t) {
-        return -depth * std::min(t, 1.);
-      };
-      scene.chuck.component[5].function = [angle](const double t) {
-        return angle * 180. / M_PI * std::max(t - 1., 0.);
-      };
+      scene.chuck.component[ChuckComponent::translation_z].function =
+        [depth](const double t) { return -depth * std::min(t, 1.); };
+      scene.chuck.component[ChuckComponent::rotation_z].function =
+        [angle](const double t) {
+          return angle * 180. / M_PI * std::max(t - 1., 0.);
+        };
       return scene;
     }
 
@@ -66,7 +66,7 @@ namespace Debond
     std::vector<double>
     traction_about_axis(const ContactInterface &interface)
     {
-      const double        sign = interface.slave_side() == 1 ? 1. : -1.;
+      const double sign = interface.slave_side() == Side::implant ? 1. : -1.;
       std::vector<double> tractions;
       for (const SlavePoint &point : interface.get_points())
         {

@@ -241,7 +241,8 @@ namespace Debond
       message << " of " << LoadStepping(scene.load_steps).n_steps();
     message << " failed at time "
             << (step.by_slip() ? coupled_system.time() : step.whole_time)
-            << ", angle " << chuck.position()[5] * 180. / M_PI
+            << ", angle "
+            << chuck.position()[ChuckComponent::rotation_z] * 180. / M_PI
             << " deg, with the smallest allowed part of a step: " << result.why;
     if (!scene.load_steps.follow_path && !chuck.unknowns().empty())
       message << ". A prescribed load may be more than the interface can "
@@ -300,11 +301,12 @@ namespace Debond
     const Chuck::Vector6    reaction  = coupled_system.chuck_resultant();
 
     TorqueRow row;
-    row.step              = all_rows.size();
-    row.time              = solver.time();
-    row.angle_deg         = q[5] * 180. / M_PI;
-    row.torque_Nmm        = coupled_system.chuck_forces()[5];
-    row.force_N           = 0. - reaction[2]; // no negative zero
+    row.step       = all_rows.size();
+    row.time       = solver.time();
+    row.angle_deg  = q[ChuckComponent::rotation_z] * 180. / M_PI;
+    row.torque_Nmm = coupled_system.chuck_forces()[ChuckComponent::rotation_z];
+    row.force_N =
+      0. - reaction[ChuckComponent::translation_z]; // no negative zero
     row.pressure_MPa      = row.force_N / interface.implant_area();
     row.phi_mean          = summary.phi_mean;
     row.share_stick       = summary.share_stick;
@@ -322,12 +324,13 @@ namespace Debond
     row.reaction_defect      = state_checks.reaction_defect();
     row.viscous_work_Nmm     = interface.work().viscous;
     row.warnings             = state_checks.take_violations();
-    row.machine_angle_deg    = chuck.machine_position()[5] * 180. / M_PI;
-    row.released_energy_Nmm  = state_checks.released().total();
+    row.machine_angle_deg =
+      chuck.machine_position()[ChuckComponent::rotation_z] * 180. / M_PI;
+    row.released_energy_Nmm = state_checks.released().total();
     for (unsigned int k = 0; k < 6; ++k)
       {
         row.chuck_reaction[k] = reaction[k];
-        row.chuck_position[k] = q[k] * (k < 3 ? 1. : 180. / M_PI);
+        row.chuck_position[k] = q[k] * (is_rotation(k) ? 180. / M_PI : 1.);
       }
     all_rows.push_back(row);
   }

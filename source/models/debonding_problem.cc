@@ -1,20 +1,43 @@
 #include <debond/models/debonding_problem.h>
 #include <debond/models/forecast.h>
 #include <debond/models/memory_estimate.h>
-#include <debond/models/run_observers.h>
+#include <debond/models/simulation.h>
+#include <debond/output/checkpoint.h>
+#include <debond/output/console.h>
+#include <debond/output/field_output.h>
+#include <debond/output/profile_output.h>
 #include <debond/support/input_error.h>
+#include <debond/support/interruption.h>
 #include <debond/support/runtime.h>
 #include <debond/support/serialization.h>
 
-#include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <map>
+#include <optional>
 #include <sstream>
 
 namespace Debond
 {
   namespace
   {
+    /** "N degrees of freedom, M of them unknowns, ..." */
+    std::string
+    unknowns_of(const CoupledSystem &system)
+    {
+      const BodyMesh    &bone    = system.bone.mesh();
+      const BodyMesh    &implant = system.implant.mesh();
+      std::ostringstream text;
+      text << bone.n_dofs_as_published() + implant.n_dofs_as_published()
+           << " degrees of freedom, "
+           << bone.n_unknowns() + implant.n_unknowns() << " of them unknowns, "
+           << system.n_unknowns()
+           << " after condensation on the contact surfaces";
+      return text.str();
+    }
+
+
+
     /** A run that begins anew leaves nothing of an earlier one that would be
      *  taken for its own, but does not destroy a checkpoint either. */
     ResultDirectory
@@ -54,13 +77,17 @@ namespace Debond
 
 
 
-  /** A simulation, and what looks on. */
+  /** A simulation and what the program makes of it: files, lines on the
+   *  console, checkpoints. */
   struct DebondingProblem::Run
   {
-    Run(const Scene &scene, std::shared_ptr<BodyPair> bodies, bool resumes);
+    Run(const Scene              &scene,
+        std::shared_ptr<BodyPair> bodies,
+        const Checkpoint         *checkpoint);
 
+    /** From the beginning or the checkpoint to the last row. */
     void
-    restore(const Checkpoint &checkpoint);
+    run();
     /** Writes summary.json. */
     void
     finish(bool converged, const std::string &reason);
@@ -75,26 +102,41 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &simulation &console &profiles &fields &timer;
+      archive &simulation &console &profiles &fields;
+      std::map<std::string, double>           so_far = seconds();
+      archive                                &so_far;
+      if (Archive::is_loading::value)
+        earlier_seconds = so_far;
     }
 
-    std::string           parameters; ///< as in the directory
-    RunTimer              timer;
-    const ResultDirectory directory;
-    CheckpointFiles       checkpoints;
-    const ReferenceCurve  reference;
-    ProfileOutput         profiles;
-    Console               console;
-    Simulation            simulation;
-    FieldOutput           fields;
-    ConsoleObserver       on_console;
-    CurveObserver         curves;
-    FieldObserver         pictures;
-    CheckpointObserver    interruptions;
+    const Scene                     &scene;
+    std::string                      parameters; ///< as in the directory
+    dealii::TimerOutput              timer;
+    dealii::Timer                    wall_clock;
+    double                           seconds_before_steps = 0;
+    std::map<std::string, double>    earlier_seconds; ///< before a checkpoint
+    const ResultDirectory            directory;
+    CheckpointFiles                  checkpoints;
+    const ReferenceCurve             reference;
+    ProfileOutput                    profiles;
+    Console                          console;
+    Simulation                       simulation;
+    FieldOutput                      fields;
+    std::optional<TorqueCurveWriter> torque_curve;
 
   private:
     void
-    save(unsigned int step);
+    restore(const Checkpoint &checkpoint);
+    void
+    begin();
+    void
+    write(const TorqueRow &row);
+    void
+    save();
+    void
+    stop_if_interrupted();
+    std::map<std::string, double>
+    seconds() const;
     CurveSettings
     curve_settings() const;
     RunSummary
@@ -107,50 +149,141 @@ namespace Debond
 
   DebondingProblem::Run::Run(const Scene              &scene,
                              std::shared_ptr<BodyPair> bodies,
-                             const bool                resumes)
-    : parameters(scene.completed_parameters)
-    , directory(open_directory(scene, resumes))
+                             const Checkpoint *const   checkpoint)
+    : scene(scene)
+    , parameters(scene.completed_parameters)
+    , timer(std::cout,
+            dealii::TimerOutput::never,
+            dealii::TimerOutput::wall_times)
+    , directory(open_directory(scene, checkpoint != nullptr))
     , checkpoints(directory)
     , reference(read_reference_curve(scene.output.reference_curve))
     , profiles(scene, directory)
     , console(scene.output.console, std::cout)
-    , simulation(scene, std::move(bodies), &timer.sections)
+    , simulation(scene, std::move(bodies), &timer)
     , fields(directory,
              simulation.system().bone,
              simulation.system().implant,
              simulation.system().interface,
              simulation.system().chuck)
-    , on_console(console)
-    , curves(directory, profiles, timer.sections)
-    , pictures(fields, timer.sections)
-    , interruptions(directory, [this](const unsigned int step) { save(step); })
   {
-    if (!resumes)
+    if (checkpoint != nullptr)
+      restore(*checkpoint);
+    else
       {
         checkpoints.remove();
         remove_file(directory.file("summary.json"));
       }
-    simulation.add(timer);
-    simulation.add(curves);
-    simulation.add(on_console);
-    if (scene.output.fields_every > 0)
-      simulation.add(pictures);
-    simulation.add(interruptions); // a checkpoint holds what the others did
+    simulation.signals.next_row.connect([this] { stop_if_interrupted(); });
+    simulation.signals.row.connect(
+      [this](const TorqueRow &row) { write(row); });
+    simulation.signals.warning.connect([this](const Warning &warning) {
+      console.warn(warning.check, warning.text);
+    });
+  }
+
+
+
+  // What there is before the first row.
+  void
+  DebondingProblem::Run::begin()
+  {
+    const BondingPattern &bonding = simulation.system().interface.bonding();
+    if (!scene.title.empty())
+      console.headline(scene.title);
+    console.headline(unknowns_of(simulation.system()));
+    for (const Warning &warning : simulation.warnings())
+      console.warn(warning.check, warning.text);
+    if (scene.interface.bonding.pattern != BondingPatternKind::homogeneous)
+      {
+        write_file(directory.file("bonding.csv"), bonding.table());
+        console.headline("Initial bonding: " + bonding.description());
+      }
+    torque_curve.emplace(directory, simulation.rows());
+    if (!simulation.rows().empty())
+      {
+        const TorqueRow   &last = simulation.rows().back();
+        std::ostringstream text;
+        text << "Going on after step " << last.step << ", time " << last.time
+             << ", angle " << last.angle_deg << " deg";
+        console.headline(text.str());
+        console.go_on_after(last.step);
+        stop_if_interrupted();
+      }
+    seconds_before_steps = wall_clock.wall_time();
   }
 
 
 
   void
-  DebondingProblem::Run::save(const unsigned int step)
+  DebondingProblem::Run::run()
   {
-    const TimedSection t(&timer.sections, "checkpoints");
+    begin();
+    simulation.run();
+    torque_curve->finish();
+  }
+
+
+
+  void
+  DebondingProblem::Run::write(const TorqueRow &row)
+  {
+    const OutputParameters &output      = scene.output;
+    const bool              are_planned = scene.load_steps.rows_are_planned();
+    const LoadStepping      plan(scene.load_steps);
+    {
+      const TimedSection t(&timer, "output");
+      torque_curve->write(row);
+      console.row(row, are_planned ? plan.n_steps() : 0);
+      profiles.write(row.angle_deg, [&] {
+        return profile_points(simulation.system().interface);
+      });
+      const unsigned int number =
+        are_planned ? plan.step_in_phase(row.step) : row.step;
+      if (output.fields_every > 0 &&
+          (number % output.fields_every == 0 ||
+           simulation.control().is_between_phases() ||
+           simulation.is_finished()))
+        fields.write(row.time);
+    }
+    if (output.resumable && output.checkpoint_every > 0 && row.step > 0 &&
+        row.step % output.checkpoint_every == 0 && !simulation.is_finished())
+      save();
+  }
+
+
+
+  void
+  DebondingProblem::Run::stop_if_interrupted()
+  {
+    const int signal = interrupting_signal();
+    if (signal == 0)
+      return;
+    std::string text = "interrupted by " + signal_name(signal) +
+                       " after step " +
+                       std::to_string(simulation.rows().back().step);
+    if (scene.output.resumable)
+      {
+        save();
+        text +=
+          "; debond --resume '" + directory.path() + "' goes on from there";
+      }
+    throw Interrupted(signal, text);
+  }
+
+
+
+  void
+  DebondingProblem::Run::save()
+  {
+    const TimedSection t(&timer, "checkpoints");
     std::ostringstream bytes(std::ios::binary);
     {
       boost::archive::binary_oarchive archive(bytes, archive_flags);
       archive << *this << end_of_state;
     }
     fields.put_on_disk();
-    checkpoints.write({step, parameters, bytes.str()});
+    checkpoints.write({simulation.rows().back().step, parameters, bytes.str()});
   }
 
 
@@ -172,8 +305,26 @@ namespace Debond
                        "' does not fit this build of the program: only the "
                        "same program can go on with the run");
     parameters = checkpoint.parameters;
-    if (simulation.scene().output.fields_every > 0)
+    if (scene.output.fields_every > 0)
       console.warn("fields", fields.forget_later_files());
+  }
+
+
+
+  // With those before a checkpoint, by the names of the parts; "all" is the
+  // whole run.
+  std::map<std::string, double>
+  DebondingProblem::Run::seconds() const
+  {
+    std::map<std::string, double> sums = earlier_seconds;
+    for (const auto &[section, seconds] :
+         timer.get_summary_data(dealii::TimerOutput::total_wall_time))
+      sums[section] += seconds;
+    const double all = wall_clock.wall_time();
+    sums["all"] += all;
+    sums["before steps"] += seconds_before_steps;
+    sums["stepping"] += all - seconds_before_steps;
+    return sums;
   }
 
 
@@ -181,7 +332,6 @@ namespace Debond
   CurveSettings
   DebondingProblem::Run::curve_settings() const
   {
-    const Scene            &scene     = simulation.scene();
     const BodyParameters   &implant   = scene.implant;
     const ContactInterface &interface = simulation.system().interface;
     CurveSettings           settings;
@@ -211,14 +361,14 @@ namespace Debond
     summary.measures = measure_torque_curve(simulation.rows(), settings);
     summary.profile_measures  = profiles.measures();
     summary.steps             = simulation.n_steps();
-    summary.smallest_step     = simulation.smallest_step();
-    summary.newton_iterations = simulation.newton_iterations();
+    summary.smallest_step     = simulation.effort().shortest_step;
+    summary.newton_iterations = simulation.effort().newton_iterations;
     summary.dofs = bone.n_dofs_as_published() + implant.n_dofs_as_published();
     summary.unknowns           = bone.n_unknowns() + implant.n_unknowns();
     summary.condensed_unknowns = system.n_unknowns();
-    const auto seconds         = timer.seconds();
+    const auto seconds         = this->seconds();
     for (const auto &section :
-         timer.sections.get_summary_data(dealii::TimerOutput::total_wall_time))
+         timer.get_summary_data(dealii::TimerOutput::total_wall_time))
       summary.seconds.emplace_back(section.first, seconds.at(section.first));
     for (const std::string section : {"before steps", "stepping"})
       summary.seconds.emplace_back(section, seconds.at(section));
@@ -306,7 +456,7 @@ namespace Debond
     text << "Results are in " << directory.path();
     console.headline(text.str());
     if (!console.quiet())
-      timer.sections.print_summary();
+      timer.print_summary();
   }
 
 
@@ -351,9 +501,7 @@ namespace Debond
   {
     try
       {
-        current = std::make_unique<Run>(scene, bodies, checkpoint != nullptr);
-        if (checkpoint != nullptr)
-          current->restore(*checkpoint);
+        current = std::make_unique<Run>(scene, bodies, checkpoint);
       }
     catch (const InputError &error)
       {
@@ -361,7 +509,7 @@ namespace Debond
       }
     try
       {
-        current->simulation.run();
+        current->run();
       }
     catch (const InputError &error)
       {

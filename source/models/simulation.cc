@@ -10,12 +10,14 @@ namespace Debond
 {
   namespace
   {
-    /** Refuses before anything large is built. */
-    const Scene &
-    affordable(const Scene &scene)
+    CoupledSystem
+    build(const Scene              &scene,
+          std::shared_ptr<BodyPair> bodies,
+          dealii::TimerOutput      *timer)
     {
-      require_memory(scene);
-      return scene;
+      require_memory(scene); // before anything large is built
+      const TimedSection t(timer, "set-up");
+      return CoupledSystem(scene, std::move(bodies), timer);
     }
 
 
@@ -71,19 +73,18 @@ namespace Debond
   Simulation::Simulation(const Scene              &scene,
                          std::shared_ptr<BodyPair> bodies,
                          dealii::TimerOutput      *timer)
-    : the_scene(affordable(scene))
-    , coupled_system(the_scene, std::move(bodies), timer)
-    , solver(the_scene, coupled_system)
-    , steps(choose_steps(the_scene))
+    : scene(scene)
+    , coupled_system(build(this->scene, std::move(bodies), timer))
+    , solver(this->scene, coupled_system)
+    , steps(choose_steps(scene))
     , step_control(
         std::visit([](auto &chosen) -> StepControl & { return chosen; }, steps))
-    , state_checks(the_scene)
+    , state_checks(this->scene)
   {
     coupled_system.start(solver.time());
     for (const auto &found :
-         {warnings_of(the_scene), warnings_of(coupled_system.interface)})
-      for (const Warning &warning : found)
-        warn(warning);
+         {warnings_of(scene), warnings_of(coupled_system.interface)})
+      all_warnings.insert(all_warnings.end(), found.begin(), found.end());
   }
 
 
@@ -113,52 +114,16 @@ namespace Debond
 
 
   void
-  Simulation::add(SimulationObserver &observer)
-  {
-    observers.push_back(&observer);
-  }
-
-
-
-  template <typename Function>
-  void
-  Simulation::tell(const Function &function) const
-  {
-    for (SimulationObserver *const observer : observers)
-      function(*observer);
-  }
-
-
-
-  void
   Simulation::run()
   {
-    tell([this](SimulationObserver &observer) { observer.started(*this); });
     if (all_rows.empty())
       advance();
     while (!is_finished())
       {
-        tell(
-          [this](SimulationObserver &observer) { observer.next_row(*this); });
+        signals.next_row();
         advance();
       }
     judge_whole_run();
-    tell([this](SimulationObserver &observer) { observer.finished(*this); });
-  }
-
-
-
-  void
-  Simulation::judge_whole_run()
-  {
-    if (std::all_of(all_rows.begin(), all_rows.end(), [](const TorqueRow &row) {
-          return row.share_open == 1.;
-        }))
-      warn({"no contact", "the bodies are never in contact"});
-    const LoadSteppingParameters &load_steps = the_scene.load_steps;
-    if (time() != load_steps.times.back() && load_steps.path_ends_at_slip == 0.)
-      warn({"path",
-            "the last time is not reached: " + step_control.reason_to_end()});
   }
 
 
@@ -170,9 +135,23 @@ namespace Debond
       solve_first_row();
     else
       solve_row();
-    tell([this](SimulationObserver &observer) {
-      observer.row(*this, all_rows.back());
-    });
+    signals.row(all_rows.back());
+  }
+
+
+
+  void
+  Simulation::judge_whole_run()
+  {
+    if (std::all_of(all_rows.begin(), all_rows.end(), [](const TorqueRow &row) {
+          return row.share_open == 1.;
+        }))
+      warn({"no contact", "the bodies are never in contact"});
+    const LoadSteppingParameters &load_steps = scene.load_steps;
+    if (solver.time() != load_steps.times.back() &&
+        load_steps.path_ends_at_slip == 0.)
+      warn({"path",
+            "the last time is not reached: " + step_control.reason_to_end()});
   }
 
 
@@ -182,7 +161,7 @@ namespace Debond
   Simulation::solve_first_row()
   {
     const StepResult result = solver.solve_first();
-    all_iterations += result.iterations;
+    spent.newton_iterations += result.iterations;
     refuse_jump(result);
     if (!result.is_acceptable())
       throw RunError("The state at the first time, " +
@@ -199,7 +178,7 @@ namespace Debond
   void
   Simulation::solve_row()
   {
-    if (step_control.phase_is_due())
+    if (step_control.is_between_phases())
       step_control.begin_phase(state());
     unsigned int iterations = 0;
     while (true)
@@ -207,7 +186,7 @@ namespace Debond
         const Step       step   = step_control.next();
         const StepResult result = solver.solve(step);
         iterations += result.iterations;
-        all_iterations += result.iterations;
+        spent.newton_iterations += result.iterations;
         refuse_jump(result);
         if (!result.is_acceptable())
           {
@@ -258,14 +237,14 @@ namespace Debond
     const Chuck       &chuck = coupled_system.chuck;
     std::ostringstream message;
     message << "Step " << all_rows.size();
-    if (step_control.n_planned_rows() > 0)
-      message << " of " << step_control.n_planned_rows();
+    if (scene.load_steps.rows_are_planned())
+      message << " of " << LoadStepping(scene.load_steps).n_steps();
     message << " failed at time "
             << (step.by_slip() ? coupled_system.time() : step.whole_time)
             << ", angle "
             << chuck.position()[ChuckComponent::rotation_z] * 180. / M_PI
             << " deg, with the smallest allowed part of a step: " << result.why;
-    if (!the_scene.load_steps.follow_path && !chuck.unknowns().empty())
+    if (!scene.load_steps.follow_path && !chuck.unknowns().empty())
       message << ". A prescribed load may be more than the interface can "
                  "carry; prescribing the displacement or angle instead, or "
                  "Load steps / Path following = slip, follows the fall";
@@ -283,16 +262,16 @@ namespace Debond
     const double       reaction_defect = coupled_system.reaction_defect();
     if (row > 0)
       {
-        shortest_step = std::fmin(shortest_step, std::abs(to - from));
-        if (the_scene.has_friction() && the_scene.has_friction_after(from))
+        ++spent.steps;
+        spent.shortest_step =
+          std::fmin(spent.shortest_step, std::abs(to - from));
+        if (scene.has_friction() && scene.has_friction_after(from))
           state_checks.add_way(row, coupled_system.chuck, from, to);
       }
     solver.commit();
     state_checks.add(row, coupled_system, result.interface, reaction_defect);
     for (const Warning &warning : state_checks.take_warnings())
       warn(warning);
-    tell(
-      [this](SimulationObserver &observer) { observer.step_accepted(*this); });
   }
 
 
@@ -307,7 +286,7 @@ namespace Debond
                     }))
       return;
     all_warnings.push_back(warning);
-    tell([&](SimulationObserver &observer) { observer.warned(warning); });
+    signals.warning(warning);
   }
 
 

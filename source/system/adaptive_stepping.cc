@@ -3,30 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace Debond
 {
-  AdaptiveStepping::AdaptiveStepping(const LoadSteppingParameters &parameters,
-                                     const double                  radius)
-    : parameters(parameters)
-    , radius(radius)
-  {}
-
-
-
   void
   AdaptiveStepping::begin_phase(const StepState &accepted)
   {
+    StepControl::begin_phase(accepted);
     note_drive(accepted.drive);
-    time         = parameters.times[phase];
-    end          = parameters.times[phase + 1];
-    largest      = (end - time) / parameters.steps[phase];
-    current      = accepted.forces;
-    greatest     = greatest.cwiseMax(current.cwiseAbs());
-    has_previous = false; // a new phase is not the continuation of the last one
-    set_size(largest);
-    ++phase;
+    current  = accepted.forces;
+    greatest = greatest.cwiseMax(current.cwiseAbs());
+    set_size(planned);
   }
 
 
@@ -46,7 +33,7 @@ namespace Debond
   double
   AdaptiveStepping::smallest() const
   {
-    return parameters.smallest_step_fraction * largest;
+    return parameters.smallest_step_fraction * planned;
   }
 
 
@@ -54,7 +41,7 @@ namespace Debond
   void
   AdaptiveStepping::set_size(const double new_size)
   {
-    size       = std::clamp(new_size, smallest(), largest);
+    size       = std::clamp(new_size, smallest(), planned);
     has_middle = false;
   }
 

@@ -233,10 +233,22 @@ namespace Debond
 
 
 
+  // The residual at the trial state. For each body, in its frame,
+  //
+  //   r_c = S v_c + Q^T f                           if it is linear,
+  //   r_c = R_c + Q^T f - K_ci K_ii^-1 R_i          if it is Neo-Hookean,
+  //
+  // with the contact forces f of Eqs. (28) and (36) on its control points, and
+  // for each component of the chuck that is not prescribed
+  //
+  //   r_k = sum_A f_A . dx_A/dq_k - load_k.
   CoupledSystem::Residual
   CoupledSystem::evaluate(const ContactPointMode &mode)
   {
     Residual result;
+    // Contact first: f depends on where the surfaces are. It may reach control
+    // points that were no unknowns yet; then the system grows, and f is
+    // evaluated again.
     do
       {
         update_configuration();
@@ -254,46 +266,30 @@ namespace Debond
     unsigned int       first = 0;
     for (const Side side : both_sides)
       {
-        Body *const     body = (side == Side::bone ? &bone : &implant);
+        Body &body = (side == Side::bone ? bone : implant);
+        // Q^T turns the forces into the body's frame
         Eigen::VectorXd condensed;
         const auto      part =
-          body->residual(configuration.side[side].frame.transpose() *
-                           interface.force(side),
-                         condensed);
+          body.residual(configuration.side[side].frame.transpose() *
+                          interface.force(side),
+                        condensed);
         if (!part.valid)
           {
             result.why = std::string("a cell of the ") + name_of(side) +
                          " is turned inside out";
             return result;
           }
-        residual.segment(first, body->n_unknowns()) = condensed;
+        residual.segment(first, body.n_unknowns()) = condensed;
         norm_squared += part.norm_squared;
         interior_squared += part.interior_squared;
-        first += body->n_unknowns();
+        first += body.n_unknowns();
       }
 
+    // A residual is small compared with the contact force, or, where bodies
+    // barely touch, with that of a penetration of 1e-6 R.
     const double force = interface.force(interface.slave_side()).norm();
     result.reference   = std::max(force_floor, force);
-    const Chuck::Vector6 forces = chuck_forces();
-    for (const auto &[component, number] : configuration.chuck_unknowns)
-      {
-        if (chuck.is_prescribed(component))
-          {
-            residual[number] = 0.; // q_k is set with the time
-            continue;
-          }
-        const double load = chuck.machine_load(component);
-        residual[number]  = forces[component] - load;
-        norm_squared += std::pow(residual[number] / scale_of(component), 2);
-        result.reference =
-          std::max(result.reference, std::abs(load) / scale_of(component));
-      }
-    if (path.follow)
-      {
-        residual[path.number] =
-          path.evaluate(interface, configuration, trial_time, result.reference);
-        norm_squared += std::pow(residual[path.number], 2);
-      }
+    norm_squared += evaluate_chuck(result.reference);
     result.norm  = std::sqrt(norm_squared);
     result.valid = std::isfinite(result.norm) && std::isfinite(force);
     if (!result.valid)
@@ -301,6 +297,35 @@ namespace Debond
     result.interior_share =
       norm_squared > 0. ? interior_squared / norm_squared : 0.;
     return result;
+  }
+
+
+
+  // The rows of the chuck and of the time. Moments count as forces at the
+  // distance R. Returns the square of their norm, and raises the reference to
+  // the largest load.
+  double
+  CoupledSystem::evaluate_chuck(double &reference)
+  {
+    double               norm_squared = 0.;
+    const Chuck::Vector6 forces       = chuck_forces();
+    for (const auto &[component, number] : configuration.chuck_unknowns)
+      if (chuck.is_prescribed(component))
+        residual[number] = 0.; // along a path q_k is set with the time
+      else
+        {
+          const double load = chuck.machine_load(component);
+          residual[number]  = forces[component] - load;
+          norm_squared += std::pow(residual[number] / scale_of(component), 2);
+          reference = std::max(reference, std::abs(load) / scale_of(component));
+        }
+    if (path.follow)
+      {
+        residual[path.number] =
+          path.evaluate(interface, configuration, trial_time, reference);
+        norm_squared += std::pow(residual[path.number], 2);
+      }
+    return norm_squared;
   }
 
 
@@ -316,6 +341,7 @@ namespace Debond
 
 
 
+  // One Newton correction: (S + Q^T (df/dx) Q) dv = r, and v - dv.
   std::string
   CoupledSystem::solve_and_correct(const double relative_tolerance)
   {

@@ -8,7 +8,7 @@ namespace Debond
   PathFollowing::PathFollowing(const LoadSteppingParameters &parameters,
                                const double                  largest_slip,
                                const double                  end_slip)
-    : parameters(parameters)
+    : StepControl(parameters)
     , largest_slip(largest_slip)
     , end_slip(end_slip)
   {}
@@ -18,15 +18,11 @@ namespace Debond
   void
   PathFollowing::begin_phase(const StepState &accepted)
   {
-    time        = parameters.times[phase];
-    end         = parameters.times[phase + 1];
-    planned     = (end - time) / parameters.steps[phase];
+    StepControl::begin_phase(accepted);
     mean_slip   = accepted.mean_slip;
     slip_size   = largest_slip;
     time_size   = planned;
-    has_last    = false;
     goes_to_end = slip_failed = time_failed = false;
-    ++phase;
   }
 
 
@@ -35,8 +31,8 @@ namespace Debond
   PathFollowing::next()
   {
     Step step;
-    step.extrapolate = has_last;
-    if (has_last && last_slip_step > 0. && !goes_to_end)
+    step.extrapolate = has_previous;
+    if (has_previous && last_slip_step > 0. && !goes_to_end)
       {
         // no further than a straight line can be trusted, or a planned step
         step.ratio = std::min(slip_size / last_slip_step, 2.);
@@ -84,7 +80,7 @@ namespace Debond
     if (!step.by_slip() && slipped > largest_slip * (1. + 1e-6) &&
         reject_time(step))
       return false;
-    has_last    = true;
+    has_previous = true;
     goes_to_end = slip_failed = time_failed = false;
     last_time_step                          = state.time - time;
     last_slip_step                          = slipped;
@@ -122,7 +118,7 @@ namespace Debond
   PathFollowing::reject_time(const Step &step)
   {
     goes_to_end = false;
-    time_failed = has_last && last_slip_step > 0.;
+    time_failed = has_previous && last_slip_step > 0.;
     time_size   = 0.5 * (step.time - time);
     return time_size >= 0.5 * parameters.smallest_step_fraction * planned;
   }
@@ -133,7 +129,7 @@ namespace Debond
   PathFollowing::reason_to_end() const
   {
     if (!has_ended())
-      return "the last time is reached";
+      return StepControl::reason_to_end();
     std::ostringstream reason;
     reason << "the mean sliding distance has reached " << end_slip
            << " mm (Load steps / Path ends at slip) at time " << time;

@@ -4,13 +4,6 @@
 
 namespace Debond
 {
-  PlannedSteps::PlannedSteps(const LoadSteppingParameters &parameters)
-    : plan(parameters)
-    , smallest(parameters.smallest_step_fraction)
-  {}
-
-
-
   Step
   PlannedSteps::next()
   {
@@ -19,10 +12,9 @@ namespace Debond
         ++current;
         done = 0.;
       }
-    Step step;
-    // a new phase is not the continuation of the last one
-    step.extrapolate  = done > 0. || !plan.begins_phase(current);
     const double from = plan.time(current - 1), to = plan.time(current);
+    Step         step;
+    step.extrapolate = has_previous;
     step.time = done + size == 1. ? to : from + (to - from) * (done + size);
     step.whole_time = step.time;
     return step;
@@ -31,8 +23,10 @@ namespace Debond
 
 
   bool
-  PlannedSteps::take(const Step &, const StepState &, unsigned int)
+  PlannedSteps::take(const Step &step, const StepState &, const unsigned int)
   {
+    time         = step.time;
+    has_previous = true;
     done += size;
     // twice as large if the step then still ends on its grid
     if (size < 1. && std::fmod(done, 2. * size) == 0.)
@@ -46,6 +40,6 @@ namespace Debond
   PlannedSteps::reject(const Step &)
   {
     size *= 0.5;
-    return size >= smallest;
+    return size >= parameters.smallest_step_fraction;
   }
 } // namespace Debond

@@ -5,39 +5,46 @@
 
 namespace Debond
 {
-  // The attempts, in the order in which they are made.
   StepSolver::StepSolver(const ModelParameters &parameters,
                          CoupledSystem         &system)
     : parameters(parameters)
     , system(system)
-    // Near the solution if nothing happens in the step that did not in the last
-    // one.
-    , extrapolated{[&parameters](const Step &step) {
-                     return step.extrapolate &&
-                            parameters.load_steps.predictor ==
-                              Predictor::extrapolate;
-                   },
-                   true} // The prediction may be to blame. A step by its slip
-                         // needs it: without, nothing slides.
-    , from_rest{[this](const Step &step) {
-      return !step.by_slip() || !extrapolated.applies(step);
-    }} // A load that cannot be followed: the machine may have to jump.
-    , jump{[&system](const Step &step) {
-             return !step.by_slip() && !system.chuck.unknowns().empty();
-           },
-           false,
-           true}
-    // Beyond every state in which the springs pull, there is one behind the
-    // fall. With viscosity nothing jumps in steps that are short enough.
-    , beyond{[&parameters, &system](const Step &step) {
-               return !step.by_slip() && system.chuck.has_compliant_machine() &&
-                      parameters.interface.viscosity == 0.;
-             },
-             false,
-             true,
-             true}
     , accepted_time(parameters.load_steps.times.front())
   {}
+
+
+
+  // Near the solution if nothing happens in the step that did not in the last
+  // one.
+  const StepSolver::Attempt StepSolver::extrapolated{true, false, false};
+  const StepSolver::Attempt StepSolver::from_rest{false, false, false};
+  // A load that cannot be followed: the machine may have to jump.
+  const StepSolver::Attempt StepSolver::jump{false, true, false};
+  // Beyond every state in which the springs of the machine pull, there is one
+  // behind the fall.
+  const StepSolver::Attempt StepSolver::beyond{false, true, true};
+
+
+
+  std::vector<StepSolver::Attempt>
+  StepSolver::attempts(const Step &step) const
+  {
+    const bool predicts = step.extrapolate && parameters.load_steps.predictor ==
+                                                Predictor::extrapolate;
+    if (step.by_slip()) // without a prediction nothing slides
+      return {predicts ? extrapolated : from_rest};
+    std::vector<Attempt> list;
+    if (predicts)
+      list.push_back(extrapolated);
+    list.push_back(from_rest); // the prediction may be to blame
+    if (!system.chuck.unknowns().empty())
+      list.push_back(jump);
+    // with viscosity nothing jumps in steps that are short enough
+    if (system.chuck.has_compliant_machine() &&
+        parameters.interface.viscosity == 0.)
+      list.push_back(beyond);
+    return list;
+  }
 
 
 
@@ -61,15 +68,13 @@ namespace Debond
         return result;
       }
     unsigned int iterations = 0;
-    for (const Attempt *const attempt :
-         {&extrapolated, &from_rest, &jump, &beyond})
-      if (attempt->applies(step))
-        {
-          result = make(*attempt, step);
-          iterations += result.iterations;
-          if (result.is_acceptable() || result.hopeless)
-            break;
-        }
+    for (const Attempt &attempt : attempts(step))
+      {
+        result = make(attempt, step);
+        iterations += result.iterations;
+        if (result.is_acceptable() || result.hopeless)
+          break;
+      }
     result.iterations = iterations;
     return result;
   }
@@ -83,9 +88,9 @@ namespace Debond
     if (parameters.chuck.component[ChuckComponent::rotation_z].loaded ||
         !parameters.has_friction())
       return false;
-    const Chuck &chuck = system.chuck;
-    return std::abs(chuck.values(time)[ChuckComponent::rotation_z] -
-                    chuck.values(accepted_time)[ChuckComponent::rotation_z]) >
+    const Chuck::Vector6 change =
+      system.chuck.values(time) - system.chuck.values(accepted_time);
+    return std::abs(change[ChuckComponent::rotation_z]) >
            (1. + 1e-9) * largest_turn;
   }
 

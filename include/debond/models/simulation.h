@@ -10,51 +10,15 @@
 #include <debond/system/planned_steps.h>
 #include <debond/system/step_solver.h>
 
+#include <boost/signals2.hpp>
+
+#include <limits>
 #include <memory>
-#include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 
 namespace Debond
 {
-  class Simulation;
-
-  /** What looks on while a simulation runs. Each function may throw to end it;
-   *  the simulation is then in the last accepted state. */
-  class SimulationObserver
-  {
-  public:
-    virtual ~SimulationObserver() = default;
-    /** run() begins: with the first row, or after some rows if it goes on. */
-    virtual void
-    started(const Simulation & /*simulation*/)
-    {}
-    /** There are rows, and a further one is to be solved for. */
-    virtual void
-    next_row(const Simulation & /*simulation*/)
-    {}
-    /** A step was accepted: the row at work may need several. */
-    virtual void
-    step_accepted(const Simulation & /*simulation*/)
-    {}
-    /** The newest row; the system is in its state. */
-    virtual void
-    row(const Simulation & /*simulation*/, const TorqueRow & /*row*/)
-    {}
-    /** A check was not passed for the first time, see Simulation::warnings().
-     */
-    virtual void
-    warned(const Warning & /*warning*/)
-    {}
-    /** There is no further row. */
-    virtual void
-    finished(const Simulation & /*simulation*/)
-    {}
-  };
-
-
-
   /**
    * The model `finite elements`: from a scene to a sequence of accepted states,
    * each at the end of a row of the torque curve,
@@ -80,10 +44,19 @@ namespace Debond
                         dealii::TimerOutput      *timer  = nullptr);
     Simulation(const Simulation &) = delete; ///< its parts refer to each other
 
-    /** @p observer is told from now on, after those before; it must outlive
-     *  run() and advance(). */
-    void
-    add(SimulationObserver &observer);
+    /** For who looks on while the simulation runs. A function that is connected
+     *  may throw to end it; the simulation is then in its last accepted state.
+     */
+    struct Signals
+    {
+      /** A row is to be solved for, after those that there are. */
+      boost::signals2::signal<void()> next_row;
+      /** The newest row; the system is in its state. */
+      boost::signals2::signal<void(const TorqueRow &)> row;
+      /** A check was not passed for the first time, see warnings(). */
+      boost::signals2::signal<void(const Warning &)> warning;
+    };
+    Signals signals;
 
     /** Solves for all rows that are left. Throws RunError where the load cannot
      *  be followed; the rows before stay. Throws InputError if an expression of
@@ -99,11 +72,6 @@ namespace Debond
       return step_control.is_finished();
     }
 
-    const Scene &
-    scene() const
-    {
-      return the_scene;
-    }
     const std::vector<TorqueRow> &
     rows() const
     {
@@ -125,35 +93,25 @@ namespace Debond
     {
       return step_control;
     }
+    /** What the checks found, each once; known from the beginning is what the
+     *  scene itself warns of. */
     const std::vector<Warning> &
     warnings() const
     {
       return all_warnings;
     }
 
-    /** Time of the last accepted state. */
-    double
-    time() const
+    struct Effort
     {
-      return solver.time();
-    }
-    /** Number of accepted steps, sub-steps included. */
-    unsigned int
-    n_steps() const
+      unsigned int steps             = 0; ///< accepted, sub-steps included
+      unsigned int newton_iterations = 0; ///< also of attempts that failed
+      /** Time of the shortest accepted step. */
+      double shortest_step = std::numeric_limits<double>::quiet_NaN();
+    };
+    const Effort &
+    effort() const
     {
-      return solver.n_steps();
-    }
-    /** Time of the shortest accepted step; NaN before the first. */
-    double
-    smallest_step() const
-    {
-      return shortest_step;
-    }
-    /** Of all attempts, also of those that failed. */
-    unsigned int
-    newton_iterations() const
-    {
-      return all_iterations;
+      return spent;
     }
 
     /** See serialization.h. Between rows; a simulation that is loaded is one of
@@ -162,10 +120,12 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &coupled_system &solver &state_checks;
-      std::visit([&archive](auto &steps) { archive &steps; }, steps);
-      archive &all_rows &all_warnings &all_iterations &shortest_step;
+      archive &coupled_system &solver &state_checks &all_rows &all_warnings;
+      archive &spent.steps &spent.newton_iterations &spent.shortest_step;
+      std::visit([&archive](auto &chosen) { archive &chosen; }, steps);
     }
+
+    const Scene scene;
 
   private:
     using Steps = std::variant<PlannedSteps, AdaptiveStepping, PathFollowing>;
@@ -182,29 +142,23 @@ namespace Debond
     accept(const StepResult &result);
     void
     add_row(const InterfaceSummary &summary, unsigned int iterations);
-    [[noreturn]] void
-    give_up(const Step &step, const StepResult &result) const;
     void
     refuse_jump(const StepResult &result) const;
+    [[noreturn]] void
+    give_up(const Step &step, const StepResult &result) const;
     void
     judge_whole_run();
     void
     warn(const Warning &warning);
-    template <typename Function>
-    void
-    tell(const Function &function) const;
 
-    const Scene                       the_scene;
-    CoupledSystem                     coupled_system;
-    StepSolver                        solver;
-    Steps                             steps;
-    StepControl                      &step_control; ///< of the above
-    StateChecks                       state_checks;
-    std::vector<SimulationObserver *> observers;
-    std::vector<TorqueRow>            all_rows;
-    std::vector<Warning>              all_warnings;
-    unsigned int                      all_iterations = 0;
-    double                            shortest_step  = CurveMeasures::undefined;
+    CoupledSystem          coupled_system;
+    StepSolver             solver;
+    Steps                  steps;
+    StepControl           &step_control; ///< the one that was chosen
+    StateChecks            state_checks;
+    std::vector<TorqueRow> all_rows;
+    std::vector<Warning>   all_warnings;
+    Effort                 spent;
   };
 } // namespace Debond
 #endif

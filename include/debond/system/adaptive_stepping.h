@@ -29,13 +29,12 @@ namespace Debond
     using Forces = Chuck::Vector6;
 
     /** @p radius makes forces of moments, to compare them with [mm]. */
-    AdaptiveStepping(const LoadSteppingParameters &parameters, double radius);
+    AdaptiveStepping(const LoadSteppingParameters &parameters,
+                     const double                  radius)
+      : StepControl(parameters)
+      , radius(radius)
+    {}
 
-    bool
-    phase_is_due() const override
-    {
-      return phase == 0 || phase_is_finished();
-    }
     void
     begin_phase(const StepState &accepted) override;
 
@@ -50,30 +49,14 @@ namespace Debond
     bool
     reject(const Step &) override;
 
-    bool
-    phase_is_finished() const override
-    {
-      return time == end;
-    }
-    bool
-    is_finished() const override
-    {
-      return phase == parameters.steps.size() && phase_is_finished();
-    }
-    std::string
-    reason_to_end() const override
-    {
-      return "the last time is reached";
-    }
-
     /** See serialization.h. */
     template <class Archive>
     void
-    serialize(Archive &archive, const unsigned int)
+    serialize(Archive &archive, const unsigned int version)
     {
-      archive &phase &time &end &size &largest &current &previous &middle;
-      archive &previous_time &previous_error &has_previous        &has_middle;
-      archive &greatest &first_drive &has_first_drive             &is_driven;
+      StepControl::serialize(archive, version);
+      archive &size &current &previous &middle &previous_time &previous_error;
+      archive &has_middle &greatest &first_drive &has_first_drive &is_driven;
     }
 
   private:
@@ -90,19 +73,17 @@ namespace Debond
     void
     note_drive(const Forces &drive);
 
-    const LoadSteppingParameters parameters;
-    const double                 radius;
-    unsigned int                 phase = 0; ///< from 1; 0: none has begun
-    double                       time = 0, end = 0, size = 0, largest = 0;
-    Forces current        = Forces::Zero(); ///< at the beginning of the step
-    Forces previous       = Forces::Zero(); ///< one step before
-    Forces middle         = Forces::Zero();
-    double previous_time  = 0;
-    double previous_error = 0; ///< of the step before
-    bool   has_previous = false, has_middle = false;
-    Forces greatest        = Forces::Zero(); ///< so far
-    Forces first_drive     = Forces::Zero();
-    bool   has_first_drive = false;
+    const double radius;
+    double       size     = 0;
+    Forces       current  = Forces::Zero(); ///< at the beginning of the step
+    Forces       previous = Forces::Zero(); ///< one step before
+    Forces       middle   = Forces::Zero();
+    double       previous_time   = 0;
+    double       previous_error  = 0; ///< of the step before
+    bool         has_middle      = false;
+    Forces       greatest        = Forces::Zero(); ///< so far
+    Forces       first_drive     = Forces::Zero();
+    bool         has_first_drive = false;
     std::array<bool, 6> is_driven{}; ///< whether the drive has changed so far
   };
 } // namespace Debond

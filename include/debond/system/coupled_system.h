@@ -206,6 +206,8 @@ namespace Debond
   private:
     void
     update_configuration();
+    double
+    evaluate_chuck(double &reference);
     void
     number_unknowns();
     bool

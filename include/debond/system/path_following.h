@@ -1,7 +1,6 @@
 #ifndef debond_system_path_following_h
 #define debond_system_path_following_h
 
-#include <debond/system/load_stepping.h>
 #include <debond/system/step_control.h>
 
 namespace Debond
@@ -23,11 +22,6 @@ namespace Debond
                   double                        largest_slip,
                   double                        end_slip);
 
-    bool
-    phase_is_due() const override
-    {
-      return phase == 0 || phase_is_finished();
-    }
     void
     begin_phase(const StepState &accepted) override;
     Step
@@ -39,11 +33,6 @@ namespace Debond
     bool
     reject(const Step &step) override;
 
-    bool
-    phase_is_finished() const override
-    {
-      return time == end;
-    }
     /** Whether the mean sliding distance has reached the end of the path. */
     bool
     has_ended() const
@@ -53,8 +42,7 @@ namespace Debond
     bool
     is_finished() const override
     {
-      return (phase == parameters.steps.size() && phase_is_finished()) ||
-             has_ended();
+      return StepControl::is_finished() || has_ended();
     }
     std::string
     reason_to_end() const override;
@@ -62,10 +50,11 @@ namespace Debond
     /** See serialization.h. */
     template <class Archive>
     void
-    serialize(Archive &archive, const unsigned int)
+    serialize(Archive &archive, const unsigned int version)
     {
-      archive &phase &time &end &planned &mean_slip &slip_size &time_size;
-      archive &last_time_step &last_slip_step &has_last        &goes_to_end;
+      StepControl::serialize(archive, version);
+      archive &mean_slip &slip_size           &time_size;
+      archive &last_time_step &last_slip_step &goes_to_end;
     }
 
   private:
@@ -74,13 +63,10 @@ namespace Debond
     bool
     reject_time(const Step &step);
 
-    const LoadSteppingParameters parameters;
-    const double                 largest_slip, end_slip; ///< [mm]
-    unsigned int                 phase = 0; ///< from 1; 0: none has begun
-    double                       time = 0, end = 0, planned = 0, mean_slip = 0;
-    double slip_size = 0, time_size = 0; ///< of the next step
-    double last_time_step = 0, last_slip_step = 0;
-    bool   has_last = false;
+    const double largest_slip, end_slip; ///< [mm]
+    double       mean_slip = 0;
+    double       slip_size = 0, time_size = 0; ///< of the next step
+    double       last_time_step = 0, last_slip_step = 0;
     /** The last slip step would have left the phase. */
     bool goes_to_end = false;
     /** What has failed since the last accepted step; the other control is tried

@@ -15,12 +15,15 @@ namespace Debond
   class PlannedSteps : public StepControl
   {
   public:
-    explicit PlannedSteps(const LoadSteppingParameters &parameters);
+    explicit PlannedSteps(const LoadSteppingParameters &parameters)
+      : StepControl(parameters)
+      , plan(parameters)
+    {}
 
     Step
     next() override;
     bool
-    take(const Step &, const StepState &, unsigned int) override;
+    take(const Step &step, const StepState &, unsigned int) override;
     bool
     reject(const Step &) override;
     bool
@@ -28,43 +31,23 @@ namespace Debond
     {
       return done == 1.;
     }
-    bool
-    phase_is_finished() const override
-    {
-      return plan.ends_phase(current);
-    }
-    bool
-    is_finished() const override
-    {
-      return current == plan.n_steps() && row_is_complete();
-    }
     std::string
     reason_to_end() const override
     {
       return "all planned steps are done";
     }
-    unsigned int
-    n_planned_rows() const override
-    {
-      return plan.n_steps();
-    }
-    unsigned int
-    row_in_phase(const unsigned int row) const override
-    {
-      return plan.step_in_phase(row);
-    }
 
     /** See serialization.h. */
     template <class Archive>
     void
-    serialize(Archive &archive, const unsigned int)
+    serialize(Archive &archive, const unsigned int version)
     {
+      StepControl::serialize(archive, version);
       archive &current &done &size;
     }
 
   private:
     const LoadStepping plan;
-    const double       smallest; ///< fraction of a planned step
     unsigned int       current = 0;
     double             done = 1, size = 1; ///< exact: sums of powers of two
   };

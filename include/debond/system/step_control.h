@@ -2,6 +2,7 @@
 #define debond_system_step_control_h
 
 #include <debond/bulk/chuck.h>
+#include <debond/system/load_step_parameters.h>
 
 #include <string>
 
@@ -43,25 +44,17 @@ namespace Debond
   };
 
   /**
-   * Which steps lead from row to row. The one who solves asks for the next()
-   * step and tells what became of it: it could not be solved, reject(), or it
-   * was, take(). The last step of a row completes it.
+   * Which steps lead from row to row. Who solves asks for the next() step and
+   * tells what became of it: it was solved, take(), or could not be, reject().
+   * At the end of a phase, and at the beginning, begin_phase() comes first.
    */
   class StepControl
   {
   public:
-    virtual ~StepControl() = default;
-
-    /** Whether the next row is the first one of a phase, so that begin_phase()
-     *  is to be called. */
-    virtual bool
-    phase_is_due() const
-    {
-      return false;
-    }
-    virtual void
-    begin_phase(const StepState & /*accepted*/)
+    explicit StepControl(const LoadSteppingParameters &parameters)
+      : parameters(parameters)
     {}
+    virtual ~StepControl() = default;
 
     virtual Step
     next() = 0;
@@ -75,36 +68,55 @@ namespace Debond
     virtual bool
     reject(const Step &step) = 0;
 
-    /** @name After a step was taken */
-    //@{
+    /** Whether the step that was taken is the last one of its row. */
     virtual bool
     row_is_complete() const
     {
       return true;
     }
+    bool
+    is_between_phases() const
+    {
+      return phase == 0 || time == end;
+    }
     virtual bool
-    phase_is_finished() const = 0;
-    virtual bool
-    is_finished() const = 0;
+    is_finished() const
+    {
+      return phase == parameters.steps.size() && time == end;
+    }
     /** Why there is no further step, for people. */
     virtual std::string
-    reason_to_end() const = 0;
-    //@}
+    reason_to_end() const
+    {
+      return "the last time is reached";
+    }
 
-    /** Number of rows after the first, if it is known beforehand; else 0, and
-     *  each accepted step is a row. */
-    virtual unsigned int
-    n_planned_rows() const
+    /** Goes to the beginning of the next phase, with the accepted state. */
+    virtual void
+    begin_phase(const StepState & /*accepted*/)
     {
-      return 0;
+      time    = parameters.times[phase];
+      end     = parameters.times[phase + 1];
+      planned = (end - time) / parameters.steps[phase];
+      ++phase;
+      // a new phase is not the continuation of the last one
+      has_previous = false;
     }
-    /** Number of a row within its phase if it is planned, else from the
-     *  beginning: every so many rows fields are written. */
-    virtual unsigned int
-    row_in_phase(const unsigned int row) const
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
     {
-      return row;
+      archive &phase &time &end &planned &has_previous;
     }
+
+  protected:
+    const LoadSteppingParameters parameters;
+    unsigned int                 phase = 0; ///< from 1; 0: none has begun
+    double time = 0, end = 0;    ///< of the accepted state, of the phase
+    double planned      = 0;     ///< size of a planned step
+    bool   has_previous = false; ///< a step of this phase has been taken
   };
 } // namespace Debond
 #endif

@@ -5,7 +5,6 @@
 #include <debond/system/newton.h>
 #include <debond/system/step_control.h>
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -83,15 +82,17 @@ namespace Debond
     /** A way to begin Newton's method, and to go on. */
     struct Attempt
     {
-      /** Whether it is made where those before it have failed. */
-      std::function<bool(const Step &)> applies;
       /** Begins on the line through the last two states. */
-      bool extrapolates = false;
+      bool extrapolates;
       /** Takes full corrections only, also where points go round in a cycle. */
-      bool jumps = false;
+      bool jumps;
       /** Begins where the springs of the machine are relaxed. */
-      bool relaxes_machine = false;
+      bool relaxes_machine;
     };
+    static const Attempt extrapolated, from_rest, jump, beyond;
+    /** Those of a step, in the order in which they are made. */
+    std::vector<Attempt>
+    attempts(const Step &step) const;
 
     bool
     turns_too_far(double time) const;
@@ -104,7 +105,6 @@ namespace Debond
 
     const ModelParameters &parameters;
     CoupledSystem         &system;
-    const Attempt          extrapolated, from_rest, jump, beyond;
     double                 accepted_time;
     unsigned int           n_states = 0;
   };

@@ -6,6 +6,8 @@
 #include <debond/output/earlier_results.h>
 #include <debond/support/input_error.h>
 
+#include <deal.II/base/timer.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

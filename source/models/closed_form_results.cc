@@ -4,6 +4,8 @@
 #include <debond/output/result_files.h>
 #include <debond/support/runtime.h>
 
+#include <deal.II/base/timer.h>
+
 #include <cmath>
 #include <iostream>
 #include <sstream>

@@ -235,7 +235,9 @@ namespace Debond
       const TimedSection t(&timer, "output");
       torque_curve->write(row);
       console.row(row, are_planned ? plan.n_steps() : 0);
-      profiles.write(row.angle_deg, simulation.system().interface);
+      profiles.write(row.angle_deg, [&] {
+        return profile_points(simulation.system().interface);
+      });
       const unsigned int number =
         are_planned ? plan.step_in_phase(row.step) : row.step;
       if (output.fields_every > 0 &&

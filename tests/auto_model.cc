@@ -8,6 +8,8 @@
 #include <debond/models/foundation_error.h>
 #include <debond/support/input_error.h>
 
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -138,7 +140,7 @@ run(const std::vector<std::string> &overrides)
 std::string
 summary(const std::string &name)
 {
-  return JsonObject::from_file("results/auto/summary.json").value(name);
+  return read_json("results/auto/summary.json")[name].dump();
 }
 
 

@@ -8,6 +8,8 @@
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -526,17 +528,17 @@ namespace Debond
   void
   AutoProblem::write_summary(const ResultDirectory &directory) const
   {
-    JsonObject json =
-      JsonObject::from_file(answer->scene.output.directory + "/summary.json");
-    json.add("wall_seconds", clock.wall_time());
-    json.add("converged", answer->estimate <= tolerance);
-    json.add("reason", reason());
-    json.add("error_estimate", answer->estimate);
-    json.add("error_tolerance", tolerance);
-    json.add("answer", answer->description());
-    json.add("answer_rung", answer - rungs.data() + 1);
-    json.add("rungs", rungs.size());
-    write_file(directory.file("summary.json"), json.text());
+    nlohmann::ordered_json json =
+      read_json(answer->scene.output.directory + "/summary.json");
+    json["wall_seconds"]    = clock.wall_time();
+    json["converged"]       = answer->estimate <= tolerance;
+    json["reason"]          = reason();
+    json["error_estimate"]  = answer->estimate;
+    json["error_tolerance"] = tolerance;
+    json["answer"]          = answer->description();
+    json["answer_rung"]     = answer - rungs.data() + 1;
+    json["rungs"]           = rungs.size();
+    write_json(directory.file("summary.json"), json);
   }
 
 

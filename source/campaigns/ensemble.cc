@@ -143,36 +143,24 @@ namespace Debond
 
 
 
-    std::string
-    statistics_header(const Quantity &quantity)
+    using Fields = std::vector<std::string>;
+
+
+
+    void
+    add_names(const Quantity &quantity, Fields &fields)
     {
-      std::string columns;
       for (const char *const what : {"_mean", "_sd", "_p05", "_p50", "_p95"})
-        columns += "," + quantity.name + what + quantity.unit;
-      return columns;
+        fields.push_back(quantity.name + what + quantity.unit);
     }
 
 
 
-    std::string
-    statistics_fields(const SampleStatistics &s)
+    void
+    add_statistics(const SampleStatistics &s, Fields &fields)
     {
-      std::string fields;
       for (const double value : {s.mean, s.sd, s.p05, s.p50, s.p95})
-        fields += "," + (std::isfinite(value) ? to_text(value) : "nan");
-      return fields;
-    }
-
-
-
-    /** Fields of the varied entries with a comma behind each. */
-    std::string
-    leading_fields(const std::vector<std::string> &texts)
-    {
-      std::string fields;
-      for (const std::string &text : texts)
-        fields += csv_field(text) + ",";
-      return fields;
+        fields.push_back(std::isfinite(value) ? to_text(value) : "nan");
     }
 
 
@@ -191,12 +179,15 @@ namespace Debond
   Ensemble::Ensemble(const std::vector<std::string>    &entries,
                      const std::vector<EnsembleMember> &members)
   {
-    curve_table = leading_fields(entries) + "angle_deg,members" +
-                  statistics_header({"torque", "_Nmm"}) + "\n";
-    summary_table = leading_fields(entries) + "members,failed";
+    Fields names = entries;
+    names.insert(names.end(), {"angle_deg", "members"});
+    add_names({"torque", "_Nmm"}, names);
+    curve_table = csv_line(names);
+    names       = entries;
+    names.insert(names.end(), {"members", "failed"});
     for (const Quantity &quantity : quantities)
-      summary_table += statistics_header(quantity);
-    summary_table += "\n";
+      add_names(quantity, names);
+    summary_table = csv_line(names);
 
     std::vector<std::vector<std::string>>     order;
     std::map<std::vector<std::string>, Group> groups;
@@ -228,9 +219,13 @@ namespace Debond
         curves.push_back(member->curve);
     const TorqueBand band(curves);
     for (const TorqueBand::Row &row : band.rows)
-      curve_table +=
-        leading_fields(group.front()->values) + to_text(row.angle_deg) + "," +
-        std::to_string(row.torque.n) + statistics_fields(row.torque) + "\n";
+      {
+        Fields fields = group.front()->values;
+        fields.insert(fields.end(),
+                      {to_text(row.angle_deg), std::to_string(row.torque.n)});
+        add_statistics(row.torque, fields);
+        curve_table += csv_line(fields);
+      }
     if (band.left_out > 0)
       left_out += "ensemble.csv leaves out " + std::to_string(band.left_out) +
                   " of " + std::to_string(curves.size()) + " members" + place +
@@ -248,17 +243,18 @@ namespace Debond
                                            [](const EnsembleMember *member) {
                                              return member->converged;
                                            });
-    summary_table += leading_fields(group.front()->values) +
-                     std::to_string(n_converged) + "," +
-                     std::to_string(group.size() - n_converged);
+    Fields     fields      = group.front()->values;
+    fields.insert(fields.end(),
+                  {std::to_string(n_converged),
+                   std::to_string(group.size() - n_converged)});
     for (const Quantity &quantity : quantities)
       {
         std::vector<double> values;
         for (const EnsembleMember *const member : group)
           if (member->converged)
             values.push_back(number(*member, quantity.name + quantity.unit));
-        summary_table += statistics_fields(sample_statistics(values));
+        add_statistics(sample_statistics(values), fields);
       }
-    summary_table += "\n";
+    summary_table += csv_line(fields);
   }
 } // namespace Debond

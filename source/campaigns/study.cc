@@ -39,17 +39,6 @@ namespace Debond
       std::snprintf(text, sizeof(text), "%.4g", std::atof(number.c_str()));
       return text;
     }
-
-
-
-    std::string
-    csv_line(const std::vector<std::string> &texts)
-    {
-      std::string line;
-      for (const std::string &text : texts)
-        line += (&text == &texts.front() ? "" : ",") + csv_field(text);
-      return line + "\n";
-    }
   } // namespace
 
 

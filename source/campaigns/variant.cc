@@ -3,9 +3,9 @@
 #include <debond/support/number_text.h>
 #include <debond/support/sample_statistics.h>
 
-#define BOOST_BIND_GLOBAL_PLACEHOLDERS
-#include <boost/property_tree/json_parser.hpp>
-#include <boost/property_tree/ptree.hpp>
+#include <boost/algorithm/string/join.hpp>
+
+#include <nlohmann/json.hpp>
 
 #include <cstdlib>
 #include <filesystem>
@@ -39,28 +39,30 @@ namespace Debond
 
   namespace
   {
-    /** StudyRow of a summary.json as text; lists joined, null as nan. Empty if
-     *  there is none. */
+    /** A member of a summary as a field of a table: lists joined, null as nan.
+     */
+    std::string
+    text_of(const nlohmann::ordered_json &value)
+    {
+      if (value.is_string())
+        return value;
+      if (value.is_number_float())
+        return to_text(value);
+      if (value.is_array())
+        return boost::join(value.get<std::vector<std::string>>(), "; ");
+      return value.is_null() ? "nan" : value.dump();
+    }
+
+
+
+    /** StudyRow of a summary.json. Empty if there is none. */
     StudyRow
     read_summary(const std::string &filename)
     {
-      boost::property_tree::ptree tree;
-      try
-        {
-          boost::property_tree::read_json(filename, tree);
-        }
-      catch (const boost::property_tree::json_parser_error &)
-        {
-          return {};
-        }
-      StudyRow members;
-      for (const auto &[name, child] : tree)
-        {
-          std::string value = child.data() == "null" ? "nan" : child.data();
-          for (const auto &item : child)
-            value += (value.empty() ? "" : "; ") + item.second.data();
-          members.emplace_back(name, value);
-        }
+      const nlohmann::ordered_json summary = read_json(filename);
+      StudyRow                     members;
+      for (const auto &[name, value] : summary.items())
+        members.emplace_back(name, text_of(value));
       return members;
     }
 

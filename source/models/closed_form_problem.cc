@@ -5,6 +5,8 @@
 #include <debond/support/runtime.h>
 #include <debond/system/energy_balance.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -482,28 +484,26 @@ namespace Debond
     summary.measures = measure_torque_curve(torque_rows, settings);
     console.warn("reference",
                  warning_about_reference(summary.measures, settings));
-    summary.steps            = torque_rows.size() - 1;
-    summary.converged        = true;
-    summary.reason           = "all planned steps are done";
-    summary.warnings         = console.warnings();
-    summary.wall_seconds     = wall_seconds;
-    summary.seconds          = {{"before steps", seconds_before_steps},
-                                {"stepping", wall_seconds - seconds_before_steps}};
-    summary.profile_measures = profiles.measures();
-    summary.peak_memory_MB   = peak_memory_MB();
-    JsonObject json;
-    add_summary(summary, json);
-    json.add("normal_stiffness_MPa_per_mm",
-             normal_stiffness > 0. ? normal_stiffness :
-                                     CurveMeasures::undefined);
-    json.add("torsional_stiffness_MPa_per_mm",
-             lambda > 0. ? lambda : CurveMeasures::undefined);
+    summary.steps               = torque_rows.size() - 1;
+    summary.converged           = true;
+    summary.reason              = "all planned steps are done";
+    summary.warnings            = console.warnings();
+    summary.wall_seconds        = wall_seconds;
+    summary.seconds             = {{"before steps", seconds_before_steps},
+                                   {"stepping", wall_seconds - seconds_before_steps}};
+    summary.profile_measures    = profiles.measures();
+    summary.peak_memory_MB      = peak_memory_MB();
+    nlohmann::ordered_json json = summary;
+    json["normal_stiffness_MPa_per_mm"] =
+      normal_stiffness > 0. ? normal_stiffness : CurveMeasures::undefined;
+    json["torsional_stiffness_MPa_per_mm"] =
+      lambda > 0. ? lambda : CurveMeasures::undefined;
     if (machine)
       {
-        json.add("jumps", unsigned(machine->jumps().size()));
-        json.add("released_energy_Nm", 1e-3 * released_energy(loads.back()));
+        json["jumps"]              = machine->jumps().size();
+        json["released_energy_Nm"] = 1e-3 * released_energy(loads.back());
       }
-    write_file(directory.file("summary.json"), json.text());
+    write_json(directory.file("summary.json"), json);
 
     std::ostringstream text;
     text << "Largest torque " << summary.measures.T_max_Nmm << " N mm at "

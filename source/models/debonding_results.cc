@@ -1,6 +1,8 @@
 #include <debond/models/debonding_run.h>
 #include <debond/support/runtime.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -79,12 +81,13 @@ namespace Debond
   namespace
   {
     void
-    add_bonding(const BondingPattern::Report &bonding, JsonObject &json)
+    add_bonding(const BondingPattern::Report &bonding,
+                nlohmann::ordered_json       &json)
     {
-      json.add("phi_0_mean", bonding.mean);
-      json.add("bonded_area_mm2", bonding.bonded_area);
-      json.add("bonded_patches", bonding.patches);
-      json.add("largest_bonded_patch_mm2", bonding.largest_patch);
+      json["phi_0_mean"]               = bonding.mean;
+      json["bonded_area_mm2"]          = bonding.bonded_area;
+      json["bonded_patches"]           = bonding.patches;
+      json["largest_bonded_patch_mm2"] = bonding.largest_patch;
     }
   } // namespace
 
@@ -178,12 +181,11 @@ namespace Debond
     summary.profile_measures = state->profiles->measures();
     summary.peak_memory_MB   = peak_memory_MB();
 
-    JsonObject json;
-    add_summary(summary, json);
+    nlohmann::ordered_json json = summary;
     add_bonding(system.interface.bonding().report(), json);
-    json.add("jumps", state->checks.released().n_jumps());
-    json.add("released_energy_Nm", 1e-3 * state->checks.released().total());
-    write_file(state->directory->file("summary.json"), json.text());
+    json["jumps"]              = state->checks.released().n_jumps();
+    json["released_energy_Nm"] = 1e-3 * state->checks.released().total();
+    write_json(state->directory->file("summary.json"), json);
     if (converged)
       {
         state->checkpoints->remove(); // there is nothing to go on with

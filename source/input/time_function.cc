@@ -1,4 +1,3 @@
-#include <debond/input/expression_parser.h>
 #include <debond/input/time_function.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
@@ -8,28 +7,19 @@
 namespace Debond
 {
   TimeFunction::TimeFunction(const std::string &expression, const double radius)
-    : expression(expression)
-    , parser(make_parser<1>("t", expression, radius))
+    : text(expression)
+    , expression(read_expression("t", text, radius))
   {}
-
-
-
-  TimeFunction::~TimeFunction()                        = default;
-  TimeFunction::TimeFunction(TimeFunction &&) noexcept = default;
-  TimeFunction &
-  TimeFunction::operator=(TimeFunction &&) noexcept = default;
 
 
 
   double
   TimeFunction::operator()(const double t) const
   {
-    const double value = parser->value(dealii::Point<1>(t));
+    const double value = expression({t});
     if (!std::isfinite(value))
-      {
-        throw InputError("the expression '" + expression +
-                         "' has no finite value at t = " + to_text(t));
-      }
+      throw InputError("the expression '" + text +
+                       "' has no finite value at t = " + to_text(t));
     return value;
   }
 } // namespace Debond

@@ -117,8 +117,8 @@ struct Model
   explicit Model(const std::array<BodyParameters, 2> &bodies,
                  const BondingParameters &bonding = BondingParameters())
     : interface_parameters(with(bonding))
-    , bone(bodies[0], BodySide::bone)
-    , implant(bodies[1], BodySide::implant)
+    , bone(bodies[0], Side::bone)
+    , implant(bodies[1], Side::implant)
     , chuck(motion(), Eigen::Vector3d(0, 0, bodies[1].height), 2.5)
     , interface(interface_parameters, bone.mesh(), implant.mesh())
   {
@@ -279,9 +279,9 @@ check_interface(const std::string &vtu)
          1e-6);
 
   RigidBodiesTorsion::Parameters parameters;
-  parameters.radius         = 2.5;
-  parameters.push_in        = depth;
-  parameters.normal_penalty = parameters.tangential_penalty = 585;
+  parameters.radius    = 2.5;
+  parameters.pressure  = 585 * depth;
+  parameters.stiffness = 585;
   const RigidBodiesTorsion exact(parameters);
   // Between quadrature points values are interpolated, and beyond the outermost
   // they are constant: that is no more than a picture needs.

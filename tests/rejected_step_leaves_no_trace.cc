@@ -29,10 +29,7 @@ class Run
 {
 public:
   explicit Run(const Scene &scene)
-    : timer(timings,
-            dealii::TimerOutput::never,
-            dealii::TimerOutput::wall_times)
-    , system(scene, timer)
+    : system(scene)
   {
     system.start(0.);
   }
@@ -77,7 +74,8 @@ public:
       }
     system.predict(accepted_time, false);
     system.evaluate(ContactPointMode());
-    result.forces = {{system.interface.force(0), system.interface.force(1)}};
+    result.forces        = {{system.interface.force(Side::bone),
+                             system.interface.force(Side::implant)}};
     result.chuck_forces  = system.chuck_forces();
     result.dissipation   = system.interface.work().dissipation;
     result.adhesive_work = system.interface.work().adhesive;
@@ -86,9 +84,6 @@ public:
   }
 
 private:
-  std::ostringstream  timings;
-  dealii::TimerOutput timer;
-
 public:
   CoupledSystem system;
   double        accepted_time = 0;

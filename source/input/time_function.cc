@@ -1,3 +1,4 @@
+#include <debond/input/expression_parser.h>
 #include <debond/input/time_function.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
@@ -7,8 +8,9 @@
 namespace Debond
 {
   TimeFunction::TimeFunction(const std::string &expression, const double radius)
-    : text(expression)
-    , expression(read_expression("t", text, radius))
+    : name("the expression '" + expression + "'")
+    , function([value = read_expression("t", expression, radius)](
+                 const double t) { return value({t}); })
   {}
 
 
@@ -16,10 +18,9 @@ namespace Debond
   double
   TimeFunction::operator()(const double t) const
   {
-    const double value = expression({t});
+    const double value = function(t);
     if (!std::isfinite(value))
-      throw InputError("the expression '" + text +
-                       "' has no finite value at t = " + to_text(t));
+      throw InputError(name + " has no finite value at t = " + to_text(t));
     return value;
   }
 } // namespace Debond

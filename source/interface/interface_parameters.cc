@@ -92,9 +92,9 @@ namespace Debond
   InterfaceParameters::parse(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Interface");
-    slave = prm.get("Slave") == "bone" ? SlaveSide::bone : SlaveSide::implant;
-    quadrature_points  = prm.get_integer("Quadrature points");
-    normal_penalty     = prm.get_double("Penalty stiffness");
+    slave             = prm.get("Slave") == "bone" ? Side::bone : Side::implant;
+    quadrature_points = prm.get_integer("Quadrature points");
+    normal_penalty    = prm.get_double("Penalty stiffness");
     tangential_penalty = prm.get_double("Tangential penalty stiffness");
     if (tangential_penalty == 0)
       tangential_penalty = normal_penalty;

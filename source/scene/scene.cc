@@ -7,6 +7,7 @@
 #include <debond/scene/magnitudes.h>
 #include <debond/scene/scene.h>
 #include <debond/support/number_text.h>
+#include <debond/system/load_stepping.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -319,7 +320,7 @@ namespace Debond
                             "angle"));
       try
         {
-          const TimeFunction value(component.value, radius);
+          const TimeFunction value = component.value_over_time(radius);
           const double       first_value = value(times.front());
           bool               varies      = false;
           for (const double time : times)

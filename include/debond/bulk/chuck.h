@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,34 @@ namespace dealii
 
 namespace Debond
 {
+  namespace Names
+  {
+    /** In a class of its own: found as ChuckComponent::rotation_z only. */
+    struct ChuckComponents
+    {
+      enum Component : unsigned int
+      {
+        translation_x,
+        translation_y,
+        translation_z,
+        rotation_x,
+        rotation_y,
+        rotation_z
+      };
+    };
+  } // namespace Names
+
+  /** The six motions of the chuck, and the forces and moments conjugate to
+   *  them, in the order of every vector of them. */
+  using ChuckComponent = Names::ChuckComponents::Component;
+
+  /** Whether a component is an angle or a moment. */
+  constexpr bool
+  is_rotation(const unsigned int component)
+  {
+    return component >= ChuckComponent::rotation_x;
+  }
+
   /** One of the six subsections of `Chuck`. */
   struct ChuckComponentParameters
   {
@@ -24,6 +53,16 @@ namespace Debond
     /** Expression in t (constants pi, R). Units: mm, degrees, N, N mm. */
     std::string value     = "0";
     double      stiffness = 0; ///< of the machine [N/mm or N mm/rad]; 0: rigid
+    /** Of time, in the same units: if it is set, it counts instead of the
+     *  expression. For scenes that a program makes; no entry of a file. */
+    std::function<double(double)> function;
+
+    /** The function that counts; @p radius is the `R` of expressions [mm]. */
+    TimeFunction
+    value_over_time(double radius) const
+    {
+      return function ? TimeFunction(function) : TimeFunction(value, radius);
+    }
   };
 
   /** The subsection `Chuck`: Translation x, y, z, Rotation x, y, z. */

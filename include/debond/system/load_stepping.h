@@ -1,52 +1,13 @@
 #ifndef debond_system_load_stepping_h
 #define debond_system_load_stepping_h
 
-#include <string>
-#include <vector>
-
-namespace dealii
-{
-  class ParameterHandler;
-}
+#include <debond/system/load_step_parameters.h>
 
 namespace Debond
 {
-  /** What the first iteration of a step starts from. */
-  enum class Predictor
-  {
-    extrapolate,
-    stick_first,
-    rigid,
-    none
-  };
-
-  /** The subsection `Load steps` of a scene. */
-  struct LoadSteppingParameters
-  {
-    std::vector<double> times{0, 1, 2}; ///< first time and ends of the phases
-    std::vector<unsigned int> steps{1, 1000}; ///< planned steps of each phase
-    double                    smallest_step_fraction = 1e-4;
-    double                    residual_tolerance     = 1e-8;
-    bool                      adaptive               = false;
-    double                    tolerance = 1e-3; ///< of the curves, if adaptive
-    Predictor                 predictor = Predictor::extrapolate;
-    /** Follow the path of equilibrium by the mean sliding distance. */
-    bool follow_path = false;
-    /** Largest step of the mean sliding distance [mm]; 0: from the law. */
-    double largest_slip_step = 0;
-    /** Mean sliding distance at which the path ends [mm]; 0: the radius. */
-    double path_ends_at_slip = 0;
-
-    static void
-    declare(dealii::ParameterHandler &prm);
-    void
-    parse(dealii::ParameterHandler &prm);
-  };
-
   /**
-   * The planned steps of a scene and the sub-steps a planned step is cut into.
-   * Steps are counted, not accumulated: planned times are hit exactly, and a
-   * sub-step is a power of two of its planned step.
+   * The planned times of a scene. Steps are counted, not accumulated: planned
+   * times are hit exactly.
    */
   class LoadStepping
   {
@@ -75,53 +36,9 @@ namespace Debond
     unsigned int
     phase(unsigned int step) const;
 
-    /** @name Sub-steps */
-    //@{
-    /** Goes to the start of a planned step; the size of sub-steps of the one
-     *  before is kept. */
-    void
-    begin(unsigned int step);
-    bool
-    finished() const
-    {
-      return done == 1.;
-    }
-    /** End of the sub-step that is to be tried next. */
-    double
-    target_time() const;
-    /** The sub-step as a fraction of the planned step. */
-    double
-    fraction() const
-    {
-      return size;
-    }
-    bool
-    is_whole_step() const
-    {
-      return done == 0. && size == 1.;
-    }
-    /** The sub-step succeeded: the next one may be twice as large. */
-    void
-    accept();
-    /** The sub-step failed: the next one is half as large. False if that is
-     *  below the smallest step. */
-    bool
-    reject();
-    //@}
-
-    /** See serialization.h. */
-    template <class Archive>
-    void
-    serialize(Archive &archive, const unsigned int)
-    {
-      archive &current &done &size;
-    }
-
   private:
     const LoadSteppingParameters parameters;
     unsigned int                 total_steps = 0;
-    unsigned int                 current     = 0;
-    double done = 0, size = 1; ///< exact: sums of powers of two
   };
 } // namespace Debond
 #endif

@@ -363,7 +363,7 @@ namespace Debond
     RunSummary      summary;
     summary.measures = measure_torque_curve(simulation.rows(), settings);
     summary.profile_measures  = profiles.measures();
-    summary.steps             = simulation.n_steps();
+    summary.steps             = simulation.effort().steps;
     summary.smallest_step     = simulation.effort().shortest_step;
     summary.newton_iterations = simulation.effort().newton_iterations;
     summary.dofs = bone.n_dofs_as_published() + implant.n_dofs_as_published();

@@ -1,6 +1,7 @@
 #include <debond/models/closed_form_solution.h>
 #include <debond/support/input_error.h>
 #include <debond/system/energy_balance.h>
+#include <debond/system/load_stepping.h>
 
 #include <algorithm>
 #include <cmath>

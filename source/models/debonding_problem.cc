@@ -8,6 +8,7 @@
 #include <debond/output/profile_output.h>
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
+#include <debond/support/run_error.h>
 #include <debond/support/runtime.h>
 #include <debond/support/serialization.h>
 
@@ -360,7 +361,7 @@ namespace Debond
     RunSummary      summary;
     summary.measures = measure_torque_curve(simulation.rows(), settings);
     summary.profile_measures  = profiles.measures();
-    summary.steps             = simulation.n_steps();
+    summary.steps             = simulation.effort().steps;
     summary.smallest_step     = simulation.effort().shortest_step;
     summary.newton_iterations = simulation.effort().newton_iterations;
     summary.dofs = bone.n_dofs_as_published() + implant.n_dofs_as_published();

@@ -497,6 +497,8 @@ namespace Debond
 
 
 
+  // What cannot be set up leaves no results; what fails later leaves all rows
+  // before, and a summary that says why.
   void
   DebondingProblem::run(const Checkpoint *const checkpoint)
   {

@@ -99,7 +99,7 @@ namespace Debond
       return AdaptiveStepping(load_steps, R);
     if (!load_steps.follow_path)
       return PlannedSteps(load_steps);
-    // a twentieth of the distance over which friction falls
+    // 2 a_s b_s is the distance over which friction falls, Eq. (13)
     const FrictionParameters &friction = scene.interface.friction;
     const double              fall     = friction.sliding_threshold *
                         std::min(1., 2. * friction.transition_factor);
@@ -114,6 +114,7 @@ namespace Debond
 
 
 
+  // From row to row. Whoever looks on may end the run between them.
   void
   Simulation::run()
   {
@@ -174,8 +175,12 @@ namespace Debond
 
 
 
-  // A row ends with an accepted step; it may need several, and steps that fail
-  // or go too far are tried again as the control of steps says.
+  // A row ends with an accepted step. The control of steps says which step to
+  // try; the solver looks for the state at its end. If there is none within
+  // reach the step is made smaller, down to the smallest that the scene allows.
+  // If there is one the control may still refuse it, because the curve would be
+  // drawn too coarsely or the path be left; nothing of it is kept then. A
+  // planned step that had to be divided takes several accepted steps.
   void
   Simulation::solve_row()
   {
@@ -219,6 +224,9 @@ namespace Debond
 
 
 
+  // Where the law falls more steeply than the interface is stiff, the equations
+  // have more than one solution, and which one Newton's method finds means
+  // nothing.
   void
   Simulation::refuse_jump(const StepResult &result) const
   {
@@ -254,6 +262,8 @@ namespace Debond
 
 
 
+  // What is asked of the trial state comes first: commit() turns it into
+  // history, and the checks judge what has become of energies and forces.
   void
   Simulation::accept(const StepResult &result)
   {

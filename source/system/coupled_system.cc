@@ -342,7 +342,7 @@ namespace Debond
 
 
   // One Newton correction: (S + Q^T (df/dx) Q) dv = r, and v - dv.
-  std::string
+  std::optional<std::string>
   CoupledSystem::solve_and_correct(const double relative_tolerance)
   {
     Eigen::VectorXd &correction = last_correction;
@@ -370,7 +370,7 @@ namespace Debond
     bone.correct(-correction.head(n_b));
     implant.correct(-correction.segment(n_b, n_i));
     correct_chuck(-1.);
-    return "";
+    return std::nullopt;
   }
 
 

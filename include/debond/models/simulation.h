@@ -10,7 +10,7 @@
 #include <debond/system/planned_steps.h>
 #include <debond/system/step_solver.h>
 
-#include <boost/signals2.hpp>
+#include <boost/signals2/signal.hpp>
 
 #include <limits>
 #include <memory>

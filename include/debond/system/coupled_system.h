@@ -11,6 +11,7 @@
 #include <debond/system/path_equation.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace Debond
@@ -126,8 +127,8 @@ namespace Debond
     }
 
     /** Solves for the Newton correction to @p relative_tolerance and applies
-     * it. Returns why that was impossible, or an empty text. */
-    std::string
+     *  it. If that is impossible nothing is applied; returns why. */
+    std::optional<std::string>
     solve_and_correct(double relative_tolerance);
     /** Takes back all of the last correction but @p fraction of it; evaluate()
      *  is to follow. Fractions of several calls multiply. */

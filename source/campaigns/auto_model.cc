@@ -5,6 +5,7 @@
 #include <debond/output/console.h>
 #include <debond/output/earlier_results.h>
 #include <debond/support/input_error.h>
+#include <debond/support/run_error.h>
 
 #include <algorithm>
 #include <cmath>

@@ -6,6 +6,8 @@
 #include <debond/input/csv_table.h>
 #include <debond/support/input_error.h>
 
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -167,11 +169,10 @@ check_study()
   report("and not those that are bonded everywhere", rows[1][4] == 0.);
   double mean = 0.;
   for (const char *const variant : {"001", "005", "007"})
-    {
-      const auto json =
-        JsonObject::from_file(place + "/variant-" + variant + "/summary.json");
-      mean += std::stod(json.value("T_max_Nmm")) / 3.;
-    }
+    mean +=
+      read_json(place + "/variant-" + variant + "/summary.json")["T_max_Nmm"]
+        .get<double>() /
+      3.;
   report("mean of T_max over those that ran, difference",
          std::abs(mean / rows[0][3] - 1.),
          1e-10);

@@ -6,7 +6,6 @@
 #include <boost/algorithm/string/join.hpp>
 
 #include <filesystem>
-#include <fstream>
 
 namespace Debond
 {
@@ -37,17 +36,6 @@ namespace Debond
 
   namespace
   {
-    /** Without members if there is no such file. */
-    nlohmann::ordered_json
-    read_summary(const std::string &filename)
-    {
-      std::ifstream file(filename);
-      const auto    json = nlohmann::ordered_json::parse(file, nullptr, false);
-      return json.is_object() ? json : nlohmann::ordered_json::object();
-    }
-
-
-
     /** Gives the members that are seconds the medians over all runs. */
     void
     take_medians(nlohmann::ordered_json                    &summary,
@@ -100,7 +88,7 @@ namespace Debond
     const OutputParameters &output = scene.output;
     content = content_of_result_directory(output, scene.completed_parameters);
     if (content == DirectoryContent::same_scene)
-      summary = read_summary(output.directory + "/summary.json");
+      summary = read_json(output.directory + "/summary.json");
     done = summary.value("converged", false) &&
            std::filesystem::exists(output.directory + "/torque.csv");
     if (n_repetitions == 1)
@@ -109,7 +97,7 @@ namespace Debond
     while (repetitions.size() < n_repetitions)
       {
         const auto next =
-          read_summary(repetition_file(*this, repetitions.size() + 1));
+          read_json(repetition_file(*this, repetitions.size() + 1));
         if (next.empty())
           break;
         repetitions.push_back(next);

@@ -89,8 +89,8 @@ check_groups()
     }
   members[1].curve.push_back({0, 0});
   const Ensemble ensemble({"Some / Entry"}, members);
-  std::cout << ensemble.curves() << ensemble.notes();
-  std::istringstream lines(ensemble.summary());
+  std::cout << ensemble.curves << ensemble.notes;
+  std::istringstream lines(ensemble.summary);
   for (std::string line; std::getline(lines, line);)
     std::cout << line.substr(0, line.find("theta_max_mean")).substr(0, 90)
               << std::endl;

@@ -9,8 +9,8 @@ namespace Debond
 {
   TimeFunction::TimeFunction(const std::string &expression, const double radius)
     : name("the expression '" + expression + "'")
-    , function([value = read_expression("t", expression, radius)](
-                 const double t) { return value({t}); })
+    , function([parsed = read_expression("t", expression, radius)](
+                 const double t) { return parsed({t}); })
   {}
 
 

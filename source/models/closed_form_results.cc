@@ -84,13 +84,13 @@ namespace Debond
     add_closed_form(const ClosedFormSolution &solution,
                     nlohmann::ordered_json   &json)
     {
-      const auto add_stiffness = [&](const std::string &name,
-                                     const double       stiffness) {
-        json[name] = stiffness > 0. ? stiffness : CurveMeasures::undefined;
+      const auto or_nothing = [](const double stiffness) {
+        return stiffness > 0. ? stiffness : CurveMeasures::undefined;
       };
-      add_stiffness("normal_stiffness_MPa_per_mm", solution.normal_stiffness);
-      add_stiffness("torsional_stiffness_MPa_per_mm",
-                    solution.torsional_stiffness);
+      json["normal_stiffness_MPa_per_mm"] =
+        or_nothing(solution.normal_stiffness);
+      json["torsional_stiffness_MPa_per_mm"] =
+        or_nothing(solution.torsional_stiffness);
       if (solution.scene.chuck.component[ChuckComponent::rotation_z].stiffness >
           0.)
         {

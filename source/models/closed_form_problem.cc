@@ -160,7 +160,7 @@ namespace Debond
                  "Chuck / Translation z / Value",
                  "closed forms know no push-in that changes while it turns");
         if (loads[i].angle != 0. &&
-            loads[i - 1].time < scene.interface.friction.starts_at -
+            loads[i - 1].time < scene.interface.friction_starts_at -
                                   1e-9 * (loads.back().time - loads[0].time))
           refuse(scene,
                  "Interface / Friction starts at",
@@ -319,10 +319,7 @@ namespace Debond
         parameters.pressure        = p;
         parameters.shear_modulus   = given.shear_modulus;
         parameters.adhesion_energy = 1e-3 * given.adhesion_energy; // N/mm
-        parameters.friction_stress =
-          friction.kind == FrictionLawKind::frictionless ?
-            0. :
-            friction.mu_broken * p;
+        parameters.friction_stress = friction->mu_without_bond() * p;
         model = std::make_unique<MathieuTorsion>(parameters);
       }
   }

@@ -51,22 +51,6 @@ namespace Debond
 
 
 
-  double
-  TorsionModel::begin_of_decay() const
-  {
-    return friction.sliding_threshold;
-  }
-
-
-
-  double
-  TorsionModel::end_of_decay() const
-  {
-    return friction.sliding_threshold * (1. + 2. * friction.transition_factor);
-  }
-
-
-
   TorsionModel::State
   TorsionModel::state(const double theta) const
   {
@@ -76,21 +60,20 @@ namespace Debond
         ends.push_back(std::min(R, r));
     std::sort(ends.begin(), ends.end());
 
-    const double mu_without_bond =
-      friction.kind == FrictionLawKind::frictionless ? 0. : friction.mu_broken;
     State      sum;
     const auto add = [&](const double r, const double weight) {
       const Point  here = point(r, theta);
       const double dA   = 2. * pi * r * weight;
       const double adhesive =
-        p * adhesive_strength(friction, initial_bonding(r), 0., here.slip);
+        p * friction->adhesive_strength({initial_bonding(r)}, here.slip);
       sum.torque += r * here.traction * dA;
       sum.phi_mean += here.phi * dA / (pi * R * R);
       if (here.traction != 0.) // else the stiffness may be zero, too
         sum.stored_energy +=
           0.5 * here.traction * here.traction / stiffness() * dA;
       sum.adhesive_work += adhesive * dA;
-      sum.dissipation += (adhesive + mu_without_bond * p * here.slip) * dA;
+      sum.dissipation +=
+        (adhesive + friction->mu_without_bond() * p * here.slip) * dA;
     };
     // The fields are smooth between kinks, so that Gauss points do.
     using Gauss = boost::math::quadrature::gauss<double, 30>;
@@ -126,7 +109,7 @@ namespace Debond
   bool
   RigidBodiesTorsion::has_unique_solution(const Parameters &parameters)
   {
-    return steepest_fall(parameters.friction, parameters.phi_0) *
+    return parameters.friction->steepest_fall({parameters.phi_0}) *
              parameters.normal_penalty * parameters.push_in <
            parameters.tangential_penalty;
   }
@@ -144,8 +127,8 @@ namespace Debond
   double
   RigidBodiesTorsion::path(const double slip, const double phi_0) const
   {
-    return slip + friction_coefficient(friction, phi_0, slip).mu * p /
-                    parameters.tangential_penalty;
+    return slip +
+           coefficient(phi_0, slip).mu * p / parameters.tangential_penalty;
   }
 
 
@@ -155,20 +138,18 @@ namespace Debond
   {
     const double phi_0    = initial_bonding(r);
     const double distance = r * std::abs(theta);
+    const double begin    = friction->kinks().front(),
+                 end      = friction->kinks().back();
     // Before and after the decay the coefficient is constant: mu p / eps_t of
     // the path is elastic.
-    if (distance <= path(begin_of_decay(), phi_0))
+    if (distance <= path(begin, phi_0))
       return std::max(0., distance - path(0., phi_0));
-    if (distance >= path(end_of_decay(), phi_0))
-      return distance - (path(end_of_decay(), phi_0) - end_of_decay());
+    if (distance >= path(end, phi_0))
+      return distance - (path(end, phi_0) - end);
     const auto excess = [&](const double g) {
       return path(g, phi_0) - distance;
     };
-    return zero_of(excess,
-                   begin_of_decay(),
-                   end_of_decay(),
-                   excess(begin_of_decay()),
-                   excess(end_of_decay()));
+    return zero_of(excess, begin, end, excess(begin), excess(end));
   }
 
 
@@ -178,11 +159,11 @@ namespace Debond
   {
     const double phi_0 = initial_bonding(r);
     Point        here;
-    here.slip              = slip(r, theta);
-    here.sticks            = here.slip == 0.;
-    const auto coefficient = friction_coefficient(friction, phi_0, here.slip);
-    here.phi               = coefficient.phi;
-    here.mu                = coefficient.mu;
+    here.slip                = slip(r, theta);
+    here.sticks              = here.slip == 0.;
+    const auto friction_here = coefficient(phi_0, here.slip);
+    here.phi                 = friction_here.phi;
+    here.mu                  = friction_here.mu;
     here.traction = std::copysign(here.sticks ? parameters.tangential_penalty *
                                                   r * std::abs(theta) :
                                                 here.mu * p,
@@ -212,8 +193,11 @@ namespace Debond
   {
     std::vector<double> radii{parameters.bonded_radius};
     for (const double phi_0 : {parameters.phi_0, 0.})
-      for (const double slip : {0., begin_of_decay(), end_of_decay()})
-        radii.push_back(path(slip, phi_0) / std::abs(theta));
+      {
+        radii.push_back(path(0., phi_0) / std::abs(theta));
+        for (const double slip : friction->kinks())
+          radii.push_back(path(slip, phi_0) / std::abs(theta));
+      }
     return radii;
   }
 
@@ -371,8 +355,8 @@ namespace Debond
   TorsionModel::Point
   AnalyticalTorsion::point(const double r, const double theta) const
   {
-    const auto unbroken = friction_coefficient(friction, parameters.phi_0, 0.);
-    const double angle  = std::abs(theta);
+    const auto   unbroken = coefficient(parameters.phi_0, 0.);
+    const double angle    = std::abs(theta);
     Point        here;
     here.sticks = angle <= parameters.linear_limit || r < stick_radius(theta);
     if (here.sticks)
@@ -384,12 +368,11 @@ namespace Debond
       }
     else
       {
-        here.slip = r * slip_per_radius(theta);
-        const auto coefficient =
-          friction_coefficient(friction, parameters.phi_0, here.slip);
-        here.phi      = coefficient.phi;
-        here.mu       = coefficient.mu;
-        here.traction = coefficient.mu * p;
+        here.slip          = r * slip_per_radius(theta);
+        const auto sliding = coefficient(parameters.phi_0, here.slip);
+        here.phi           = sliding.phi;
+        here.mu            = sliding.mu;
+        here.traction      = sliding.mu * p;
       }
     here.traction = std::copysign(here.traction, theta);
     return here;
@@ -400,10 +383,11 @@ namespace Debond
   std::vector<double>
   AnalyticalTorsion::kinks(const double theta) const
   {
-    const double per_radius = slip_per_radius(theta);
-    return {stick_radius(theta),
-            begin_of_decay() / per_radius,
-            end_of_decay() / per_radius};
+    const double        per_radius = slip_per_radius(theta);
+    std::vector<double> radii{stick_radius(theta)};
+    for (const double slip : friction->kinks())
+      radii.push_back(slip / per_radius);
+    return radii;
   }
 
 
@@ -412,14 +396,14 @@ namespace Debond
   double
   AnalyticalTorsion::stiffness() const
   {
-    return friction_coefficient(friction, parameters.phi_0, 0.).mu * p /
+    return coefficient(parameters.phi_0, 0.).mu * p /
            (R * parameters.linear_limit);
   }
 
 
 
   MathieuTorsion::MathieuTorsion(const Parameters &parameters)
-    : TorsionModel(parameters.radius, parameters.pressure, FrictionParameters())
+    : TorsionModel(parameters.radius, parameters.pressure, nullptr)
     , parameters(parameters)
   {}
 

@@ -230,8 +230,7 @@ namespace Debond
   DebondingProblem::turns_too_far(const double time)
   {
     const ChuckComponentParameters &rotation = scene.chuck.component[5];
-    if (rotation.loaded ||
-        scene.interface.friction.kind == FrictionLawKind::frictionless)
+    if (rotation.loaded || scene.interface.friction->is_frictionless())
       return false;
     const Chuck &chuck = state->system->chuck;
     const bool   too_far =
@@ -323,7 +322,7 @@ namespace Debond
   DebondingProblem::next_step_has_friction() const
   {
     const std::vector<double> &times = scene.load_steps.times;
-    return state->time >= scene.interface.friction.starts_at -
+    return state->time >= scene.interface.friction_starts_at -
                             1e-9 * (times.back() - times.front());
   }
 
@@ -343,11 +342,13 @@ namespace Debond
         std::ostringstream message;
         // there is one row for each step that is done, the first one's is 0
         message << "Step " << state->rows.size() << ", after time "
-                << state->time << ": " << describe_softening(summary);
+                << state->time << ": "
+                << describe_softening(summary, *scene.interface.friction);
         throw RunError(message.str());
       }
     state->last_failure +=
-      (state->last_failure.empty() ? "" : "; ") + describe_softening(summary);
+      (state->last_failure.empty() ? "" : "; ") +
+      describe_softening(summary, *scene.interface.friction);
     return false;
   }
 
@@ -364,7 +365,7 @@ namespace Debond
         state->smallest_step =
           std::fmin(state->smallest_step, std::abs(time - state->time));
         if (next_step_has_friction() &&
-            scene.interface.friction.kind != FrictionLawKind::frictionless)
+            !scene.interface.friction->is_frictionless())
           state->checks.add_way(state->step, system.chuck, state->time, time);
       }
     system.commit(state->path ? state->accepted_steps : time);

@@ -227,7 +227,7 @@ namespace Debond
   StateChecks::check_turn(const std::string &where, const double turn)
   {
     if (turn > 1.001 * largest_turn &&
-        scene.interface.friction.kind != FrictionLawKind::frictionless)
+        !scene.interface.friction->is_frictionless())
       {
         std::ostringstream text;
         text << where << "the implant turned by " << turn * 180. / M_PI
@@ -285,7 +285,7 @@ namespace Debond
 
 
   std::string
-  describe_softening(const InterfaceSummary &summary)
+  describe_softening(const InterfaceSummary &summary, const FrictionLaw &law)
   {
     const double       slope = summary.softening_slope;
     std::ostringstream text;
@@ -299,7 +299,7 @@ namespace Debond
          << " mm, and less than 1 / |d mu/d g_s| = " << 1. / slope
          << " mm has one solution. What helps: Interface / Viscosity, a "
             "larger Interface / Tangential penalty stiffness, a larger "
-            "Sliding threshold or Transition factor";
+         << law.entries_against_fall();
     return text.str();
   }
 } // namespace Debond

@@ -29,14 +29,14 @@ namespace Debond
     , interface(scene.interface, bone.mesh(), implant.mesh())
     , R(scene.implant.characteristic_radius())
     , timer(timer)
-    , force_floor(scene.interface.normal_penalty * interface.implant_area() *
+    , force_floor(scene.interface.normal->initial_stiffness() * interface.implant_area() *
                   1e-6 * R)
     , matrix(bone, implant, interface, configuration, path)
   {
     configuration.chuck = &chuck;
     path.follow         = scene.load_steps.follow_path;
     for (unsigned int k = 0; k < 6; ++k)
-      path.stiffness[k] = scene.interface.normal_penalty *
+      path.stiffness[k] = scene.interface.normal->initial_stiffness() *
                           interface.implant_area() * std::pow(scale_of(k), 2);
   }
 

@@ -10,11 +10,9 @@ namespace Debond
     double
     largest_slip_step(const Scene &scene)
     {
-      const FrictionParameters &friction = scene.interface.friction;
       return scene.load_steps.largest_slip_step > 0. ?
                scene.load_steps.largest_slip_step :
-               friction.sliding_threshold *
-                 std::min(1., 2. * friction.transition_factor) / 20.;
+               scene.interface.friction->characteristic_distance() / 20.;
     }
   } // namespace
 

@@ -19,12 +19,10 @@ namespace Debond
   public:
     /** @p radius of the disk R [mm], @p pressure p [MPa], equal everywhere,
      *  @p friction law. */
-    TorsionModel(double                    radius,
-                 double                    pressure,
-                 const FrictionParameters &friction)
+    TorsionModel(double radius, double pressure, FrictionLawPointer friction)
       : R(radius)
       , p(pressure)
-      , friction(friction)
+      , friction(std::move(friction))
     {}
     virtual ~TorsionModel() = default;
 
@@ -87,15 +85,15 @@ namespace Debond
     virtual double
     stiffness() const = 0;
 
-    /** Sliding distances where s(g_s / a_s) of Eq. (13) begins and ceases to
-     *  fall [mm]. */
-    double
-    begin_of_decay() const;
-    double
-    end_of_decay() const;
+    /** phi and mu at a sliding distance [mm]. */
+    FrictionCoefficient
+    coefficient(const double phi_0, const double slip) const
+    {
+      return friction->coefficient({phi_0, slip}, 0.);
+    }
 
     const double             R, p;
-    const FrictionParameters friction;
+    const FrictionLawPointer friction;
   };
 
 
@@ -129,8 +127,8 @@ namespace Debond
       double tangential_penalty = 0; ///< eps_t [MPa/mm]
       double phi_0              = 1; ///< initial bonding inside bonded_radius
       /** Points further out are not bonded at the start [mm]. */
-      double bonded_radius = std::numeric_limits<double>::infinity();
-      FrictionParameters friction;
+      double bonded_radius        = std::numeric_limits<double>::infinity();
+      FrictionLawPointer friction = default_friction_law();
     };
 
     /** Throws dealii::ExcMessage unless has_unique_solution(). */
@@ -281,7 +279,7 @@ namespace Debond
       double             linear_limit = 0; ///< theta_lin > 0 [rad]
       double             full_sliding = 0; ///< theta_max >= theta_lin [rad]
       double             phi_0        = 1; ///< initial bonding, uniform
-      FrictionParameters friction;
+      FrictionLawPointer friction     = default_friction_law();
     };
     explicit AnalyticalTorsion(const Parameters &parameters);
 

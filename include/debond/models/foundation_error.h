@@ -16,7 +16,7 @@ namespace Debond
    */
   std::vector<double>
   torque_of_points(const FoundationStiffness &stiffness,
-                   const FrictionParameters  &friction,
+                   const FrictionLawPointer  &friction,
                    double                     pressure,
                    const std::vector<double> &angles);
 

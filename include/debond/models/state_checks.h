@@ -104,6 +104,6 @@ namespace Debond
 
   /** Why the bond would break in a jump, for messages. */
   std::string
-  describe_softening(const InterfaceSummary &summary);
+  describe_softening(const InterfaceSummary &summary, const FrictionLaw &law);
 } // namespace Debond
 #endif

@@ -98,7 +98,7 @@ namespace Debond
   InterfaceParameters::parse(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Interface");
-    slave = prm.get("Slave") == "bone" ? SlaveSide::bone : SlaveSide::implant;
+    slave = prm.get("Slave") == "bone" ? Side::bone : Side::implant;
     quadrature_points   = prm.get_integer("Quadrature points");
     normal_penalty      = prm.get_double("Penalty stiffness");
     opening_breaks_bond = prm.get_bool("Opening breaks bond");

@@ -7,6 +7,7 @@
 #include <debond/scene/magnitudes.h>
 #include <debond/scene/scene.h>
 #include <debond/support/number_text.h>
+#include <debond/system/load_stepping.h>
 
 #include <deal.II/base/parameter_handler.h>
 

@@ -8,7 +8,7 @@
 #include <debond/output/result_files.h>
 #include <debond/scene/closed_form_parameters.h>
 #include <debond/support/input_error.h>
-#include <debond/system/load_stepping.h>
+#include <debond/system/load_step_parameters.h>
 
 #include <iosfwd>
 #include <string>

@@ -1,0 +1,46 @@
+#ifndef debond_system_load_step_parameters_h
+#define debond_system_load_step_parameters_h
+
+#include <string>
+#include <vector>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace Debond
+{
+  /** What the first iteration of a step starts from. */
+  enum class Predictor
+  {
+    extrapolate,
+    stick_first,
+    rigid,
+    none
+  };
+
+  /** The subsection `Load steps` of a scene. */
+  struct LoadSteppingParameters
+  {
+    std::vector<double> times{0, 1, 2}; ///< first time and ends of the phases
+    std::vector<unsigned int> steps{1, 1000}; ///< planned steps of each phase
+    double                    smallest_step_fraction = 1e-4;
+    double                    residual_tolerance     = 1e-8;
+    bool                      adaptive               = false;
+    double                    tolerance = 1e-3; ///< of the curves, if adaptive
+    Predictor                 predictor = Predictor::extrapolate;
+    /** Follow the path of equilibrium by the mean sliding distance. */
+    bool follow_path = false;
+    /** Largest step of the mean sliding distance [mm]; 0: from the law. */
+    double largest_slip_step = 0;
+    /** Mean sliding distance at which the path ends [mm]; 0: the radius. */
+    double path_ends_at_slip = 0;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+  };
+} // namespace Debond
+#endif

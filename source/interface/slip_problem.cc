@@ -100,9 +100,17 @@ namespace Debond
     // where slip only just begins y - y_n has no direction but the limit tau
     forward =
       distance > 1e-14 * trial_gap.norm() ? Vector3d(slip / distance) : tau;
-    coefficient             = friction.after(distance);
-    const double resistance = pressure > 0. ? friction.viscous * distance : 0.;
-    limit                   = coefficient.mu * pressure + resistance;
+    // A point cannot slide against what pulls it. Where Newton's method looks
+    // there, mu goes on along its tangent: the distance alone would have a
+    // second solution there, where friction rises with the speed.
+    const bool backwards = !direction_is_given && slip.dot(tau) < 0.;
+    sense                = backwards ? -1. : 1.;
+    coefficient          = friction.after(backwards ? 0. : distance);
+    if (backwards)
+      coefficient.mu -= coefficient.dmu * distance;
+    const double resistance =
+      pressure > 0. ? sense * friction.viscous * distance : 0.;
+    limit = coefficient.mu * pressure + resistance;
 
     viscous_traction    = resistance * tau;
     tangential_traction = limit * tau;
@@ -129,7 +137,8 @@ namespace Debond
     // the limit changes with the sliding distance, y - y_n = (x - y_n) - (x -
     // y), and with the pressure
     const double along_slip =
-      coefficient.dmu * pressure + (pressure > 0. ? friction.viscous : 0.);
+      sense * (coefficient.dmu * pressure +
+               (pressure > 0. ? friction.viscous : 0.));
     Numbers dlimit = (along_slip * forward).transpose() * (dtrial - dgap);
     if (pressure > 0.)
       dlimit -= coefficient.mu * normal_response.stiffness * dg_n;

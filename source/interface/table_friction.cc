@@ -6,10 +6,11 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <math.h> // pchip expects isnan() outside of any namespace
+
 #include <boost/math/interpolators/pchip.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace Debond
 {

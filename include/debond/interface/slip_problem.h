@@ -131,6 +131,7 @@ namespace Debond
     bool            has_direction, direction_is_given;
 
     Eigen::Vector3d forward; ///< direction of y - y_n
+    double          sense;   ///< -1 while a trial slides against the pull
     double          limit;   ///< mu p + eta / dt times the distance [MPa]
     Eigen::Vector3d excess;  ///< g - t_t / eps_t [mm]
   };

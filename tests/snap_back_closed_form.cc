@@ -21,11 +21,10 @@ RigidBodiesTorsion
 brittle_bond()
 {
   RigidBodiesTorsion::Parameters parameters;
-  parameters.radius             = 2.5;
-  parameters.normal_penalty     = 585;
-  parameters.tangential_penalty = 585;
-  parameters.push_in            = 2.6 / 585;
-  parameters.friction           = modified_coulomb({0.40, 0.58, 0.005, 0.3});
+  parameters.radius    = 2.5;
+  parameters.pressure  = 2.6;
+  parameters.stiffness = 585;
+  parameters.friction  = Debond::modified_coulomb({0.40, 0.58, 0.005, 0.3});
   return RigidBodiesTorsion(parameters);
 }
 

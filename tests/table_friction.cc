@@ -68,8 +68,12 @@ check_convergence()
                std::abs(table->friction_strength({0.8}, g_s) -
                         exact->friction_strength({0.8}, g_s)));
         }
-      RigidBodiesTorsion::Parameters parameters{2.5, 2.6 / 585, 585, 585};
-      const RigidBodiesTorsion       expected(parameters);
+      RigidBodiesTorsion::Parameters parameters;
+      parameters.radius    = 2.5;
+      parameters.pressure  = 2.6;
+      parameters.stiffness = 585;
+
+      const RigidBodiesTorsion expected(parameters);
       parameters.friction = table;
       const RigidBodiesTorsion bodies(parameters);
       for (const double theta : {0.001, 0.01, 0.016, 0.02, 0.1})

@@ -320,7 +320,7 @@ namespace Debond
                             "angle"));
       try
         {
-          const TimeFunction value(component.value, radius);
+          const TimeFunction value = component.value_over_time(radius);
           const double       first_value = value(times.front());
           bool               varies      = false;
           for (const double time : times)

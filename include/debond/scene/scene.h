@@ -1,14 +1,11 @@
 #ifndef debond_scene_scene_h
 #define debond_scene_scene_h
 
-#include <debond/bulk/body_parameters.h>
-#include <debond/bulk/chuck.h>
 #include <debond/input/scene_file.h>
-#include <debond/interface/interface_parameters.h>
 #include <debond/output/result_files.h>
 #include <debond/scene/closed_form_parameters.h>
 #include <debond/support/input_error.h>
-#include <debond/system/load_step_parameters.h>
+#include <debond/system/model_parameters.h>
 
 #include <iosfwd>
 #include <string>
@@ -54,19 +51,14 @@ namespace Debond
 
   /** Everything a `.prm` file says. A plain value: copy it, change it, run it.
    */
-  struct Scene
+  struct Scene : ModelParameters
   {
-    std::string            title;
-    ModelKind              model = ModelKind::finite_elements;
-    BodyParameters         bone;
-    BodyParameters         implant;
-    InterfaceParameters    interface;
-    ChuckParameters        chuck;
-    LoadSteppingParameters load_steps;
-    ClosedFormParameters   closed_form;
-    AutoParameters         automatic;
-    StudyParameters        study;
-    OutputParameters       output;
+    std::string          title;
+    ModelKind            model = ModelKind::finite_elements;
+    ClosedFormParameters closed_form;
+    AutoParameters       automatic;
+    StudyParameters      study;
+    OutputParameters     output;
 
     /** The entries that the scene sets, and its name: where to look for a
      *  mistake. */

@@ -1,14 +1,19 @@
+#include <debond/bulk/side.h>
 #include <debond/campaigns/auto_model.h>
 #include <debond/campaigns/model_choice.h>
+#include <debond/input/csv_table.h>
 #include <debond/models/closed_form_results.h>
 #include <debond/models/debonding_problem.h>
 #include <debond/output/console.h>
 #include <debond/output/earlier_results.h>
 #include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
+#include <debond/support/run_error.h>
 
 #include <deal.II/base/timer.h>
 
-#include <algorithm>
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -54,9 +59,45 @@ namespace Debond
 
 
 
+    /** The text of a rung's parameters.prm. */
+    std::string
+    parameters_of(const Scene &rung)
+    {
+      std::vector<std::string> set{
+        "Model=" + std::string(rung.model == ModelKind::foundation ?
+                                 "foundation" :
+                                 "finite elements"),
+        "Output/Console=quiet",
+        "Output/Directory=" + rung.output.directory,
+        "Load steps/Adaptive=true",
+        "Load steps/Tolerance=" + to_text(rung.load_steps.tolerance, 17)};
+      for (const Side side : both_sides)
+        {
+          const BodyParameters &body =
+            side == Side::bone ? rung.bone : rung.implant;
+          const std::string name  = side == Side::bone ? "Bone/" : "Implant/";
+          std::string       cells = std::to_string(body.cells[1]) + ", " +
+                              std::to_string(body.cells[2]);
+          if (!body.is_round())
+            cells = std::to_string(body.cells[0]) + ", " + cells;
+          set.insert(set.end(),
+                     {name + "Cells=" + cells,
+                      name + "Material=" + name_of(body.material)});
+        }
+      if (rung.model == ModelKind::foundation)
+        for (const char *const entry :
+             {"Pressure", "Normal stiffness", "Torsional stiffness"})
+          set.push_back(std::string("Closed form/") + entry + "=0");
+      return Scene::from_entries(with_overrides(rung.entries, set), rung.name)
+        .completed_parameters;
+    }
+
+
+
     void
     run_rung(const ModelChoice &choice, Rung &rung)
     {
+      rung.scene.completed_parameters = parameters_of(rung.scene);
       if (rung.is_foundation())
         {
           const dealii::Timer      clock;
@@ -102,27 +143,26 @@ namespace Debond
     void
     write_table(const ModelChoice &choice, const std::string &filename)
     {
-      std::ostringstream table;
-      table.precision(6);
-      table << "rung,model,bone_material,implant_material,bone_cells,"
-               "implant_cells,unknowns,steps,seconds,T_max_Nmm,difference,"
-               "estimate,verdict\n";
+      std::string  table  = "rung,model,bone_material,implant_material,"
+                            "bone_cells,implant_cells,unknowns,steps,seconds,"
+                            "T_max_Nmm,difference,estimate,verdict\n";
       unsigned int number = 0;
       for (const Rung &rung : choice.rungs())
-        {
-          std::string words = verdict(choice, rung);
-          std::replace(words.begin(), words.end(), '"', '\'');
-          table << ++number << ',' << rung.model() << ','
-                << name_of(rung.materials[0]) << ','
-                << name_of(rung.materials[1]) << ','
-                << in_words(rung.scene.bone.cells) << ','
-                << in_words(rung.scene.implant.cells) << ',' << rung.unknowns()
-                << ',' << (rung.done ? rung.rows.back().step : 0) << ','
-                << rung.seconds << ',' << largest_torque(rung.rows) << ','
-                << rung.difference << ',' << rung.estimate << ",\"" << words
-                << "\"\n";
-        }
-      write_file(filename, table.str());
+        table +=
+          csv_line({std::to_string(++number),
+                    rung.model(),
+                    name_of(rung.materials[0]),
+                    name_of(rung.materials[1]),
+                    in_words(rung.scene.bone.cells),
+                    in_words(rung.scene.implant.cells),
+                    to_text(rung.unknowns(), 6),
+                    std::to_string(rung.done ? rung.rows.back().step : 0),
+                    to_text(rung.seconds, 6),
+                    to_text(largest_torque(rung.rows), 6),
+                    to_text(rung.difference, 6),
+                    to_text(rung.estimate, 6),
+                    verdict(choice, rung)});
+      write_file(filename, table);
     }
 
 
@@ -133,18 +173,18 @@ namespace Debond
                   const dealii::Timer &clock,
                   const std::string   &filename)
     {
-      const Rung &answer = *choice.answer();
-      JsonObject  json =
-        JsonObject::from_file(answer.scene.output.directory + "/summary.json");
-      json.add("wall_seconds", clock.wall_time());
-      json.add("converged", choice.is_sufficient(answer));
-      json.add("reason", choice.reason());
-      json.add("error_estimate", answer.estimate);
-      json.add("error_tolerance", choice.tolerance);
-      json.add("answer", answer.description());
-      json.add("answer_rung", &answer - choice.rungs().data() + 1);
-      json.add("rungs", choice.rungs().size());
-      write_file(filename, json.text());
+      const Rung            &answer = *choice.answer();
+      nlohmann::ordered_json json =
+        read_json(answer.scene.output.directory + "/summary.json");
+      json["wall_seconds"]    = clock.wall_time();
+      json["converged"]       = choice.is_sufficient(answer);
+      json["reason"]          = choice.reason();
+      json["error_estimate"]  = answer.estimate;
+      json["error_tolerance"] = choice.tolerance;
+      json["answer"]          = answer.description();
+      json["answer_rung"]     = &answer - choice.rungs().data() + 1;
+      json["rungs"]           = choice.rungs().size();
+      write_json(filename, json);
     }
   } // namespace
 

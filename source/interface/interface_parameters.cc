@@ -73,7 +73,13 @@ namespace Debond
                       Allowed::number_from(0, "MPa/mm"),
                       "Tangential stiffness eps_t [MPa/mm] of the interface. "
                       "0: the same as the normal one.");
-    FrictionParameters::declare(prm);
+    declare_friction_laws(prm);
+    prm.declare_entry("Friction starts at",
+                      "0",
+                      Allowed::number("time"),
+                      "Time before which the interface is frictionless, for "
+                      "instance to press the implant in without locking "
+                      "tangential traction in.");
     prm.declare_entry("Opening breaks bond",
                       "false",
                       Allowed::yes_or_no(),
@@ -92,17 +98,19 @@ namespace Debond
   InterfaceParameters::parse(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Interface");
-    slave             = prm.get("Slave") == "bone" ? Side::bone : Side::implant;
-    quadrature_points = prm.get_integer("Quadrature points");
-    normal_penalty    = prm.get_double("Penalty stiffness");
-    tangential_penalty = prm.get_double("Tangential penalty stiffness");
+    slave = prm.get("Slave") == "bone" ? Side::bone : Side::implant;
+    quadrature_points   = prm.get_integer("Quadrature points");
+    normal_penalty      = prm.get_double("Penalty stiffness");
+    opening_breaks_bond = prm.get_bool("Opening breaks bond");
+    normal              = penalty_law(normal_penalty, opening_breaks_bond);
+    tangential_penalty  = prm.get_double("Tangential penalty stiffness");
     if (tangential_penalty == 0)
       tangential_penalty = normal_penalty;
-    opening_breaks_bond     = prm.get_bool("Opening breaks bond");
     viscosity               = prm.get_double("Viscosity");
     slip_along_previous_gap = prm.get("Slip direction") == "previous gap";
     explicit_friction       = prm.get("Friction update") == "explicit";
-    friction.parse(prm);
+    friction                = create_friction_law(prm);
+    friction_starts_at      = prm.get_double("Friction starts at");
     bonding.parse(prm);
     prm.leave_subsection();
   }

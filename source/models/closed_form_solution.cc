@@ -137,7 +137,7 @@ namespace Debond
     for (const Load &load : loads)
       largest_push = std::max(largest_push, std::abs(load.push));
     const double last_without_friction =
-      scene.interface.friction.starts_at -
+      scene.interface.friction_starts_at -
       1e-9 * (loads.back().time - loads.front().time);
     for (std::size_t i = 1; i < loads.size(); ++i)
       {
@@ -277,11 +277,12 @@ namespace Debond
                                               given.full_sliding * degree);
       }
     else
-      torsion = std::make_unique<MathieuTorsion>(
-        disk,
-        given.shear_modulus,
-        1e-3 * given.adhesion_energy, // N/mm
-        disk.pressure * friction_coefficient(disk.friction, 0., 0.).mu);
+      torsion =
+        std::make_unique<MathieuTorsion>(disk,
+                                         given.shear_modulus,
+                                         1e-3 * given.adhesion_energy, // N/mm
+                                         disk.pressure *
+                                           disk.friction->mu_without_bond());
   }
 
 

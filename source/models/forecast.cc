@@ -38,7 +38,7 @@ namespace Debond
     {
       const InterfaceParameters &interface = scene.interface;
       const double               slope =
-        steepest_fall(interface.friction, interface.bonding.initial_bonding);
+        interface.friction->steepest_fall({interface.bonding.initial_bonding});
       const double missing = slope * p - interface.tangential_penalty;
       if (slope == 0. || interface.explicit_friction)
         return;
@@ -47,8 +47,8 @@ namespace Debond
           << " mm\n";
       if (missing >= 0. && interface.viscosity == 0.)
         out << "  so the run will be refused: Interface / Viscosity, a larger "
-               "Tangential penalty stiffness, Sliding threshold or Transition "
-               "factor helps\n";
+               "Tangential penalty stiffness, "
+            << interface.friction->entries_against_fall() << " helps\n";
       else if (missing >= 0.)
         out << "  so Viscosity makes it unique in steps shorter than "
             << interface.viscosity / missing << " of time\n";
@@ -67,7 +67,7 @@ namespace Debond
     const double G_i =
       implant.young_modulus / (2. * (1. + implant.poisson_ratio));
     const double k_n = in_series(
-      scene.interface.normal_penalty,
+      scene.interface.normal->initial_stiffness(),
       compliance_free(bone,
                       2. * bone.young_modulus /
                         ((1. - std::pow(bone.poisson_ratio, 2)) * M_PI * R)),
@@ -99,7 +99,8 @@ namespace Debond
     parameters.phi_0     = scene.interface.bonding.initial_bonding *
                        scene.interface.bonding.bonded_fraction;
     parameters.friction = scene.interface.friction;
-    if (p <= 0. || scene.chuck.component[ChuckComponent::rotation_z].loaded ||
+    if (p <= 0. || scene.interface.friction->depends_on_rate() ||
+        scene.chuck.component[ChuckComponent::rotation_z].loaded ||
         last[ChuckComponent::rotation_z] == 0.)
       return;
     if (!RigidBodiesTorsion::has_unique_solution(parameters))

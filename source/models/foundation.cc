@@ -20,9 +20,8 @@ namespace Debond
       for (BodyParameters *const body : {&scene.bone, &scene.implant})
         if (body->material == Material::neo_hookean)
           body->material = Material::linear;
-      scene.interface.friction.kind      = FrictionLawKind::coulomb;
-      scene.interface.friction.mu_broken = 1e6;
-      scene.interface.friction.starts_at = 0;
+      scene.interface.friction           = sticking_law();
+      scene.interface.friction_starts_at = 0;
       scene.load_steps                   = LoadSteppingParameters();
       scene.load_steps.times             = {0., 1., 2.};
       scene.load_steps.steps             = {1, 1};

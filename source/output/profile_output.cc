@@ -1,48 +1,29 @@
+#include <debond/input/csv_table.h>
 #include <debond/output/profile_output.h>
+#include <debond/support/number_text.h>
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
-#include <locale>
-#include <sstream>
 
 namespace Debond
 {
   namespace
   {
-    std::string
-    csv_line(const std::initializer_list<double> &values)
-    {
-      std::ostringstream line;
-      line.imbue(std::locale::classic());
-      line.precision(12);
-      const char *separator = "";
-      for (const double value : values)
-        {
-          line << separator << value + 0.; // no "-0"
-          separator = ",";
-        }
-      return line.str() + "\n";
-    }
-
-
-
     /** phi and mu from g_s = 0 to 1.5 times the distance after which no bond is
      *  left. */
     std::string
     friction_law_table(const InterfaceParameters &interface)
     {
       constexpr unsigned int n        = 600;
-      const auto            &friction = interface.friction;
-      const double           phi_0    = interface.bonding.initial_bonding;
-      const double           end      = 1.5 * friction.sliding_threshold *
-                         (1. + 2. * friction.transition_factor);
-      const double initial = friction_coefficient(friction, phi_0, 0.).mu;
-      std::string  table   = "slip_mm,phi,mu,mu_over_initial\n";
+      const FrictionLaw     &friction = *interface.friction;
+      const FrictionState    start{interface.bonding.initial_bonding};
+      const double           end     = 1.5 * friction.kinks().back();
+      const double           initial = friction.coefficient(start, 0.).mu;
+      std::string            table   = "slip_mm,phi,mu,mu_over_initial\n";
       for (unsigned int i = 0; i <= n; ++i)
         {
-          const double slip      = end * i / n;
-          const auto coefficient = friction_coefficient(friction, phi_0, slip);
+          const double slip        = end * i / n;
+          const auto   coefficient = friction.coefficient(start, slip);
           table += csv_line({slip,
                              coefficient.phi,
                              coefficient.mu,
@@ -133,10 +114,8 @@ namespace Debond
     write_file(directory.file("profiles.csv"), table);
     if (angles_to_come.empty())
       return "";
-    std::ostringstream warning;
-    warning << "Output / Profile angles: " << angles_to_come.front()
-            << " deg was never reached";
-    return warning.str();
+    return "Output / Profile angles: " + to_text(angles_to_come.front(), 6) +
+           " deg was never reached";
   }
 
 

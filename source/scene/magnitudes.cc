@@ -21,12 +21,10 @@ namespace Debond
     // fourth power.
     constexpr Range length{1e-6, 1e6, " mm"};
     constexpr Range radius_of_sphere{1e-6, 1e9, " mm"};
-    constexpr Range sliding_distance{1e-9, 1e6, " mm"};
     constexpr Range modulus{1e-6, 1e12, " MPa"};
     constexpr Range pressure{1e-9, 1e12, " MPa"};
     constexpr Range interface_stiffness{1e-6, 1e15, " MPa/mm"};
     constexpr Range viscosity{1e-15, 1e15, ""};
-    constexpr Range coefficient{1e-9, 1e6, ""};
     constexpr Range machine{1e-9, 1e18, ""};
     constexpr Range angle{1e-9, 1e6, " deg"};
     constexpr Range energy{1e-12, 1e12, " N/m"};
@@ -61,8 +59,7 @@ namespace Debond
     void
     check_interface(const InterfaceParameters &interface)
     {
-      const std::string         section  = "Interface / ";
-      const FrictionParameters &friction = interface.friction;
+      const std::string section = "Interface / ";
       check(section + "Penalty stiffness",
             interface.normal_penalty,
             interface_stiffness);
@@ -70,18 +67,8 @@ namespace Debond
             interface.tangential_penalty,
             interface_stiffness);
       check(section + "Viscosity", interface.viscosity, viscosity);
-      check(section + "Friction coefficient broken",
-            friction.mu_broken,
-            coefficient);
-      check(section + "Friction coefficient unbroken",
-            friction.mu_unbroken,
-            coefficient);
-      check(section + "Sliding threshold",
-            friction.sliding_threshold,
-            sliding_distance);
-      check(section + "Transition factor",
-            friction.transition_factor,
-            coefficient);
+      for (const LawMagnitude &law : interface.friction->magnitudes())
+        check(section + law.entry, law.value, {law.lower, law.upper, law.unit});
     }
 
 

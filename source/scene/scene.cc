@@ -384,8 +384,7 @@ namespace Debond
     void
     check_viscosity(const InterfaceParameters &interface)
     {
-      if (interface.friction.kind == FrictionLawKind::frictionless &&
-          interface.viscosity != 0.)
+      if (interface.friction->is_frictionless() && interface.viscosity != 0.)
         throw InputError("Interface / Viscosity = '" +
                          to_text(interface.viscosity) +
                          "' is not used by Friction law = frictionless: it "
@@ -395,40 +394,61 @@ namespace Debond
 
 
     void
-    check_friction(const FrictionParameters     &friction,
+    check_rate(const Scene &scene)
+    {
+      if (!scene.interface.friction->depends_on_rate())
+        return;
+      const auto refuse = [](const std::string &entry) {
+        throw InputError(entry + " does not go with this Friction law, whose "
+                                 "coefficient depends on the sliding speed");
+      };
+      if (scene.load_steps.follow_path)
+        refuse("Load steps / Path following = slip");
+      if (scene.interface.explicit_friction)
+        refuse("Interface / Friction update = explicit");
+      if (scene.output.friction_law_curve)
+        refuse("Output / Friction law curve");
+      if (scene.model != ModelKind::finite_elements)
+        refuse("Model = finite elements is expected: any other Model");
+    }
+
+
+
+    void
+    check_friction(const InterfaceParameters    &interface,
                    const LoadSteppingParameters &load_steps)
     {
-      if (friction.kind != FrictionLawKind::frictionless &&
-          friction.starts_at > load_steps.times.back())
+      const double starts_at = interface.friction_starts_at;
+      if (!interface.friction->is_frictionless() &&
+          starts_at > load_steps.times.back())
         throw InputError(
-          "Interface / Friction starts at = " + to_text(friction.starts_at) +
+          "Interface / Friction starts at = " + to_text(starts_at) +
           " is after the last of Load steps / Times: use "
           "Friction law = frictionless if none is wanted");
 
       // a step has friction or has none
-      if (friction.starts_at <= load_steps.times.front())
+      if (starts_at <= load_steps.times.front())
         return;
       if (load_steps.adaptive || load_steps.follow_path)
         {
           if (std::find(load_steps.times.begin(),
                         load_steps.times.end(),
-                        friction.starts_at) == load_steps.times.end())
-            throw InputError("Interface / Friction starts at = " +
-                             to_text(friction.starts_at) +
-                             " is inside a phase: with adaptive steps or Path "
-                             "following one of "
-                             "Load steps / Times is expected");
+                        starts_at) == load_steps.times.end())
+            throw InputError(
+              "Interface / Friction starts at = " + to_text(starts_at) +
+              " is inside a phase: with adaptive steps or Path "
+              "following one of "
+              "Load steps / Times is expected");
           return;
         }
       const LoadStepping stepping(load_steps);
       const double       duration =
         load_steps.times.back() - load_steps.times.front();
       for (unsigned int step = 0; step <= stepping.n_steps(); ++step)
-        if (std::abs(stepping.time(step) - friction.starts_at) <=
-            1e-9 * duration)
+        if (std::abs(stepping.time(step) - starts_at) <= 1e-9 * duration)
           return;
       throw InputError(
-        "Interface / Friction starts at = " + to_text(friction.starts_at) +
+        "Interface / Friction starts at = " + to_text(starts_at) +
         " is inside a planned step: expected the end of a step "
         "(Load steps / Times and Steps)");
     }
@@ -501,7 +521,8 @@ namespace Debond
       check_pattern_of_auto(interface.bonding);
     check_times(load_steps);
     check_viscosity(interface);
-    check_friction(interface.friction, load_steps);
+    check_friction(interface, load_steps);
+    check_rate(*this);
     check_chuck(*this);
     check_path_following(*this);
     check_output(output);
@@ -558,8 +579,9 @@ namespace Debond
     prm.print_parameters(completed,
                          dealii::ParameterHandler::ShortPRM |
                            dealii::ParameterHandler::KeepDeclarationOrder);
-    scene.completed_parameters =
-      completed.str() + identity_of(scene.interface.bonding.file);
+    scene.completed_parameters = completed.str() +
+                                 identity_of(scene.interface.bonding.file) +
+                                 identity_of(scene.interface.friction->file());
     return scene;
   }
 

@@ -188,7 +188,6 @@ namespace Debond
     const InterfaceParameters             parameters;
     const Side                            slave;
     std::array<const BodyMesh *, 2>       mesh;
-    ContactPointLaw                       law;
     std::vector<SlavePoint>               points;
     double                                area_of_implant = 0;
     std::unique_ptr<const BondingPattern> pattern;

@@ -4,6 +4,7 @@
 // stick, slip and are open. The interface's part is the same assembled and
 // applied column by column.
 
+#include <debond/scene/scene.h>
 #include <debond/support/runtime.h>
 #include <debond/system/coupled_system.h>
 

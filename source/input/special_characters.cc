@@ -1,8 +1,12 @@
 #include <debond/input/special_characters.h>
 
+#include <boost/regex/pending/unicode_iterator.hpp>
+
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdio>
+#include <stdexcept>
 
 namespace Debond
 {
@@ -78,86 +82,59 @@ namespace Debond
 
 
 
-    bool
-    is_ascii(const char c)
-    {
-      return static_cast<unsigned char>(c) < 128;
-    }
-
-
-
     /** The code of the UTF-8 character that begins at @p position, which is
      *  moved behind it; 0, and moved by one byte, if none begins there. */
     std::uint32_t
     next_code(const std::string &text, std::string::size_type &position)
     {
-      const auto         lead   = static_cast<unsigned char>(text[position++]);
-      const unsigned int n_more = lead < 0x80 ? 0 :
-                                  lead < 0xC2 ? 4 :
-                                  lead < 0xE0 ? 1 :
-                                  lead < 0xF0 ? 2 :
-                                  lead < 0xF5 ? 3 :
-                                                4;
-      if (n_more == 4 || position + n_more > text.size())
-        return 0;
-      std::uint32_t code = n_more == 0 ? lead : lead & (0x3FU >> n_more);
-      for (unsigned int i = 0; i < n_more; ++i)
+      using Characters = boost::u8_to_u32_iterator<std::string::const_iterator>;
+      try
         {
-          const auto next = static_cast<unsigned char>(text[position + i]);
-          if ((next & 0xC0U) != 0x80U)
-            return 0;
-          code = (code << 6) | (next & 0x3FU);
+          Characters          character(text.begin() + position,
+                               text.begin() + position,
+                               text.end());
+          const std::uint32_t code = *character;
+          position                 = (++character).base() - text.begin();
+          return code;
         }
-      position += n_more;
-      return code;
-    }
-
-
-
-    std::string
-    remark(const std::string &text, const bool in_expression)
-    {
-      std::string::size_type position = 0;
-      while (position < text.size() && is_ascii(text[position]))
-        ++position;
-      if (position == text.size())
-        return "";
-
-      const auto          byte = static_cast<unsigned char>(text[position]);
-      const std::uint32_t code = next_code(text, position);
-      char                number[16];
-      if (code == 0)
+      catch (const std::out_of_range &)
         {
-          std::snprintf(number, sizeof number, "%02X", byte);
-          return std::string("; there is a byte ") + number +
-                 " in it, which is no character of UTF-8";
+          ++position;
+          return 0;
         }
-      std::snprintf(number, sizeof number, "U+%04X", code);
-      const std::string beginning =
-        std::string("; there is a special character in it: ") + number;
-      const SpecialCharacter *const known = known_character(code);
-      if (known == nullptr)
-        return beginning;
-      const std::string plain = in_expression ? known->plain : "";
-      return beginning + ", " + known->name +
-             (plain.empty() ? "" : ": write " + plain);
     }
   } // namespace
 
 
 
   std::string
-  remark_on_special_character(const std::string &text)
+  remark_on_special_character(const std::string &text, const bool in_expression)
   {
-    return remark(text, false);
-  }
-
-
-
-  std::string
-  remark_on_special_character_in_expression(const std::string &text)
-  {
-    return remark(text, true);
+    const auto special =
+      std::find_if(text.begin(), text.end(), [](const unsigned char c) {
+        return c > 127;
+      });
+    if (special == text.end())
+      return "";
+    std::string::size_type position = special - text.begin();
+    const std::uint32_t    code     = next_code(text, position);
+    char                   number[16];
+    if (code == 0)
+      {
+        const auto byte = static_cast<unsigned char>(*special);
+        std::snprintf(number, sizeof number, "%02X", byte);
+        return std::string("; there is a byte ") + number +
+               " in it, which is no character of UTF-8";
+      }
+    std::snprintf(number, sizeof number, "U+%04X", code);
+    const std::string beginning =
+      std::string("; there is a special character in it: ") + number;
+    const SpecialCharacter *const known = known_character(code);
+    if (known == nullptr)
+      return beginning;
+    const std::string plain = in_expression ? known->plain : "";
+    return beginning + ", " + known->name +
+           (plain.empty() ? "" : ": write " + plain);
   }
 
 

@@ -11,14 +11,11 @@ namespace Debond
    * web pages put such characters where they can hardly be told from plain
    * ones, or not be seen at all. Empty if all characters are ASCII. @p text is
    * UTF-8; a byte that belongs to no such character is named by its number.
+   * @p in_expression: say what is written instead, if that is known.
    */
   std::string
-  remark_on_special_character(const std::string &text);
-
-  /** The same, and what is written instead in an expression if that is known:
-   *  "...: write -". */
-  std::string
-  remark_on_special_character_in_expression(const std::string &text);
+  remark_on_special_character(const std::string &text,
+                              bool               in_expression = false);
 
   /** Whether quotes of any kind are in @p text: ", ', ` and the typographic
    *  ones. */

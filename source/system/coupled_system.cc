@@ -189,14 +189,6 @@ namespace Debond
 
 
   void
-  CoupledSystem::prescribe_slip(const double slip)
-  {
-    path.slip = slip;
-  }
-
-
-
-  void
   CoupledSystem::commit(const double parameter)
   {
     {
@@ -221,14 +213,6 @@ namespace Debond
     bone.rollback();
     implant.rollback();
     chuck.rollback();
-  }
-
-
-
-  double
-  CoupledSystem::scale_of(const unsigned int chuck_component) const
-  {
-    return is_rotation(chuck_component) ? R : 1.;
   }
 
 

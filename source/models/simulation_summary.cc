@@ -1,5 +1,7 @@
 #include <debond/models/simulation_summary.h>
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <sstream>
 

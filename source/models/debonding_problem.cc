@@ -8,7 +8,6 @@
 #include <debond/output/profile_output.h>
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
-#include <debond/support/run_error.h>
 #include <debond/support/runtime.h>
 #include <debond/support/serialization.h>
 

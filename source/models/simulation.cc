@@ -1,7 +1,6 @@
 #include <debond/models/memory_estimate.h>
 #include <debond/models/simulation.h>
 #include <debond/support/number_text.h>
-#include <debond/support/run_error.h>
 
 #include <algorithm>
 #include <cmath>

@@ -284,4 +284,5 @@ main()
   check_bonded_disk();
   check_analytical();
   check_mathieu();
+  return 0;
 }

@@ -41,4 +41,5 @@ main()
             << implant.cells[1] << ' ' << implant.cells[2] << '\n'
             << "tangential penalty: " << again.interface.tangential_penalty
             << '\n';
+  return 0;
 }

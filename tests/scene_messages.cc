@@ -157,4 +157,5 @@ main()
   show_unknown_names();
   show_wrong_values();
   show_contradictions();
+  return 0;
 }

@@ -100,4 +100,5 @@ main()
       "snaps back at " + std::to_string(int(stiffness)) + " N mm/rad",
       CompliantMachineTorsion(bodies, stiffness, 2. * degree).jumps().empty() ==
         (stiffness > 8901.6));
+  return 0;
 }

@@ -265,4 +265,5 @@ main()
 {
   check_constant_friction();
   check_falling_friction();
+  return 0;
 }

@@ -12,6 +12,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <deal.II/base/timer.h>
+
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>

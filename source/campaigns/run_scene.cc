@@ -4,6 +4,8 @@
 #include <debond/models/debonding_problem.h>
 #include <debond/support/input_error.h>
 
+#include <deal.II/base/timer.h>
+
 #include <utility>
 
 namespace Debond

@@ -10,6 +10,7 @@
 #include <debond/support/interruption.h>
 #include <debond/support/runtime.h>
 #include <debond/support/serialization.h>
+#include <debond/support/timed_section.h>
 
 #include <nlohmann/json.hpp>
 

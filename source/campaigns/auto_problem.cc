@@ -92,28 +92,29 @@ namespace Debond
     {
       const std::string entry = "Chuck / Rotation z / ";
       if (scene.chuck.component[5].loaded)
-        throw InputError(entry + "Control: Model = auto compares torques and "
-                                 "takes this rotation as prescribed");
+        throw EntryError(entry + "Control",
+                         "Model = auto compares torques and takes this "
+                         "rotation as prescribed");
       const std::vector<Chuck::Vector6> values = prescribed_values(scene);
       double                            turned = 0.;
       for (std::size_t i = 1; i < values.size(); ++i)
         turned += std::abs(values[i][5] - values[i - 1][5]);
       if (turned == 0.)
-        throw InputError(entry +
-                         "Value: Model = auto judges a model by its torque "
-                         "curve, and nothing rotates about z in this scene: "
-                         "choose a model with Model");
+        throw EntryError(entry + "Value",
+                         "Model = auto judges a model by its torque curve, and "
+                         "nothing rotates about z in this scene: choose a "
+                         "model with Model");
       if (turned > std::abs(values.back()[5] - values.front()[5]) * (1. + 1e-9))
-        throw InputError(entry +
-                         "Value: Model = auto compares torques over the angle "
-                         "and knows no rotation that reverses");
+        throw EntryError(entry + "Value",
+                         "Model = auto compares torques over the angle and "
+                         "knows no rotation that reverses");
       const unsigned int k = component_that_changes_in_a_hold(values);
       if (k < 5)
-        throw InputError(std::string("Chuck / ") + ChuckParameters::names[k] +
-                         " / Value: Model = auto compares torques over the "
-                         "angle and would not see what this does while the "
-                         "rotation about z pauses or has ended; it may change "
-                         "before the rotation begins and during it");
+        throw EntryError(ChuckParameters::entry_name(k, "Value"),
+                         "Model = auto compares torques over the angle and "
+                         "would not see what this does while the rotation "
+                         "about z pauses or has ended; it may change before "
+                         "the rotation begins and during it");
     }
 
 

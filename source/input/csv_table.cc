@@ -23,8 +23,9 @@ namespace Debond
       [[noreturn]] void
       refuse(const std::string &message) const
       {
-        throw InputError(entry + " = '" + filename + "', line " +
-                         std::to_string(number) + ": " + message);
+        throw EntryError(entry,
+                         "line " + std::to_string(number) + ": " + message,
+                         filename);
       }
     };
 
@@ -93,8 +94,10 @@ namespace Debond
     open_table(const std::string &filename, const std::string &entry)
     {
       constexpr unsigned int largest_MB = 200;
-      return std::istringstream(read_input_text(
-        filename, entry + " = '" + filename + "': ", largest_MB));
+      const auto             refuse     = [&](const std::string &why) {
+        throw EntryError(entry, why, filename);
+      };
+      return std::istringstream(read_input_text(filename, refuse, largest_MB));
     }
 
 
@@ -173,10 +176,11 @@ namespace Debond
         std::string header;
         for (const std::string &name : names)
           header += (header.empty() ? "" : ",") + name;
-        throw InputError(entry + " = '" + filename +
-                         "': this file holds no row of numbers; expected are "
-                         "a line " +
-                         header + " and rows below");
+        throw EntryError(entry,
+                         "this file holds no row of numbers; expected are a "
+                         "line " +
+                           header + " and rows below",
+                         filename);
       }
     return rows;
   }

@@ -1,5 +1,5 @@
+#include <debond/input/allowed_values.h>
 #include <debond/input/expression_parser.h>
-#include <debond/input/special_characters.h>
 #include <debond/support/input_error.h>
 
 #include <deal.II/base/numbers.h>
@@ -156,7 +156,7 @@ namespace Debond
     remark_on_expression(const std::string &expression,
                          const std::string &variables)
     {
-      if (has_quotes(expression))
+      if (expression.find_first_of("\"'`") != std::string::npos)
         return "it stands without quotes";
       // regular expressions need a deep stack for long texts
       std::vector<std::string> names = names_in(shortened(expression));
@@ -205,15 +205,14 @@ namespace Debond
               const double       radius)
   {
     constexpr std::size_t longest = 10000; // letters
-    const std::string complaint   = "the expression '" + shortened(expression) +
-                                  "' in " + variables + " cannot be read: ";
+    const std::string     complaint =
+      "this expression in " + variables + " cannot be read: ";
     if (expression.size() > longest)
       throw InputError(complaint + "it has more than " +
                        std::to_string(longest) + " letters");
-    const std::string special =
-      remark_on_special_character_in_expression(expression);
+    const std::string special = remark_on_special_character(expression);
     if (!special.empty())
-      throw InputError(complaint + special.substr(2));
+      throw InputError(complaint + special);
     if (expression.find(';') != std::string::npos)
       throw InputError(complaint + "it holds a ;");
     if (expression.find("rand") != std::string::npos)

@@ -8,8 +8,7 @@
 namespace Debond
 {
   TimeFunction::TimeFunction(const std::string &expression, const double radius)
-    : expression(expression)
-    , parser(make_parser<1>("t", expression, radius))
+    : parser(make_parser<1>("t", expression, radius))
   {}
 
 
@@ -26,10 +25,7 @@ namespace Debond
   {
     const double value = parser->value(dealii::Point<1>(t));
     if (!std::isfinite(value))
-      {
-        throw InputError("the expression '" + expression +
-                         "' has no finite value at t = " + to_text(t));
-      }
+      throw InputError("it has no finite value at t = " + to_text(t));
     return value;
   }
 } // namespace Debond

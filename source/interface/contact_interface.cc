@@ -16,7 +16,7 @@ namespace Debond
     , mesh{{&bone, &implant}}
   {
     law.normal_penalty      = parameters.normal_penalty;
-    law.tangential_penalty  = parameters.tangential_penalty;
+    law.tangential_penalty  = parameters.tangential_stiffness();
     law.friction            = parameters.friction;
     law.opening_breaks_bond = parameters.opening_breaks_bond;
     law.viscosity           = parameters.viscosity;

@@ -2,6 +2,7 @@
 #include <debond/models/foundation.h>
 #include <debond/output/console.h>
 #include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
 #include <debond/support/runtime.h>
 #include <debond/system/energy_balance.h>
 
@@ -38,9 +39,9 @@ namespace Debond
     [[noreturn]] void
     refuse(const Scene &scene, const std::string &entry, const std::string &why)
     {
-      throw InputError(entry + ": " + why +
-                       " (Model = " + name_of(scene.model) +
-                       "; Model = finite elements can do more)");
+      throw EntryError(entry,
+                       why + " (Model = " + name_of(scene.model) +
+                         "; Model = finite elements can do more)");
     }
 
 
@@ -304,11 +305,9 @@ namespace Debond
         parameters.friction     = friction;
         if (given.full_sliding < given.linear_limit)
           {
-            std::ostringstream why;
-            why << "Closed form / Linear limit angle: " << given.linear_limit
-                << " deg is more than Full sliding angle, "
-                << given.full_sliding << " deg";
-            throw InputError(why.str());
+            throw EntryError("Closed form / Linear limit angle",
+                             "it is more than Full sliding angle, " +
+                               to_text(given.full_sliding) + " deg");
           }
         model = std::make_unique<AnalyticalTorsion>(parameters);
       }

@@ -53,7 +53,7 @@ namespace Debond
       }
     catch (const InputError &error)
       {
-        throw InputError(scene.with_place(error.what()));
+        throw scene.with_place(error);
       }
     state->seconds_before_steps = state->wall_clock.wall_time();
     try
@@ -64,7 +64,7 @@ namespace Debond
     catch (const InputError &error)
       {
         // an expression that turns infinite
-        const InputError placed(scene.with_place(error.what()));
+        const InputError placed = scene.with_place(error);
         finish_after(placed);
         throw placed;
       }

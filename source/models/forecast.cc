@@ -39,10 +39,10 @@ namespace Debond
       const InterfaceParameters &interface = scene.interface;
       const double               slope =
         steepest_fall(interface.friction, interface.bonding.initial_bonding);
-      const double missing = slope * p - interface.tangential_penalty;
+      const double missing = slope * p - interface.tangential_stiffness();
       if (slope == 0. || interface.explicit_friction)
         return;
-      out << "  p / eps_t " << p / interface.tangential_penalty
+      out << "  p / eps_t " << p / interface.tangential_stiffness()
           << " mm; the friction law has one solution below " << 1. / slope
           << " mm\n";
       if (missing >= 0. && interface.viscosity == 0.)
@@ -73,7 +73,7 @@ namespace Debond
                         ((1. - std::pow(bone.poisson_ratio, 2)) * M_PI * R)),
       compliance_free(implant, implant.young_modulus / implant.height));
     const double k_t =
-      in_series(scene.interface.tangential_penalty,
+      in_series(scene.interface.tangential_stiffness(),
                 compliance_free(bone, 32. * G_b / (3. * M_PI * R)),
                 compliance_free(implant, G_i / implant.height));
 

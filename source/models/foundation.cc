@@ -42,10 +42,11 @@ namespace Debond
       system.predict(time, false);
       const NewtonResult result = solve_newton(system, options);
       if (!result.converged || system.interface.summarise().share_stick < 1.)
-        throw InputError("Closed form: the stiffness of the foundation cannot "
-                         "be found from the bodies of this scene" +
-                         (result.converged ? ", which do not touch all over" :
-                                             ": " + result.why));
+        throw EntryError("Closed form",
+                         std::string("the stiffness of the foundation cannot "
+                                     "be found from the bodies of this scene") +
+                           (result.converged ? ", which do not touch all over" :
+                                               ": " + result.why));
       system.commit(time);
     }
 

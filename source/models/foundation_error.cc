@@ -78,7 +78,7 @@ namespace Debond
       return strain *
              (1. - std::min(stiffness.normal / scene.interface.normal_penalty,
                             stiffness.torsional /
-                              scene.interface.tangential_penalty));
+                              scene.interface.tangential_stiffness()));
     }
 
 

@@ -1,4 +1,3 @@
-#include <debond/input/csv_table.h>
 #include <debond/output/result_files.h>
 #include <debond/output/torque_curve.h>
 #include <debond/support/input_error.h>
@@ -130,19 +129,6 @@ namespace Debond
   TorqueCurveWriter::finish()
   {
     file.finish();
-  }
-
-
-
-  ReferenceCurve
-  read_reference_curve(const std::string &filename)
-  {
-    ReferenceCurve curve;
-    if (!filename.empty())
-      for (const std::vector<double> &row : read_csv_columns(
-             filename, "Output / Reference curve", {"angle_deg", "torque_Nmm"}))
-        curve.emplace_back(row[0], row[1]);
-    return curve;
   }
 
 

@@ -10,13 +10,10 @@
 #include <string>
 #include <vector>
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace Debond
 {
+  class EntryTable;
+
   /** One of the six subsections of `Chuck`. */
   struct ChuckComponentParameters
   {
@@ -35,10 +32,12 @@ namespace Debond
 
     std::array<ChuckComponentParameters, n_components> component;
 
-    static void
-    declare(dealii::ParameterHandler &prm);
+    /** "Chuck / Rotation z / Value" and the like. */
+    static std::string
+    entry_name(unsigned int component, const std::string &entry);
+
     void
-    parse(dealii::ParameterHandler &prm);
+    declare(EntryTable &table);
   };
 
   /**

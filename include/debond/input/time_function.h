@@ -31,7 +31,6 @@ namespace Debond
     operator()(const double t) const;
 
   private:
-    std::string                                expression;
     std::unique_ptr<dealii::FunctionParser<1>> parser;
   };
 } // namespace Debond

@@ -15,12 +15,12 @@ namespace Debond
   /** The subsection `Interface` of a scene. */
   struct InterfaceParameters
   {
-    SlaveSide    slave             = SlaveSide::implant;
-    unsigned int quadrature_points = 5;   ///< per direction and element
-    double       normal_penalty    = 585; ///< eps_n [MPa/mm]
-    double tangential_penalty      = 585; ///< eps_t [MPa/mm], resolved: never 0
-    bool   opening_breaks_bond     = false;
-    double viscosity               = 0; ///< eta [MPa per (mm per unit of time)]
+    SlaveSide    slave               = SlaveSide::implant;
+    unsigned int quadrature_points   = 5;   ///< per direction and element
+    double       normal_penalty      = 585; ///< eps_n [MPa/mm]
+    double       tangential_penalty  = 0;   ///< eps_t [MPa/mm], 0: as eps_n
+    bool         opening_breaks_bond = false;
+    double       viscosity = 0; ///< eta [MPa per (mm per unit of time)]
     /** Variants of the method that are there to be compared with: the direction
      *  of slip is that of the previous gap, Eq. (31) as printed; mu at g_s^n.
      */
@@ -28,10 +28,25 @@ namespace Debond
     FrictionParameters friction;
     BondingParameters  bonding;
 
-    static void
-    declare(dealii::ParameterHandler &prm);
+    /** eps_t [MPa/mm], never 0. */
+    double
+    tangential_stiffness() const
+    {
+      return tangential_penalty == 0. ? normal_penalty : tangential_penalty;
+    }
+
+    /** Refuses what makes no sense together. Throws EntryError. */
     void
-    parse(dealii::ParameterHandler &prm);
+    check(const BodyParameters &implant) const;
+
+    void
+    declare(EntryTable &table);
+
+  private:
+    void
+    declare_friction(EntryTable &table);
+    void
+    declare_variants(EntryTable &table);
   };
 } // namespace Debond
 #endif

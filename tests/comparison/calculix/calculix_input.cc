@@ -312,7 +312,7 @@ Writes a scene of debond as an input of CalculiX.
           friction.mu_broken > 0)
         out << "*FRICTION\n"
             << to_text(friction.mu_broken) << ", "
-            << to_text(interface.tangential_penalty) << '\n';
+            << to_text(interface.tangential_stiffness()) << '\n';
       out << "*CONTACT PAIR, INTERACTION=INTERFACE, TYPE=SURFACE TO SURFACE\n"
           << (slave_is_implant ? "FACE_OF_IMPLANT, FACE_OF_BONE\n" :
                                  "FACE_OF_BONE, FACE_OF_IMPLANT\n");

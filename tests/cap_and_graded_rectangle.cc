@@ -136,7 +136,7 @@ check_cap()
   for (const SurfaceKind kind : {SurfaceKind::nurbs, SurfaceKind::bilinear})
     {
       parameters.contact_surface = kind;
-      const BodyMesh mesh(parameters, BodySide::implant);
+      const BodyMesh mesh(parameters, Side::implant);
       double         corners = 0, layers = 0;
       for (const BodyMesh::Cell &cell : mesh.cells())
         if (cell.enriched)

@@ -26,7 +26,7 @@ struct Error
  *  contact face, relative to the stress times the area of a surface element;
  *  |sum of all forces| and the error of the volume, relative as well. */
 Error
-patch_test(const BodyParameters &parameters, const BodySide side)
+patch_test(const BodyParameters &parameters, const Side side)
 {
   const BodyMesh      mesh(parameters, side);
   const NeoHookean    material = NeoHookean::from_young(18000., 0.3);
@@ -110,7 +110,7 @@ patch_test(const BodyParameters &parameters, const BodySide side)
 void
 check_exact(const std::string    &name,
             const BodyParameters &parameters,
-            const BodySide        side)
+            const Side            side)
 {
   const Error error = patch_test(parameters, side);
   std::cout << name << std::endl;
@@ -145,27 +145,27 @@ main()
   block.size          = {{5., 4., 2.}};
   block.cells         = {{5, 3, 3}};
   block.layer_grading = 1.5;
-  check_exact("Block", block, BodySide::bone);
-  check_exact("Block as implant", block, BodySide::implant);
+  check_exact("Block", block, Side::bone);
+  check_exact("Block as implant", block, Side::implant);
   block.contact_surface = SurfaceKind::bilinear;
-  check_exact("Block, bilinear", block, BodySide::bone);
+  check_exact("Block, bilinear", block, Side::bone);
   block.lateral_grading = 2.;
   block.cells           = {{5, 4, 3}};
-  check_exact("Block, graded, bilinear", block, BodySide::bone);
+  check_exact("Block, graded, bilinear", block, Side::bone);
   block.contact_surface = SurfaceKind::nurbs;
-  check_exact("Block, graded", block, BodySide::bone);
+  check_exact("Block, graded", block, Side::bone);
   BodyParameters coin;
   coin.shape           = BodyShape::coin;
   coin.cells           = {{3, 3, 2}};
   coin.contact_surface = SurfaceKind::bilinear;
-  check_exact("Coin, bilinear", coin, BodySide::implant);
+  check_exact("Coin, bilinear", coin, Side::implant);
 
   coin.contact_surface = SurfaceKind::nurbs;
   std::vector<Error> errors;
   for (const unsigned int n : {3, 6, 12})
     {
       coin.cells = {{n, n, 2}};
-      errors.push_back(patch_test(coin, BodySide::implant));
+      errors.push_back(patch_test(coin, Side::implant));
     }
   std::cout << "Coin" << std::endl;
   report("  sum of all forces", errors[0].resultant, 1e-12);

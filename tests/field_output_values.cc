@@ -117,8 +117,8 @@ struct Model
   explicit Model(const std::array<BodyParameters, 2> &bodies,
                  const BondingParameters &bonding = BondingParameters())
     : interface_parameters(with(bonding))
-    , bone(bodies[0], BodySide::bone)
-    , implant(bodies[1], BodySide::implant)
+    , bone(bodies[0], Side::bone)
+    , implant(bodies[1], Side::implant)
     , chuck(motion(), Eigen::Vector3d(0, 0, bodies[1].height), 2.5)
     , interface(interface_parameters, bone.mesh(), implant.mesh())
   {

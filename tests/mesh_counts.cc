@@ -37,7 +37,7 @@ count(const std::string &name, BodyParameters bone, BodyParameters implant)
   for (const SurfaceKind kind : {SurfaceKind::nurbs, SurfaceKind::bilinear})
     {
       bone.contact_surface = implant.contact_surface = kind;
-      const BodyMesh b(bone, BodySide::bone), i(implant, BodySide::implant);
+      const BodyMesh b(bone, Side::bone), i(implant, Side::implant);
       std::cout << name
                 << (kind == SurfaceKind::nurbs ? ", NURBS: " : ", bilinear: ")
                 << b.n_dofs_as_published() << " + " << i.n_dofs_as_published()
@@ -87,7 +87,7 @@ layer_deviation(const BodyMesh &mesh, const double sign, const double grading)
 void
 check_cells(const std::string    &name,
             const BodyParameters &parameters,
-            const BodySide        side)
+            const Side            side)
 {
   std::cout << name << std::endl;
   const BodyMesh     mesh(parameters, side);
@@ -135,7 +135,7 @@ check_cells(const std::string    &name,
         const bool             held =
           std::abs(std::abs(X[2]) - parameters.thickness()) < 1e-12;
         const bool at_side =
-          side == BodySide::bone && c < 2 &&
+          side == Side::bone && c < 2 &&
           std::abs(std::abs(X[c]) - 0.5 * parameters.size[c]) < 1e-12;
         if (!mesh.is_tied(node))
           right_fixed =
@@ -173,7 +173,7 @@ check_cells(const std::string    &name,
   mesh.distribute(followed);
   double     linear = 0;
   const auto limits = [&](const Eigen::Vector3d &X) {
-    return side == BodySide::bone &&
+    return side == Side::bone &&
            std::max(std::abs(X[0]) / parameters.size[0],
                     std::abs(X[1]) / parameters.size[1]) > 0.49;
   };
@@ -207,18 +207,18 @@ main()
       bone.layer_grading = implant.layer_grading = grading;
       std::cout << "Layers with grading " << grading << std::endl;
       report("  bone, deviation",
-             layer_deviation(BodyMesh(bone, BodySide::bone), -1., grading),
+             layer_deviation(BodyMesh(bone, Side::bone), -1., grading),
              1e-14);
       report("  implant, deviation",
-             layer_deviation(BodyMesh(implant, BodySide::implant), 1., grading),
+             layer_deviation(BodyMesh(implant, Side::implant), 1., grading),
              1e-14);
     }
 
   bone.cells = {{5, 4, 3}};
   bone.size  = {{5., 8., 2.}};
-  check_cells("Bone", bone, BodySide::bone);
-  check_cells("Coin", implant, BodySide::implant);
+  check_cells("Bone", bone, Side::bone);
+  check_cells("Coin", implant, Side::implant);
   bone.contact_surface = implant.contact_surface = SurfaceKind::bilinear;
-  check_cells("Bone, bilinear", bone, BodySide::bone);
-  check_cells("Coin, bilinear", implant, BodySide::implant);
+  check_cells("Bone, bilinear", bone, Side::bone);
+  check_cells("Coin, bilinear", implant, Side::implant);
 }

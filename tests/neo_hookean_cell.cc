@@ -149,7 +149,7 @@ relative_deviation(const Eigen::MatrixXd &ours,
 void
 check(const std::string    &name,
       const BodyParameters &parameters,
-      const BodySide        side,
+      const Side            side,
       const double          amplitude)
 {
   const BodyMesh   mesh(parameters, side);
@@ -327,14 +327,14 @@ main()
   coin.young_modulus = 113000;
   coin.poisson_ratio = 0.34;
 
-  check("Block, large strains", bone, BodySide::bone, 0.06);
-  check("Block, small strains", bone, BodySide::bone, 1e-3);
-  check("Coin, large strains", coin, BodySide::implant, 0.04);
-  check("Coin, small strains", coin, BodySide::implant, 1e-3);
+  check("Block, large strains", bone, Side::bone, 0.06);
+  check("Block, small strains", bone, Side::bone, 1e-3);
+  check("Coin, large strains", coin, Side::implant, 0.04);
+  check("Coin, small strains", coin, Side::implant, 1e-3);
   bone.contact_surface = SurfaceKind::bilinear;
-  check("Block, bilinear", bone, BodySide::bone, 0.06);
+  check("Block, bilinear", bone, Side::bone, 0.06);
   coin.contact_surface = SurfaceKind::bilinear;
-  check("Coin, bilinear", coin, BodySide::implant, 0.04);
+  check("Coin, bilinear", coin, Side::implant, 0.04);
   check_small_strains();
   check_cauchy_stress();
 }

@@ -77,7 +77,8 @@ public:
       }
     system.predict(accepted_time, false);
     system.evaluate(ContactPointMode());
-    result.forces = {{system.interface.force(0), system.interface.force(1)}};
+    result.forces        = {{system.interface.force(Side::bone),
+                             system.interface.force(Side::implant)}};
     result.chuck_forces  = system.chuck_forces();
     result.dissipation   = system.interface.work().dissipation;
     result.adhesive_work = system.interface.work().adhesive;

@@ -21,7 +21,7 @@ namespace
     scene.title                    = "made";
     scene.bone.size                = {{10, 11, 4.5}};
     scene.implant.young_modulus    = 1.1e5;
-    scene.interface.slave          = SlaveSide::bone;
+    scene.interface.slave          = Side::bone;
     scene.load_steps.times         = {0, 1, 3};
     scene.load_steps.steps         = {2, 10};
     scene.load_steps.adaptive      = true;

@@ -27,7 +27,7 @@ report(const std::string &what, const double deviation, const double limit)
 template <typename Displacement, typename Gradient>
 double
 deviation(const BodyParameters &parameters,
-          const BodySide        side,
+          const Side            side,
           const Displacement   &u,
           const Gradient       &H)
 {
@@ -110,9 +110,9 @@ main()
     return Eigen::Matrix3d(1e-3 * gradient);
   };
 
-  for (const BodySide side : {BodySide::bone, BodySide::implant})
+  for (const Side side : {Side::bone, Side::implant})
     {
-      std::cout << (side == BodySide::bone ? "bone" : "implant") << std::endl;
+      std::cout << name_of(side) << std::endl;
       for (const Material material : {Material::linear, Material::neo_hookean})
         for (BodyParameters parameters : {block(), coin()})
           {
@@ -130,7 +130,7 @@ main()
 
   BodyParameters parameters = block();
   parameters.material       = Material::rigid;
-  const Body body(parameters, BodySide::bone);
+  const Body body(parameters, Side::bone);
   double     sum = 0;
   for (const Eigen::Matrix3d &stress :
        vertex_stress(body, Eigen::VectorXd::Zero(3 * body.mesh().n_nodes())))

@@ -37,7 +37,7 @@ namespace Debond
 
 
 
-  Body::Body(const BodyParameters &parameters, const BodySide side)
+  Body::Body(const BodyParameters &parameters, const Side side)
     : body_mesh(parameters, side)
     , is_contact(body_mesh.surface().n_control_points(), false)
     , unknown_numbers(3 * body_mesh.surface().n_control_points(), -1)
@@ -154,7 +154,7 @@ namespace Debond
       condense_at(at_rest);
     if (!positive_definite)
       throw EntryError(
-        std::string(body_mesh.side() == BodySide::bone ? "Bone" : "Implant") +
+        std::string(body_mesh.side() == Side::bone ? "Bone" : "Implant") +
           " / Cells",
         "the stiffness of this body is not positive definite: its cells are "
         "too thin, or its Poisson ratio is too close to 0.5");

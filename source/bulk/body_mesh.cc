@@ -32,7 +32,7 @@ namespace Debond
 
 
 
-  BodyMesh::BodyMesh(const BodyParameters &parameters, const BodySide side)
+  BodyMesh::BodyMesh(const BodyParameters &parameters, const Side side)
     : body_parameters(parameters)
     , body_side(side)
     , contact_surface(make_contact_surface(parameters))
@@ -84,7 +84,7 @@ namespace Debond
           for (unsigned int d = 0; d < 3; ++d)
             index[d] = std::lround(p[d]);
           // count layers from the contact face, which is the bone's top
-          if (body_side == BodySide::bone)
+          if (body_side == Side::bone)
             index[2] = n[2] - index[2];
         }
   }
@@ -167,7 +167,7 @@ namespace Debond
     const auto fix_sides = [&](const unsigned int                node,
                                const std::array<unsigned int, 2> index,
                                const std::array<unsigned int, 2> last) {
-      if (body_side == BodySide::bone)
+      if (body_side == Side::bone)
         for (unsigned int d = 0; d < 2; ++d)
           if (index[d] == 0 || index[d] == last[d])
             fixed[3 * node + d] = true;

@@ -35,7 +35,7 @@ namespace Debond
     table.enter_subsection("Chuck");
     for (unsigned int c = 0; c < n_components; ++c)
       {
-        const bool        rotation = c >= 3;
+        const bool        rotation = is_rotation(c);
         const std::string axis(1, "xyz"[c % 3]);
         table.enter_subsection(names[c]);
         table.add("Control",
@@ -143,7 +143,7 @@ namespace Debond
     Vector6 result;
     for (unsigned int k = 0; k < 6; ++k)
       {
-        const bool is_angle = k >= 3 && !parameters.component[k].loaded;
+        const bool is_angle = is_rotation(k) && !parameters.component[k].loaded;
         try
           {
             result[k] =
@@ -286,12 +286,15 @@ namespace Debond
   void
   Chuck::update_frame()
   {
-    const Vector3d             a(q[3], q[4], 0.);
+    const Vector3d             a(q[ChuckComponent::rotation_x],
+                     q[ChuckComponent::rotation_y],
+                     0.);
     const RotationCoefficients r(a.norm());
     const Matrix3d             A = skew(a);
     const Matrix3d tilt = Matrix3d::Identity() + r.c[0] * A + r.c[1] * (A * A);
-    const double   s = std::sin(q[5]), k = std::cos(q[5]);
-    Matrix3d       spin;
+    const double   s    = std::sin(q[ChuckComponent::rotation_z]),
+                 k      = std::cos(q[ChuckComponent::rotation_z]);
+    Matrix3d spin;
     spin << k, -s, 0, s, k, 0, 0, 0, 1;
     Q = tilt * spin;
 
@@ -317,8 +320,8 @@ namespace Debond
   Vector3d
   Chuck::velocity(const unsigned int k, const Vector3d &x) const
   {
-    return k < 3 ? Vector3d(Vector3d::Unit(k)) :
-                   Vector3d(axis(k).cross(x - centre()));
+    return is_rotation(k) ? Vector3d(axis(k).cross(x - centre())) :
+                            Vector3d(Vector3d::Unit(k));
   }
 
 
@@ -326,7 +329,8 @@ namespace Debond
   Vector3d
   Chuck::velocity_of_direction(const unsigned int k, const Vector3d &d) const
   {
-    return k < 3 ? Vector3d(Vector3d::Zero()) : Vector3d(axis(k).cross(d));
+    return is_rotation(k) ? Vector3d(axis(k).cross(d)) :
+                            Vector3d(Vector3d::Zero());
   }
 
 
@@ -337,7 +341,7 @@ namespace Debond
                            const unsigned int l,
                            const Vector3d    &x) const
   {
-    if (k < 3 || l < 3)
+    if (!is_rotation(k) || !is_rotation(l))
       return Vector3d::Zero();
     const Vector3d r = x - centre();
     return db[k - 3][l - 3].cross(r) + axis(k).cross(axis(l).cross(r));

@@ -78,7 +78,7 @@ namespace Debond
         // The third coordinate of an enriched cell begins at the contact face,
         // which is on top of the bone's cells.
         const unsigned int flip =
-          (cell.enriched && mesh.side() == BodySide::bone) ? 4 : 0;
+          (cell.enriched && mesh.side() == Side::bone) ? 4 : 0;
         for (unsigned int corner = 0; corner < 8; ++corner)
           {
             const unsigned int vertex = cell.vertices[corner ^ flip];

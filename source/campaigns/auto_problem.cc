@@ -63,8 +63,8 @@ namespace Debond
 
 
     /** The component of the chuck that changes while the angle holds and after
-     *  the rotation began, where torque is no function of the angle; 5 if there
-     *  is none. */
+     *  the rotation began, where torque is no function of the angle; rotation_z
+     * if there is none. */
     unsigned int
     component_that_changes_in_a_hold(const std::vector<Chuck::Vector6> &values)
     {
@@ -77,12 +77,13 @@ namespace Debond
       bool began = false;
       for (std::size_t i = 1; i < values.size(); ++i)
         {
-          began = began || changes(5, i);
-          for (unsigned int k = 0; k < 5; ++k)
-            if (began && !changes(5, i) && changes(k, i))
+          began = began || changes(ChuckComponent::rotation_z, i);
+          for (unsigned int k = 0; k < ChuckComponent::rotation_z; ++k)
+            if (began && !changes(ChuckComponent::rotation_z, i) &&
+                changes(k, i))
               return k;
         }
-      return 5;
+      return ChuckComponent::rotation_z;
     }
 
 
@@ -91,20 +92,23 @@ namespace Debond
     refuse_what_has_no_curve(const Scene &scene)
     {
       const std::string entry = "Chuck / Rotation z / ";
-      if (scene.chuck.component[5].loaded)
+      if (scene.chuck.component[ChuckComponent::rotation_z].loaded)
         throw EntryError(entry + "Control",
                          "Model = auto compares torques and takes this "
                          "rotation as prescribed");
       const std::vector<Chuck::Vector6> values = prescribed_values(scene);
       double                            turned = 0.;
       for (std::size_t i = 1; i < values.size(); ++i)
-        turned += std::abs(values[i][5] - values[i - 1][5]);
+        turned += std::abs(values[i][ChuckComponent::rotation_z] -
+                           values[i - 1][ChuckComponent::rotation_z]);
       if (turned == 0.)
         throw EntryError(entry + "Value",
                          "Model = auto judges a model by its torque curve, and "
                          "nothing rotates about z in this scene: choose a "
                          "model with Model");
-      if (turned > std::abs(values.back()[5] - values.front()[5]) * (1. + 1e-9))
+      if (turned > std::abs(values.back()[ChuckComponent::rotation_z] -
+                            values.front()[ChuckComponent::rotation_z]) *
+                     (1. + 1e-9))
         throw EntryError(entry + "Value",
                          "Model = auto compares torques over the angle and "
                          "knows no rotation that reverses");

@@ -163,13 +163,7 @@ namespace Debond
   KnotVector
   KnotVector::uniform(const unsigned int degree, const unsigned int n_spans)
   {
-    if (n_spans == 0)
-      throw std::invalid_argument("A knot vector needs one span at least.");
-    std::vector<double> knots(degree + 1, 0.);
-    for (unsigned int i = 1; i < n_spans; ++i)
-      knots.push_back(static_cast<double>(i) / n_spans);
-    knots.insert(knots.end(), degree + 1, 1.);
-    return KnotVector(degree, knots);
+    return graded(degree, n_spans, 1.);
   }
 
 
@@ -179,60 +173,21 @@ namespace Debond
                      const unsigned int n_spans,
                      const double       grading)
   {
-    if (grading == 1.)
-      return uniform(degree, n_spans);
     if (!(grading > 0.) || n_spans == 0)
       throw std::invalid_argument(
-        "A graded knot vector needs a positive exponent and one span at least.");
+        "A knot vector needs a positive grading and one span at least.");
     std::vector<double> knots(degree + 1, 0.);
     for (unsigned int i = 1; i < n_spans; ++i)
       {
         const double s     = (2. * i - n_spans) / n_spans;
         const double power = 0.5 * std::pow(std::abs(s), grading);
-        knots.push_back(s < 0. ? 0.5 - power : 0.5 + power);
+        // equal spans without the rounding of the general formula
+        knots.push_back(grading == 1. ? double(i) / n_spans :
+                        s < 0.        ? 0.5 - power :
+                                        0.5 + power);
       }
     knots.insert(knots.end(), degree + 1, 1.);
     return KnotVector(degree, knots);
-  }
-
-
-
-  unsigned int
-  KnotVector::degree() const
-  {
-    return p;
-  }
-
-
-
-  const std::vector<double> &
-  KnotVector::knots() const
-  {
-    return knot_values;
-  }
-
-
-
-  unsigned int
-  KnotVector::n_basis_functions() const
-  {
-    return knot_values.empty() ? 0 : knot_values.size() - p - 1;
-  }
-
-
-
-  unsigned int
-  KnotVector::n_spans() const
-  {
-    return first_function.size();
-  }
-
-
-
-  const std::vector<double> &
-  KnotVector::breakpoints() const
-  {
-    return breaks;
   }
 
 
@@ -244,24 +199,6 @@ namespace Debond
     // Only inner breakpoints are searched: whatever u, the span exists.
     const auto inner_begin = breaks.begin() + 1, inner_end = breaks.end() - 1;
     return std::upper_bound(inner_begin, inner_end, u) - inner_begin;
-  }
-
-
-
-  unsigned int
-  KnotVector::first_basis_function(const unsigned int span) const
-  {
-    assert(span < n_spans());
-    return first_function[span];
-  }
-
-
-
-  const Eigen::Matrix3d &
-  KnotVector::extraction_operator(const unsigned int span) const
-  {
-    assert(span < n_spans());
-    return extraction[span];
   }
 
 

@@ -1,4 +1,5 @@
 #include <debond/geometry/nurbs_surface.h>
+#include <debond/geometry/surface_geometry.h>
 
 #include <Eigen/LU>
 
@@ -174,73 +175,6 @@ namespace Debond
 
 
   unsigned int
-  NurbsSurface::degree() const
-  {
-    return knot_vectors[0].degree();
-  }
-
-
-
-  std::array<unsigned int, 2>
-  NurbsSurface::n_elements_per_direction() const
-  {
-    return {{knot_vectors[0].n_spans(), knot_vectors[1].n_spans()}};
-  }
-
-
-
-  unsigned int
-  NurbsSurface::n_elements() const
-  {
-    return knot_vectors[0].n_spans() * knot_vectors[1].n_spans();
-  }
-
-
-
-  unsigned int
-  NurbsSurface::n_control_points() const
-  {
-    return knot_vectors[0].n_basis_functions() *
-           knot_vectors[1].n_basis_functions();
-  }
-
-
-
-  std::array<unsigned int, 2>
-  NurbsSurface::n_control_points_per_direction() const
-  {
-    return {{knot_vectors[0].n_basis_functions(),
-             knot_vectors[1].n_basis_functions()}};
-  }
-
-
-
-  const KnotVector &
-  NurbsSurface::knots(const unsigned int direction) const
-  {
-    assert(direction < 2);
-    return knot_vectors[direction];
-  }
-
-
-
-  const ControlNet &
-  NurbsSurface::control_points() const
-  {
-    return points;
-  }
-
-
-
-  const std::vector<double> &
-  NurbsSurface::weights() const
-  {
-    return weight;
-  }
-
-
-
-  unsigned int
   NurbsSurface::element_of(const Eigen::Vector2d &xi) const
   {
     // span_of() returns the first or last span beyond the ends: clamped.
@@ -337,10 +271,7 @@ namespace Debond
   {
     SurfaceBasis basis;
     evaluate(xi, basis, false);
-    Eigen::Vector3d result = Eigen::Vector3d::Zero();
-    for (unsigned int k = 0; k < basis.size; ++k)
-      result += basis.N[k] * points.col(basis.control_point[k]);
-    return result;
+    return interpolate(basis, points);
   }
 
 

@@ -46,7 +46,7 @@ namespace Debond
                   const FileRefusal &refuse,
                   const unsigned int largest_MB)
   {
-    return plain_text(read_input_bytes(filename, where, largest_MB), refuse);
+    return plain_text(read_input_bytes(filename, refuse, largest_MB), refuse);
   }
 
 

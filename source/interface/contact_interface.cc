@@ -12,7 +12,7 @@ namespace Debond
                                      const BodyMesh            &bone,
                                      const BodyMesh            &implant)
     : parameters(parameters)
-    , slave(parameters.slave == SlaveSide::implant ? 1 : 0)
+    , slave(parameters.slave)
     , mesh{{&bone, &implant}}
   {
     law.normal_penalty      = parameters.normal_penalty;
@@ -34,7 +34,7 @@ namespace Debond
         point.JxW     = quadrature_point.JxW;
         points.push_back(point);
       }
-    for (unsigned int side = 0; side < 2; ++side)
+    for (const Side side : both_sides)
       forces[side].setZero(3, mesh[side]->surface().n_control_points());
     for (const auto &quadrature_point :
          surface_quadrature(implant.surface(), parameters.quadrature_points))
@@ -48,12 +48,13 @@ namespace Debond
   void
   ContactInterface::assign_bonding()
   {
-    pattern = std::make_unique<BondingPattern>(parameters.bonding,
-                                               mesh[1]->parameters(),
-                                               mesh[1]->surface(),
-                                               parameters.quadrature_points);
+    pattern =
+      std::make_unique<BondingPattern>(parameters.bonding,
+                                       mesh[Side::implant]->parameters(),
+                                       mesh[Side::implant]->surface(),
+                                       parameters.quadrature_points);
     for (unsigned int q = 0; q < points.size(); ++q)
-      if (slave == 1)
+      if (slave == Side::implant)
         points[q].phi_0 = pattern->at(q);
       else
         {
@@ -117,7 +118,7 @@ namespace Debond
   ContactInterface::motion(const InterfaceConfiguration &configuration) const
   {
     double sum = 0.;
-    for (unsigned int side = 0; side < 2; ++side)
+    for (const Side side : both_sides)
       sum += (configuration.side[side].positions - accepted_positions[side])
                .colwise()
                .norm()
@@ -130,7 +131,7 @@ namespace Debond
   void
   ContactInterface::initialise(const InterfaceConfiguration &configuration)
   {
-    for (unsigned int side = 0; side < 2; ++side)
+    for (const Side side : both_sides)
       accepted_positions[side] = configuration.side[side].positions;
     unprojected = 0;
     for (SlavePoint &point : points)
@@ -243,7 +244,7 @@ namespace Debond
     const MasterSurface    surface = master(configuration);
     const Eigen::Matrix3d &Q       = configuration.side[master_side()].frame;
     const double           moved   = motion(configuration);
-    for (unsigned int side = 0; side < 2; ++side)
+    for (const Side side : both_sides)
       accepted_positions[side] = configuration.side[side].positions;
     unprojected = 0;
     spent.begin_step();
@@ -318,8 +319,7 @@ namespace Debond
       return "";
     const SlavePoint  &point = points[failed_point];
     std::ostringstream text;
-    text << "no solution of the friction law at the "
-         << (slave == 1 ? "implant" : "bone")
+    text << "no solution of the friction law at the " << name_of(slave)
          << "'s quadrature point at parameters (" << point.xi[0] << ", "
          << point.xi[1] << "), g_s = " << point.accepted.slip << " mm";
     return text.str();

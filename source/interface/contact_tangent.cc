@@ -17,7 +17,7 @@ namespace Debond
 
       PointTangent(const SlavePoint             &point,
                    const InterfaceConfiguration &configuration,
-                   const unsigned int            slave)
+                   const Side                    slave)
         : point(point)
         , configuration(configuration)
         , slave(slave)
@@ -25,7 +25,7 @@ namespace Debond
         D.topRows<3>()             = point.trial.dt;
         D.bottomRows<2>()          = point.trial.dxi;
         const Eigen::Matrix3d &Q_s = configuration.side[slave].frame;
-        const Eigen::Matrix3d &Q_m = configuration.side[1 - slave].frame;
+        const Eigen::Matrix3d &Q_m = configuration.side[other(slave)].frame;
         D_body.leftCols<3>()       = D.leftCols<3>() * Q_s;
         for (unsigned int block = 1; block < 5; ++block)
           D_body.middleCols<3>(3 * block) = D.middleCols<3>(3 * block) * Q_m;
@@ -55,24 +55,26 @@ namespace Debond
       {
         Eigen::Matrix<double, 15, 1> dw = Eigen::Matrix<double, 15, 1>::Zero();
         const Chuck                 &chuck = *configuration.chuck;
-        if (slave == 1)
+        if (slave == Side::implant)
           dw.head<3>() = chuck.velocity(
-            k, interpolate(point.basis, configuration.side[1].positions));
+            k,
+            interpolate(point.basis,
+                        configuration.side[Side::implant].positions));
         else
           {
             SurfaceGeometry geometry;
             contract(point.trial.basis,
-                     configuration.side[1].positions,
+                     configuration.side[Side::implant].positions,
                      false,
                      geometry);
             dw.segment<3>(3) = chuck.velocity(k, geometry.y);
             dw.segment<3>(6) = chuck.velocity_of_direction(k, geometry.a1);
             dw.segment<3>(9) = chuck.velocity_of_direction(k, geometry.a2);
             if (point.trial.state.status == PointStatus::slip)
-              dw.segment<3>(12) =
-                chuck.velocity(k,
-                               interpolate(point.trial.old_basis,
-                                           configuration.side[1].positions));
+              dw.segment<3>(12) = chuck.velocity(
+                k,
+                interpolate(point.trial.old_basis,
+                            configuration.side[Side::implant].positions));
           }
         return dw;
       }
@@ -81,7 +83,7 @@ namespace Debond
       add_to(Eigen::MatrixXd &matrix) const
       {
         const Eigen::Matrix3d &Q_s = configuration.side[slave].frame;
-        const Eigen::Matrix3d &Q_m = configuration.side[1 - slave].frame;
+        const Eigen::Matrix3d &Q_m = configuration.side[other(slave)].frame;
         const auto             dt  = columns.topRows<3>().leftCols(n_columns);
         const auto dxi = columns.bottomRows<2>().leftCols(n_columns);
         using Rows = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3 * 27 + 6>;
@@ -90,9 +92,10 @@ namespace Debond
         const Eigen::Vector3d t_m =
           -point.JxW * Q_m.transpose() * point.trial.traction;
 
-        const auto &slave_unknown  = configuration.side[slave].unknown_of;
-        const auto &master_unknown = configuration.side[1 - slave].unknown_of;
-        const SurfaceBasis &basis  = point.trial.basis;
+        const auto &slave_unknown = configuration.side[slave].unknown_of;
+        const auto &master_unknown =
+          configuration.side[other(slave)].unknown_of;
+        const SurfaceBasis &basis = point.trial.basis;
         for (unsigned int j = 0; j < n_columns; ++j)
           {
             if (number_of_column[j] < 0)
@@ -126,7 +129,7 @@ namespace Debond
     private:
       void
       add_columns(const Eigen::Matrix<double, 5, 3> &block,
-                  const unsigned int                 side,
+                  const Side                         side,
                   const unsigned int                 control_point)
       {
         for (unsigned int c = 0; c < 3; ++c)
@@ -157,7 +160,7 @@ namespace Debond
               basis.N_2[b] * D_body.middleCols<3>(9);
             if (old != nullptr)
               block += old->N[b] * D_body.middleCols<3>(12);
-            add_columns(block, 1 - slave, basis.control_point[b]);
+            add_columns(block, other(slave), basis.control_point[b]);
           }
       }
 
@@ -166,7 +169,7 @@ namespace Debond
       {
         for (unsigned int b = 0; b < basis.size; ++b)
           add_columns(basis.N[b] * D_body.middleCols<3>(12),
-                      1 - slave,
+                      other(slave),
                       basis.control_point[b]);
       }
 
@@ -178,7 +181,7 @@ namespace Debond
           {
             const Eigen::Matrix<double, 15, 1> velocity =
               chuck_direction(component);
-            if (slave == 1)
+            if (slave == Side::implant)
               column[number] +=
                 point.JxW * velocity.head<3>().dot(columns.col(j).head<3>());
             else
@@ -193,7 +196,7 @@ namespace Debond
 
       const SlavePoint             &point;
       const InterfaceConfiguration &configuration;
-      const unsigned int            slave;
+      const Side                    slave;
       Eigen::Matrix<double, 5, 15>  D, D_body;
       Columns                       columns;
       std::array<int, 3 * 27 + 6>   number_of_column;
@@ -204,14 +207,14 @@ namespace Debond
 
     // The forces of one point that change as the control points move.
     void
-    add_change(const SlavePoint  &point,
-               const unsigned int slave,
-               const NodalSums   &moved,
-               NodalSums         &sums)
+    add_change(const SlavePoint &point,
+               const Side        slave,
+               const NodalSums  &moved,
+               NodalSums        &sums)
     {
       if (point.trial.state.status == PointStatus::open)
         return;
-      const unsigned int           master = 1 - slave;
+      const Side                   master = other(slave);
       const SurfaceBasis          &basis  = point.trial.basis;
       Eigen::Matrix<double, 15, 1> dw;
       SurfaceGeometry              master_change;
@@ -234,7 +237,7 @@ namespace Debond
 
   void
   add_contact_tangent(const std::vector<SlavePoint> &points,
-                      const unsigned int             slave,
+                      const Side                     slave,
                       const InterfaceConfiguration  &configuration,
                       Eigen::MatrixXd               &matrix)
   {
@@ -247,7 +250,7 @@ namespace Debond
 
   void
   apply_contact_tangent(const std::vector<SlavePoint> &points,
-                        const unsigned int             slave,
+                        const Side                     slave,
                         const InterfaceConfiguration  &configuration,
                         const Eigen::VectorXd         &direction,
                         Eigen::VectorXd               &result)

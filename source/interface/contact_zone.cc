@@ -69,11 +69,11 @@ namespace Debond
           implant.evaluate({double(i) / samples, double(j) / samples},
                            basis,
                            false);
-          const ClosestPoint closest =
-            closest_point(bone,
-                          configuration.side[0].positions,
-                          interpolate(basis, configuration.side[1].positions),
-                          &guess);
+          const ClosestPoint closest = closest_point(
+            bone,
+            configuration.side[Side::bone].positions,
+            interpolate(basis, configuration.side[Side::implant].positions),
+            &guess);
           guess                              = closest.xi;
           under[bone.element_of(closest.xi)] = true;
         }
@@ -86,15 +86,16 @@ namespace Debond
   std::vector<bool>
   touched_bone_control_points(const NurbsSurface            &bone,
                               const std::vector<SlavePoint> &points,
-                              const unsigned int             slave)
+                              const Side                     slave)
   {
     std::vector<bool> touched(bone.n_elements(), false);
     for (const SlavePoint &point : points)
       if (point.trial.state.status != PointStatus::open)
         {
-          touched[slave == 0 ? point.element : point.trial.basis.element] =
-            true;
-          if (slave == 1 && point.trial.state.status == PointStatus::slip)
+          touched[slave == Side::bone ? point.element :
+                                        point.trial.basis.element] = true;
+          if (slave == Side::implant &&
+              point.trial.state.status == PointStatus::slip)
             touched[point.trial.old_basis.element] = true;
         }
     return control_points_of(bone, touched);

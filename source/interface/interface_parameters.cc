@@ -10,7 +10,7 @@ namespace Debond
     table.enter_subsection("Interface");
     table.add("Slave",
               slave,
-              Allowed::choice("implant | bone"),
+              Allowed::choice("bone | implant"),
               "The body whose contact face carries the quadrature points; they "
               "are projected onto the face of the other.");
     table.add("Quadrature points",

@@ -7,12 +7,12 @@ namespace Debond
   // want it.
   MeanSlip
   mean_slip(const std::vector<SlavePoint> &points,
-            const unsigned int             slave,
+            const Side                     slave,
             const InterfaceConfiguration  &configuration,
             const bool                     frictionless)
   {
-    const unsigned int master = 1 - slave;
-    MeanSlip           result;
+    const Side master = other(slave);
+    MeanSlip   result;
     result.gradient = zero_sums(configuration);
     double area     = 0.;
     for (const SlavePoint &point : points)

@@ -7,7 +7,7 @@ namespace Debond
   zero_sums(const InterfaceConfiguration &configuration)
   {
     NodalSums sums;
-    for (unsigned int side = 0; side < 2; ++side)
+    for (const Side side : both_sides)
       sums[side].setZero(3, configuration.side[side].positions.cols());
     return sums;
   }
@@ -19,7 +19,7 @@ namespace Debond
                const InterfaceConfiguration &configuration)
   {
     NodalSums moved = zero_sums(configuration);
-    for (unsigned int s = 0; s < 2; ++s)
+    for (const Side s : both_sides)
       {
         const auto &side = configuration.side[s];
         for (unsigned int i = 0; i < side.unknown_of.size(); ++i)
@@ -27,10 +27,10 @@ namespace Debond
             moved[s](i % 3, i / 3) = unknowns[side.unknown_of[i]];
         moved[s] = (side.frame * moved[s]).eval();
       }
-    const auto &x = configuration.side[1].positions;
+    const auto &x = configuration.side[Side::implant].positions;
     for (const auto &[component, number] : configuration.chuck_unknowns)
       for (unsigned int A = 0; A < x.cols(); ++A)
-        moved[1].col(A) +=
+        moved[Side::implant].col(A) +=
           unknowns[number] * configuration.chuck->velocity(component, x.col(A));
     return moved;
   }
@@ -43,7 +43,7 @@ namespace Debond
                   const double                  factor,
                   Eigen::VectorXd              &result)
   {
-    for (unsigned int s = 0; s < 2; ++s)
+    for (const Side s : both_sides)
       {
         const auto      &side     = configuration.side[s];
         const ControlNet in_frame = side.frame.transpose() * sums[s];
@@ -51,11 +51,11 @@ namespace Debond
           if (side.unknown_of[i] >= 0)
             result[side.unknown_of[i]] += factor * in_frame(i % 3, i / 3);
       }
-    const auto &x = configuration.side[1].positions;
+    const auto &x = configuration.side[Side::implant].positions;
     for (const auto &[component, number] : configuration.chuck_unknowns)
       for (unsigned int A = 0; A < x.cols(); ++A)
         result[number] +=
-          factor * sums[1].col(A).dot(
+          factor * sums[Side::implant].col(A).dot(
                      configuration.chuck->velocity(component, x.col(A)));
   }
 } // namespace Debond

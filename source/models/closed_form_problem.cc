@@ -5,6 +5,7 @@
 #include <debond/support/number_text.h>
 #include <debond/support/runtime.h>
 #include <debond/system/energy_balance.h>
+#include <debond/system/load_stepping.h>
 
 #include <algorithm>
 #include <cmath>
@@ -82,7 +83,8 @@ namespace Debond
                  "closed forms take this motion as prescribed");
       for (unsigned int k = 0; k < 6; ++k)
         if (scene.chuck.component[k].stiffness != 0 &&
-            !(k == 5 && scene.model == ModelKind::foundation))
+            !(k == ChuckComponent::rotation_z &&
+              scene.model == ModelKind::foundation))
           refuse(scene,
                  std::string("Chuck / ") + ChuckParameters::names[k] +
                    " / Stiffness",
@@ -120,7 +122,9 @@ namespace Debond
         refuse(scene,
                std::string("Chuck / ") + ChuckParameters::names[k] + " / Value",
                "closed forms know Translation z and Rotation z only");
-    return {time, -q[2], q[5]};
+    return {time,
+            -q[ChuckComponent::translation_z],
+            q[ChuckComponent::rotation_z]};
   }
 
 
@@ -226,7 +230,8 @@ namespace Debond
     lambda                            = given.torsional_stiffness;
 
     const bool pressure_is_given =
-      given.pressure > 0. || scene.chuck.component[2].loaded;
+      given.pressure > 0. ||
+      scene.chuck.component[ChuckComponent::translation_z].loaded;
     const bool turns_on_foundation = scene.model == ModelKind::foundation;
     if ((normal_stiffness == 0. && !pressure_is_given) ||
         (lambda == 0. && turns_on_foundation))
@@ -250,10 +255,11 @@ namespace Debond
                                  std::max(0., load.push) / final_push :
                                scene.closed_form.pressure;
     const double R = scene.implant.radius;
-    return std::max(0.,
-                    scene.chuck.component[2].loaded ?
-                      load.push / (M_PI * R * R) :
-                      load.push * normal_stiffness);
+    return std::max(
+      0.,
+      scene.chuck.component[ChuckComponent::translation_z].loaded ?
+        load.push / (M_PI * R * R) :
+        load.push * normal_stiffness);
   }
 
 
@@ -287,10 +293,10 @@ namespace Debond
                  "the friction law softens faster than the foundation is "
                  "stiff, so that the traction would jump");
         auto foundation = std::make_unique<RigidBodiesTorsion>(parameters);
-        if (scene.chuck.component[5].stiffness > 0.)
+        if (scene.chuck.component[ChuckComponent::rotation_z].stiffness > 0.)
           machine = std::make_unique<CompliantMachineTorsion>(
             *foundation,
-            scene.chuck.component[5].stiffness,
+            scene.chuck.component[ChuckComponent::rotation_z].stiffness,
             std::abs(loads.back().angle));
         model = std::move(foundation);
       }
@@ -379,9 +385,11 @@ namespace Debond
     row.dissipation_Nmm      = state.dissipation;
     row.adhesive_work_Nmm    = state.adhesive_work;
     row.chuck_reaction       = {{0, 0, -row.force_N, 0, 0, state.torque}};
-    row.chuck_position[2] =
-      scene.chuck.component[2].loaded ? CurveMeasures::undefined : -load.push;
-    row.chuck_position[5] = row.angle_deg;
+    row.chuck_position[ChuckComponent::translation_z] =
+      scene.chuck.component[ChuckComponent::translation_z].loaded ?
+        CurveMeasures::undefined :
+        -load.push;
+    row.chuck_position[ChuckComponent::rotation_z] = row.angle_deg;
     return row;
   }
 
@@ -395,8 +403,8 @@ namespace Debond
     balance_energy(TorqueRow &row, const double angle, EnergyBalance &energy)
     {
       Chuck::Vector6 force = Chuck::Vector6::Zero(), position = force;
-      force[5]    = row.torque_Nmm;
-      position[5] = angle;
+      force[ChuckComponent::rotation_z]    = row.torque_Nmm;
+      position[ChuckComponent::rotation_z] = angle;
       energy.add(
         force, position, 0., row.energy_interface_Nmm, row.dissipation_Nmm);
       row.work_Nmm            = energy.work();

@@ -255,7 +255,7 @@ namespace Debond
     system.start(state->stepping.time(0));
     out << unknowns_of(system) << '\n'
         << system.interface.n_points() << " slave quadrature points on the "
-        << (system.interface.slave_side() == 1 ? "implant" : "bone") << '\n'
+        << name_of(system.interface.slave_side()) << '\n'
         << "memory: some " << std::ceil(estimated_memory_MB(scene)) << " MB\n"
         << "initial bonding " << name_of(scene.interface.bonding.pattern)
         << ": " << system.interface.bonding().description() << '\n'

@@ -18,11 +18,12 @@ namespace Debond
     const Chuck::Vector6  reaction = system.chuck_resultant();
 
     TorqueRow row;
-    row.step                 = state->step;
-    row.time                 = state->time;
-    row.angle_deg            = q[5] * 180. / M_PI;
-    row.torque_Nmm           = system.chuck_forces()[5];
-    row.force_N              = 0. - reaction[2]; // no negative zero
+    row.step       = state->step;
+    row.time       = state->time;
+    row.angle_deg  = q[ChuckComponent::rotation_z] * 180. / M_PI;
+    row.torque_Nmm = system.chuck_forces()[ChuckComponent::rotation_z];
+    row.force_N =
+      0. - reaction[ChuckComponent::translation_z]; // no negative zero
     row.pressure_MPa         = row.force_N / system.interface.implant_area();
     row.phi_mean             = summary.phi_mean;
     row.share_stick          = summary.share_stick;
@@ -39,12 +40,13 @@ namespace Debond
     row.reaction_defect      = state->checks.reaction_defect();
     row.viscous_work_Nmm     = system.interface.work().viscous;
     row.warnings             = state->checks.take_violations();
-    row.machine_angle_deg    = system.chuck.machine_position()[5] * 180. / M_PI;
-    row.released_energy_Nmm  = state->checks.released().total();
+    row.machine_angle_deg =
+      system.chuck.machine_position()[ChuckComponent::rotation_z] * 180. / M_PI;
+    row.released_energy_Nmm = state->checks.released().total();
     for (unsigned int k = 0; k < 6; ++k)
       {
         row.chuck_reaction[k] = reaction[k];
-        row.chuck_position[k] = q[k] * (k < 3 ? 1. : 180. / M_PI);
+        row.chuck_position[k] = q[k] * (is_rotation(k) ? 180. / M_PI : 1.);
       }
     state->rows.push_back(row);
 

@@ -229,13 +229,15 @@ namespace Debond
   bool
   DebondingProblem::turns_too_far(const double time)
   {
-    const ChuckComponentParameters &rotation = scene.chuck.component[5];
+    const ChuckComponentParameters &rotation =
+      scene.chuck.component[ChuckComponent::rotation_z];
     if (rotation.loaded ||
         scene.interface.friction.kind == FrictionLawKind::frictionless)
       return false;
     const Chuck &chuck = state->system->chuck;
     const bool   too_far =
-      std::abs(chuck.values(time)[5] - chuck.values(state->time)[5]) >
+      std::abs(chuck.values(time)[ChuckComponent::rotation_z] -
+               chuck.values(state->time)[ChuckComponent::rotation_z]) >
       (1. + 1e-9) * largest_turn;
     if (too_far)
       state->last_failure = "a step may turn the chuck by 5 degrees at most";
@@ -252,7 +254,8 @@ namespace Debond
     if (!rows_are_accepted_steps())
       message << " of " << state->stepping.n_steps();
     message << " failed at time " << time << ", angle "
-            << state->system->chuck.position()[5] * 180. / M_PI
+            << state->system->chuck.position()[ChuckComponent::rotation_z] *
+                 180. / M_PI
             << " deg, with the smallest allowed part of a step: "
             << state->last_failure;
     if (!state->path && !state->system->chuck.unknowns().empty())

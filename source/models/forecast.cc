@@ -81,8 +81,9 @@ namespace Debond
     const auto   last = chuck.values(scene.load_steps.times.back());
     const double p =
       std::max(0.,
-               scene.chuck.component[2].loaded ? -last[2] / (M_PI * R * R) :
-                                                 -last[2] * k_n);
+               scene.chuck.component[ChuckComponent::translation_z].loaded ?
+                 -last[ChuckComponent::translation_z] / (M_PI * R * R) :
+                 -last[ChuckComponent::translation_z] * k_n);
     out
       << "Closed forms foretell (bodies as springs in series with the interface, "
          "to some 5 %):\n"
@@ -99,7 +100,8 @@ namespace Debond
     parameters.phi_0              = scene.interface.bonding.initial_bonding *
                        scene.interface.bonding.bonded_fraction;
     parameters.friction = scene.interface.friction;
-    if (p <= 0. || scene.chuck.component[5].loaded || last[5] == 0.)
+    if (p <= 0. || scene.chuck.component[ChuckComponent::rotation_z].loaded ||
+        last[ChuckComponent::rotation_z] == 0.)
       return;
     if (!RigidBodiesTorsion::has_unique_solution(parameters))
       {
@@ -111,8 +113,10 @@ namespace Debond
     const RigidBodiesTorsion form(parameters);
     double                   T_max = 0.;
     for (unsigned int i = 1; i <= 1000; ++i)
-      T_max = std::max(T_max, std::abs(form.torque(last[5] * i / 1000)));
+      T_max = std::max(T_max,
+                       std::abs(form.torque(last[ChuckComponent::rotation_z] *
+                                            i / 1000)));
     out << "  largest torque " << T_max << " N mm, at the end "
-        << form.torque(last[5]) << " N mm\n";
+        << form.torque(last[ChuckComponent::rotation_z]) << " N mm\n";
   }
 } // namespace Debond

@@ -24,9 +24,9 @@ namespace Debond
       scene.interface.friction.mu_broken = 1e6;
       scene.interface.friction.starts_at = 0;
       scene.chuck                        = ChuckParameters();
-      scene.chuck.component[2].value =
+      scene.chuck.component[ChuckComponent::translation_z].value =
         std::to_string(-1e9 * depth) + " * 1e-9 * min(t, 1)";
-      scene.chuck.component[5].value =
+      scene.chuck.component[ChuckComponent::rotation_z].value =
         std::to_string(1e9 * angle * 180. / M_PI) + " * 1e-9 * max(t - 1, 0)";
       return scene;
     }
@@ -57,7 +57,7 @@ namespace Debond
     std::vector<double>
     traction_about_axis(const ContactInterface &interface)
     {
-      const double        sign = interface.slave_side() == 1 ? 1. : -1.;
+      const double sign = interface.slave_side() == Side::implant ? 1. : -1.;
       std::vector<double> tractions;
       for (const SlavePoint &point : interface.get_points())
         {
@@ -85,8 +85,8 @@ namespace Debond
     system.start(0.);
     solve(system, 1.);
     FoundationStiffness stiffness;
-    stiffness.normal =
-      system.chuck_resultant()[2] / (-depth * system.interface.implant_area());
+    stiffness.normal = system.chuck_resultant()[ChuckComponent::translation_z] /
+                       (-depth * system.interface.implant_area());
     for (const SlavePoint &point : system.interface.get_points())
       stiffness.points.push_back(
         {std::hypot(point.X[0], point.X[1]),
@@ -96,8 +96,8 @@ namespace Debond
          0.});
     const std::vector<double> pressed = traction_about_axis(system.interface);
     solve(system, 2.);
-    stiffness.torsional =
-      system.chuck_forces()[5] / (0.5 * M_PI * std::pow(R, 4) * angle);
+    stiffness.torsional = system.chuck_forces()[ChuckComponent::rotation_z] /
+                          (0.5 * M_PI * std::pow(R, 4) * angle);
     const std::vector<double> turned = traction_about_axis(system.interface);
     for (std::size_t i = 0; i < turned.size(); ++i)
       stiffness.points[i].stiffness =

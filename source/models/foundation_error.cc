@@ -119,7 +119,7 @@ namespace Debond
   {
     const double pressure = rows.back().pressure_MPa;
     const double coarse_pressure =
-      scene.chuck.component[2].loaded ?
+      scene.chuck.component[ChuckComponent::translation_z].loaded ?
         pressure :
         pressure * coarse.normal / stiffness.normal;
     std::vector<double> angles;

@@ -77,10 +77,10 @@ namespace Debond
 
 
     Counts
-    counts_of(const Scene &scene, const BodySide side)
+    counts_of(const Scene &scene, const Side side)
     {
       const BodyParameters &body =
-        side == BodySide::bone ? scene.bone : scene.implant;
+        side == Side::bone ? scene.bone : scene.implant;
       const double x = body.cells[0], y = body.cells[1], z = body.cells[2];
       const double more = body.contact_surface == SurfaceKind::nurbs ? 2. : 1.;
       Counts       counts;
@@ -90,7 +90,7 @@ namespace Debond
       const double on_face = (x + more) * (y + more);
       counts.unknowns      = 3. * ((x + 1.) * (y + 1.) * (z - 1.) + on_face);
       counts.condensed     = 3. * on_face;
-      if (side == BodySide::bone)
+      if (side == Side::bone)
         {
           // whole elements, and the control points around them
           const auto across = [&](const unsigned int d, const double n) {
@@ -144,8 +144,7 @@ namespace Debond
     number_of_points(const Scene &scene)
     {
       const auto &cells =
-        (scene.interface.slave == SlaveSide::implant ? scene.implant :
-                                                       scene.bone)
+        (scene.interface.slave == Side::implant ? scene.implant : scene.bone)
           .cells;
       const double n = scene.interface.quadrature_points;
       return double(cells[0]) * cells[1] * n * n;
@@ -164,8 +163,8 @@ namespace Debond
     Parts
     parts_of(const Scene &scene)
     {
-      const Counts bone    = counts_of(scene, BodySide::bone);
-      const Counts implant = counts_of(scene, BodySide::implant);
+      const Counts bone    = counts_of(scene, Side::bone);
+      const Counts implant = counts_of(scene, Side::implant);
       const double dense =
         bytes_per_number * dense_entries(scene, bone, implant);
       const double squares = std::max(1.,

@@ -100,7 +100,7 @@ namespace Debond
       change.maxCoeff(&k);
       std::ostringstream text;
       text << names[k] << " went from " << from[k] << " to " << to[k]
-           << (k < 3 ? " N" : " N mm");
+           << (is_rotation(k) ? " N mm" : " N");
       return text.str();
     }
 

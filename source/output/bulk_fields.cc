@@ -36,7 +36,7 @@ namespace Debond
                                          basis,
                                          false);
       // the contact face is on top of the bone, at the implant's bottom
-      const bool on_top = mesh.side() == BodySide::bone;
+      const bool on_top = mesh.side() == Side::bone;
       for (unsigned int a = 0; a < basis.size; ++a)
         N.push_back((on_top ? upper : lower) * basis.N[a]);
       for (const double value : L)
@@ -52,7 +52,7 @@ namespace Debond
     public:
       BulkPatches(Body &body, const Chuck &chuck, PatchSet<3> &output)
         : mesh(body.mesh())
-        , is_implant(mesh.side() == BodySide::implant)
+        , is_implant(mesh.side() == Side::implant)
         , chuck(chuck)
         , v(body.full_displacement())
         , stress(vertex_stress(body, v))

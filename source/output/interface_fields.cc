@@ -189,7 +189,7 @@ namespace Debond
     {
       const ControlNet &X = body.surface().control_points();
       ControlNet        u = body.contact_displacement();
-      if (body.mesh().side() == BodySide::implant)
+      if (body.mesh().side() == Side::implant)
         for (unsigned int A = 0; A < u.cols(); ++A)
           u.col(A) = chuck.map(X.col(A), u.col(A)) - X.col(A);
       return u;

@@ -75,7 +75,7 @@ namespace Debond
                              std::string(
                                "it has no effect where the machine prescribes "
                                "a load: it is for Control = ") +
-                               (c < 3 ? "displacement" : "angle"));
+                               (is_rotation(c) ? "angle" : "displacement"));
           const bool this_moves =
             check_component(component,
                             ChuckParameters::entry_name(c, "Value"),

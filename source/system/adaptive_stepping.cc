@@ -1,3 +1,4 @@
+#include <debond/bulk/chuck.h>
 #include <debond/system/adaptive_stepping.h>
 
 #include <algorithm>
@@ -105,7 +106,7 @@ namespace Debond
       {
         const double floor = (is_driven[k] ? 1e-3 : 0.1) * in_newton.maxCoeff();
         const double scale =
-          std::max(largest_so_far[k], floor * (k < 3 ? 1. : radius));
+          std::max(largest_so_far[k], floor * (is_rotation(k) ? radius : 1.));
         if (scale > 0.)
           error = std::max(error, std::abs(difference[k]) / scale);
       }

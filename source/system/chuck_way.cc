@@ -18,11 +18,11 @@ namespace Debond
     const Vector6 change = to - from;
     Ways          result = Ways::Zero();
     for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
-      if (parameters.component[k].loaded || k == 5)
+      if (parameters.component[k].loaded || k == ChuckComponent::rotation_z)
         result[2 + k] = std::abs(change[k]);
       else
         {
-          double &way = result[k < 3 ? translations : tilts];
+          double &way = result[is_rotation(k) ? tilts : translations];
           way         = std::hypot(way, change[k]);
         }
     return result;

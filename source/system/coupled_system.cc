@@ -10,8 +10,8 @@
 namespace Debond
 {
   BodyPair::BodyPair(const Scene &scene)
-    : bone(scene.bone, BodySide::bone)
-    , implant(scene.implant, BodySide::implant)
+    : bone(scene.bone, Side::bone)
+    , implant(scene.implant, Side::implant)
   {}
 
 
@@ -45,15 +45,15 @@ namespace Debond
   void
   CoupledSystem::update_configuration()
   {
-    configuration.side[0].positions =
+    configuration.side[Side::bone].positions =
       bone.surface().control_points() + bone.contact_displacement();
     const auto  v         = implant.contact_displacement();
     const auto &reference = implant.surface().control_points();
-    auto       &positions = configuration.side[1].positions;
+    auto       &positions = configuration.side[Side::implant].positions;
     positions.resize(3, reference.cols());
     for (unsigned int A = 0; A < reference.cols(); ++A)
       positions.col(A) = chuck.map(reference.col(A), v.col(A));
-    configuration.side[1].frame = chuck.rotation();
+    configuration.side[Side::implant].frame = chuck.rotation();
   }
 
 
@@ -63,7 +63,7 @@ namespace Debond
   {
     const std::array<const Body *, 2> body{{&bone, &implant}};
     unsigned int                      first = 0;
-    for (unsigned int side = 0; side < 2; ++side)
+    for (const Side side : both_sides)
       {
         configuration.side[side].unknown_of = body[side]->unknown_of();
         for (int &number : configuration.side[side].unknown_of)
@@ -173,9 +173,10 @@ namespace Debond
     Eigen::VectorXd dv        = Eigen::VectorXd::Zero(implant.n_unknowns());
     for (unsigned int A = 0; A < reference.cols(); ++A)
       {
-        const Eigen::Vector3d back = chuck.rotation().transpose() *
-                                     (interface.accepted_surface(1).col(A) -
-                                      chuck.map(reference.col(A), v.col(A)));
+        const Eigen::Vector3d back =
+          chuck.rotation().transpose() *
+          (interface.accepted_surface(Side::implant).col(A) -
+           chuck.map(reference.col(A), v.col(A)));
         for (unsigned int c = 0; c < 3; ++c)
           if (numbers[3 * A + c] >= 0)
             dv[numbers[3 * A + c]] = back[c];
@@ -228,7 +229,7 @@ namespace Debond
   double
   CoupledSystem::scale_of(const unsigned int chuck_component) const
   {
-    return chuck_component < 3 ? 1. : R;
+    return is_rotation(chuck_component) ? R : 1.;
   }
 
 
@@ -252,9 +253,9 @@ namespace Debond
     const dealii::TimerOutput::Scope t(timer, "bulk");
     double                           norm_squared = 0., interior_squared = 0.;
     unsigned int                     first = 0;
-    unsigned int                     side  = 0;
-    for (Body *body : {&bone, &implant})
+    for (const Side side : both_sides)
       {
+        Body *const     body = (side == Side::bone ? &bone : &implant);
         Eigen::VectorXd condensed;
         const auto      part =
           body->residual(configuration.side[side].frame.transpose() *
@@ -262,8 +263,7 @@ namespace Debond
                          condensed);
         if (!part.valid)
           {
-            result.why = std::string("a cell of the ") +
-                         (side == 0 ? "bone" : "implant") +
+            result.why = std::string("a cell of the ") + name_of(side) +
                          " is turned inside out";
             return result;
           }
@@ -271,7 +271,6 @@ namespace Debond
         norm_squared += part.norm_squared;
         interior_squared += part.interior_squared;
         first += body->n_unknowns();
-        ++side;
       }
 
     const double force = interface.force(interface.slave_side()).norm();
@@ -334,7 +333,8 @@ namespace Debond
     for (const auto &[component, number] : configuration.chuck_unknowns)
       if (!chuck.is_prescribed(component) &&
           chuck.machine_stiffness(component) == 0. &&
-          std::abs(correction[number]) > (component < 3 ? 10. * R : 1.))
+          std::abs(correction[number]) >
+            (is_rotation(component) ? 1. : 10. * R))
         {
           solver.forget();
           return std::string("the loaded chuck component ") +
@@ -393,7 +393,7 @@ namespace Debond
     const double value =
       residual.size() > 0 ? residual.cwiseAbs().maxCoeff(&worst) : 0.;
     std::ostringstream text;
-    for (unsigned int side = 0; side < 2; ++side)
+    for (const Side side : both_sides)
       {
         const auto &numbers = configuration.side[side].unknown_of;
         const auto  found   = std::find(numbers.begin(), numbers.end(), worst);
@@ -402,15 +402,16 @@ namespace Debond
             const unsigned int index = found - numbers.begin();
             const auto x = configuration.side[side].positions.col(index / 3);
             text << "residual " << value << " N in "
-                 << "xyz"[index % 3] << " at the "
-                 << (side == 0 ? "bone" : "implant") << "'s control point at ("
-                 << x[0] << ", " << x[1] << ", " << x[2] << ") mm";
+                 << "xyz"[index % 3] << " at the " << name_of(side)
+                 << "'s control point at (" << x[0] << ", " << x[1] << ", "
+                 << x[2] << ") mm";
           }
       }
     for (const auto &[component, number] : configuration.chuck_unknowns)
       if (number == static_cast<unsigned int>(worst))
-        text << "residual " << value << (component < 3 ? " N" : " N mm")
-             << " in the chuck's " << ChuckParameters::names[component];
+        text << "residual " << value
+             << (is_rotation(component) ? " N mm" : " N") << " in the chuck's "
+             << ChuckParameters::names[component];
     return text.str();
   }
 
@@ -420,10 +421,12 @@ namespace Debond
   CoupledSystem::chuck_forces() const
   {
     Chuck::Vector6 result = Chuck::Vector6::Zero();
-    const auto    &x      = configuration.side[1].positions;
+    const auto    &x      = configuration.side[Side::implant].positions;
     for (unsigned int A = 0; A < x.cols(); ++A)
       for (unsigned int k = 0; k < 6; ++k)
-        result[k] += interface.force(1).col(A).dot(chuck.velocity(k, x.col(A)));
+        result[k] += interface.force(Side::implant)
+                       .col(A)
+                       .dot(chuck.velocity(k, x.col(A)));
     return result;
   }
 
@@ -433,10 +436,10 @@ namespace Debond
   CoupledSystem::chuck_resultant() const
   {
     Chuck::Vector6 result = Chuck::Vector6::Zero();
-    const auto    &x      = configuration.side[1].positions;
+    const auto    &x      = configuration.side[Side::implant].positions;
     for (unsigned int A = 0; A < x.cols(); ++A)
       {
-        const Eigen::Vector3d f = interface.force(1).col(A);
+        const Eigen::Vector3d f = interface.force(Side::implant).col(A);
         const Eigen::Vector3d r = x.col(A) - chuck.centre();
         result.head<3>() += f;
         result.tail<3>() += r.cross(f);
@@ -460,7 +463,7 @@ namespace Debond
     for (unsigned int A = 0; A < reference.cols(); ++A)
       {
         const Eigen::Vector3d f =
-          chuck.rotation().transpose() * interface.force(1).col(A);
+          chuck.rotation().transpose() * interface.force(Side::implant).col(A);
         Eigen::Vector3d arm = reference.col(A) - C;
         if (implant.material() == Material::neo_hookean)
           arm += v.col(A);

@@ -35,15 +35,15 @@ namespace Debond
                                      Eigen::VectorXd       &y) const
   {
     const Chuck &chuck = *configuration.chuck;
-    const auto  &side  = configuration.side[1];
+    const auto  &side  = configuration.side[Side::implant];
     for (const auto &[k, row] : configuration.chuck_unknowns)
       {
         y[row] -= chuck.machine_stiffness(k) * x[row];
-        if (k < 3)
+        if (!is_rotation(k))
           continue;
         for (unsigned int A = 0; A < side.positions.cols(); ++A)
           {
-            const Eigen::Vector3d f = interface.force(1).col(A);
+            const Eigen::Vector3d f = interface.force(Side::implant).col(A);
             const Eigen::Vector3d turned =
               side.frame.transpose() * f.cross(chuck.axis(k));
             for (unsigned int c = 0; c < 3; ++c)

@@ -29,7 +29,7 @@ namespace Debond
   class Body
   {
   public:
-    Body(const BodyParameters &parameters, BodySide side);
+    Body(const BodyParameters &parameters, Side side);
 
     const BodyMesh &
     mesh() const

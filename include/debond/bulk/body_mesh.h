@@ -2,6 +2,7 @@
 #define debond_bulk_body_mesh_h
 
 #include <debond/bulk/body_parameters.h>
+#include <debond/bulk/side.h>
 #include <debond/geometry/nurbs_surface.h>
 
 #include <deal.II/dofs/dof_handler.h>
@@ -13,12 +14,6 @@
 
 namespace Debond
 {
-  enum class BodySide
-  {
-    bone,
-    implant
-  };
-
   /** The contact face of a body in its reference configuration. */
   NurbsSurface
   make_contact_surface(const BodyParameters &parameters);
@@ -45,14 +40,14 @@ namespace Debond
     /** The bone is fixed at the bottom and held normal to its sides, contact
      *  face on top; the implant is held at its top, contact face at the bottom.
      *  Both contact faces lie in z = 0; that of a cap touches it. */
-    BodyMesh(const BodyParameters &parameters, BodySide side);
+    BodyMesh(const BodyParameters &parameters, Side side);
 
     const BodyParameters &
     parameters() const
     {
       return body_parameters;
     }
-    BodySide
+    Side
     side() const
     {
       return body_side;
@@ -66,7 +61,7 @@ namespace Debond
     double
     outward_sign() const
     {
-      return body_side == BodySide::bone ? 1. : -1.;
+      return body_side == Side::bone ? 1. : -1.;
     }
 
     unsigned int
@@ -159,7 +154,7 @@ namespace Debond
     layer_height(unsigned int layer, double height_of_face) const;
 
     const BodyParameters body_parameters;
-    const BodySide       body_side;
+    const Side           body_side;
 
     NurbsSurface                      contact_surface;
     dealii::Triangulation<3>          triangulation;

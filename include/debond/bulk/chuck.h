@@ -14,6 +14,34 @@ namespace Debond
 {
   class EntryTable;
 
+  namespace Names
+  {
+    /** In a class of its own: found as ChuckComponent::rotation_z only. */
+    struct ChuckComponents
+    {
+      enum Component : unsigned int
+      {
+        translation_x,
+        translation_y,
+        translation_z,
+        rotation_x,
+        rotation_y,
+        rotation_z
+      };
+    };
+  } // namespace Names
+
+  /** The six motions of the chuck, and the forces and moments conjugate to
+   *  them, in the order of every vector of them. */
+  using ChuckComponent = Names::ChuckComponents::Component;
+
+  /** Whether a component is an angle or a moment. */
+  constexpr bool
+  is_rotation(const unsigned int component)
+  {
+    return component >= ChuckComponent::rotation_x;
+  }
+
   /** One of the six subsections of `Chuck`. */
   struct ChuckComponentParameters
   {

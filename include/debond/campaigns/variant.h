@@ -1,6 +1,7 @@
 #ifndef debond_campaigns_variant_h
 #define debond_campaigns_variant_h
 
+#include <debond/output/result_files.h>
 #include <debond/scene/scene.h>
 
 #include <string>

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cassert>
 #include <vector>
 
 namespace Debond
@@ -38,26 +39,49 @@ namespace Debond
     graded(unsigned int degree, unsigned int n_spans, double grading);
 
     unsigned int
-    degree() const;
+    degree() const
+    {
+      return p;
+    }
     const std::vector<double> &
-    knots() const;
+    knots() const
+    {
+      return knot_values;
+    }
     unsigned int
-    n_basis_functions() const;
+    n_basis_functions() const
+    {
+      return knot_values.empty() ? 0 : knot_values.size() - p - 1;
+    }
     /** Number of spans of positive length. */
     unsigned int
-    n_spans() const;
+    n_spans() const
+    {
+      return first_function.size();
+    }
     /** The n_spans()+1 distinct knots. */
     const std::vector<double> &
-    breakpoints() const;
+    breakpoints() const
+    {
+      return breaks;
+    }
     /** Span (numbering only those of positive length) that contains u. */
     unsigned int
     span_of(double u) const;
     /** Index of the first basis function that lives on a span. */
     unsigned int
-    first_basis_function(unsigned int span) const;
+    first_basis_function(const unsigned int span) const
+    {
+      assert(span < n_spans());
+      return first_function[span];
+    }
     /** C of Eq. (35): B-splines on the span = C * Bernstein, (p+1) x (p+1). */
     const Eigen::Matrix3d &
-    extraction_operator(unsigned int span) const;
+    extraction_operator(const unsigned int span) const
+    {
+      assert(span < n_spans());
+      return extraction[span];
+    }
 
     /** B-spline values and derivatives (with respect to the knot parameter) on
      *  a span; u need not lie inside the span. */

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cassert>
 #include <vector>
 
 namespace Debond
@@ -58,23 +59,50 @@ namespace Debond
                  const std::vector<double> &weights);
 
     unsigned int
-    degree() const;
+    degree() const
+    {
+      return knot_vectors[0].degree();
+    }
     /** Number of elements (knot spans of positive length) per direction. */
     std::array<unsigned int, 2>
-    n_elements_per_direction() const;
+    n_elements_per_direction() const
+    {
+      return {{knot_vectors[0].n_spans(), knot_vectors[1].n_spans()}};
+    }
     unsigned int
-    n_elements() const;
+    n_elements() const
+    {
+      return knot_vectors[0].n_spans() * knot_vectors[1].n_spans();
+    }
     unsigned int
-    n_control_points() const;
+    n_control_points() const
+    {
+      return knot_vectors[0].n_basis_functions() *
+             knot_vectors[1].n_basis_functions();
+    }
     std::array<unsigned int, 2>
-    n_control_points_per_direction() const;
+    n_control_points_per_direction() const
+    {
+      return {{knot_vectors[0].n_basis_functions(),
+               knot_vectors[1].n_basis_functions()}};
+    }
 
     const KnotVector &
-    knots(unsigned int direction) const;
+    knots(const unsigned int direction) const
+    {
+      assert(direction < 2);
+      return knot_vectors[direction];
+    }
     const ControlNet &
-    control_points() const;
+    control_points() const
+    {
+      return points;
+    }
     const std::vector<double> &
-    weights() const;
+    weights() const
+    {
+      return weight;
+    }
 
     /** Element that contains @p xi; points on an inner knot belong to the
      *  element on the right, xi = 1 to the last one. xi is clamped to [0,1]^2.

@@ -35,15 +35,15 @@ namespace Debond
     {
       return points.size();
     }
-    unsigned int
+    Side
     slave_side() const
     {
       return slave;
     }
-    unsigned int
+    Side
     master_side() const
     {
-      return 1 - slave;
+      return other(slave);
     }
 
     /** Faces every point with its closest point on the master. */
@@ -58,7 +58,7 @@ namespace Debond
     /** Nodal forces of the last evaluate() on the control points of a side, in
      *  space, as they enter the residual [N]. */
     const ControlNet &
-    force(const unsigned int side) const
+    force(const Side side) const
     {
       return forces[side];
     }
@@ -79,7 +79,7 @@ namespace Debond
 
     /** Control points of a side in the accepted configuration [mm]. */
     const ControlNet &
-    accepted_surface(const unsigned int side) const
+    accepted_surface(const Side side) const
     {
       return accepted_positions[side];
     }
@@ -186,7 +186,7 @@ namespace Debond
     master(const InterfaceConfiguration &configuration) const;
 
     const InterfaceParameters             parameters;
-    const unsigned int                    slave; ///< 0: bone, 1: implant
+    const Side                            slave;
     std::array<const BodyMesh *, 2>       mesh;
     ContactPointLaw                       law;
     std::vector<SlavePoint>               points;

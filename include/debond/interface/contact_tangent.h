@@ -10,10 +10,10 @@ namespace Debond
    *  states to a dense matrix: rows are equations of control points in their
    *  bodies' frames and of chuck components, d(force)/d(unknowns), without the
    *  terms that come from the rotation of frames and lever arms (see
-   *  CoupledTangent). @p slave: 0 bone, 1 implant. */
+   *  CoupledTangent). */
   void
   add_contact_tangent(const std::vector<SlavePoint> &points,
-                      unsigned int                   slave,
+                      Side                           slave,
                       const InterfaceConfiguration  &configuration,
                       Eigen::MatrixXd               &matrix);
 
@@ -21,7 +21,7 @@ namespace Debond
    */
   void
   apply_contact_tangent(const std::vector<SlavePoint> &points,
-                        unsigned int                   slave,
+                        Side                           slave,
                         const InterfaceConfiguration  &configuration,
                         const Eigen::VectorXd         &direction,
                         Eigen::VectorXd               &result);

@@ -19,11 +19,11 @@ namespace Debond
     const InterfaceConfiguration &configuration);
 
   /** Elements of the @p bone that closed ones of the @p points lie on in their
-   *  trial states. @p slave: 0 bone, 1 implant. */
+   *  trial states. */
   std::vector<bool>
   touched_bone_control_points(const NurbsSurface            &bone,
                               const std::vector<SlavePoint> &points,
-                              unsigned int                   slave);
+                              Side                           slave);
   //@}
 } // namespace Debond
 #endif

@@ -1,6 +1,7 @@
 #ifndef debond_interface_interface_configuration_h
 #define debond_interface_interface_configuration_h
 
+#include <debond/bulk/side.h>
 #include <debond/geometry/nurbs_surface.h>
 
 #include <array>
@@ -12,10 +13,10 @@ namespace Debond
   class Chuck;
 
   /** The two contact surfaces in space and how their control points are
-   *  numbered in the coupled system. Index 0 is the bone, 1 the implant. */
+   *  numbered in the coupled system. */
   struct InterfaceConfiguration
   {
-    struct Side
+    struct Surface
     {
       ControlNet positions; ///< spatial positions of the control points [mm]
       Eigen::Matrix3d frame = Eigen::Matrix3d::Identity(); ///< Q of the body
@@ -23,7 +24,7 @@ namespace Debond
        *  system, -1: none. */
       std::vector<int> unknown_of;
     };
-    std::array<Side, 2> side;
+    std::array<Surface, 2> side;
     /** Numbers of the chuck components that are unknowns. */
     std::vector<std::pair<unsigned int, unsigned int>> chuck_unknowns;
     const Chuck                                       *chuck = nullptr;

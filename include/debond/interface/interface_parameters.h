@@ -1,21 +1,16 @@
 #ifndef debond_interface_interface_parameters_h
 #define debond_interface_interface_parameters_h
 
+#include <debond/bulk/side.h>
 #include <debond/interface/bonding_parameters.h>
 #include <debond/interface/friction_law.h>
 
 namespace Debond
 {
-  enum class SlaveSide
-  {
-    implant,
-    bone
-  };
-
   /** The subsection `Interface` of a scene. */
   struct InterfaceParameters
   {
-    SlaveSide    slave               = SlaveSide::implant;
+    Side         slave               = Side::implant;
     unsigned int quadrature_points   = 5;   ///< per direction and element
     double       normal_penalty      = 585; ///< eps_n [MPa/mm]
     double       tangential_penalty  = 0;   ///< eps_t [MPa/mm], 0: as eps_n

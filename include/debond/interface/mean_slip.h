@@ -15,10 +15,10 @@ namespace Debond
     NodalSums gradient;
   };
 
-  /** Of @p points in their trial states. @p slave: 0 bone, 1 implant. */
+  /** Of @p points in their trial states. */
   MeanSlip
   mean_slip(const std::vector<SlavePoint> &points,
-            unsigned int                   slave,
+            Side                           slave,
             const InterfaceConfiguration  &configuration,
             bool                           frictionless);
 } // namespace Debond

@@ -47,7 +47,7 @@ namespace Debond
                        work(q, sums[chunk]);
                    });
     for (unsigned int chunk = 1; chunk < n_chunks; ++chunk)
-      for (unsigned int side = 0; side < 2; ++side)
+      for (const Side side : both_sides)
         sums[0][side] += sums[chunk][side];
     return std::move(sums[0]);
   }

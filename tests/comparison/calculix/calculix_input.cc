@@ -150,7 +150,7 @@ Writes a scene of debond as an input of CalculiX.
       const auto            is_on_rim = [&coin](const Eigen::Vector3d &X) {
         return std::abs(X.head<2>().norm() - coin.radius) < 1e-9 * coin.radius;
       };
-      if (body.side() == BodySide::implant && coin.shape == BodyShape::coin &&
+      if (body.side() == Side::implant && coin.shape == BodyShape::coin &&
           is_on_rim(a) && is_on_rim(b))
         middle.head<2>() *= coin.radius / middle.head<2>().norm();
       return middle;
@@ -166,8 +166,8 @@ Writes a scene of debond as an input of CalculiX.
     Input(const Scene &scene, const std::string &element)
       : scene(scene)
       , element(element)
-      , bone(scene.bone, BodySide::bone)
-      , implant(scene.implant, BodySide::implant)
+      , bone(scene.bone, Side::bone)
+      , implant(scene.implant, Side::implant)
       , bone_nodes(bone, is_quadratic(element))
       , implant_nodes(implant, is_quadratic(element))
       , chuck(scene.chuck,
@@ -279,7 +279,7 @@ Writes a scene of debond as an input of CalculiX.
       for (unsigned int cell = 0; cell < body.cells().size(); ++cell)
         if (body.cells()[cell].enriched)
           out << 1 + n_before + cell
-              << (body.side() == BodySide::bone ? ", S2\n" : ", S1\n");
+              << (body.side() == Side::bone ? ", S2\n" : ", S1\n");
     }
 
     void
@@ -303,7 +303,7 @@ Writes a scene of debond as an input of CalculiX.
     {
       const InterfaceParameters &interface = scene.interface;
       const FrictionParameters  &friction  = interface.friction;
-      const bool slave_is_implant = interface.slave == SlaveSide::implant;
+      const bool slave_is_implant          = interface.slave == Side::implant;
       // The tension behind the slope means nothing for this type of contact.
       out << "*SURFACE INTERACTION, NAME=INTERFACE\n"
              "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n"

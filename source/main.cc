@@ -1,8 +1,8 @@
+#include <debond/campaigns/run_scene.h>
 #include <debond/campaigns/study.h>
 #include <debond/input/parameter_loop.h>
 #include <debond/models/debonding_problem.h>
 #include <debond/models/memory_estimate.h>
-#include <debond/models/problem.h>
 #include <debond/models/resumed_run.h>
 #include <debond/scene/scene.h>
 #include <debond/support/input_error.h>
@@ -262,21 +262,13 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
           "this is for studies, and no entry of this scene holds several "
           "values, {{a|b}}"));
     scene.output.overwrite_other_results = arguments.force;
-    const auto problem                   = Debond::Problem::create(scene);
-    try
-      {
-        if (arguments.action == Action::check)
-          return problem->check(std::cout);
-        // the closed forms are done before they could be asked to stop
-        if (scene.model == Debond::ModelKind::finite_elements ||
-            scene.model == Debond::ModelKind::automatic)
-          Debond::catch_interruptions();
-        problem->run();
-      }
-    catch (const Debond::InputError &error)
-      {
-        throw scene.with_place(error);
-      }
+    if (arguments.action == Action::check)
+      return Debond::check_scene(scene, std::cout);
+    // the closed forms are done before they could be asked to stop
+    if (scene.model == Debond::ModelKind::finite_elements ||
+        scene.model == Debond::ModelKind::automatic)
+      Debond::catch_interruptions();
+    Debond::run_scene(scene);
   }
 
 

@@ -2,7 +2,8 @@
 // ends without reaching the tolerance, and the parts of its estimates. That
 // the estimates bound the error is tested by prm/verification/auto.prm.
 
-#include <debond/campaigns/auto_problem.h>
+#include <debond/campaigns/model_choice.h>
+#include <debond/campaigns/run_scene.h>
 #include <debond/models/closed_forms.h>
 #include <debond/models/curve_error.h>
 #include <debond/models/foundation_error.h>
@@ -56,11 +57,20 @@ contains(const std::string &text, const std::string &part)
 
 
 void
+check(const std::vector<std::string> &overrides)
+{
+  std::ostringstream plan;
+  check_scene(Scene::from_text(scene_text, overrides), plan);
+}
+
+
+
+void
 show_refusal(const std::vector<std::string> &overrides)
 {
   try
     {
-      Problem::create(Scene::from_text(scene_text, overrides));
+      check(overrides);
       report("refused", false);
     }
   catch (const InputError &error)
@@ -78,7 +88,7 @@ report_accepted(const std::string              &what,
   bool accepted = true;
   try
     {
-      Problem::create(Scene::from_text(scene_text, overrides));
+      check(overrides);
     }
   catch (const InputError &)
     {
@@ -124,7 +134,7 @@ run(const std::vector<std::string> &overrides)
   std::filesystem::remove_all("results/auto");
   try
     {
-      Problem::create(scene)->run();
+      run_scene(scene);
     }
   catch (const RunError &error)
     {
@@ -149,10 +159,9 @@ RigidBodiesTorsion
 rigid_bodies(const double pressure)
 {
   RigidBodiesTorsion::Parameters parameters;
-  parameters.radius             = 2.5;
-  parameters.push_in            = 1.;
-  parameters.normal_penalty     = pressure;
-  parameters.tangential_penalty = 585.;
+  parameters.radius    = 2.5;
+  parameters.pressure  = pressure;
+  parameters.stiffness = 585.;
   return RigidBodiesTorsion(parameters);
 }
 
@@ -172,7 +181,7 @@ test_other_results_stay()
   std::filesystem::create_directory("results/auto/rung-notes");
   Scene scene                          = Scene::from_text(scene_text, rigid);
   scene.output.overwrite_other_results = true;
-  Problem::create(scene)->run();
+  run_scene(scene);
   report("a rung of an earlier run is gone",
          !std::filesystem::exists("results/auto/rung-7"));
   report("what only has the name of a rung stays",
@@ -287,9 +296,9 @@ test_estimates()
                                 1.,
                                 1.,
                                 585.});
-  const std::vector<double> angles{0.0005, 0.002, 0.01, 0.1};
-  const RigidBodiesTorsion  exact = rigid_bodies(2.9);
-  const std::vector<double> torques =
+  const Eigen::Array4d     angles(0.0005, 0.002, 0.01, 0.1);
+  const RigidBodiesTorsion exact = rigid_bodies(2.9);
+  const Eigen::ArrayXd     torques =
     torque_of_points(stiffness, FrictionParameters(), 2.9, angles);
   double difference = 0.;
   for (unsigned int i = 0; i < angles.size(); ++i)

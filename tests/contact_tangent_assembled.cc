@@ -88,11 +88,7 @@ check(const std::string    &name,
               "\nset Value = 1\nset Stiffness = 0\nend\nend\n";
     }
   const Scene            scene = Scene::from_text(text);
-  std::ostringstream     timings;
-  dealii::TimerOutput    timer(timings,
-                            dealii::TimerOutput::never,
-                            dealii::TimerOutput::wall_times);
-  CoupledSystem          system(scene, timer);
+  CoupledSystem          system(scene);
   const ContactPointMode mode;
   system.start(0.);
   turn(system, lifted);

@@ -24,10 +24,7 @@ public:
   explicit DrivenScene(const std::string              &text,
                        const std::vector<std::string> &overrides = {})
     : scene(Debond::Scene::from_text(text, overrides))
-    , timer(std::cout,
-            dealii::TimerOutput::never,
-            dealii::TimerOutput::wall_times)
-    , system(scene, timer)
+    , system(scene)
     , stepping(scene.load_steps)
   {
     system.start(stepping.time(0));
@@ -67,12 +64,7 @@ public:
     return system.chuck.position()[5] * 180. / M_PI;
   }
 
-  const Debond::Scene scene;
-
-private:
-  dealii::TimerOutput timer;
-
-public:
+  const Debond::Scene   scene;
   Debond::CoupledSystem system;
   /** Newton iterations of the last step. */
   unsigned int iterations = 0;

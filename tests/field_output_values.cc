@@ -279,9 +279,9 @@ check_interface(const std::string &vtu)
          1e-6);
 
   RigidBodiesTorsion::Parameters parameters;
-  parameters.radius         = 2.5;
-  parameters.push_in        = depth;
-  parameters.normal_penalty = parameters.tangential_penalty = 585;
+  parameters.radius    = 2.5;
+  parameters.pressure  = 585 * depth;
+  parameters.stiffness = 585;
   const RigidBodiesTorsion exact(parameters);
   // Between quadrature points values are interpolated, and beyond the outermost
   // they are constant: that is no more than a picture needs.

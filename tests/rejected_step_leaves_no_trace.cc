@@ -29,10 +29,7 @@ class Run
 {
 public:
   explicit Run(const Scene &scene)
-    : timer(timings,
-            dealii::TimerOutput::never,
-            dealii::TimerOutput::wall_times)
-    , system(scene, timer)
+    : system(scene)
   {
     system.start(0.);
   }
@@ -87,9 +84,6 @@ public:
   }
 
 private:
-  std::ostringstream  timings;
-  dealii::TimerOutput timer;
-
 public:
   CoupledSystem system;
   double        accepted_time = 0;

@@ -21,9 +21,8 @@ brittle_bond()
 {
   RigidBodiesTorsion::Parameters parameters;
   parameters.radius                     = 2.5;
-  parameters.normal_penalty             = 585;
-  parameters.tangential_penalty         = 585;
-  parameters.push_in                    = 2.6 / 585;
+  parameters.pressure                   = 2.6;
+  parameters.stiffness                  = 585;
   parameters.friction.sliding_threshold = 0.005;
   parameters.friction.transition_factor = 0.3;
   return RigidBodiesTorsion(parameters);

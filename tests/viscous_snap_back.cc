@@ -208,11 +208,10 @@ void
 check_limit()
 {
   RigidBodiesTorsion::Parameters parameters;
-  parameters.radius             = R;
-  parameters.normal_penalty     = eps;
-  parameters.tangential_penalty = eps;
-  parameters.push_in            = p / eps;
-  parameters.friction           = brittle();
+  parameters.radius    = R;
+  parameters.pressure  = p;
+  parameters.stiffness = eps;
+  parameters.friction  = brittle();
   const RigidBodiesTorsion      bodies(parameters);
   const CompliantMachineTorsion machine(bodies, k, turning);
   const double released = machine.jumps().at(0).released_energy;

@@ -128,7 +128,7 @@ namespace Debond
     for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
       {
         const auto &component = parameters.component[k];
-        value_functions.emplace_back(component.value, radius);
+        value_functions.push_back(component.value_over_time(radius));
         if (!is_prescribed(k))
           unknown_components.push_back(k);
       }

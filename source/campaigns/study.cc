@@ -1,10 +1,10 @@
 #include <debond/campaigns/ensemble.h>
+#include <debond/campaigns/run_scene.h>
 #include <debond/campaigns/study.h>
 #include <debond/campaigns/variant_process.h>
 #include <debond/campaigns/variant_queue.h>
 #include <debond/input/csv_table.h>
 #include <debond/input/parameter_loop.h>
-#include <debond/models/problem.h>
 #include <debond/output/torque_curve.h>
 #include <debond/support/directory_lock.h>
 #include <debond/support/input_error.h>
@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <map>
 #include <ostream>
+#include <sstream>
 
 namespace Debond
 {
@@ -121,7 +122,10 @@ namespace Debond
         out << describe(i) << (variants[i].done ? " (done already)" : "")
             << '\n';
         if (variants[i].scene.model != ModelKind::finite_elements)
-          Problem::create(variants[i].scene); // refuses what it cannot do
+          {
+            std::ostringstream none; // only refuses what it cannot do
+            check_scene(variants[i].scene, none);
+          }
       }
   }
 

@@ -93,11 +93,10 @@ namespace Debond
       << 0.5 * M_PI * std::pow(R, 4) * k_t << " N mm/rad\n";
     print_uniqueness(scene, p, out);
     RigidBodiesTorsion::Parameters parameters;
-    parameters.radius             = R;
-    parameters.push_in            = p / k_n;
-    parameters.normal_penalty     = k_n;
-    parameters.tangential_penalty = k_t;
-    parameters.phi_0              = scene.interface.bonding.initial_bonding *
+    parameters.radius    = R;
+    parameters.pressure  = p;
+    parameters.stiffness = k_t;
+    parameters.phi_0     = scene.interface.bonding.initial_bonding *
                        scene.interface.bonding.bonded_fraction;
     parameters.friction = scene.interface.friction;
     if (p <= 0. || scene.chuck.component[ChuckComponent::rotation_z].loaded ||

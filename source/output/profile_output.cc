@@ -71,74 +71,56 @@ namespace Debond
 
 
 
-  bool
-  ProfileOutput::reaches(const double angle_deg)
+  std::vector<InterfacePoint>
+  profile_points(const ContactInterface &interface)
   {
-    bool reached = false;
-    while (!angles_to_come.empty() &&
-           std::abs(angle_deg) >= angles_to_come.front() * (1. - 1e-9))
-      {
-        angles_to_come.erase(angles_to_come.begin());
-        reached = has_points = true;
-      }
-    return reached;
-  }
-
-
-
-  void
-  ProfileOutput::write(const double            angle_deg,
-                       const ContactInterface &interface)
-  {
-    if (!reaches(angle_deg))
-      return;
+    std::vector<InterfacePoint> points;
     for (const SlavePoint &point : interface.get_points())
       if (point.faces_implant)
         {
-          const auto             coefficient = interface.friction(point);
-          const Eigen::Vector3d &X           = point.X;
-          table += csv_line({angle_deg,
-                             X[0],
-                             X[1],
-                             std::hypot(X[0], X[1]),
-                             point.trial.pressure,
-                             point.trial.tangential_traction.norm(),
-                             point.trial.state.slip,
-                             coefficient.phi,
-                             coefficient.mu,
-                             double(point.trial.state.status),
-                             point.JxW});
+          const auto coefficient = interface.friction(point);
+          points.push_back({point.X[0],
+                            point.X[1],
+                            point.trial.pressure,
+                            point.trial.tangential_traction.norm(),
+                            point.trial.state.slip,
+                            coefficient.phi,
+                            coefficient.mu,
+                            point.trial.state.status,
+                            point.JxW});
         }
+    return points;
   }
 
 
 
   void
-  ProfileOutput::write(const double angle_deg, const TorsionModel &model)
+  ProfileOutput::write(
+    const double                                        angle_deg,
+    const std::function<std::vector<InterfacePoint>()> &points)
   {
-    if (!reaches(angle_deg))
+    const auto first_to_come =
+      std::find_if(angles_to_come.begin(),
+                   angles_to_come.end(),
+                   [&](const double angle) {
+                     return std::abs(angle_deg) < angle * (1. - 1e-9);
+                   });
+    if (first_to_come == angles_to_come.begin())
       return;
-    // between the points, so that neither the axis nor the rim is hit, where
-    // the traction of a bonded disk is infinite
-    constexpr unsigned int n     = 250;
-    const double           theta = angle_deg * M_PI / 180.;
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        const double r     = model.radius() * (i + 0.5) / n;
-        const auto   point = model.point(r, theta);
-        table += csv_line(
-          {angle_deg,
-           r,
-           0.,
-           r,
-           model.pressure(),
-           std::abs(point.traction),
-           point.slip,
-           point.phi,
-           point.mu,
-           double(point.sticks ? PointStatus::stick : PointStatus::slip),
-           2. * M_PI * r * model.radius() / n});
-      }
+    angles_to_come.erase(angles_to_come.begin(), first_to_come);
+    has_points = true;
+    for (const InterfacePoint &p : points())
+      table += csv_line({angle_deg,
+                         p.x,
+                         p.y,
+                         std::hypot(p.x, p.y),
+                         p.pressure,
+                         p.traction,
+                         p.slip,
+                         p.phi,
+                         p.mu,
+                         double(p.status),
+                         p.area});
   }
 
 

@@ -40,7 +40,7 @@ namespace Debond
       const double largest = component.loaded ? 1e12 : 1e6;
       try
         {
-          const TimeFunction function(component.value, radius);
+          const TimeFunction function    = component.value_over_time(radius);
           const double       first_value = function(times.front());
           bool               varies      = false;
           for (const double time : times)

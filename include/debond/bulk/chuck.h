@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,16 @@ namespace Debond
     /** Expression in t (constants pi, R). Units: mm, degrees, N, N mm. */
     std::string value     = "0";
     double      stiffness = 0; ///< of the machine [N/mm or N mm/rad]; 0: rigid
+    /** Of time, in the same units: if it is set, it counts instead of the
+     *  expression. For scenes that a program makes; no entry of a file. */
+    std::function<double(double)> function;
+
+    /** The function that counts; @p radius is the `R` of expressions [mm]. */
+    TimeFunction
+    value_over_time(double radius) const
+    {
+      return function ? TimeFunction(function) : TimeFunction(value, radius);
+    }
   };
 
   /** The subsection `Chuck`: Translation x, y, z, Rotation x, y, z. */

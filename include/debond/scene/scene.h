@@ -1,14 +1,11 @@
 #ifndef debond_scene_scene_h
 #define debond_scene_scene_h
 
-#include <debond/bulk/body_parameters.h>
-#include <debond/bulk/chuck.h>
 #include <debond/input/scene_file.h>
-#include <debond/interface/interface_parameters.h>
 #include <debond/scene/closed_form_parameters.h>
 #include <debond/scene/output_parameters.h>
 #include <debond/support/input_error.h>
-#include <debond/system/load_step_parameters.h>
+#include <debond/system/model_parameters.h>
 
 #include <iosfwd>
 #include <string>
@@ -50,20 +47,15 @@ namespace Debond
 
   /** Everything a `.prm` file says. A plain value: make one, copy it, change
    *  it, check() it, run it. One that nothing was said of is the paper's coin
-   * on bone, whose chuck does not move. */
-  struct Scene
+   *  on bone, whose chuck does not move. */
+  struct Scene : ModelParameters
   {
-    std::string            title;
-    ModelKind              model = ModelKind::finite_elements;
-    BodyParameters         bone;
-    BodyParameters         implant = BodyParameters::default_implant();
-    InterfaceParameters    interface;
-    ChuckParameters        chuck;
-    LoadSteppingParameters load_steps;
-    ClosedFormParameters   closed_form;
-    AutoParameters         automatic;
-    StudyParameters        study;
-    OutputParameters       output;
+    std::string          title;
+    ModelKind            model = ModelKind::finite_elements;
+    ClosedFormParameters closed_form;
+    AutoParameters       automatic;
+    StudyParameters      study;
+    OutputParameters     output;
 
     /** The entries that the scene sets, and its name: where to look for a
      *  mistake. */

@@ -33,6 +33,13 @@ namespace Debond
     /** Mean sliding distance at which the path ends [mm]; 0: the radius. */
     double path_ends_at_slip = 0;
 
+    /** Else each accepted step is a row. */
+    bool
+    rows_are_planned() const
+    {
+      return !adaptive && !follow_path;
+    }
+
     /** Refuses times and steps that make no sense together. Throws EntryError.
      */
     void

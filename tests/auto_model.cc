@@ -9,6 +9,8 @@
 #include <debond/models/foundation_error.h>
 #include <debond/support/input_error.h>
 
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -148,7 +150,7 @@ run(const std::vector<std::string> &overrides)
 std::string
 summary(const std::string &name)
 {
-  return JsonObject::from_file("results/auto/summary.json").value(name);
+  return read_json("results/auto/summary.json")[name].dump();
 }
 
 
@@ -242,8 +244,13 @@ test_tolerance_not_reached()
   std::getline(table, line);
   std::cout << line << std::endl;
   while (std::getline(table, line))
-    std::cout << line.substr(0, line.find(',', line.find(',') + 1)) << ": "
-              << line.substr(line.rfind(",\"") + 1) << std::endl;
+    {
+      std::size_t verdict = 0;
+      for (unsigned int i = 0; i < 12; ++i)
+        verdict = line.find(',', verdict) + 1;
+      std::cout << line.substr(0, line.find(',', line.find(',') + 1)) << ": "
+                << line.substr(verdict) << std::endl;
+    }
 }
 
 

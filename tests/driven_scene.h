@@ -6,6 +6,7 @@
 
 #include <debond/models/debonding_problem.h>
 #include <debond/support/runtime.h>
+#include <debond/system/load_stepping.h>
 #include <debond/system/newton.h>
 
 #include <cmath>

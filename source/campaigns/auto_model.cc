@@ -1,12 +1,16 @@
 #include <debond/campaigns/auto_model.h>
 #include <debond/campaigns/model_choice.h>
+#include <debond/input/csv_table.h>
 #include <debond/models/closed_form_results.h>
 #include <debond/models/debonding_problem.h>
 #include <debond/output/console.h>
 #include <debond/output/earlier_results.h>
 #include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
+#include <debond/support/run_error.h>
 
-#include <algorithm>
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -100,27 +104,26 @@ namespace Debond
     void
     write_table(const ModelChoice &choice, const std::string &filename)
     {
-      std::ostringstream table;
-      table.precision(6);
-      table << "rung,model,bone_material,implant_material,bone_cells,"
-               "implant_cells,unknowns,steps,seconds,T_max_Nmm,difference,"
-               "estimate,verdict\n";
+      std::string  table  = "rung,model,bone_material,implant_material,"
+                            "bone_cells,implant_cells,unknowns,steps,seconds,"
+                            "T_max_Nmm,difference,estimate,verdict\n";
       unsigned int number = 0;
       for (const Rung &rung : choice.rungs())
-        {
-          std::string words = verdict(choice, rung);
-          std::replace(words.begin(), words.end(), '"', '\'');
-          table << ++number << ',' << rung.model() << ','
-                << name_of(rung.materials[0]) << ','
-                << name_of(rung.materials[1]) << ','
-                << in_words(rung.scene.bone.cells) << ','
-                << in_words(rung.scene.implant.cells) << ',' << rung.unknowns()
-                << ',' << (rung.done ? rung.rows.back().step : 0) << ','
-                << rung.seconds << ',' << largest_torque(rung.rows) << ','
-                << rung.difference << ',' << rung.estimate << ",\"" << words
-                << "\"\n";
-        }
-      write_file(filename, table.str());
+        table +=
+          csv_line({std::to_string(++number),
+                    rung.model(),
+                    name_of(rung.materials[0]),
+                    name_of(rung.materials[1]),
+                    in_words(rung.scene.bone.cells),
+                    in_words(rung.scene.implant.cells),
+                    to_text(rung.unknowns(), 6),
+                    std::to_string(rung.done ? rung.rows.back().step : 0),
+                    to_text(rung.seconds, 6),
+                    to_text(largest_torque(rung.rows), 6),
+                    to_text(rung.difference, 6),
+                    to_text(rung.estimate, 6),
+                    verdict(choice, rung)});
+      write_file(filename, table);
     }
 
 
@@ -131,18 +134,18 @@ namespace Debond
                   const dealii::Timer &clock,
                   const std::string   &filename)
     {
-      const Rung &answer = *choice.answer();
-      JsonObject  json =
-        JsonObject::from_file(answer.scene.output.directory + "/summary.json");
-      json.add("wall_seconds", clock.wall_time());
-      json.add("converged", choice.is_sufficient(answer));
-      json.add("reason", choice.reason());
-      json.add("error_estimate", answer.estimate);
-      json.add("error_tolerance", choice.tolerance);
-      json.add("answer", answer.description());
-      json.add("answer_rung", &answer - choice.rungs().data() + 1);
-      json.add("rungs", choice.rungs().size());
-      write_file(filename, json.text());
+      const Rung            &answer = *choice.answer();
+      nlohmann::ordered_json json =
+        read_json(answer.scene.output.directory + "/summary.json");
+      json["wall_seconds"]    = clock.wall_time();
+      json["converged"]       = choice.is_sufficient(answer);
+      json["reason"]          = choice.reason();
+      json["error_estimate"]  = answer.estimate;
+      json["error_tolerance"] = choice.tolerance;
+      json["answer"]          = answer.description();
+      json["answer_rung"]     = &answer - choice.rungs().data() + 1;
+      json["rungs"]           = choice.rungs().size();
+      write_json(filename, json);
     }
   } // namespace
 

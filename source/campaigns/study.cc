@@ -9,10 +9,10 @@
 #include <debond/support/directory_lock.h>
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
+#include <debond/support/number_text.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <ostream>
@@ -28,28 +28,6 @@ namespace Debond
       char name[32];
       std::snprintf(name, sizeof(name), "variant-%03u", variant + 1);
       return name;
-    }
-
-
-
-    /** A number with fewer digits, for people. */
-    std::string
-    rounded(const std::string &number)
-    {
-      char text[32];
-      std::snprintf(text, sizeof(text), "%.4g", std::atof(number.c_str()));
-      return text;
-    }
-
-
-
-    std::string
-    csv_line(const std::vector<std::string> &texts)
-    {
-      std::string line;
-      for (const std::string &text : texts)
-        line += (&text == &texts.front() ? "" : ",") + csv_field(text);
-      return line + "\n";
     }
   } // namespace
 
@@ -251,9 +229,9 @@ namespace Debond
       out << "failed: " << variants[variant].failure << std::endl;
     else
       {
-        const StudyRow &summary = variants[variant].summary;
-        out << "T_max " << rounded(member(summary, "T_max_Nmm")) << " N mm, "
-            << rounded(member(summary, "wall_seconds")) << " s" << std::endl;
+        const auto &summary = variants[variant].summary;
+        out << "T_max " << to_text(number(summary, "T_max_Nmm"), 4) << " N mm, "
+            << to_text(number(summary, "wall_seconds"), 4) << " s" << std::endl;
       }
   }
 
@@ -267,17 +245,15 @@ namespace Debond
     for (unsigned int i = 0; i < varied.size(); ++i)
       row.emplace_back(varied[i], variant.values[i]);
 
-    StudyRow summary = variant.summary;
+    nlohmann::ordered_json summary = variant.summary;
     if (!variant.done)
       {
-        const std::string why =
+        summary["converged"] = false;
+        summary["reason"] =
           variant.failure.empty() ? "not run yet" : variant.failure;
-        if (summary.empty())
-          summary = {{"converged", ""}, {"reason", ""}};
-        set_member(summary, "converged", "false");
-        set_member(summary, "reason", why);
       }
-    row.insert(row.end(), summary.begin(), summary.end());
+    for (const auto &member : summary.items())
+      row.emplace_back(member.key(), text_of(member.value()));
     return row;
   }
 
@@ -345,20 +321,17 @@ namespace Debond
     std::vector<EnsembleMember> members;
     for (const Variant &variant : variants)
       {
-        EnsembleMember next;
-        next.values    = without_seed(variant.values);
-        next.converged = variant.done;
-        for (const auto &[name, value] : variant.summary)
-          next.summary[name] = std::atof(value.c_str());
-        if (variant.done)
-          next.curve = read_reference_curve(variant.scene.output.directory +
-                                            "/torque.csv");
-        members.push_back(std::move(next));
+        const std::string curve =
+          variant.scene.output.directory + "/torque.csv";
+        members.push_back({without_seed(variant.values),
+                           variant.done,
+                           variant.summary,
+                           read_reference_curve(variant.done ? curve : "")});
       }
     const Ensemble ensemble(without_seed(varied), members);
-    write_file(directory + "/ensemble.csv", ensemble.curves());
-    write_file(directory + "/ensemble_summary.csv", ensemble.summary());
-    out << ensemble.notes() << "Statistics over all seeds are in " << directory
+    write_file(directory + "/ensemble.csv", ensemble.curves);
+    write_file(directory + "/ensemble_summary.csv", ensemble.summary);
+    out << ensemble.notes << "Statistics over all seeds are in " << directory
         << "/ensemble.csv and ensemble_summary.csv" << std::endl;
   }
 } // namespace Debond

@@ -8,10 +8,8 @@
 namespace Debond
 {
   TimeFunction::TimeFunction(const std::string &expression, const double radius)
-    : function([parser = std::shared_ptr<const dealii::Function<1>>(
-                  make_parser<1>("t", expression, radius))](const double t) {
-      return parser->value(dealii::Point<1>(t));
-    })
+    : function([parsed = read_expression("t", expression, radius)](
+                 const double t) { return parsed({t}); })
   {}
 
 

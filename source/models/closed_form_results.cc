@@ -4,6 +4,8 @@
 #include <debond/output/result_files.h>
 #include <debond/support/runtime.h>
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <iostream>
 #include <sstream>
@@ -79,21 +81,22 @@ namespace Debond
 
     /** What only closed forms have in summary.json. */
     void
-    add_closed_form(const ClosedFormSolution &solution, JsonObject &json)
+    add_closed_form(const ClosedFormSolution &solution,
+                    nlohmann::ordered_json   &json)
     {
-      const auto add_stiffness = [&](const std::string &name,
-                                     const double       stiffness) {
-        json.add(name, stiffness > 0. ? stiffness : CurveMeasures::undefined);
+      const auto or_nothing = [](const double stiffness) {
+        return stiffness > 0. ? stiffness : CurveMeasures::undefined;
       };
-      add_stiffness("normal_stiffness_MPa_per_mm", solution.normal_stiffness);
-      add_stiffness("torsional_stiffness_MPa_per_mm",
-                    solution.torsional_stiffness);
+      json["normal_stiffness_MPa_per_mm"] =
+        or_nothing(solution.normal_stiffness);
+      json["torsional_stiffness_MPa_per_mm"] =
+        or_nothing(solution.torsional_stiffness);
       if (solution.scene.chuck.component[ChuckComponent::rotation_z].stiffness >
           0.)
         {
-          json.add("jumps", solution.jumps().size());
-          json.add("released_energy_Nm",
-                   1e-3 * solution.rows().back().released_energy_Nmm);
+          json["jumps"] = solution.jumps().size();
+          json["released_energy_Nm"] =
+            1e-3 * solution.rows().back().released_energy_Nmm;
         }
     }
   } // namespace
@@ -128,20 +131,19 @@ namespace Debond
     summary.measures = measure_torque_curve(rows, settings);
     console.warn("reference",
                  warning_about_reference(summary.measures, settings));
-    summary.steps            = rows.size() - 1;
-    summary.converged        = true;
-    summary.reason           = "all planned steps are done";
-    summary.warnings         = console.warnings();
-    summary.wall_seconds     = clock.wall_time();
-    summary.seconds          = {{"before steps", seconds_before_steps},
-                                {"stepping",
-                                 summary.wall_seconds - seconds_before_steps}};
-    summary.profile_measures = profiles.measures();
-    summary.peak_memory_MB   = peak_memory_MB();
-    JsonObject json;
-    add_summary(summary, json);
+    summary.steps               = rows.size() - 1;
+    summary.converged           = true;
+    summary.reason              = "all planned steps are done";
+    summary.warnings            = console.warnings();
+    summary.wall_seconds        = clock.wall_time();
+    summary.seconds             = {{"before steps", seconds_before_steps},
+                                   {"stepping",
+                                    summary.wall_seconds - seconds_before_steps}};
+    summary.profile_measures    = profiles.measures();
+    summary.peak_memory_MB      = peak_memory_MB();
+    nlohmann::ordered_json json = summary;
     add_closed_form(solution, json);
-    write_file(directory.file("summary.json"), json.text());
+    write_json(directory.file("summary.json"), json);
 
     std::ostringstream text;
     text << "Largest torque " << summary.measures.T_max_Nmm << " N mm at "

@@ -2,6 +2,7 @@
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 #include <debond/system/energy_balance.h>
+#include <debond/system/load_stepping.h>
 
 #include <algorithm>
 #include <cmath>

@@ -11,6 +11,8 @@
 #include <debond/support/runtime.h>
 #include <debond/support/serialization.h>
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <iostream>
 #include <map>
@@ -360,7 +362,7 @@ namespace Debond
     RunSummary      summary;
     summary.measures = measure_torque_curve(simulation.rows(), settings);
     summary.profile_measures  = profiles.measures();
-    summary.steps             = simulation.n_steps();
+    summary.steps             = simulation.effort().steps;
     summary.smallest_step     = simulation.effort().shortest_step;
     summary.newton_iterations = simulation.effort().newton_iterations;
     summary.dofs = bone.n_dofs_as_published() + implant.n_dofs_as_published();
@@ -385,12 +387,13 @@ namespace Debond
   namespace
   {
     void
-    add_bonding(const BondingPattern::Report &bonding, JsonObject &json)
+    add_bonding(const BondingPattern::Report &bonding,
+                nlohmann::ordered_json       &json)
     {
-      json.add("phi_0_mean", bonding.mean);
-      json.add("bonded_area_mm2", bonding.bonded_area);
-      json.add("bonded_patches", bonding.patches);
-      json.add("largest_bonded_patch_mm2", bonding.largest_patch);
+      json["phi_0_mean"]               = bonding.mean;
+      json["bonded_area_mm2"]          = bonding.bonded_area;
+      json["bonded_patches"]           = bonding.patches;
+      json["largest_bonded_patch_mm2"] = bonding.largest_patch;
     }
   } // namespace
 
@@ -409,13 +412,12 @@ namespace Debond
     summary.reason    = reason;
     summary.warnings  = console.warnings();
 
-    JsonObject json;
-    add_summary(summary, json);
+    nlohmann::ordered_json json = summary;
     add_bonding(simulation.system().interface.bonding().report(), json);
     const ReleasedEnergy &released = simulation.checks().released();
-    json.add("jumps", released.n_jumps());
-    json.add("released_energy_Nm", 1e-3 * released.total());
-    write_file(directory.file("summary.json"), json.text());
+    json["jumps"]                  = released.n_jumps();
+    json["released_energy_Nm"]     = 1e-3 * released.total();
+    write_json(directory.file("summary.json"), json);
     if (!converged)
       return;
     checkpoints.remove(); // there is nothing to go on with

@@ -128,7 +128,7 @@ namespace Debond
         implant += bytes_per_number * matrices * n_implant * n_implant;
 
         // those of the bonding pattern are similar, and smaller
-        const bool  on_implant = scene.interface.slave == SlaveSide::implant;
+        const bool  on_implant = scene.interface.slave == Side::implant;
         const auto &cells = (on_implant ? scene.implant : scene.bone).cells;
         points = 2. * sizeof(SlavePoint) * double(cells[0]) * cells[1] *
                  std::pow(scene.interface.quadrature_points, 2);

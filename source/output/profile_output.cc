@@ -1,32 +1,14 @@
+#include <debond/input/csv_table.h>
 #include <debond/output/profile_output.h>
+#include <debond/support/number_text.h>
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
-#include <locale>
-#include <sstream>
 
 namespace Debond
 {
   namespace
   {
-    std::string
-    csv_line(const std::initializer_list<double> &values)
-    {
-      std::ostringstream line;
-      line.imbue(std::locale::classic());
-      line.precision(12);
-      const char *separator = "";
-      for (const double value : values)
-        {
-          line << separator << value + 0.; // no "-0"
-          separator = ",";
-        }
-      return line.str() + "\n";
-    }
-
-
-
     /** phi and mu from g_s = 0 to 1.5 times the distance after which no bond is
      *  left. */
     std::string
@@ -133,10 +115,8 @@ namespace Debond
     write_file(directory.file("profiles.csv"), table);
     if (angles_to_come.empty())
       return "";
-    std::ostringstream warning;
-    warning << "Output / Profile angles: " << angles_to_come.front()
-            << " deg was never reached";
-    return warning.str();
+    return "Output / Profile angles: " + to_text(angles_to_come.front(), 6) +
+           " deg was never reached";
   }
 
 

@@ -3,10 +3,8 @@
 #include <debond/support/directory_lock.h>
 #include <debond/support/input_error.h>
 
-#include <cerrno>
-#include <cmath>
-#include <cstdio>
-#include <cstring>
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -76,129 +74,22 @@ namespace Debond
 
 
 
-  namespace
-  {
-    std::string
-    quoted(const std::string &text)
-    {
-      std::string result = "\"";
-      for (const char c : text)
-        if (c == '"' || c == '\\')
-          result += std::string("\\") + c;
-        else if (c == '\n')
-          result += "\\n";
-        else if (c == '\t')
-          result += "\\t";
-        else if (static_cast<unsigned char>(c) < 32)
-          {
-            char code[8];
-            std::snprintf(code, sizeof(code), "\\u%04x", c);
-            result += code;
-          }
-        else
-          result += c;
-      return result + '"';
-    }
-  } // namespace
-
-
-
   void
-  JsonObject::add(const std::string &name, const double value)
+  write_json(const std::string &filename, const nlohmann::ordered_json &json)
   {
-    if (!std::isfinite(value))
-      return add_text(name, "null");
-    std::ostringstream number;
-    number.precision(12);
-    number << value;
-    add_text(name, number.str());
+    // names of files need not be UTF-8
+    constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace;
+    write_file(filename, json.dump(2, ' ', false, replace) + "\n");
   }
 
 
 
-  void
-  JsonObject::add(const std::string &name, const std::string &value)
+  nlohmann::ordered_json
+  read_json(const std::string &filename)
   {
-    add_text(name, quoted(value));
-  }
-
-
-
-  void
-  JsonObject::add(const std::string &name, const char *const value)
-  {
-    add_text(name, quoted(value));
-  }
-
-
-
-  void
-  JsonObject::add(const std::string              &name,
-                  const std::vector<std::string> &values)
-  {
-    std::string list;
-    for (const std::string &value : values)
-      list += (list.empty() ? "" : ", ") + quoted(value);
-    add_text(name, "[" + list + "]");
-  }
-
-
-
-  void
-  JsonObject::add_text(const std::string &name, const std::string &json)
-  {
-    for (auto &[other, value] : members)
-      if (other == name)
-        {
-          value = json;
-          return;
-        }
-    members.emplace_back(name, json);
-  }
-
-
-
-  JsonObject
-  JsonObject::from_file(const std::string &filename)
-  {
-    std::ifstream file(filename);
-    if (!file)
-      throw InputError("cannot read '" + filename +
-                       "': " + std::strerror(errno));
-    JsonObject  object;
-    std::string line;
-    while (std::getline(file, line))
-      {
-        // as text() writes it: "name": value, with a comma but in the last
-        const std::size_t colon = line.find("\": ");
-        if (line.compare(0, 3, "  \"") != 0 || colon == std::string::npos)
-          continue;
-        if (line.back() == ',')
-          line.pop_back();
-        object.add_text(line.substr(3, colon - 3), line.substr(colon + 3));
-      }
-    return object;
-  }
-
-
-
-  std::string
-  JsonObject::value(const std::string &name) const
-  {
-    for (const auto &[other, value] : members)
-      if (other == name)
-        return value;
-    return "null";
-  }
-
-
-
-  std::string
-  JsonObject::text() const
-  {
-    std::string lines;
-    for (const auto &[name, value] : members)
-      lines += (lines.empty() ? "  " : ",\n  ") + quoted(name) + ": " + value;
-    return "{\n" + lines + "\n}\n";
+    std::ifstream                file(filename);
+    const nlohmann::ordered_json json =
+      nlohmann::ordered_json::parse(file, nullptr, false);
+    return json.is_object() ? json : nlohmann::ordered_json::object();
   }
 } // namespace Debond

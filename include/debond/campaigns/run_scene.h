@@ -1,6 +1,8 @@
 #ifndef debond_campaigns_run_scene_h
 #define debond_campaigns_run_scene_h
 
+#include <debond/support/run_error.h>
+
 #include <iosfwd>
 #include <memory>
 

@@ -6,14 +6,14 @@
 
 namespace Debond
 {
-  /** A function of time: an expression in `t` with the constants `pi` and `R`
-   *  (muParser syntax, as in deal.II's FunctionParser), or any function. */
+  /** A function of time: an expression in `t`, see read_expression(), or any
+   *  function. */
   class TimeFunction
   {
   public:
     /** @p radius is the value of `R` [mm]. Throws InputError with the
      *  expression and the parser's own words if the expression is invalid. */
-    TimeFunction(const std::string &expression, const double radius);
+    TimeFunction(const std::string &expression, double radius);
     explicit TimeFunction(const std::function<double(double)> &function)
       : function(function)
     {}
@@ -21,7 +21,7 @@ namespace Debond
     /** The value at time @p t, in the unit that the expression is written in.
      *  Throws InputError if it is not finite. */
     double
-    operator()(const double t) const;
+    operator()(double t) const;
 
   private:
     std::function<double(double)> function;

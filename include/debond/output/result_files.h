@@ -4,10 +4,10 @@
 #include <debond/scene/output_parameters.h>
 #include <debond/support/written_files.h>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <memory>
 #include <string>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace Debond
@@ -61,53 +61,14 @@ namespace Debond
     std::shared_ptr<const DirectoryLock> lock;
   };
 
-  /** A flat JSON object whose members keep the order in which they are added;
-   *  one that is added again gets a new value in its old place. */
-  class JsonObject
-  {
-  public:
-    JsonObject() = default;
-    /** Reads a file that text() has written, for instance a summary.json.
-     *  Throws InputError if it cannot be read. */
-    static JsonObject
-    from_file(const std::string &filename);
+  /** Writes a JSON object with its members in their order and every digit;
+   *  what is not finite becomes `null`. Throws WriteError. */
+  void
+  write_json(const std::string &filename, const nlohmann::ordered_json &json);
 
-    /** Twelve significant digits; `null` if not finite. */
-    void
-    add(const std::string &name, double value);
-    void
-    add(const std::string &name, const std::string &value);
-    /** Without this one a literal would be taken for a bool. */
-    void
-    add(const std::string &name, const char *value);
-    void
-    add(const std::string &name, const std::vector<std::string> &values);
-    /** Whole numbers and bool. */
-    template <typename Integral,
-              typename = std::enable_if_t<std::is_integral<Integral>::value>>
-    void
-    add(const std::string &name, Integral value)
-    {
-      add_text(name,
-               std::is_same<Integral, bool>::value ?
-                 (value ? "true" : "false") :
-                 std::to_string(value));
-    }
-
-    /** The value of a member as it stands in the file; `null` if there is
-     *  none. */
-    std::string
-    value(const std::string &name) const;
-
-    /** The whole object, one member in a line. */
-    std::string
-    text() const;
-
-  private:
-    void
-    add_text(const std::string &name, const std::string &json);
-
-    std::vector<std::pair<std::string, std::string>> members; ///< name, JSON
-  };
+  /** The object in a file, for instance a summary.json; one without members if
+   *  there is no such file, or something else in it. */
+  nlohmann::ordered_json
+  read_json(const std::string &filename);
 } // namespace Debond
 #endif

@@ -510,7 +510,7 @@ namespace Debond
       }
     catch (const InputError &error)
       {
-        throw InputError(scene.with_place(error.what()));
+        throw scene.with_place(error);
       }
     try
       {
@@ -519,7 +519,7 @@ namespace Debond
     catch (const InputError &error)
       {
         // an expression that turns infinite
-        const InputError placed(scene.with_place(error.what()));
+        const InputError placed = scene.with_place(error);
         current->finish_after(placed);
         throw placed;
       }

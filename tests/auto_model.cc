@@ -306,7 +306,7 @@ test_estimates()
   const Eigen::Array4d     angles(0.0005, 0.002, 0.01, 0.1);
   const RigidBodiesTorsion exact = rigid_bodies(2.9);
   const Eigen::ArrayXd     torques =
-    torque_of_points(stiffness, FrictionParameters(), 2.9, angles);
+    torque_of_points(stiffness, default_friction_law(), 2.9, angles);
   double difference = 0.;
   for (unsigned int i = 0; i < angles.size(); ++i)
     grow(difference, std::abs(torques[i] / exact.torque(angles[i]) - 1.));

@@ -5,6 +5,7 @@
 // model against its integral done by hand. Mathieu's model: its torque against
 // the integral of its traction, its limits.
 
+#include <debond/interface/bond_friction.h>
 #include <debond/models/closed_forms.h>
 
 #include <deal.II/base/exceptions.h>
@@ -81,16 +82,15 @@ void
 check_constant_friction()
 {
   // Three ways to make the coefficient constant, with unequal penalties.
-  auto coulomb               = paper();
-  coulomb.pressure           = 1200 * 2.6 / 585;
-  coulomb.stiffness          = 300;
-  coulomb.friction.kind      = FrictionLawKind::coulomb;
-  auto equal                 = coulomb;
-  equal.friction.kind        = FrictionLawKind::modified_coulomb;
-  equal.friction.mu_unbroken = equal.friction.mu_broken;
-  auto unbonded              = coulomb;
-  unbonded.friction.kind     = FrictionLawKind::modified_coulomb;
-  unbonded.phi_0             = 0;
+  auto coulomb      = paper();
+  coulomb.pressure  = 1200 * 2.6 / 585;
+  coulomb.stiffness = 300;
+  coulomb.friction  = Debond::coulomb();
+  auto equal        = coulomb;
+  equal.friction    = modified_coulomb({0.4, 0.4});
+  auto unbonded     = coulomb;
+  unbonded.friction = modified_coulomb();
+  unbonded.phi_0    = 0;
 
   double largest = 0;
   for (const auto &parameters : {coulomb, equal, unbonded})
@@ -106,8 +106,8 @@ check_constant_friction()
     }
   report("relative deviation from the elementary formula", largest, 1e-12);
 
-  auto frictionless          = paper();
-  frictionless.friction.kind = FrictionLawKind::frictionless;
+  auto frictionless     = paper();
+  frictionless.friction = Debond::frictionless();
   report("torque without friction",
          std::abs(RigidBodiesTorsion(frictionless).torque(degree)),
          1e-12);
@@ -129,8 +129,7 @@ check_points()
         const double slip = problem.slip(r, theta);
         const double t    = problem.traction(r, theta);
         grow(worst_sum, std::abs(slip + t / parameters.stiffness - r * theta));
-        const double mu =
-          friction_coefficient(parameters.friction, 1., slip).mu;
+        const double mu = parameters.friction->coefficient({1., slip}, 0.).mu;
         if (slip > 0)
           grow(worst_law, std::abs(t - mu * p));
         else
@@ -285,4 +284,5 @@ main()
   check_bonded_disk();
   check_analytical();
   check_mathieu();
+  return 0;
 }

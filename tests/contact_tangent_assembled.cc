@@ -198,4 +198,5 @@ main()
   pressed << 0.01, 0.02, -0.55, 0.002, -0.001, 0.01;
   check("On its edge", "", lifted, pressed);
   check("On its edge, the bone is the slave", bone_is_slave, lifted, pressed);
+  return 0;
 }

@@ -81,7 +81,7 @@ private:
     if (step > 0)
       options.duration = stepping.time(step) - stepping.time(step - 1);
     options.frictionless =
-      step > 0 && stepping.time(step - 1) < scene.interface.friction.starts_at -
+      step > 0 && stepping.time(step - 1) < scene.interface.friction_starts_at -
                                               1e-9 * stepping.time(step);
     system.predict(stepping.time(step), !options.stick_first);
     const Debond::NewtonResult result = solve_newton(system, options);

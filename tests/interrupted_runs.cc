@@ -292,4 +292,5 @@ main()
     end)",
         {1, 2, 6},
         true);
+  return 0;
 }

@@ -153,4 +153,5 @@ main()
   set_up_libraries();
   check("implant");
   check("bone");
+  return 0;
 }

@@ -160,4 +160,5 @@ main()
   Debond::set_up_libraries();
   check_closed_form();
   check_turned();
+  return 0;
 }

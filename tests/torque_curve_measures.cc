@@ -370,4 +370,5 @@ main()
   check_errors();
   show_refusals();
   show_files();
+  return 0;
 }

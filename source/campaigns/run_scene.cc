@@ -4,6 +4,8 @@
 #include <debond/models/debonding_problem.h>
 #include <debond/support/input_error.h>
 
+#include <deal.II/base/timer.h>
+
 #include <utility>
 
 namespace Debond
@@ -21,7 +23,7 @@ namespace Debond
         }
       catch (const InputError &error)
         {
-          throw InputError(scene.with_place(error.what()));
+          throw scene.with_place(error);
         }
     }
   } // namespace

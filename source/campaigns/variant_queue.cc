@@ -6,6 +6,7 @@
 #include <debond/system/coupled_system.h>
 
 #include <deal.II/base/multithread_info.h>
+#include <deal.II/base/timer.h>
 
 #include <algorithm>
 #include <iostream>

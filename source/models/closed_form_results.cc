@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <deal.II/base/timer.h>
+
 #include <cmath>
 #include <iostream>
 #include <sstream>

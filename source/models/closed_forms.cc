@@ -58,24 +58,7 @@ namespace Debond
   FrictionCoefficient
   TorsionModel::friction(const double phi_0, const double slip) const
   {
-    return friction_coefficient(disk.friction, phi_0, slip);
-  }
-
-
-
-  double
-  TorsionModel::begin_of_decay() const
-  {
-    return disk.friction.sliding_threshold;
-  }
-
-
-
-  double
-  TorsionModel::end_of_decay() const
-  {
-    return disk.friction.sliding_threshold *
-           (1. + 2. * disk.friction.transition_factor);
+    return disk.friction->coefficient({phi_0, slip}, 0.);
   }
 
 
@@ -112,9 +95,9 @@ namespace Debond
         sum.stored_energy +=
           0.5 * here.traction * here.traction / stiffness * dA;
       sum.adhesive_work +=
-        p * adhesive_strength(disk.friction, phi_0, 0., here.slip) * dA;
+        p * disk.friction->adhesive_strength({phi_0}, here.slip) * dA;
       sum.dissipation +=
-        p * friction_strength(disk.friction, phi_0, 0., here.slip) * dA;
+        p * disk.friction->friction_strength({phi_0}, here.slip) * dA;
     };
 
     // The fields are smooth between kinks, so that Gauss points do.
@@ -154,7 +137,7 @@ namespace Debond
   bool
   RigidBodiesTorsion::has_unique_solution(const Parameters &parameters)
   {
-    return steepest_fall(parameters.friction, parameters.phi_0) *
+    return parameters.friction->steepest_fall({parameters.phi_0}) *
              parameters.pressure <
            parameters.stiffness;
   }
@@ -174,15 +157,17 @@ namespace Debond
   {
     const double phi_0    = initial_bonding(r);
     const double distance = r * std::abs(theta);
+    const double begin    = disk.friction->kinks().front();
+    const double end      = disk.friction->kinks().back();
     // Before and after the decay the coefficient is constant: mu p / eps_t of
     // the path is elastic.
-    if (distance <= path(begin_of_decay(), phi_0))
+    if (distance <= path(begin, phi_0))
       return std::max(0., distance - path(0., phi_0));
-    if (distance >= path(end_of_decay(), phi_0))
-      return distance - (path(end_of_decay(), phi_0) - end_of_decay());
+    if (distance >= path(end, phi_0))
+      return distance - (path(end, phi_0) - end);
     return zero_of([&](const double g) { return path(g, phi_0) - distance; },
-                   begin_of_decay(),
-                   end_of_decay());
+                   begin,
+                   end);
   }
 
 
@@ -216,8 +201,11 @@ namespace Debond
     std::vector<double> kinks{disk.bonded_radius};
     if (theta != 0.)
       for (const double phi_0 : {disk.phi_0, 0.})
-        for (const double slip : {0., begin_of_decay(), end_of_decay()})
-          kinks.push_back(path(slip, phi_0) / std::abs(theta));
+        {
+          kinks.push_back(path(0., phi_0) / std::abs(theta));
+          for (const double slip : disk.friction->kinks())
+            kinks.push_back(path(slip, phi_0) / std::abs(theta));
+        }
     return integrate(theta, kinks, stiffness);
   }
 
@@ -386,12 +374,10 @@ namespace Debond
   TorsionModel::State
   AnalyticalTorsion::state(const double theta) const
   {
-    const double per_radius = slip_per_radius(theta);
-    return integrate(theta,
-                     {stick_radius(theta),
-                      begin_of_decay() / per_radius,
-                      end_of_decay() / per_radius},
-                     stiffness);
+    std::vector<double> kinks{stick_radius(theta)};
+    for (const double slip : disk.friction->kinks())
+      kinks.push_back(slip / slip_per_radius(theta));
+    return integrate(theta, kinks, stiffness);
   }
 
 

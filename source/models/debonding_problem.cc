@@ -10,6 +10,7 @@
 #include <debond/support/interruption.h>
 #include <debond/support/runtime.h>
 #include <debond/support/serialization.h>
+#include <debond/support/timed_section.h>
 
 #include <nlohmann/json.hpp>
 
@@ -440,7 +441,7 @@ namespace Debond
       }
     catch (const InputError &error)
       {
-        throw InputError(scene.with_place(error.what()));
+        throw scene.with_place(error);
       }
     try
       {
@@ -449,7 +450,7 @@ namespace Debond
     catch (const InputError &error)
       {
         // an expression that turns infinite
-        const InputError placed(scene.with_place(error.what()));
+        const InputError placed = scene.with_place(error);
         current->finish_after(placed);
         throw placed;
       }

@@ -1,6 +1,7 @@
 #include <debond/models/foundation.h>
 #include <debond/models/simulation.h>
 #include <debond/support/input_error.h>
+#include <debond/support/run_error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,9 +20,8 @@ namespace Debond
       for (BodyParameters *const body : {&scene.bone, &scene.implant})
         if (body->material == Material::neo_hookean)
           body->material = Material::linear;
-      scene.interface.friction.kind      = FrictionLawKind::coulomb;
-      scene.interface.friction.mu_broken = 1e6;
-      scene.interface.friction.starts_at = 0;
+      scene.interface.friction           = sticking_law();
+      scene.interface.friction_starts_at = 0;
       scene.load_steps                   = LoadSteppingParameters();
       scene.load_steps.times             = {0., 1., 2.};
       scene.load_steps.steps             = {1, 1};
@@ -53,9 +53,10 @@ namespace Debond
           why = std::string(": ") + error.what();
         }
       if (!why.empty())
-        throw InputError("Closed form: the stiffness of the foundation cannot "
-                         "be found from the bodies of this scene" +
-                         why);
+        throw EntryError("Closed form",
+                         "the stiffness of the foundation cannot be found from "
+                         "the bodies of this scene" +
+                           why);
       return simulation.rows().back();
     }
 

@@ -9,7 +9,7 @@ namespace Debond
 {
   Eigen::ArrayXd
   torque_of_points(const FoundationStiffness &stiffness,
-                   const FrictionParameters  &friction,
+                   const FrictionLawPointer  &friction,
                    const double               pressure,
                    const Eigen::ArrayXd      &angles)
   {
@@ -59,9 +59,10 @@ namespace Debond
             std::max(strain,
                      2. * largest_ratio * pressure / body->young_modulus);
       return strain *
-             (1. - std::min(stiffness.normal / scene.interface.normal_penalty,
+             (1. - std::min(stiffness.normal /
+                              scene.interface.law().normal->initial_stiffness(),
                             stiffness.torsional /
-                              scene.interface.tangential_penalty));
+                              scene.interface.tangential_stiffness()));
     }
 
 

@@ -1,6 +1,7 @@
 #include <debond/models/memory_estimate.h>
 #include <debond/models/simulation.h>
 #include <debond/support/number_text.h>
+#include <debond/support/timed_section.h>
 
 #include <algorithm>
 #include <cmath>
@@ -98,17 +99,12 @@ namespace Debond
       return AdaptiveStepping(load_steps, R);
     if (!load_steps.follow_path)
       return PlannedSteps(load_steps);
-    // 2 a_s b_s is the distance over which friction falls, Eq. (13)
-    const FrictionParameters &friction = scene.interface.friction;
-    const double              fall     = friction.sliding_threshold *
-                        std::min(1., 2. * friction.transition_factor);
-    return PathFollowing(load_steps,
-                         load_steps.largest_slip_step > 0. ?
-                           load_steps.largest_slip_step :
-                           fall / 20.,
-                         load_steps.path_ends_at_slip > 0. ?
-                           load_steps.path_ends_at_slip :
-                           R);
+    return PathFollowing(
+      load_steps,
+      load_steps.largest_slip_step > 0. ?
+        load_steps.largest_slip_step :
+        scene.interface.friction->characteristic_distance() / 20.,
+      load_steps.path_ends_at_slip > 0. ? load_steps.path_ends_at_slip : R);
   }
 
 

@@ -15,16 +15,15 @@ namespace Debond
     friction_law_table(const InterfaceParameters &interface)
     {
       constexpr unsigned int n        = 600;
-      const auto            &friction = interface.friction;
-      const double           phi_0    = interface.bonding.initial_bonding;
-      const double           end      = 1.5 * friction.sliding_threshold *
-                         (1. + 2. * friction.transition_factor);
-      const double initial = friction_coefficient(friction, phi_0, 0.).mu;
-      std::string  table   = "slip_mm,phi,mu,mu_over_initial\n";
+      const FrictionLaw     &friction = *interface.friction;
+      const FrictionState    start{interface.bonding.initial_bonding};
+      const double           end     = 1.5 * friction.kinks().back();
+      const double           initial = friction.coefficient(start, 0.).mu;
+      std::string            table   = "slip_mm,phi,mu,mu_over_initial\n";
       for (unsigned int i = 0; i <= n; ++i)
         {
-          const double slip      = end * i / n;
-          const auto coefficient = friction_coefficient(friction, phi_0, slip);
+          const double slip        = end * i / n;
+          const auto   coefficient = friction.coefficient(start, slip);
           table += csv_line({slip,
                              coefficient.phi,
                              coefficient.mu,

@@ -1,4 +1,5 @@
 #include <debond/interface/contact_zone.h>
+#include <debond/support/timed_section.h>
 #include <debond/system/coupled_system.h>
 
 #include <Eigen/Geometry>
@@ -29,15 +30,16 @@ namespace Debond
     , interface(parameters.interface, bone.mesh(), implant.mesh())
     , R(parameters.implant.characteristic_radius())
     , timer(timer)
-    , force_floor(parameters.interface.normal_penalty *
+    , force_floor(parameters.interface.law().normal->initial_stiffness() *
                   interface.implant_area() * 1e-6 * R)
     , matrix(bone, implant, interface, configuration, path)
   {
     configuration.chuck = &chuck;
     path.follow         = parameters.load_steps.follow_path;
     for (unsigned int k = 0; k < 6; ++k)
-      path.stiffness[k] = parameters.interface.normal_penalty *
-                          interface.implant_area() * std::pow(scale_of(k), 2);
+      path.stiffness[k] =
+        parameters.interface.law().normal->initial_stiffness() *
+        interface.implant_area() * std::pow(scale_of(k), 2);
   }
 
 

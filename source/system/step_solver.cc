@@ -137,7 +137,7 @@ namespace Debond
   {
     /** Why the bond would break in a jump. */
     std::string
-    describe_softening(const InterfaceSummary &summary)
+    describe_softening(const InterfaceSummary &summary, const FrictionLaw &law)
     {
       const double       slope = summary.softening_slope;
       std::ostringstream text;
@@ -151,7 +151,7 @@ namespace Debond
            << " mm, and less than 1 / |d mu/d g_s| = " << 1. / slope
            << " mm has one solution. What helps: Interface / Viscosity, a "
               "larger Interface / Tangential penalty stiffness, a larger "
-              "Sliding threshold or Transition factor";
+           << law.entries_against_fall();
       return text.str();
     }
   } // namespace
@@ -175,7 +175,8 @@ namespace Debond
     // a step that failed has failed already; this may be why
     if (!result.unique)
       result.why +=
-        (result.why.empty() ? "" : "; ") + describe_softening(result.interface);
+        (result.why.empty() ? "" : "; ") +
+        describe_softening(result.interface, *parameters.interface.friction);
     if (!result.is_acceptable())
       system.rollback();
     return result;

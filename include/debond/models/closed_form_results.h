@@ -3,9 +3,12 @@
 
 #include <debond/models/closed_form_solution.h>
 
-#include <deal.II/base/timer.h>
-
 #include <iosfwd>
+
+namespace dealii
+{
+  class Timer;
+}
 
 namespace Debond
 {

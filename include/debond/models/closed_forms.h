@@ -27,7 +27,7 @@ namespace Debond
       double phi_0    = 1; ///< initial bonding inside bonded_radius
       /** Points further out are not bonded at the start [mm]. */
       double bonded_radius = std::numeric_limits<double>::infinity();
-      FrictionParameters friction;
+      FrictionLawPointer friction = default_friction_law();
     };
     const Disk disk;
 
@@ -80,12 +80,6 @@ namespace Debond
      *  @p slip [mm]. */
     FrictionCoefficient
     friction(double phi_0, double slip) const;
-    /** Sliding distances where s(g_s / a_s) of Eq. (13) begins and ceases to
-     *  fall [mm]. */
-    double
-    begin_of_decay() const;
-    double
-    end_of_decay() const;
 
     /** The point at the radius @p r after the sliding distance @p slip; while
      *  it sticks, with the @p stiffness of its traction per path

@@ -18,7 +18,7 @@ namespace Debond
    */
   Eigen::ArrayXd
   torque_of_points(const FoundationStiffness &stiffness,
-                   const FrictionParameters  &friction,
+                   const FrictionLawPointer  &friction,
                    double                     pressure,
                    const Eigen::ArrayXd      &angles);
 

@@ -4,7 +4,6 @@
 #include <debond/bulk/body.h>
 #include <debond/bulk/chuck.h>
 #include <debond/interface/contact_interface.h>
-#include <debond/support/timed_section.h>
 #include <debond/system/coupled_tangent.h>
 #include <debond/system/dense_solver.h>
 #include <debond/system/model_parameters.h>
@@ -13,6 +12,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+
+namespace dealii
+{
+  class TimerOutput;
+}
 
 namespace Debond
 {

@@ -13,7 +13,7 @@ namespace Debond
   struct ModelParameters
   {
     BodyParameters         bone;
-    BodyParameters         implant;
+    BodyParameters         implant = BodyParameters::default_implant();
     InterfaceParameters    interface;
     ChuckParameters        chuck;
     LoadSteppingParameters load_steps;
@@ -21,7 +21,7 @@ namespace Debond
     bool
     has_friction() const
     {
-      return interface.friction.kind != FrictionLawKind::frictionless;
+      return !interface.friction->is_frictionless();
     }
     /** Whether a step that begins at @p time has friction. It starts at a
      *  planned time, up to rounding. */
@@ -29,7 +29,7 @@ namespace Debond
     has_friction_after(const double time) const
     {
       return time >=
-             interface.friction.starts_at -
+             interface.friction_starts_at -
                1e-9 * (load_steps.times.back() - load_steps.times.front());
     }
   };

@@ -415,14 +415,6 @@ namespace Debond
 
 
   void
-  DebondingProblem::run()
-  {
-    run(nullptr);
-  }
-
-
-
-  void
   DebondingProblem::resume(const Checkpoint &checkpoint)
   {
     run(&checkpoint);

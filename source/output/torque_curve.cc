@@ -1,3 +1,4 @@
+#include <debond/input/csv_table.h>
 #include <debond/output/result_files.h>
 #include <debond/output/torque_curve.h>
 #include <debond/support/input_error.h>

@@ -204,5 +204,4 @@ main()
       check_fractions(n, resolution);
   check_seeds();
   check_patches();
-  return 0;
 }

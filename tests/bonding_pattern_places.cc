@@ -555,5 +555,4 @@ main()
   check_files();
   check_identity();
   check_messages();
-  return 0;
 }

@@ -107,5 +107,4 @@ main()
   check_turning_soon();
   check_curve(0); // translations
   check_curve(3); // tilts
-  return 0;
 }

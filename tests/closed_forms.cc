@@ -284,5 +284,4 @@ main()
   check_bonded_disk();
   check_analytical();
   check_mathieu();
-  return 0;
 }

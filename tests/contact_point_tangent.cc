@@ -856,5 +856,4 @@ main()
   setting.old_state.slip = 0.01;
   check_open(masters, setting);
   check_honesty(masters, basic);
-  return 0;
 }

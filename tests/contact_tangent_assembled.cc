@@ -4,6 +4,7 @@
 // stick, slip and are open. The interface's part is the same assembled and
 // applied column by column.
 
+#include <debond/scene/scene.h>
 #include <debond/support/runtime.h>
 #include <debond/system/coupled_system.h>
 
@@ -198,5 +199,4 @@ main()
   pressed << 0.01, 0.02, -0.55, 0.002, -0.001, 0.01;
   check("On its edge", "", lifted, pressed);
   check("On its edge, the bone is the slave", bone_is_slave, lifted, pressed);
-  return 0;
 }

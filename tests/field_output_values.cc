@@ -447,5 +447,4 @@ main()
             << "no file holds the date: " << (dated ? "NO" : "yes") << std::endl
             << contents("results/fields/bulk.pvd")
             << contents("results/fields/interface.pvd");
-  return 0;
 }

@@ -153,5 +153,4 @@ main()
            frictionless()->steepest_fall({}) == 0. &&
            frictionless()->friction_strength({}, 1.) == 0. &&
            frictionless()->adhesive_strength({}, 1.) == 0.);
-  return 0;
 }

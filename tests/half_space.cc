@@ -375,5 +375,4 @@ main()
   check_hertz_and_mindlin();
   check_elastic_layer();
   check_published_curves();
-  return 0;
 }

@@ -292,5 +292,4 @@ main()
     end)",
         {1, 2, 6},
         true);
-  return 0;
 }

@@ -212,5 +212,4 @@ main()
   report("No more is lost than the steps since the last checkpoint",
          nothing_lost);
   report("The files at the end are those of a run in one go", same);
-  return 0;
 }

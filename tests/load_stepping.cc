@@ -302,5 +302,4 @@ main()
   PlannedSteps allowed(parameters), forbidden(parameters);
   report("1/64 is allowed", !take(allowed, 0.1, 0.4 / 64.).empty());
   report("1/128 is not", take(forbidden, 0.1, 0.4 / 128.).empty());
-  return 0;
 }

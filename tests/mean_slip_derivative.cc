@@ -153,5 +153,4 @@ main()
   set_up_libraries();
   check("implant");
   check("bone");
-  return 0;
 }

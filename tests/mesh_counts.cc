@@ -221,5 +221,4 @@ main()
   bone.contact_surface = implant.contact_surface = SurfaceKind::bilinear;
   check_cells("Bone, bilinear", bone, Side::bone);
   check_cells("Coin, bilinear", implant, Side::implant);
-  return 0;
 }

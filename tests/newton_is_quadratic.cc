@@ -122,5 +122,4 @@ main()
   check("The bone is the slave", stiff + bone_is_slave, 0.7);
   check("Turned, tilted and shifted", stiff + tilted, 0.7);
   check("The same, the bone is the slave", stiff + tilted + bone_is_slave, 0.7);
-  return 0;
 }

@@ -185,5 +185,4 @@ main()
         surface_with(linear_1, linear_2, true));
   check("Degree 1, uneven knots, weights 1",
         surface_with(linear_1, linear_2, false));
-  return 0;
 }

@@ -186,5 +186,4 @@ main()
   check_interpolation();
   check_radial_reference();
   check_files();
-  return 0;
 }

@@ -88,5 +88,4 @@ main()
   check_order();
   check_fairness();
   check_correlation();
-  return 0;
 }

@@ -160,5 +160,4 @@ main()
   Debond::set_up_libraries();
   check_closed_form();
   check_turned();
-  return 0;
 }

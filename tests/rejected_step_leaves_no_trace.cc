@@ -256,5 +256,4 @@ main()
   check("Neo-Hookean bodies, shear", shear);
   check("The bone is the slave, shear", linear + shear + bone_is_slave);
   check("Under a force and a moment", linear + loaded);
-  return 0;
 }

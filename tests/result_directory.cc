@@ -120,5 +120,4 @@ main()
   std::ofstream("results/object.json") << "[1, 2";
   std::cout << "no object: " << Debond::read_json("results/object.json")
             << ", no file: " << Debond::read_json("results/none.json") << '\n';
-  return 0;
 }

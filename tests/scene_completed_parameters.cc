@@ -41,5 +41,4 @@ main()
             << implant.cells[1] << ' ' << implant.cells[2] << '\n'
             << "tangential penalty: " << again.interface.tangential_stiffness()
             << '\n';
-  return 0;
 }

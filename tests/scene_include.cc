@@ -47,5 +47,4 @@ main()
   show("set Title = first\ninclude base.prm\n");
   show("include base.prm\ninclude base.prm\n");
   show("include loop.prm\n");
-  return 0;
 }

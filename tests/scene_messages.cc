@@ -157,5 +157,4 @@ main()
   show_unknown_names();
   show_wrong_values();
   show_contradictions();
-  return 0;
 }

@@ -100,5 +100,4 @@ main()
       "snaps back at " + std::to_string(int(stiffness)) + " N mm/rad",
       CompliantMachineTorsion(bodies, stiffness, 2. * degree).jumps().empty() ==
         (stiffness > 8901.6));
-  return 0;
 }

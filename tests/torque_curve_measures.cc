@@ -370,5 +370,4 @@ main()
   check_errors();
   show_refusals();
   show_files();
-  return 0;
 }

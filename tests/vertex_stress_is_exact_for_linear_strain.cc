@@ -142,5 +142,4 @@ main()
   report("deviation of the equivalent stress of shear under pressure",
          std::abs(von_mises(shear) - 3. * std::sqrt(3.)),
          1e-14);
-  return 0;
 }

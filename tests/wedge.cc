@@ -265,5 +265,4 @@ main()
 {
   check_constant_friction();
   check_falling_friction();
-  return 0;
 }

@@ -15,10 +15,10 @@ main()
 
   // A coin of 5 mm diameter on a block of bone, coarser than that of the paper.
   Scene scene;
-  scene.bone.cells            = {8, 8, 2};
+  scene.bone.cells            = {{8, 8, 2}};
   scene.bone.material         = Material::linear;
   scene.implant.shape         = BodyShape::coin;
-  scene.implant.cells         = {4, 4, 2};
+  scene.implant.cells         = {{4, 4, 2}};
   scene.implant.material      = Material::linear;
   scene.implant.young_modulus = 113000; // MPa, titanium
 

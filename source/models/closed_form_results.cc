@@ -4,9 +4,9 @@
 #include <debond/output/result_files.h>
 #include <debond/support/runtime.h>
 
-#include <nlohmann/json.hpp>
-
 #include <deal.II/base/timer.h>
+
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <iostream>

@@ -240,10 +240,10 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
           std::make_pair(scene.study.factors_at_once > 0,
                          "Factors varied at once")})
       if (is_set)
-        throw Debond::InputError(
-          scene.with_place(std::string("Study / ") + name +
-                           ": this is for studies, and no entry of this scene "
-                           "holds several values, {{a|b}}"));
+        throw scene.with_place(Debond::EntryError(
+          std::string("Study / ") + name,
+          "this is for studies, and no entry of this scene holds several "
+          "values, {{a|b}}"));
     scene.output.overwrite_other_results = arguments.force;
     if (arguments.check)
       return Debond::check_scene(scene, std::cout);

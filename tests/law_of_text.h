@@ -1,9 +1,8 @@
 #ifndef debond_tests_law_of_text_h
 #define debond_tests_law_of_text_h
 
+#include <debond/input/entry_table.h>
 #include <debond/interface/friction_law.h>
-
-#include <deal.II/base/parameter_handler.h>
 
 #include <string>
 
@@ -11,9 +10,12 @@
 inline Debond::FrictionLawPointer
 law_of_text(const std::string &entries)
 {
-  dealii::ParameterHandler prm;
-  Debond::declare_friction_laws(prm);
-  prm.parse_input_from_string(entries);
-  return Debond::create_friction_law(prm);
+  Debond::FrictionLawChoice choice;
+  Debond::EntryTable        table;
+  Debond::declare_friction_laws(table, choice);
+  for (const Debond::SceneEntry &entry :
+       Debond::read_scene_text(entries, "law"))
+    table.set(entry);
+  return Debond::create_friction_law(choice);
 }
 #endif

@@ -153,10 +153,11 @@ namespace Debond
       condense_at(material() == Material::linear ? at_rest : accepted.value) ||
       condense_at(at_rest);
     if (!positive_definite)
-      throw InputError(
+      throw EntryError(
         std::string(body_mesh.side() == Side::bone ? "Bone" : "Implant") +
-        " / Cells: the stiffness of this body is not positive definite: its "
-        "cells are too thin, or its Poisson ratio is too close to 0.5");
+          " / Cells",
+        "the stiffness of this body is not positive definite: its cells are "
+        "too thin, or its Poisson ratio is too close to 0.5");
     if (material() == Material::linear)
       compute_reaction_operator();
   }

@@ -10,10 +10,11 @@
 #include <debond/support/number_text.h>
 #include <debond/support/run_error.h>
 
-#include <deal.II/base/timer.h>
-
 #include <nlohmann/json.hpp>
 
+#include <deal.II/base/timer.h>
+
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>

@@ -76,8 +76,9 @@ namespace Debond
       constexpr auto    z     = ChuckComponent::rotation_z;
       const std::string entry = "Chuck / Rotation z / ";
       if (scene.chuck.component[z].loaded)
-        throw InputError(entry + "Control: Model = auto compares torques and "
-                                 "takes this rotation as prescribed");
+        throw EntryError(entry + "Control",
+                         "Model = auto compares torques and takes this "
+                         "rotation as prescribed");
       const std::vector<Chuck::Vector6> values = prescribed_values(scene);
       Chuck::Vector6 rounding = Chuck::Vector6::Zero(), moved = rounding;
       for (const Chuck::Vector6 &value : values)
@@ -94,22 +95,21 @@ namespace Debond
               moves_in_hold = k;
         }
       if (moved[z] == 0.)
-        throw InputError(entry +
-                         "Value: Model = auto judges a model by its torque "
-                         "curve, and nothing rotates about z in this scene: "
-                         "choose a model with Model");
+        throw EntryError(entry + "Value",
+                         "Model = auto judges a model by its torque curve, and "
+                         "nothing rotates about z in this scene: choose a "
+                         "model with Model");
       if (moved[z] >
           std::abs(values.back()[z] - values.front()[z]) * (1. + 1e-9))
-        throw InputError(entry +
-                         "Value: Model = auto compares torques over the angle "
-                         "and knows no rotation that reverses");
+        throw EntryError(entry + "Value",
+                         "Model = auto compares torques over the angle and "
+                         "knows no rotation that reverses");
       if (moves_in_hold != z)
-        throw InputError(std::string("Chuck / ") +
-                         ChuckParameters::names[moves_in_hold] +
-                         " / Value: Model = auto compares torques over the "
-                         "angle and would not see what this does while the "
-                         "rotation about z pauses or has ended; it may change "
-                         "before the rotation begins and during it");
+        throw EntryError(ChuckParameters::entry_name(moves_in_hold, "Value"),
+                         "Model = auto compares torques over the angle and "
+                         "would not see what this does while the rotation "
+                         "about z pauses or has ended; it may change before "
+                         "the rotation begins and during it");
     }
   } // namespace
 

@@ -23,7 +23,7 @@ namespace Debond
         }
       catch (const InputError &error)
         {
-          throw InputError(scene.with_place(error.what()));
+          throw scene.with_place(error);
         }
     }
   } // namespace

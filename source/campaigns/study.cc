@@ -39,10 +39,11 @@ namespace Debond
       {
         varied.push_back(entry.full_name());
         if (entry.full_name() == "Output / Directory")
-          throw InputError(entry.place +
-                           ": Output / Directory: a study gives each variant "
-                           "a directory of its own below this one: expected "
-                           "one value");
+          throw EntryError(entry.full_name(),
+                           "a study gives each variant a directory of its own "
+                           "below this one: expected one value",
+                           entry.value,
+                           entry.place);
       }
     const Scene first =
       Scene::from_entries(study_variants(entries)[0].entries, name);
@@ -51,9 +52,10 @@ namespace Debond
     std::vector<StudyVariant> combinations =
       study_variants(entries, first.study.factors_at_once);
     if (reference > combinations.size())
-      throw InputError(
-        first.with_place("Study / Reference variant: this study has " +
-                         std::to_string(combinations.size()) + " variants"));
+      throw first.with_place(EntryError("Study / Reference variant",
+                                        "this study has " +
+                                          std::to_string(combinations.size()) +
+                                          " variants"));
     for (StudyVariant &combination : combinations)
       {
         // what only the study uses must not make another scene of a variant
@@ -114,9 +116,9 @@ namespace Debond
     std::error_code error;
     std::filesystem::create_directories(directory, error);
     if (error)
-      throw InputError(
-        "Output / Directory = '" + directory +
-        "': this directory cannot be created: " + error.message());
+      throw EntryError("Output / Directory",
+                       "this directory cannot be created: " + error.message(),
+                       directory);
     const auto lock = DirectoryLock::take(directory);
     for (Variant &variant : variants)
       {
@@ -124,11 +126,12 @@ namespace Debond
         output.overwrite_other_results = force;
         variant.look_up();
         if (variant.content == DirectoryContent::other_scene && !force)
-          throw InputError("Output / Directory = '" + directory +
-                           "': " + output.directory +
-                           " holds results of another scene (compare its "
-                           "parameters.prm): choose another directory, or "
-                           "overwrite them with --force");
+          throw EntryError("Output / Directory",
+                           output.directory +
+                             " holds results of another scene (compare its "
+                             "parameters.prm): choose another directory, or "
+                             "overwrite them with --force",
+                           directory);
         variant.done = variant.done && !force;
         // what is left over from another scene, or not wanted any more
         if (force || variant.content != DirectoryContent::same_scene)

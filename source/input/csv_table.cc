@@ -27,8 +27,9 @@ namespace Debond
       [[noreturn]] void
       refuse(const std::string &message) const
       {
-        throw InputError(entry + " = '" + filename + "', line " +
-                         std::to_string(number) + ": " + message);
+        throw EntryError(entry,
+                         "line " + std::to_string(number) + ": " + message,
+                         filename);
       }
     };
 
@@ -82,8 +83,10 @@ namespace Debond
     open_table(const std::string &filename, const std::string &entry)
     {
       constexpr unsigned int largest_MB = 200;
-      return std::istringstream(read_input_text(
-        filename, entry + " = '" + filename + "': ", largest_MB));
+      const auto             refuse     = [&](const std::string &why) {
+        throw EntryError(entry, why, filename);
+      };
+      return std::istringstream(read_input_text(filename, refuse, largest_MB));
     }
 
 
@@ -159,10 +162,11 @@ namespace Debond
       }
     if (rows.empty())
       {
-        throw InputError(entry + " = '" + filename +
-                         "': this file holds no row of numbers; expected are "
-                         "a line " +
-                         boost::join(names, ",") + " and rows below");
+        throw EntryError(entry,
+                         "this file holds no row of numbers; expected are a "
+                         "line " +
+                           boost::join(names, ",") + " and rows below",
+                         filename);
       }
     return rows;
   }

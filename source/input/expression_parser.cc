@@ -1,5 +1,5 @@
+#include <debond/input/allowed_values.h>
 #include <debond/input/expression_parser.h>
-#include <debond/input/special_characters.h>
 #include <debond/support/input_error.h>
 
 #include <deal.II/base/mu_parser_internal.h>
@@ -28,9 +28,9 @@ namespace Debond
       constexpr std::size_t longest = 10000;
       if (expression.size() > longest)
         return "it has more than " + std::to_string(longest) + " letters";
-      const std::string special = remark_on_special_character(expression, true);
+      const std::string special = remark_on_special_character(expression);
       if (!special.empty())
-        return special.substr(2);
+        return special;
       if (expression.find("**") != std::string::npos)
         return "powers are written ^";
       static const std::regex assignment("(^|[^<>!=])=([^=]|$)");
@@ -124,8 +124,8 @@ namespace Debond
                   const double       radius)
   {
     const auto refuse = [&](const std::string &why) {
-      throw InputError("the expression '" + shortened(expression) + "' in " +
-                       variables + " cannot be read: " + why);
+      throw InputError("this expression in " + variables +
+                       " cannot be read: " + why);
     };
     const std::string why = why_refused(expression);
     if (!why.empty())
@@ -149,7 +149,9 @@ namespace Debond
     catch (const mu::Parser::exception_type &error)
       {
         names.insert(names.end(), {"pi", "R"});
-        const std::string remark = has_quotes(expression) ?
+        const bool is_quoted =
+          expression.find_first_of("\"'`") != std::string::npos;
+        const std::string remark = is_quoted ?
                                      "it stands without quotes" :
                                      remark_on_token(error.GetToken(), names);
         refuse(remark.empty() ? shortened(error.GetMsg()) : remark);

@@ -8,8 +8,7 @@
 namespace Debond
 {
   TimeFunction::TimeFunction(const std::string &expression, const double radius)
-    : name("the expression '" + expression + "'")
-    , function([parsed = read_expression("t", expression, radius)](
+    : function([parsed = read_expression("t", expression, radius)](
                  const double t) { return parsed({t}); })
   {}
 
@@ -20,7 +19,7 @@ namespace Debond
   {
     const double value = function(t);
     if (!std::isfinite(value))
-      throw InputError(name + " has no finite value at t = " + to_text(t));
+      throw InputError("it has no finite value at t = " + to_text(t));
     return value;
   }
 } // namespace Debond

@@ -1,7 +1,4 @@
-#include <debond/input/allowed_values.h>
 #include <debond/interface/bond_friction.h>
-
-#include <deal.II/base/parameter_handler.h>
 
 #include <algorithm>
 
@@ -60,27 +57,25 @@ namespace Debond
 
 
 
-  std::vector<LawMagnitude>
-  BondFriction::magnitudes() const
+  std::vector<LawEntry>
+  BondFriction::entries(const std::vector<LawEntry> &more)
   {
-    return {{"Friction coefficient broken", mu_b, 1e-9, 1e6, ""},
-            {"Friction coefficient unbroken", mu_ub, 1e-9, 1e6, ""}};
-  }
-
-
-
-  void
-  BondFriction::declare(dealii::ParameterHandler &prm)
-  {
-    prm.declare_entry("Friction coefficient broken",
-                      "0.40",
-                      Allowed::number_from(0, ""),
-                      "Coefficient mu_b of a debonded point, dimensionless; "
-                      "the coefficient of plain coulomb.");
-    prm.declare_entry("Friction coefficient unbroken",
-                      "0.58",
-                      Allowed::number_from(0, ""),
-                      "Coefficient mu_ub of a fully bonded point, "
-                      "dimensionless. Used by modified coulomb and table.");
+    const AllowedValues coefficient =
+      Allowed::number_between(1e-9, 1e6, "").or_number(0);
+    std::vector<LawEntry> all{
+      {"",
+       "Friction coefficient broken",
+       "0.40",
+       coefficient,
+       "Coefficient mu_b of a debonded point, dimensionless; the coefficient of "
+       "plain coulomb."},
+      {"",
+       "Friction coefficient unbroken",
+       "0.58",
+       coefficient,
+       "Coefficient mu_ub of a fully bonded point, dimensionless. Used by "
+       "modified coulomb and table."}};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
   }
 } // namespace Debond

@@ -40,19 +40,20 @@ namespace Debond
         }
       catch (const InputError &error)
         {
-          throw InputError(bonding_section + "Expression: " + error.what());
+          throw EntryError(bonding_section + "Expression", error.what());
         }
       return [phi_0, expression](const Eigen::Vector2d &place) {
         const double angle = std::atan2(place[1], place[0]) * 180. / M_PI;
         const double value = phi_0({place[0], place[1], place.norm(), angle});
         // rounding may exceed the bounds by its own size
         if (!(value >= -1e-12 && value <= 1. + 1e-12))
-          throw InputError(bonding_section + "Expression = '" +
-                           shortened(expression) + "': phi_0 " +
-                           (std::isfinite(value) ? "= " + to_text(value, 6) :
-                                                   "has no finite value") +
-                           " at x = " + to_text(place[0], 6) + " mm, y = " +
-                           to_text(place[1], 6) + " mm: expected 0 to 1");
+          throw EntryError(bonding_section + "Expression",
+                           "phi_0 " +
+                             (std::isfinite(value) ? "= " + to_text(value, 6) :
+                                                     "has no finite value") +
+                             " at x = " + to_text(place[0], 6) + " mm, y = " +
+                             to_text(place[1], 6) + " mm: expected 0 to 1",
+                           expression);
         return std::clamp(value, 0., 1.);
       };
     }
@@ -183,7 +184,7 @@ namespace Debond
     [[noreturn]] void
     refuse_file(const std::string &filename, const std::string &why)
     {
-      throw InputError(bonding_section + "File = '" + filename + "': " + why);
+      throw EntryError(bonding_section + "File", why, filename);
     }
 
 
@@ -193,8 +194,7 @@ namespace Debond
                 const unsigned int line,
                 const std::string &why)
     {
-      throw InputError(bonding_section + "File = '" + filename + "', line " +
-                       std::to_string(line) + ": " + why);
+      refuse_file(filename, "line " + std::to_string(line) + ": " + why);
     }
 
 

@@ -12,6 +12,7 @@ namespace Debond
                                      const BodyMesh            &bone,
                                      const BodyMesh            &implant)
     : parameters(parameters)
+    , law(parameters.law())
     , slave(parameters.slave)
     , mesh{{&bone, &implant}}
   {
@@ -173,7 +174,7 @@ namespace Debond
         if (parameters.slip_along_previous_gap)
           mode_here.slip_direction =
             configuration.side[master_side()].frame * point.accepted_traction;
-        update_contact_point(parameters,
+        update_contact_point(law,
                              point.accepted,
                              point.phi_0,
                              interpolate(point.basis,
@@ -183,8 +184,7 @@ namespace Debond
                              point.trial);
         return;
       }
-    leave_open(parameters,
-               point.accepted,
+    leave_open(law, point.accepted,
                point.trial); // still beyond the edge
   }
 
@@ -299,7 +299,7 @@ namespace Debond
   InterfaceSummary
   ContactInterface::summarise() const
   {
-    return Debond::summarise(points, parameters, mode_now);
+    return Debond::summarise(points, law, mode_now);
   }
 
 

@@ -1,7 +1,4 @@
-#include <debond/input/allowed_values.h>
 #include <debond/interface/bond_friction.h>
-
-#include <deal.II/base/parameter_handler.h>
 
 #include <algorithm>
 #include <cmath>
@@ -40,40 +37,32 @@ namespace Debond
         return "Sliding threshold or Transition factor";
       }
 
-      std::vector<LawMagnitude>
-      magnitudes() const override
+      static std::vector<LawEntry>
+      entries()
       {
-        std::vector<LawMagnitude> all = BondFriction::magnitudes();
-        all.push_back({"Sliding threshold", a_s, 1e-9, 1e6, " mm"});
-        all.push_back({"Transition factor", b_s, 1e-9, 1e6, ""});
-        return all;
-      }
-
-      static void
-      declare(dealii::ParameterHandler &prm)
-      {
-        BondFriction::declare(prm);
-        prm.declare_entry("Sliding threshold",
-                          "0.022",
-                          Allowed::number_above(0, "mm"),
-                          "Sliding distance a_s [mm] up to which a point stays "
-                          "fully bonded. Only used by modified coulomb.");
-        prm.declare_entry(
-          "Transition factor",
-          "0.74",
-          Allowed::number_above(0, ""),
-          "Factor b_s, dimensionless: a point is fully debonded once it has "
-          "slid (1 + 2 b_s) a_s. Only used by modified coulomb.");
+        return BondFriction::entries(
+          {{"",
+            "Sliding threshold",
+            "0.022",
+            Allowed::number_between(1e-9, 1e6, "mm"),
+            "Sliding distance a_s [mm] up to which a point stays fully bonded. "
+            "Only used by modified coulomb."},
+           {"",
+            "Transition factor",
+            "0.74",
+            Allowed::number_between(1e-9, 1e6, ""),
+            "Factor b_s, dimensionless: a point is fully debonded once it has "
+            "slid (1 + 2 b_s) a_s. Only used by modified coulomb."}});
       }
 
       /** What the entries say; laws that are special cases change it. */
       static ModifiedCoulombParameters
-      parse(dealii::ParameterHandler &prm)
+      parse(const FrictionLawChoice &choice)
       {
-        return {prm.get_double("Friction coefficient broken"),
-                prm.get_double("Friction coefficient unbroken"),
-                prm.get_double("Sliding threshold"),
-                prm.get_double("Transition factor")};
+        return {choice.number("Friction coefficient broken"),
+                choice.number("Friction coefficient unbroken"),
+                choice.number("Sliding threshold"),
+                choice.number("Transition factor")};
       }
 
     protected:
@@ -179,9 +168,9 @@ namespace Debond
   {
     return {"frictionless",
             "no tangential traction",
-            ModifiedCoulomb::declare,
-            [](dealii::ParameterHandler &prm) {
-              auto parameters      = ModifiedCoulomb::parse(prm);
+            ModifiedCoulomb::entries(),
+            [](const FrictionLawChoice &choice) {
+              auto parameters      = ModifiedCoulomb::parse(choice);
               parameters.mu_broken = parameters.mu_unbroken = 0.;
               return FrictionLawPointer(
                 std::make_shared<Frictionless>(parameters));
@@ -195,9 +184,9 @@ namespace Debond
   {
     return {"coulomb",
             "the constant coefficient Friction coefficient broken",
-            ModifiedCoulomb::declare,
-            [](dealii::ParameterHandler &prm) {
-              auto parameters        = ModifiedCoulomb::parse(prm);
+            ModifiedCoulomb::entries(),
+            [](const FrictionLawChoice &choice) {
+              auto parameters        = ModifiedCoulomb::parse(choice);
               parameters.mu_unbroken = parameters.mu_broken;
               return modified_coulomb(parameters);
             }};
@@ -212,9 +201,9 @@ namespace Debond
             "the coefficient falls from its unbroken to its broken value as "
             "the accumulated sliding distance of a point grows (Eqs. 11 to 13 "
             "of the paper)",
-            ModifiedCoulomb::declare,
-            [](dealii::ParameterHandler &prm) {
-              return modified_coulomb(ModifiedCoulomb::parse(prm));
+            ModifiedCoulomb::entries(),
+            [](const FrictionLawChoice &choice) {
+              return modified_coulomb(ModifiedCoulomb::parse(choice));
             }};
   }
 } // namespace Debond

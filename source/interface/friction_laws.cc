@@ -1,7 +1,7 @@
-#include <debond/input/allowed_values.h>
+#include <debond/input/entry_table.h>
 #include <debond/interface/friction_law.h>
 
-#include <deal.II/base/parameter_handler.h>
+#include <set>
 
 namespace Debond
 {
@@ -34,33 +34,53 @@ namespace Debond
 
 
 
-  void
-  declare_friction_laws(dealii::ParameterHandler &prm)
+  double
+  FrictionLawChoice::number(const std::string &entry) const
   {
-    std::string choices, text;
+    double value = 0.;
+    read_number(text(entry), value);
+    return value;
+  }
+
+
+
+  void
+  declare_friction_laws(EntryTable &table, FrictionLawChoice &choice)
+  {
+    std::string names, text;
     for (const FrictionLawPlugin &plugin : friction_law_plugins())
       {
-        choices += (choices.empty() ? "" : " | ") + plugin.name;
+        names += (names.empty() ? "" : " | ") + plugin.name;
         text += "`" + plugin.name + "': " + plugin.description + ". ";
       }
     text.pop_back();
-    prm.declare_entry("Friction law",
-                      "modified coulomb",
-                      Allowed::choice(choices),
-                      text);
+    if (choice.law.empty())
+      choice.law = "modified coulomb";
+    table.add("Friction law", choice.law, Allowed::choice(names), text);
+    std::set<std::string> done;
     for (const FrictionLawPlugin &plugin : friction_law_plugins())
-      plugin.declare(prm);
+      for (const LawEntry &entry : plugin.entries)
+        if (done.insert(entry.name).second)
+          {
+            // a value that is there already is the default
+            std::string &value =
+              choice.entries.emplace(entry.name, entry.value).first->second;
+            if (!entry.subsection.empty())
+              table.enter_subsection(entry.subsection);
+            table.add(entry.name, value, entry.allowed, entry.documentation);
+            if (!entry.subsection.empty())
+              table.leave_subsection();
+          }
   }
 
 
 
   FrictionLawPointer
-  create_friction_law(dealii::ParameterHandler &prm)
+  create_friction_law(const FrictionLawChoice &choice)
   {
-    const std::string name = prm.get("Friction law");
     for (const FrictionLawPlugin &plugin : friction_law_plugins())
-      if (plugin.name == name)
-        return plugin.create(prm);
+      if (plugin.name == choice.law)
+        return plugin.create(choice);
     return nullptr; // never: the entry admits no other name
   }
 } // namespace Debond

@@ -103,7 +103,7 @@ namespace Debond
       [[noreturn]] void
       refuse(const std::string &why) const
       {
-        throw InputError(entry + " = '" + name + "': " + why);
+        throw EntryError(entry, why, name);
       }
 
       void
@@ -351,8 +351,8 @@ namespace Debond
   read_grey_image(const std::string &filename, const std::string &entry)
   {
     const ImageFile   file{filename, entry};
-    const std::string bytes =
-      read_input_bytes(filename, entry + " = '" + filename + "': ", 500);
+    const std::string bytes = read_input_bytes(
+      filename, [&file](const std::string &why) { file.refuse(why); }, 500);
     if (bytes.compare(0, 4, "\x89PNG") == 0)
       return read_png(file, bytes);
     if (bytes.compare(0, 2, "P2") == 0 || bytes.compare(0, 2, "P5") == 0)

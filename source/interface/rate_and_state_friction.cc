@@ -1,7 +1,4 @@
-#include <debond/input/allowed_values.h>
 #include <debond/interface/friction_law.h>
-
-#include <deal.II/base/parameter_handler.h>
 
 #include <boost/math/quadrature/gauss.hpp>
 
@@ -27,14 +24,14 @@ namespace Debond
     class RateAndState : public FrictionLaw
     {
     public:
-      explicit RateAndState(dealii::ParameterHandler &prm)
-        : mu_0(prm.get_double("Reference coefficient"))
-        , A(prm.get_double("Direct effect"))
-        , B(prm.get_double("Evolution effect"))
-        , V_0(prm.get_double("Reference speed"))
-        , D(prm.get_double("Sliding distance"))
-        , theta_0(prm.get_double("Initial state"))
-        , ageing(prm.get("Evolution") == "ageing")
+      explicit RateAndState(const FrictionLawChoice &choice)
+        : mu_0(choice.number("Reference coefficient"))
+        , A(choice.number("Direct effect"))
+        , B(choice.number("Evolution effect"))
+        , V_0(choice.number("Reference speed"))
+        , D(choice.number("Sliding distance"))
+        , theta_0(choice.number("Initial state"))
+        , ageing(choice.text("Evolution") == "ageing")
       {}
 
       FrictionCoefficient
@@ -115,80 +112,55 @@ namespace Debond
         return D;
       }
 
-      std::vector<LawMagnitude>
-      magnitudes() const override
+      static std::vector<LawEntry>
+      entries()
       {
-        const std::string s = std::string(subsection) + " / ";
-        return {{s + "Reference coefficient", mu_0, 1e-9, 1e6, ""},
-                {s + "Direct effect", A, 1e-9, 1e6, ""},
-                {s + "Evolution effect", B, 1e-9, 1e6, ""},
-                {s + "Reference speed", V_0, 1e-30, 1e15, ""},
-                {s + "Sliding distance", D, 1e-9, 1e6, " mm"},
-                {s + "Initial state", theta_0, 1e-30, 1e30, ""}};
-      }
-
-      static void
-      declare(dealii::ParameterHandler &prm)
-      {
-        const auto number = [&prm](const char *name,
-                                   const char *value,
-                                   const auto &allowed,
-                                   const char *text) {
-          prm.declare_entry(name, value, allowed, text);
+        const auto row = [](const char          *name,
+                            const char          *value,
+                            const AllowedValues &allowed,
+                            const char          *text) {
+          return LawEntry{"Rate and state", name, value, allowed, text};
         };
-        prm.enter_subsection(subsection);
-        number(
-          "Reference coefficient",
-          "0.4",
-          Allowed::number_from(0, ""),
-          "mu_0, dimensionless: that of a point that has been sliding with "
-          "a speed far below Reference speed and whose state is Sliding "
-          "distance / Reference speed.");
-        number("Direct effect",
-               "0.01",
-               Allowed::number_above(0, ""),
-               "A, dimensionless: mu rises by A ln(1 + V/V_0) at once with the "
-               "speed V.");
-        number("Evolution effect",
-               "0.015",
-               Allowed::number_from(0, ""),
-               "B, dimensionless: mu changes by B ln(V_0 theta/D) as the state "
-               "theta follows. B > A weakens with the speed.");
-        number("Reference speed",
-               "1e-3",
-               Allowed::number_above(0, "mm per unit of time"),
-               "V_0 [mm per unit of time].");
-        number("Sliding distance",
-               "0.01",
-               Allowed::number_above(0, "mm"),
-               "D [mm], over which the state follows the speed.");
-        number("Initial state",
-               "0",
-               Allowed::number_from(0, "units of time"),
-               "theta [unit of time] when friction starts. 0: Sliding distance "
-               "/ Reference speed, the steady state at Reference speed.");
-        prm.declare_entry(
-          "Evolution",
-          "ageing",
-          Allowed::choice("ageing | slip"),
-          "`ageing': d theta/dt = 1 - V theta/D, also while a point sticks. "
-          "`slip': d theta/dt = -(V theta/D) ln(V theta/D), which needs "
-          "sliding. An open point keeps its state.");
-        prm.leave_subsection();
-      }
-
-      static FrictionLawPointer
-      create(dealii::ParameterHandler &prm)
-      {
-        prm.enter_subsection(subsection);
-        const auto law = std::make_shared<RateAndState>(prm);
-        prm.leave_subsection();
-        return law;
+        return {
+          row("Reference coefficient",
+              "0.4",
+              Allowed::number_between(1e-9, 1e6, "").or_number(0),
+              "mu_0, dimensionless: that of a point that has been sliding with "
+              "a speed far below Reference speed and whose state is Sliding "
+              "distance / Reference speed."),
+          row("Direct effect",
+              "0.01",
+              Allowed::number_between(1e-9, 1e6, ""),
+              "A, dimensionless: mu rises by A ln(1 + V/V_0) at once with the "
+              "speed V."),
+          row("Evolution effect",
+              "0.015",
+              Allowed::number_between(1e-9, 1e6, "").or_number(0),
+              "B, dimensionless: mu changes by B ln(V_0 theta/D) as the state "
+              "theta follows. B > A weakens with the speed."),
+          row("Reference speed",
+              "1e-3",
+              Allowed::number_between(1e-30, 1e15, "mm per unit of time"),
+              "V_0 [mm per unit of time]."),
+          row("Sliding distance",
+              "0.01",
+              Allowed::number_between(1e-9, 1e6, "mm"),
+              "D [mm], over which the state follows the speed."),
+          row(
+            "Initial state",
+            "0",
+            Allowed::number_between(1e-30, 1e30, "units of time").or_number(0),
+            "theta [unit of time] when friction starts. 0: Sliding distance "
+            "/ Reference speed, the steady state at Reference speed."),
+          row("Evolution",
+              "ageing",
+              Allowed::choice("ageing | slip"),
+              "`ageing': d theta/dt = 1 - V theta/D, also while a point "
+              "sticks. `slip': d theta/dt = -(V theta/D) ln(V theta/D), which "
+              "needs sliding. An open point keeps its state.")};
       }
 
     private:
-      static constexpr const char *subsection = "Rate and state";
-
       /** psi after the step, and d psi/d @p distance. With x = distance/D and
        *  constant V = distance/dt
        *    ageing: theta = theta_n e^-x + dt (1 - e^-x)/x,
@@ -237,7 +209,9 @@ namespace Debond
     return {"rate and state",
             "mu = mu_0 + A ln(1 + V/V_0) + B ln(V_0 theta/D) with the sliding "
             "speed V and a state theta that follows it, see Rate and state",
-            RateAndState::declare,
-            RateAndState::create};
+            RateAndState::entries(),
+            [](const FrictionLawChoice &choice) {
+              return FrictionLawPointer(std::make_shared<RateAndState>(choice));
+            }};
   }
 } // namespace Debond

@@ -1,14 +1,11 @@
-#include <debond/input/allowed_values.h>
 #include <debond/input/csv_table.h>
 #include <debond/interface/bond_friction.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 
-#include <deal.II/base/parameter_handler.h>
+#include <boost/math/interpolators/pchip.hpp>
 
 #include <math.h> // pchip expects isnan() outside of any namespace
-
-#include <boost/math/interpolators/pchip.hpp>
 
 #include <algorithm>
 
@@ -191,9 +188,8 @@ namespace Debond
     return {
       "table",
       "as modified coulomb, with the decay of the bond from Friction table",
-      [](dealii::ParameterHandler &prm) {
-        BondFriction::declare(prm);
-        prm.declare_entry(
+      BondFriction::entries(
+        {{"",
           table_entry,
           "",
           Allowed::optional_text("the name of a CSV file"),
@@ -202,12 +198,11 @@ namespace Debond
           "was fully bonded, from 1 to 0, dimensionless, which may not rise. "
           "Monotone cubics lie between the rows, of which there are four at "
           "least; from the last one on phi is constant. Used by table. The "
-          "path is relative to the working directory.");
-      },
-      [](dealii::ParameterHandler &prm) {
-        return read_table(prm.get_double("Friction coefficient broken"),
-                          prm.get_double("Friction coefficient unbroken"),
-                          prm.get(table_entry));
+          "path is relative to the working directory."}}),
+      [](const FrictionLawChoice &choice) {
+        return read_table(choice.number("Friction coefficient broken"),
+                          choice.number("Friction coefficient unbroken"),
+                          choice.text(table_entry));
       }};
   }
 } // namespace Debond

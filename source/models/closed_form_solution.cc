@@ -1,11 +1,11 @@
 #include <debond/models/closed_form_solution.h>
 #include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
 #include <debond/system/energy_balance.h>
 #include <debond/system/load_stepping.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace Debond
 {
@@ -30,18 +30,9 @@ namespace Debond
     [[noreturn]] void
     refuse(const Scene &scene, const std::string &entry, const std::string &why)
     {
-      throw InputError(entry + ": " + why +
-                       " (Model = " + name_of_closed_form(scene.model) +
-                       "; Model = finite elements can do more)");
-    }
-
-
-
-    std::string
-    chuck_entry(const unsigned int component, const std::string &entry)
-    {
-      return std::string("Chuck / ") + ChuckParameters::names[component] +
-             " / " + entry;
+      throw EntryError(entry,
+                       why + " (Model = " + name_of_closed_form(scene.model) +
+                         "; Model = finite elements can do more)");
     }
 
 
@@ -80,10 +71,10 @@ namespace Debond
         {
           const ChuckComponentParameters &component = scene.chuck.component[k];
           refuse_if(component.loaded && k != push,
-                    chuck_entry(k, "Control"),
+                    ChuckParameters::entry_name(k, "Control"),
                     "closed forms take this motion as prescribed");
           refuse_if(component.stiffness != 0 && !(k == twist && is_foundation),
-                    chuck_entry(k, "Stiffness"),
+                    ChuckParameters::entry_name(k, "Stiffness"),
                     "closed forms have no compliant machine, but that the "
                     "foundation's Rotation z may be driven by one");
         }
@@ -119,7 +110,7 @@ namespace Debond
     for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
       if (k != push && k != twist && q[k] != 0.)
         refuse(scene,
-               chuck_entry(k, "Value"),
+               ChuckParameters::entry_name(k, "Value"),
                "closed forms know Translation z and Rotation z only");
     return {time, -q[push], q[twist]};
   }
@@ -129,8 +120,8 @@ namespace Debond
   void
   ClosedFormSolution::check_loads() const
   {
-    const std::string pushed = chuck_entry(push, "Value"),
-                      turned = chuck_entry(twist, "Value");
+    const std::string pushed = ChuckParameters::entry_name(push, "Value"),
+                      turned = ChuckParameters::entry_name(twist, "Value");
     if (loads.front().angle != 0.)
       refuse(scene, turned, "closed forms begin with an angle of zero");
     double largest_push = 0.;
@@ -256,7 +247,7 @@ namespace Debond
     disk.friction = scene.interface.friction;
     if (!(disk.pressure > 0.))
       refuse(scene,
-             chuck_entry(push, "Value"),
+             ChuckParameters::entry_name(push, "Value"),
              "closed forms need pressure while they turn");
 
     if (scene.model == ModelKind::foundation)
@@ -264,13 +255,9 @@ namespace Debond
     else if (scene.model == ModelKind::analytical)
       {
         if (given.full_sliding < given.linear_limit)
-          {
-            std::ostringstream why;
-            why << "Closed form / Linear limit angle: " << given.linear_limit
-                << " deg is more than Full sliding angle, "
-                << given.full_sliding << " deg";
-            throw InputError(why.str());
-          }
+          throw EntryError("Closed form / Linear limit angle",
+                           "it is more than Full sliding angle, " +
+                             to_text(given.full_sliding) + " deg");
         torsion =
           std::make_unique<AnalyticalTorsion>(disk,
                                               given.linear_limit * degree,

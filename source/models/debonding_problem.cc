@@ -1,14 +1,13 @@
 #include <debond/models/debonding_problem.h>
 #include <debond/models/forecast.h>
 #include <debond/models/memory_estimate.h>
-#include <debond/models/simulation.h>
+#include <debond/models/simulation_summary.h>
 #include <debond/output/checkpoint.h>
 #include <debond/output/console.h>
 #include <debond/output/field_output.h>
 #include <debond/output/profile_output.h>
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
-#include <debond/support/run_error.h>
 #include <debond/support/runtime.h>
 #include <debond/support/serialization.h>
 #include <debond/support/timed_section.h>
@@ -25,23 +24,6 @@ namespace Debond
 {
   namespace
   {
-    /** "N degrees of freedom, M of them unknowns, ..." */
-    std::string
-    unknowns_of(const CoupledSystem &system)
-    {
-      const BodyMesh    &bone    = system.bone.mesh();
-      const BodyMesh    &implant = system.implant.mesh();
-      std::ostringstream text;
-      text << bone.n_dofs_as_published() + implant.n_dofs_as_published()
-           << " degrees of freedom, "
-           << bone.n_unknowns() + implant.n_unknowns() << " of them unknowns, "
-           << system.n_unknowns()
-           << " after condensation on the contact surfaces";
-      return text.str();
-    }
-
-
-
     /** A run that begins anew leaves nothing of an earlier one that would be
      *  taken for its own, but does not destroy a checkpoint either. */
     ResultDirectory
@@ -141,8 +123,6 @@ namespace Debond
     stop_if_interrupted();
     std::map<std::string, double>
     seconds() const;
-    CurveSettings
-    curve_settings() const;
     RunSummary
     summarise(const CurveSettings &settings) const;
     void
@@ -333,52 +313,20 @@ namespace Debond
 
 
 
-  CurveSettings
-  DebondingProblem::Run::curve_settings() const
-  {
-    const BodyParameters   &implant   = scene.implant;
-    const ContactInterface &interface = simulation.system().interface;
-    CurveSettings           settings;
-    settings.contact_area_mm2 =
-      implant.shape == BodyShape::coin ?
-        M_PI * implant.radius * implant.radius :
-      implant.shape == BodyShape::cap ?
-        2. * M_PI * implant.cap_radius * implant.rise() :
-        interface.implant_area();
-    settings.mean_phi_0             = scene.output.observed_bonding > 0 ?
-                                        scene.output.observed_bonding :
-                                        interface.bonding().report().mean;
-    settings.full_sliding_angle_deg = scene.output.full_sliding_angle;
-    settings.phase_times            = scene.load_steps.times;
-    settings.reference              = reference;
-    return settings;
-  }
-
-
-
   RunSummary
   DebondingProblem::Run::summarise(const CurveSettings &settings) const
   {
-    const CoupledSystem &system = simulation.system();
-    const BodyMesh &bone = system.bone.mesh(), &implant = system.implant.mesh();
-    RunSummary      summary;
-    summary.measures = measure_torque_curve(simulation.rows(), settings);
-    summary.profile_measures  = profiles.measures();
-    summary.steps             = simulation.effort().steps;
-    summary.smallest_step     = simulation.effort().shortest_step;
-    summary.newton_iterations = simulation.effort().newton_iterations;
-    summary.dofs = bone.n_dofs_as_published() + implant.n_dofs_as_published();
-    summary.unknowns           = bone.n_unknowns() + implant.n_unknowns();
-    summary.condensed_unknowns = system.n_unknowns();
-    const auto seconds         = this->seconds();
+    RunSummary summary       = summary_of(simulation, settings);
+    summary.profile_measures = profiles.measures();
+    const auto seconds       = this->seconds();
     for (const auto &section :
          timer.get_summary_data(dealii::TimerOutput::total_wall_time))
       summary.seconds.emplace_back(section.first, seconds.at(section.first));
     for (const std::string section : {"before steps", "stepping"})
       summary.seconds.emplace_back(section, seconds.at(section));
-    if (system.bodies()->seconds_shared > 0.)
-      summary.seconds.emplace_back("shared set-up",
-                                   system.bodies()->seconds_shared);
+    const double shared = simulation.system().bodies()->seconds_shared;
+    if (shared > 0.)
+      summary.seconds.emplace_back("shared set-up", shared);
     summary.wall_seconds   = seconds.at("all");
     summary.peak_memory_MB = peak_memory_MB();
     return summary;
@@ -386,26 +334,11 @@ namespace Debond
 
 
 
-  namespace
-  {
-    void
-    add_bonding(const BondingPattern::Report &bonding,
-                nlohmann::ordered_json       &json)
-    {
-      json["phi_0_mean"]               = bonding.mean;
-      json["bonded_area_mm2"]          = bonding.bonded_area;
-      json["bonded_patches"]           = bonding.patches;
-      json["largest_bonded_patch_mm2"] = bonding.largest_patch;
-    }
-  } // namespace
-
-
-
   void
   DebondingProblem::Run::finish(const bool converged, const std::string &reason)
   {
     console.warn("profile", profiles.finish());
-    const CurveSettings settings = curve_settings();
+    const CurveSettings settings = curve_settings(simulation, reference);
     RunSummary          summary  = summarise(settings);
     if (converged)
       console.warn("reference",
@@ -415,10 +348,7 @@ namespace Debond
     summary.warnings  = console.warnings();
 
     nlohmann::ordered_json json = summary;
-    add_bonding(simulation.system().interface.bonding().report(), json);
-    const ReleasedEnergy &released = simulation.checks().released();
-    json["jumps"]                  = released.n_jumps();
-    json["released_energy_Nm"]     = 1e-3 * released.total();
+    add_facts(simulation, json);
     write_json(directory.file("summary.json"), json);
     if (!converged)
       return;
@@ -485,14 +415,6 @@ namespace Debond
 
 
   void
-  DebondingProblem::run()
-  {
-    run(nullptr);
-  }
-
-
-
-  void
   DebondingProblem::resume(const Checkpoint &checkpoint)
   {
     run(&checkpoint);
@@ -511,7 +433,7 @@ namespace Debond
       }
     catch (const InputError &error)
       {
-        throw InputError(scene.with_place(error.what()));
+        throw scene.with_place(error);
       }
     try
       {
@@ -520,7 +442,7 @@ namespace Debond
     catch (const InputError &error)
       {
         // an expression that turns infinite
-        const InputError placed(scene.with_place(error.what()));
+        const InputError placed = scene.with_place(error);
         current->finish_after(placed);
         throw placed;
       }

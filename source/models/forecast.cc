@@ -39,10 +39,10 @@ namespace Debond
       const InterfaceParameters &interface = scene.interface;
       const double               slope =
         interface.friction->steepest_fall({interface.bonding.initial_bonding});
-      const double missing = slope * p - interface.tangential_penalty;
+      const double missing = slope * p - interface.tangential_stiffness();
       if (slope == 0. || interface.explicit_friction)
         return;
-      out << "  p / eps_t " << p / interface.tangential_penalty
+      out << "  p / eps_t " << p / interface.tangential_stiffness()
           << " mm; the friction law has one solution below " << 1. / slope
           << " mm\n";
       if (missing >= 0. && interface.viscosity == 0.)
@@ -67,13 +67,13 @@ namespace Debond
     const double G_i =
       implant.young_modulus / (2. * (1. + implant.poisson_ratio));
     const double k_n = in_series(
-      scene.interface.normal->initial_stiffness(),
+      scene.interface.law().normal->initial_stiffness(),
       compliance_free(bone,
                       2. * bone.young_modulus /
                         ((1. - std::pow(bone.poisson_ratio, 2)) * M_PI * R)),
       compliance_free(implant, implant.young_modulus / implant.height));
     const double k_t =
-      in_series(scene.interface.tangential_penalty,
+      in_series(scene.interface.tangential_stiffness(),
                 compliance_free(bone, 32. * G_b / (3. * M_PI * R)),
                 compliance_free(implant, G_i / implant.height));
 

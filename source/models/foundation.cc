@@ -53,9 +53,10 @@ namespace Debond
           why = std::string(": ") + error.what();
         }
       if (!why.empty())
-        throw InputError("Closed form: the stiffness of the foundation cannot "
-                         "be found from the bodies of this scene" +
-                         why);
+        throw EntryError("Closed form",
+                         "the stiffness of the foundation cannot be found from "
+                         "the bodies of this scene" +
+                           why);
       return simulation.rows().back();
     }
 

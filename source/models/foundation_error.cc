@@ -60,9 +60,9 @@ namespace Debond
                      2. * largest_ratio * pressure / body->young_modulus);
       return strain *
              (1. - std::min(stiffness.normal /
-                              scene.interface.normal->initial_stiffness(),
+                              scene.interface.law().normal->initial_stiffness(),
                             stiffness.torsional /
-                              scene.interface.tangential_penalty));
+                              scene.interface.tangential_stiffness()));
     }
 
 

@@ -73,19 +73,6 @@ namespace Debond
 
 
 
-  ReferenceCurve
-  read_reference_curve(const std::string &filename)
-  {
-    ReferenceCurve curve;
-    if (!filename.empty())
-      for (const std::vector<double> &row : read_csv_columns(
-             filename, "Output / Reference curve", {"angle_deg", "torque_Nmm"}))
-        curve.emplace_back(row[0], row[1]);
-    return curve;
-  }
-
-
-
   namespace
   {
     using Rows = std::vector<TorqueRow>;

@@ -30,15 +30,16 @@ namespace Debond
     , interface(parameters.interface, bone.mesh(), implant.mesh())
     , R(parameters.implant.characteristic_radius())
     , timer(timer)
-    , force_floor(parameters.interface.normal->initial_stiffness() *
+    , force_floor(parameters.interface.law().normal->initial_stiffness() *
                   interface.implant_area() * 1e-6 * R)
     , matrix(bone, implant, interface, configuration, path)
   {
     configuration.chuck = &chuck;
     path.follow         = parameters.load_steps.follow_path;
     for (unsigned int k = 0; k < 6; ++k)
-      path.stiffness[k] = parameters.interface.normal->initial_stiffness() *
-                          interface.implant_area() * std::pow(scale_of(k), 2);
+      path.stiffness[k] =
+        parameters.interface.law().normal->initial_stiffness() *
+        interface.implant_area() * std::pow(scale_of(k), 2);
   }
 
 
@@ -190,14 +191,6 @@ namespace Debond
 
 
   void
-  CoupledSystem::prescribe_slip(const double slip)
-  {
-    path.slip = slip;
-  }
-
-
-
-  void
   CoupledSystem::commit(const double parameter)
   {
     {
@@ -222,14 +215,6 @@ namespace Debond
     bone.rollback();
     implant.rollback();
     chuck.rollback();
-  }
-
-
-
-  double
-  CoupledSystem::scale_of(const unsigned int chuck_component) const
-  {
-    return is_rotation(chuck_component) ? R : 1.;
   }
 
 

@@ -11,13 +11,10 @@
 #include <string>
 #include <vector>
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace Debond
 {
+  class EntryTable;
+
   namespace Names
   {
     /** In a class of its own: found as ChuckComponent::rotation_z only. */
@@ -74,10 +71,12 @@ namespace Debond
 
     std::array<ChuckComponentParameters, n_components> component;
 
-    static void
-    declare(dealii::ParameterHandler &prm);
+    /** "Chuck / Rotation z / Value" and the like. */
+    static std::string
+    entry_name(unsigned int component, const std::string &entry);
+
     void
-    parse(dealii::ParameterHandler &prm);
+    declare(EntryTable &table);
   };
 
   /**

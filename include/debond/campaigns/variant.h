@@ -1,6 +1,7 @@
 #ifndef debond_campaigns_variant_h
 #define debond_campaigns_variant_h
 
+#include <debond/output/result_files.h>
 #include <debond/scene/scene.h>
 
 #include <nlohmann/json.hpp>
@@ -24,7 +25,7 @@ namespace Debond
     std::vector<std::string> values;            ///< of the varied entries
     unsigned int             n_repetitions = 1; ///< runs that are wanted
     DirectoryContent         content       = DirectoryContent::no_results;
-    nlohmann::ordered_json   summary = nlohmann::ordered_json::object();
+    nlohmann::ordered_json   summary       = nlohmann::ordered_json::object();
     bool                     compared = false; ///< with the reference variant
     bool                     done     = false;
     std::string              failure; ///< why it failed, if it did

@@ -15,8 +15,7 @@ namespace Debond
      *  expression and the parser's own words if the expression is invalid. */
     TimeFunction(const std::string &expression, double radius);
     explicit TimeFunction(const std::function<double(double)> &function)
-      : name("the function")
-      , function(function)
+      : function(function)
     {}
 
     /** The value at time @p t, in the unit that the expression is written in.
@@ -25,7 +24,6 @@ namespace Debond
     operator()(double t) const;
 
   private:
-    std::string                   name;
     std::function<double(double)> function;
   };
 } // namespace Debond

@@ -38,12 +38,10 @@ namespace Debond
     {
       return mu_b;
     }
-    std::vector<LawMagnitude>
-    magnitudes() const override;
 
-    /** Declares the entries of mu_b and mu_ub. */
-    static void
-    declare(dealii::ParameterHandler &prm);
+    /** The entries of mu_b and mu_ub, and @p more. */
+    static std::vector<LawEntry>
+    entries(const std::vector<LawEntry> &more);
 
   protected:
     /** s at the sliding distance @p slip [mm]; @p slope: ds/dg_s [1/mm]. */

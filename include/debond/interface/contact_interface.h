@@ -186,6 +186,7 @@ namespace Debond
     master(const InterfaceConfiguration &configuration) const;
 
     const InterfaceParameters             parameters;
+    const ContactPointLaw                 law;
     const Side                            slave;
     std::array<const BodyMesh *, 2>       mesh;
     std::vector<SlavePoint>               points;

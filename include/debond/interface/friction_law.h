@@ -1,16 +1,13 @@
 #ifndef debond_interface_friction_law_h
 #define debond_interface_friction_law_h
 
+#include <debond/input/allowed_values.h>
 #include <debond/interface/point_history.h>
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
-
-namespace dealii
-{
-  class ParameterHandler;
-}
 
 namespace Debond
 {
@@ -31,15 +28,6 @@ namespace Debond
     double phi = 0; ///< bonding state, Eq. (13); 0 for laws without a bond
     double mu  = 0; ///< Eq. (11)
     double dmu = 0; ///< d mu / d(distance slid in the step) [1/mm]
-  };
-
-  /** A number of a law that is to be computed with: of which entry in
-   *  `Interface`, and what it may be apart from 0. */
-  struct LawMagnitude
-  {
-    std::string entry;
-    double      value, lower, upper;
-    const char *unit;
   };
 
   /**
@@ -145,8 +133,6 @@ namespace Debond
     {
       return "";
     }
-    virtual std::vector<LawMagnitude>
-    magnitudes() const = 0;
     //@}
 
     /** @name For closed forms; of laws that do not depend on the rate */
@@ -167,28 +153,58 @@ namespace Debond
 
   using FrictionLawPointer = std::shared_ptr<const FrictionLaw>;
 
+  /** An entry of a law: a row of a scene's subsection `Interface`, or of a
+   *  subsection of its own in there. */
+  struct LawEntry
+  {
+    std::string   subsection; ///< within `Interface`; may be empty
+    std::string   name;
+    std::string   value; ///< default
+    AllowedValues allowed;
+    std::string   documentation; ///< states the unit
+  };
+
+  /** What a scene says of friction: the name of a law, and the texts of the
+   *  entries of all laws by name, without their subsections. */
+  struct FrictionLawChoice
+  {
+    std::string                        law;
+    std::map<std::string, std::string> entries;
+
+    double
+    number(const std::string &entry) const;
+    const std::string &
+    text(const std::string &entry) const
+    {
+      return entries.at(entry);
+    }
+  };
+
   /** A law as scenes know it. */
   struct FrictionLawPlugin
   {
     std::string name;        ///< its choice of the entry `Friction law`
     std::string description; ///< what that choice means
-    /** Declares the law's entries in `Interface`. Laws may share entries. */
-    void (*declare)(dealii::ParameterHandler &prm);
-    /** Reads them again. Throws InputError. */
-    FrictionLawPointer (*create)(dealii::ParameterHandler &prm);
+    /** Laws may share entries. */
+    std::vector<LawEntry> entries;
+    /** Throws EntryError. */
+    FrictionLawPointer (*create)(const FrictionLawChoice &choice);
   };
 
   /** All laws, in the order of the choices. */
   const std::vector<FrictionLawPlugin> &
   friction_law_plugins();
 
-  /** Declares `Friction law` and the entries of all laws, in `Interface`. */
-  void
-  declare_friction_laws(dealii::ParameterHandler &prm);
+  class EntryTable;
 
-  /** The law that the entry asks for. */
+  /** Rows for `Friction law` and for the entries of all laws, in `Interface`;
+   *  what they are set to goes to @p choice. */
+  void
+  declare_friction_laws(EntryTable &table, FrictionLawChoice &choice);
+
+  /** The law that has been chosen. Throws EntryError. */
   FrictionLawPointer
-  create_friction_law(dealii::ParameterHandler &prm);
+  create_friction_law(const FrictionLawChoice &choice);
 
   /** The law of a scene that says nothing. */
   FrictionLawPointer

@@ -27,7 +27,10 @@ namespace Debond
     ~DebondingProblem();
 
     void
-    run();
+    run()
+    {
+      run(nullptr);
+    }
 
     /** The same from a checkpoint of a run of this scene: rows and files from
      *  there on are those of a run that was never interrupted, to the last bit.

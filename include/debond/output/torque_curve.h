@@ -130,24 +130,6 @@ namespace Debond
 
 
 
-  /** A measured or computed curve to compare with: angle [deg], torque [N mm].
-   */
-  using ReferenceCurve = std::vector<std::pair<double, double>>;
-
-  /**
-   * Reads a reference curve from a CSV file whose first line names the columns;
-   * `angle_deg` and `torque_Nmm` must be among them (so another run's
-   * torque.csv will do), others are ignored, as are empty lines and lines that
-   * begin with
-   * `#`. Throws InputError that names the entry `Output / Reference curve`, the
-   * file, the line and what was expected. An empty @p filename gives an empty
-   * curve.
-   */
-  ReferenceCurve
-  read_reference_curve(const std::string &filename);
-
-
-
   /** What the measures need to know besides the rows. */
   struct CurveSettings
   {

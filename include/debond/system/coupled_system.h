@@ -96,7 +96,10 @@ namespace Debond
      *  the mean sliding distance by @p slip [mm], and the time is found. Only
      *  where the scene follows the path. */
     void
-    prescribe_slip(double slip);
+    prescribe_slip(const double slip)
+    {
+      path.slip = slip;
+    }
     void
     commit(double parameter);
     void
@@ -220,7 +223,10 @@ namespace Debond
     bool
     complete_surfaces();
     double
-    scale_of(unsigned int chuck_component) const;
+    scale_of(const unsigned int chuck_component) const
+    {
+      return is_rotation(chuck_component) ? R : 1.;
+    }
     /** Moves the chuck and, along a path, the time by @p factor times the last
      *  correction. */
     void

@@ -1,16 +1,12 @@
 #ifndef debond_system_load_step_parameters_h
 #define debond_system_load_step_parameters_h
 
-#include <string>
 #include <vector>
-
-namespace dealii
-{
-  class ParameterHandler;
-}
 
 namespace Debond
 {
+  class EntryTable;
+
   /** What the first iteration of a step starts from. */
   enum class Predictor
   {
@@ -44,10 +40,17 @@ namespace Debond
       return !adaptive && !follow_path;
     }
 
-    static void
-    declare(dealii::ParameterHandler &prm);
+    /** Refuses times and steps that make no sense together. Throws EntryError.
+     */
     void
-    parse(dealii::ParameterHandler &prm);
+    check() const;
+    /** The planned times, or an even choice of them if there are many; first
+     *  and last time of each phase included. */
+    std::vector<double>
+    sample_times() const;
+
+    void
+    declare(EntryTable &table);
   };
 } // namespace Debond
 #endif

@@ -13,7 +13,7 @@ namespace Debond
   struct ModelParameters
   {
     BodyParameters         bone;
-    BodyParameters         implant;
+    BodyParameters         implant = BodyParameters::default_implant();
     InterfaceParameters    interface;
     ChuckParameters        chuck;
     LoadSteppingParameters load_steps;

@@ -311,7 +311,7 @@ Writes a scene of debond as an input of CalculiX.
           << to_text(interface.normal_penalty) << ", 1.\n";
       if (mu > 0)
         out << "*FRICTION\n"
-            << to_text(mu) << ", " << to_text(interface.tangential_penalty)
+            << to_text(mu) << ", " << to_text(interface.tangential_stiffness())
             << '\n';
       out << "*CONTACT PAIR, INTERACTION=INTERFACE, TYPE=SURFACE TO SURFACE\n"
           << (slave_is_implant ? "FACE_OF_IMPLANT, FACE_OF_BONE\n" :

@@ -1,3 +1,5 @@
+#include <debond/geometry/closest_point.h>
+#include <debond/interface/contact_point.h>
 #include <debond/interface/slip_problem.h>
 
 #include <Eigen/Dense>

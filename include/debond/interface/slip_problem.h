@@ -1,7 +1,8 @@
 #ifndef debond_interface_slip_problem_h
 #define debond_interface_slip_problem_h
 
-#include <debond/interface/contact_point.h>
+#include <debond/geometry/surface_geometry.h>
+#include <debond/interface/contact_point_state.h>
 
 #include <optional>
 

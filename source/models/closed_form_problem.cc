@@ -4,6 +4,7 @@
 #include <debond/support/input_error.h>
 #include <debond/support/runtime.h>
 #include <debond/system/energy_balance.h>
+#include <debond/system/load_stepping.h>
 
 #include <algorithm>
 #include <cmath>

@@ -32,7 +32,7 @@ namespace Debond
     row.newton_iterations    = iterations;
     row.energy_defect        = state->checks.energy().defect();
     row.work_Nmm             = state->checks.energy().work();
-    row.energy_bulk_Nmm      = system.bone.energy() + system.implant.energy();
+    row.energy_bulk_Nmm      = system.bulk_energy();
     row.energy_interface_Nmm = summary.energy;
     row.dissipation_Nmm      = system.interface.work().dissipation;
     row.adhesive_work_Nmm    = system.interface.work().adhesive;

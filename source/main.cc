@@ -1,12 +1,13 @@
+#include <debond/campaigns/run_scene.h>
 #include <debond/campaigns/study.h>
 #include <debond/input/parameter_loop.h>
 #include <debond/models/debonding_problem.h>
 #include <debond/models/memory_estimate.h>
-#include <debond/models/problem.h>
 #include <debond/models/resumed_run.h>
 #include <debond/scene/scene.h>
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
+#include <debond/support/run_error.h>
 #include <debond/support/runtime.h>
 
 #include <deal.II/base/config.h>
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <map>
 #include <new>
 #include <sstream>
 #include <string>
@@ -62,21 +64,13 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
   struct Arguments
   {
-    enum class Action
-    {
-      run,
-      check,
-      print_parameters,
-      help,
-      version
-    };
-    Action                   action = Action::run;
     std::string              scene_file;
     std::string              directory_to_resume;
     std::vector<std::string> overrides;
-    bool                     force     = false;
-    unsigned int             n_jobs    = 0; ///< 0: as many as processors
-    unsigned int             n_threads = 0; ///< 0: as many as processors
+    bool force = false, check = false, print_parameters = false, help = false,
+         version           = false;
+    unsigned int n_jobs    = 0; ///< 0: as many as processors
+    unsigned int n_threads = 0; ///< 0: as many as processors
   };
 
 
@@ -103,67 +97,71 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
   Arguments
-  read_arguments(const std::vector<std::string> &words)
+  read_words(const std::vector<std::string> &words)
   {
-    using Action = Arguments::Action;
-    Arguments arguments;
-    for (std::size_t i = 0; i < words.size(); ++i)
+    Arguments                           arguments;
+    const std::map<std::string, bool *> flags{{"--help", &arguments.help},
+                                              {"-h", &arguments.help},
+                                              {"--version", &arguments.version},
+                                              {"--check", &arguments.check},
+                                              {"--print-parameters",
+                                               &arguments.print_parameters},
+                                              {"--force", &arguments.force}};
+    for (auto word = words.begin(); word != words.end(); ++word)
       {
-        const std::string &word = words[i];
-        if (word == "--help" || word == "-h")
-          arguments.action = Action::help;
-        else if (word == "--version")
-          arguments.action = Action::version;
-        else if (word == "--check")
-          arguments.action = Action::check;
-        else if (word == "--print-parameters")
-          arguments.action = Action::print_parameters;
-        else if (word == "--force")
-          arguments.force = true;
-        else if (word == "--set")
-          {
-            if (i + 1 == words.size())
-              refuse_usage("--set needs ENTRY=VALUE");
-            arguments.overrides.push_back(words[++i]);
-          }
-        else if (word == "--resume")
-          {
-            if (i + 1 == words.size() || words[i + 1].empty())
-              refuse_usage("--resume needs the directory of a run");
-            arguments.directory_to_resume = words[++i];
-          }
-        else if (word == "--jobs" || word == "--threads")
-          (word == "--jobs" ? arguments.n_jobs : arguments.n_threads) =
-            read_number(word, i + 1 == words.size() ? "" : words[++i]);
-        else if (word.size() > 1 && word[0] == '-')
-          refuse_usage("unknown option '" + word + "'");
+        const std::string option = *word;
+        const auto        value  = [&](const std::string &what) {
+          const std::string text = word + 1 == words.end() ? "" : *++word;
+          if (text.empty() && !what.empty())
+            refuse_usage(option + " needs " + what);
+          return text;
+        };
+        if (flags.count(option) > 0)
+          *flags.at(option) = true;
+        else if (option == "--set")
+          arguments.overrides.push_back(value("ENTRY=VALUE"));
+        else if (option == "--resume")
+          arguments.directory_to_resume = value("the directory of a run");
+        else if (option == "--jobs")
+          arguments.n_jobs = read_number(option, value(""));
+        else if (option == "--threads")
+          arguments.n_threads = read_number(option, value(""));
+        else if (option.size() > 1 && option[0] == '-')
+          refuse_usage("unknown option '" + option + "'");
         else if (!arguments.scene_file.empty())
           refuse_usage("one scene at a time: '" + arguments.scene_file +
-                       "' or '" + word + "'?");
+                       "' or '" + option + "'?");
         else
-          arguments.scene_file = word;
+          arguments.scene_file = option;
       }
+    return arguments;
+  }
 
-    const bool resumes     = !arguments.directory_to_resume.empty();
-    const bool needs_scene = !resumes && (arguments.action == Action::run ||
-                                          arguments.action == Action::check ||
-                                          !arguments.overrides.empty());
-    if (resumes && (arguments.action == Action::check ||
-                    arguments.action == Action::print_parameters ||
+
+
+  Arguments
+  read_arguments(const std::vector<std::string> &words)
+  {
+    const Arguments arguments = read_words(words);
+    const bool      resumes   = !arguments.directory_to_resume.empty();
+    if (resumes && (arguments.check || arguments.print_parameters ||
                     arguments.force || arguments.n_jobs > 0))
       refuse_usage("--resume goes with SCENE.prm, --set and --threads only");
-    if (needs_scene && arguments.scene_file.empty() &&
-        arguments.action != Action::help && arguments.action != Action::version)
+    const bool needs_no_scene =
+      resumes || arguments.help || arguments.version ||
+      (arguments.print_parameters && arguments.overrides.empty());
+    if (arguments.scene_file.empty() && !needs_no_scene)
       refuse_usage("no scene file is given");
     return arguments;
   }
 
 
 
+  /** @p n, or the number of processors if that is 0. */
   unsigned int
-  n_processors()
+  or_processors(const unsigned int n)
   {
-    return std::max(1U, std::thread::hardware_concurrency());
+    return n > 0 ? n : std::max(1U, std::thread::hardware_concurrency());
   }
 
 
@@ -173,27 +171,14 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
             const Arguments                       &arguments)
   {
     Debond::Study study(entries, arguments.scene_file);
-    if (arguments.action == Arguments::Action::check)
-      study.check(std::cout);
-    else
-      {
-        const unsigned int n_jobs =
-          arguments.n_jobs > 0 ? arguments.n_jobs : n_processors();
-        Debond::set_number_of_threads(arguments.n_threads > 0 ?
-                                        arguments.n_threads :
-                                        std::max(1U, n_processors() / n_jobs));
-        Debond::catch_interruptions();
-        study.run(n_jobs, arguments.force, std::cout);
-      }
-  }
-
-
-
-  void
-  set_threads(const Arguments &arguments)
-  {
-    Debond::set_number_of_threads(
-      arguments.n_threads > 0 ? arguments.n_threads : n_processors());
+    if (arguments.check)
+      return study.check(std::cout);
+    const unsigned int n_jobs = or_processors(arguments.n_jobs);
+    Debond::set_number_of_threads(arguments.n_threads > 0 ?
+                                    arguments.n_threads :
+                                    std::max(1U, or_processors(0) / n_jobs));
+    Debond::catch_interruptions();
+    study.run(n_jobs, arguments.force, std::cout);
   }
 
 
@@ -212,7 +197,7 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
       }
     for (const std::string &remark : run->remarks)
       std::cout << "warning: " << remark << ", the other checkpoint is used\n";
-    set_threads(arguments);
+    Debond::set_number_of_threads(or_processors(arguments.n_threads));
     Debond::catch_interruptions();
     Debond::DebondingProblem(run->scene).resume(run->checkpoint);
   }
@@ -222,13 +207,12 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
   void
   act(const Arguments &arguments)
   {
-    using Action = Arguments::Action;
-    if (arguments.action == Action::help)
+    if (arguments.help)
       {
         std::cout << help_text;
         return;
       }
-    if (arguments.action == Action::version)
+    if (arguments.version)
       {
         std::cout << "debond " << DEBOND_VERSION << " (deal.II "
                   << DEAL_II_PACKAGE_VERSION << ")\n";
@@ -242,41 +226,32 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     const std::vector<Debond::SceneEntry> entries =
       Debond::with_overrides(Debond::read_scene_file(arguments.scene_file),
                              arguments.overrides);
-    if (Debond::is_study(entries) &&
-        arguments.action != Action::print_parameters)
+    if (Debond::is_study(entries) && !arguments.print_parameters)
       return run_study(entries, arguments);
 
     Debond::Scene scene =
       Debond::Scene::from_entries(entries, arguments.scene_file);
-    if (arguments.action == Action::print_parameters)
+    if (arguments.print_parameters)
       return Debond::print_parameters(std::cout, &scene);
 
-    set_threads(arguments);
+    Debond::set_number_of_threads(or_processors(arguments.n_threads));
     for (const auto &[is_set, name] :
          {std::make_pair(scene.study.repetitions > 1, "Repetitions"),
           std::make_pair(scene.study.factors_at_once > 0,
                          "Factors varied at once")})
       if (is_set)
-        throw Debond::InputError(
-          scene.with_place(std::string("Study / ") + name +
-                           ": this is for studies, and no entry of this scene "
-                           "holds several values, {{a|b}}"));
+        throw scene.with_place(Debond::EntryError(
+          std::string("Study / ") + name,
+          "this is for studies, and no entry of this scene holds several "
+          "values, {{a|b}}"));
     scene.output.overwrite_other_results = arguments.force;
-    const auto problem                   = Debond::Problem::create(scene);
-    try
-      {
-        if (arguments.action == Action::check)
-          return problem->check(std::cout);
-        // the closed forms are done before they could be asked to stop
-        if (scene.model == Debond::ModelKind::finite_elements ||
-            scene.model == Debond::ModelKind::automatic)
-          Debond::catch_interruptions();
-        problem->run();
-      }
-    catch (const Debond::InputError &error)
-      {
-        throw Debond::InputError(scene.with_place(error.what()));
-      }
+    if (arguments.check)
+      return Debond::check_scene(scene, std::cout);
+    // the closed forms are done before they could be asked to stop
+    if (scene.model == Debond::ModelKind::finite_elements ||
+        scene.model == Debond::ModelKind::automatic)
+      Debond::catch_interruptions();
+    Debond::run_scene(scene);
   }
 
 
@@ -299,6 +274,10 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 int
 main(int argc, char *argv[])
 {
+  const auto end_with = [](const int code, const std::string &message) {
+    std::cerr << message << std::endl;
+    return code;
+  };
   Debond::set_up_libraries();
   try
     {
@@ -307,32 +286,27 @@ main(int argc, char *argv[])
     }
   catch (const Debond::InputError &error)
     {
-      std::cerr << error.what() << std::endl;
-      return 1;
+      return end_with(1, error.what());
     }
   catch (const Debond::Interrupted &error)
     {
-      std::cerr << error.what() << std::endl;
-      return 128 + error.signal;
+      return end_with(128 + error.signal, error.what());
     }
   catch (const Debond::RunError &error)
     {
-      std::cerr << error.what() << std::endl;
-      return 2;
+      return end_with(2, error.what());
     }
   catch (const dealii::ExceptionBase &error)
     {
-      std::cerr << "debond: internal error: " << one_line(error) << std::endl;
-      return 3;
+      return end_with(3, "debond: internal error: " + one_line(error));
     }
   catch (const std::bad_alloc &)
     {
-      std::cerr << "debond: " << Debond::out_of_memory << std::endl;
-      return 2;
+      return end_with(2, std::string("debond: ") + Debond::out_of_memory);
     }
   catch (const std::exception &error)
     {
-      std::cerr << "debond: internal error: " << error.what() << std::endl;
-      return 3;
+      return end_with(3,
+                      std::string("debond: internal error: ") + error.what());
     }
 }

@@ -60,4 +60,5 @@ main()
   show("version 1, in a container",
        "9:name=systemd:/\n4:memory:/docker/1f2e\n1:cpu:/\n0::/\n");
   show("version 1, without control of memory", "1:cpu:/\n");
+  return 0;
 }

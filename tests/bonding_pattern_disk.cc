@@ -197,4 +197,5 @@ main()
   report("Mean over the area between the points, relative deviation",
          std::abs(mean / 0.12 - 1.),
          0.02);
+  return 0;
 }

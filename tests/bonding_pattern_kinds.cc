@@ -204,4 +204,5 @@ main()
       check_fractions(n, resolution);
   check_seeds();
   check_patches();
+  return 0;
 }

@@ -555,4 +555,5 @@ main()
   check_files();
   check_identity();
   check_messages();
+  return 0;
 }

@@ -222,4 +222,5 @@ main()
   check_rectangle({{9, 24}}, 1.5);
   check_rectangle({{8, 7}}, 0.7);
   check_rectangle({{8, 7}}, 1.);
+  return 0;
 }

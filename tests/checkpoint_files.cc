@@ -373,4 +373,5 @@ main()
   test_scenes();
   test_other_directories();
   test_errors_of_writing();
+  return 0;
 }

@@ -121,4 +121,5 @@ main()
   check("A quarter turn", 1.1, 1.1, M_PI / 2.);
   check("Large angles", -2., 1.5, 7.);
   check("Tilted only", 0.7, 0., 0.);
+  return 0;
 }

@@ -107,4 +107,5 @@ main()
   check_turning_soon();
   check_curve(0); // translations
   check_curve(3); // tilts
+  return 0;
 }

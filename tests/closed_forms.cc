@@ -5,6 +5,7 @@
 // model against its integral done by hand. Mathieu's model: its torque against
 // the integral of its traction, its limits.
 
+#include <debond/interface/bond_friction.h>
 #include <debond/models/closed_forms.h>
 
 #include <deal.II/base/exceptions.h>
@@ -29,10 +30,9 @@ RigidBodiesTorsion::Parameters
 paper()
 {
   RigidBodiesTorsion::Parameters parameters;
-  parameters.radius             = 2.5;
-  parameters.normal_penalty     = 585;
-  parameters.tangential_penalty = 585;
-  parameters.push_in            = 2.6 / 585;
+  parameters.radius    = 2.5;
+  parameters.pressure  = 2.6;
+  parameters.stiffness = 585;
   return parameters; // friction: the defaults, 0.58/0.40, 0.022 mm, 0.74
 }
 
@@ -68,11 +68,11 @@ elementary_torque(const RigidBodiesTorsion::Parameters &parameters,
                   const double                          mu,
                   const double                          theta)
 {
-  const double p = parameters.normal_penalty * parameters.push_in;
+  const double p = parameters.pressure;
   const double R = parameters.radius;
-  const double c = mu * p / (parameters.tangential_penalty * theta);
+  const double c = mu * p / (parameters.stiffness * theta);
   return c >= R ?
-           pi / 2. * parameters.tangential_penalty * theta * std::pow(R, 4) :
+           pi / 2. * parameters.stiffness * theta * std::pow(R, 4) :
            2. / 3. * pi * mu * p * (std::pow(R, 3) - std::pow(c, 3) / 4.);
 }
 
@@ -82,16 +82,15 @@ void
 check_constant_friction()
 {
   // Three ways to make the coefficient constant, with unequal penalties.
-  auto coulomb               = paper();
-  coulomb.normal_penalty     = 1200;
-  coulomb.tangential_penalty = 300;
-  coulomb.friction.kind      = FrictionLawKind::coulomb;
-  auto equal                 = coulomb;
-  equal.friction.kind        = FrictionLawKind::modified_coulomb;
-  equal.friction.mu_unbroken = equal.friction.mu_broken;
-  auto unbonded              = coulomb;
-  unbonded.friction.kind     = FrictionLawKind::modified_coulomb;
-  unbonded.phi_0             = 0;
+  auto coulomb      = paper();
+  coulomb.pressure  = 1200 * 2.6 / 585;
+  coulomb.stiffness = 300;
+  coulomb.friction  = Debond::coulomb();
+  auto equal        = coulomb;
+  equal.friction    = modified_coulomb({0.4, 0.4});
+  auto unbonded     = coulomb;
+  unbonded.friction = modified_coulomb();
+  unbonded.phi_0    = 0;
 
   double largest = 0;
   for (const auto &parameters : {coulomb, equal, unbonded})
@@ -107,8 +106,8 @@ check_constant_friction()
     }
   report("relative deviation from the elementary formula", largest, 1e-12);
 
-  auto frictionless          = paper();
-  frictionless.friction.kind = FrictionLawKind::frictionless;
+  auto frictionless     = paper();
+  frictionless.friction = Debond::frictionless();
   report("torque without friction",
          std::abs(RigidBodiesTorsion(frictionless).torque(degree)),
          1e-12);
@@ -121,7 +120,7 @@ check_points()
 {
   const auto               parameters = paper();
   const RigidBodiesTorsion problem(parameters);
-  const double             p         = problem.pressure();
+  const double             p         = problem.disk.pressure;
   double                   worst_sum = 0, worst_law = 0, worst_excess = 0;
   for (unsigned int i = 1; i <= 25; ++i)
     for (const double angle : {0.03, 0.1, 0.4, 0.8, 1.1, 2., 9.})
@@ -129,10 +128,8 @@ check_points()
         const double r = 0.1 * i, theta = angle * degree;
         const double slip = problem.slip(r, theta);
         const double t    = problem.traction(r, theta);
-        grow(worst_sum,
-             std::abs(slip + t / parameters.tangential_penalty - r * theta));
-        const double mu =
-          friction_coefficient(parameters.friction, 1., slip).mu;
+        grow(worst_sum, std::abs(slip + t / parameters.stiffness - r * theta));
+        const double mu = parameters.friction->coefficient({1., slip}, 0.).mu;
         if (slip > 0)
           grow(worst_law, std::abs(t - mu * p));
         else
@@ -155,10 +152,10 @@ void
 check_uniqueness()
 {
   // p / eps_t must be below 4 a_s b_s / (pi phi_0 (mu_ub - mu_b)) = 0.11516 mm.
-  auto soft                 = paper();
-  soft.tangential_penalty   = 2.6 / 0.115;
-  auto softer               = paper();
-  softer.tangential_penalty = 2.6 / 0.1153;
+  auto soft        = paper();
+  soft.stiffness   = 2.6 / 0.115;
+  auto softer      = paper();
+  softer.stiffness = 2.6 / 0.1153;
   std::cout << "solution unique just below the bound: "
             << (RigidBodiesTorsion::has_unique_solution(soft) ? "yes" : "NO")
             << std::endl
@@ -208,12 +205,10 @@ check_bonded_disk()
 void
 check_analytical()
 {
-  AnalyticalTorsion::Parameters parameters;
-  parameters.radius       = 2.5;
-  parameters.pressure     = 2.8113;
-  parameters.linear_limit = 0.13 * degree;
-  parameters.full_sliding = 1.13 * degree;
-  const AnalyticalTorsion form(parameters);
+  TorsionModel::Disk disk;
+  disk.radius   = 2.5;
+  disk.pressure = 2.8113;
+  const AnalyticalTorsion form(disk, 0.13 * degree, 1.13 * degree);
   double                  largest = 0;
   for (const double angle : {0.05, 0.13, 0.2, 0.8, 1.12})
     {
@@ -239,12 +234,9 @@ check_analytical()
 void
 check_mathieu()
 {
-  MathieuTorsion::Parameters parameters;
-  parameters.radius          = 2.5;
-  parameters.shear_modulus   = 40;
-  parameters.adhesion_energy = 0.07;
-  parameters.friction_stress = 1.1;
-  const MathieuTorsion form(parameters);
+  TorsionModel::Disk disk;
+  disk.radius = 2.5;
+  const MathieuTorsion form(disk, 40, 0.07, 1.1);
   double               inverse = 0, torque = 0;
   for (const double c : {2.4, 2., 1.3, 0.6, 0.1})
     {
@@ -292,4 +284,5 @@ main()
   check_bonded_disk();
   check_analytical();
   check_mathieu();
+  return 0;
 }

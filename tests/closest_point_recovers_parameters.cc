@@ -505,4 +505,5 @@ main()
   const NurbsSurface element = NurbsSurface::rectangle(1, 1, 1, 1);
   check_against_samples("One hilly element", element, hilly(element));
   check_that_it_ends();
+  return 0;
 }

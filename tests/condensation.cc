@@ -243,4 +243,5 @@ main()
   MatrixXd broken = large;
   broken(50, 50)  = std::nan("");
   report("  NaN refused", !Condensation().factorise(sparse(broken), condensed));
+  return 0;
 }

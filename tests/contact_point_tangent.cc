@@ -5,6 +5,7 @@
 // only if its trial traction is within the friction limit. So do viscous
 // sliding, an explicit friction coefficient and a given direction of slip.
 
+#include <debond/interface/bond_friction.h>
 #include <debond/interface/contact_point.h>
 
 #include <Eigen/Geometry>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "checks.h"
+#include "law_of_text.h"
 
 using namespace Debond;
 
@@ -164,15 +166,11 @@ struct MasterPoint
 /** Eqs. (11) and (13). */
 template <typename Number>
 Number
-friction_coefficient_at(const FrictionParameters &friction,
-                        const double              phi_0,
-                        const Number             &g_s)
+friction_coefficient_at(const ModifiedCoulombParameters &friction,
+                        const double                     phi_0,
+                        const Number                    &g_s)
 {
   using std::sin;
-  if (friction.kind == FrictionLawKind::frictionless)
-    return 0.;
-  if (friction.kind == FrictionLawKind::coulomb)
-    return friction.mu_broken;
   const double b_s   = friction.transition_factor;
   const Number x     = g_s / friction.sliding_threshold;
   Number       decay = 1.;
@@ -186,20 +184,74 @@ friction_coefficient_at(const FrictionParameters &friction,
 
 
 
+/** Rate and state, which a test may choose instead. */
+struct RateAndState
+{
+  double mu_0 = 0.4, A = 0.05, B = 0.08, V_0 = 0.01, D = 0.02, theta_0 = 3;
+  bool   ageing = true, is_used = false;
+
+  FrictionLawPointer
+  law() const
+  {
+    const std::string evolution = ageing ? "ageing" : "slip";
+    return law_of_text(
+      "set Friction law = rate and state\nsubsection Rate and state\n"
+      "set Reference coefficient = 0.4\nset Direct effect = 0.05\n"
+      "set Evolution effect = 0.08\nset Reference speed = 0.01\n"
+      "set Sliding distance = 0.02\nset Initial state = 3\n"
+      "set Evolution = " +
+      evolution + "\nend\n");
+  }
+
+  template <typename Number>
+  Number
+  mu(const Number &distance, const double dt) const
+  {
+    using std::exp;
+    using std::log;
+    const Number V = distance / dt, decay = exp(-distance / D);
+    Number       theta = D / V + (theta_0 - D / V) * decay;
+    if (!ageing)
+      theta = D / V * exp(decay * log(V * theta_0 / D));
+    return mu_0 + A * log(1. + V / V_0) + B * log(V_0 * theta / D);
+  }
+};
+
+
+
 /** What a point is and what it is asked to do. */
 struct Setting
 {
-  ContactPointLaw   law;
-  ContactPointMode  mode;
-  ContactPointState old_state;
-  double            phi_0 = 0.9;
-  MasterSurface     master;
-  Eigen::Vector3d   x;
+  ContactPointLaw           law;
+  double                    eps_n = 600;
+  ModifiedCoulombParameters friction; ///< frictionless: with zero coefficients
+  bool                      frictionless_law = false;
+  RateAndState              rate_and_state;
+  ContactPointMode          mode;
+  ContactPointState         old_state;
+  double                    phi_0 = 0.9;
+  MasterSurface             master;
+  Eigen::Vector3d           x;
 
   double
   bond() const
   {
     return old_state.broken ? 0. : phi_0;
+  }
+
+  void
+  set_friction(const ModifiedCoulombParameters &parameters)
+  {
+    friction     = parameters;
+    law.friction = modified_coulomb(parameters);
+  }
+
+  void
+  set_frictionless()
+  {
+    friction         = {0., 0.};
+    law.friction     = Debond::frictionless();
+    frictionless_law = true;
   }
 };
 
@@ -218,7 +270,7 @@ struct Gap
     g_n                    = dot(at.n, g);
     pressure               = 0.;
     if (value(g_n) < 0.)
-      pressure = -setting.law.normal_penalty * g_n;
+      pressure = -setting.eps_n * g_n;
     tangential = add(g, Number(-g_n), at.n);
   }
 };
@@ -231,7 +283,7 @@ penalty_traction(const Setting             &setting,
 {
   Vector<Number> t;
   for (unsigned int i = 0; i < 3; ++i)
-    t[i] = setting.law.normal_penalty * gap.g_n * at.n[i] +
+    t[i] = setting.eps_n * gap.g_n * at.n[i] +
            setting.law.tangential_penalty * gap.tangential[i];
   return t;
 }
@@ -253,13 +305,14 @@ slip_equations(const Setting             &setting,
     {
       const Number distance = norm(add(at.y, Number(-1.), old.y));
       g_s += distance;
-      mu = friction_coefficient_at(setting.law.friction,
+      mu = friction_coefficient_at(setting.friction,
                                    setting.bond(),
                                    setting.law.explicit_friction ?
                                      Number(setting.old_state.slip) :
                                      g_s);
-      if (setting.law.viscosity > 0. &&
-          setting.law.friction.kind != FrictionLawKind::frictionless)
+      if (setting.rate_and_state.is_used)
+        mu = setting.rate_and_state.mu(distance, setting.mode.duration);
+      if (setting.law.viscosity > 0. && !setting.frictionless_law)
         viscous = setting.law.viscosity * distance / setting.mode.duration;
     }
   Vector<Number> pull = add(x, Number(-1.), old.y);
@@ -572,11 +625,10 @@ check(const std::string         &name,
          deviation.dforce,
          1e-9);
   if (expected == PointStatus::slip && !basic.mode.frictionless &&
-      basic.law.friction.kind == FrictionLawKind::modified_coulomb)
+      basic.law.friction->has_bond())
     {
-      const FrictionParameters &friction = basic.law.friction;
-      const double              begin    = friction.sliding_threshold;
-      const double end = begin * (1. + 2. * friction.transition_factor);
+      const double begin = basic.friction.sliding_threshold;
+      const double end   = begin * (1. + 2. * basic.friction.transition_factor);
       std::cout << "  sliding distances "
                 << (deviation.slip_to < begin ? "before" :
                     deviation.slip_from > end ? "after" :
@@ -661,9 +713,9 @@ check_honesty(const std::vector<Master> &masters, const Setting &basic)
       const Eigen::Vector2d xi(random_number(0.2, 0.8),
                                random_number(0.2, 0.8));
       const double          g_n   = random_number(-0.02, -0.001);
-      const double          p     = -setting.law.normal_penalty * g_n;
+      const double          p     = -setting.eps_n * g_n;
       const double          limit = p *
-                           friction_coefficient_at(setting.law.friction,
+                           friction_coefficient_at(setting.friction,
                                                    setting.phi_0,
                                                    setting.old_state.slip) /
                            setting.law.tangential_penalty;
@@ -693,7 +745,7 @@ check_honesty(const std::vector<Master> &masters, const Setting &basic)
         {
           ++n_slip;
           const double t =
-            result.pressure * friction_coefficient_at(setting.law.friction,
+            result.pressure * friction_coefficient_at(setting.friction,
                                                       setting.phi_0,
                                                       result.state.slip);
           grow(excess, std::abs(result.tangential_traction.norm() / t - 1.));
@@ -716,7 +768,7 @@ main()
     Master("disk", NurbsSurface::disk(0.6, 3))};
 
   Setting basic;
-  basic.law.normal_penalty     = 600;
+  basic.law.normal             = penalty_law(basic.eps_n);
   basic.law.tangential_penalty = 250;
   basic.old_state.status       = PointStatus::stick;
   basic.old_state.has_partner  = true;
@@ -751,10 +803,10 @@ main()
   setting.old_state.has_partner = false;
   check("Coming from beyond the edge", masters, setting, g_n, 0., stick);
 
-  setting                   = basic;
-  setting.law.friction.kind = FrictionLawKind::coulomb;
+  setting = basic;
+  setting.set_friction({0.4, 0.4});
   check("Slip, Coulomb", masters, setting, g_n, 0.045, slip);
-  setting.law.friction.kind = FrictionLawKind::frictionless;
+  setting.set_frictionless();
   check("Frictionless law", masters, setting, g_n, 0.05, slip);
   setting                   = basic;
   setting.old_state.slip    = 0.03;
@@ -771,7 +823,7 @@ main()
   setting.mode.duration  = 0.5;
   setting.old_state.slip = 0.018;
   check("Viscous slip, softening", masters, setting, g_n, 0.055, slip);
-  setting.law.friction.kind = FrictionLawKind::frictionless;
+  setting.set_frictionless();
   check(
     "Frictionless law, no viscosity either", masters, setting, g_n, 0.05, slip);
   setting                       = basic;
@@ -783,8 +835,26 @@ main()
   setting.mode.slip_direction = Eigen::Vector3d(0.3, 0.5, -0.2);
   check("Slip, given direction", masters, setting, g_n, 0.045, slip);
 
+  for (const bool ageing : {true, false})
+    {
+      setting                       = basic;
+      setting.rate_and_state.ageing = ageing;
+      setting.law.friction          = setting.rate_and_state.law();
+      setting.old_state.internal    = setting.law.friction->initial_variables();
+      setting.rate_and_state.is_used = true;
+      setting.mode.duration          = 0.5;
+      check(ageing ? "Slip, ageing state" : "Slip, state of the slip law",
+            masters,
+            setting,
+            g_n,
+            0.045,
+            slip);
+      check("Stick, with it", masters, setting, g_n, 0.01, stick);
+    }
+
   setting                = basic;
   setting.old_state.slip = 0.01;
   check_open(masters, setting);
   check_honesty(masters, basic);
+  return 0;
 }

@@ -85,11 +85,7 @@ check(const std::string    &name,
               "\nset Value = 1\nset Stiffness = 0\nend\nend\n";
     }
   const Scene            scene = Scene::from_text(text);
-  std::ostringstream     timings;
-  dealii::TimerOutput    timer(timings,
-                            dealii::TimerOutput::never,
-                            dealii::TimerOutput::wall_times);
-  CoupledSystem          system(scene, timer);
+  CoupledSystem          system(scene);
   const ContactPointMode mode;
   system.start(0.);
   turn(system, lifted);
@@ -199,4 +195,5 @@ main()
   pressed << 0.01, 0.02, -0.55, 0.002, -0.001, 0.01;
   check("On its edge", "", lifted, pressed);
   check("On its edge, the bone is the slave", bone_is_slave, lifted, pressed);
+  return 0;
 }

@@ -112,4 +112,5 @@ main()
   const Surface A(10, 1., 0., true);
   report("Nothing to solve for",
          solver.solve(A, VectorXd::Zero(10), 1e-9).isZero(0.));
+  return 0;
 }

@@ -6,6 +6,7 @@
 
 #include <debond/models/debonding_problem.h>
 #include <debond/support/runtime.h>
+#include <debond/system/load_stepping.h>
 #include <debond/system/newton.h>
 
 #include <cmath>
@@ -24,10 +25,7 @@ public:
   explicit DrivenScene(const std::string              &text,
                        const std::vector<std::string> &overrides = {})
     : scene(Debond::Scene::from_text(text, overrides))
-    , timer(std::cout,
-            dealii::TimerOutput::never,
-            dealii::TimerOutput::wall_times)
-    , system(scene, timer)
+    , system(scene)
     , stepping(scene.load_steps)
   {
     system.start(stepping.time(0));
@@ -67,12 +65,7 @@ public:
     return system.chuck.position()[5] * 180. / M_PI;
   }
 
-  const Debond::Scene scene;
-
-private:
-  dealii::TimerOutput timer;
-
-public:
+  const Debond::Scene   scene;
   Debond::CoupledSystem system;
   /** Newton iterations of the last step. */
   unsigned int iterations = 0;
@@ -88,7 +81,7 @@ private:
     if (step > 0)
       options.duration = stepping.time(step) - stepping.time(step - 1);
     options.frictionless =
-      step > 0 && stepping.time(step - 1) < scene.interface.friction.starts_at -
+      step > 0 && stepping.time(step - 1) < scene.interface.friction_starts_at -
                                               1e-9 * stepping.time(step);
     system.predict(stepping.time(step), !options.stick_first);
     const Debond::NewtonResult result = solve_newton(system, options);

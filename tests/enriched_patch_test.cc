@@ -195,4 +195,5 @@ main()
                    errors[k].volume / errors[k + 1].volume,
                    3.9,
                    4.05);
+  return 0;
 }

@@ -6,6 +6,8 @@
 #include <debond/input/csv_table.h>
 #include <debond/support/input_error.h>
 
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -87,8 +89,8 @@ check_groups()
     }
   members[1].curve.push_back({0, 0});
   const Ensemble ensemble({"Some / Entry"}, members);
-  std::cout << ensemble.curves() << ensemble.notes();
-  std::istringstream lines(ensemble.summary());
+  std::cout << ensemble.curves << ensemble.notes;
+  std::istringstream lines(ensemble.summary);
   for (std::string line; std::getline(lines, line);)
     std::cout << line.substr(0, line.find("theta_max_mean")).substr(0, 90)
               << std::endl;
@@ -167,11 +169,10 @@ check_study()
   report("and not those that are bonded everywhere", rows[1][4] == 0.);
   double mean = 0.;
   for (const char *const variant : {"001", "005", "007"})
-    {
-      const auto json =
-        JsonObject::from_file(place + "/variant-" + variant + "/summary.json");
-      mean += std::stod(json.value("T_max_Nmm")) / 3.;
-    }
+    mean +=
+      read_json(place + "/variant-" + variant + "/summary.json")["T_max_Nmm"]
+        .get<double>() /
+      3.;
   report("mean of T_max over those that ran, difference",
          std::abs(mean / rows[0][3] - 1.),
          1e-10);

@@ -2,7 +2,7 @@
 // sine down, broken beyond (1 + 2 b_s) a_s; its derivative is that of central
 // differences, its integral that of Simpson's rule.
 
-#include <debond/interface/friction_law.h>
+#include <debond/interface/bond_friction.h>
 
 #include <string>
 
@@ -12,7 +12,9 @@ using namespace Debond;
 
 /** Eqs. (11) and (13), written anew. */
 double
-mu(const FrictionParameters &parameters, const double phi_0, const double g_s)
+mu(const ModifiedCoulombParameters &parameters,
+   const double                     phi_0,
+   const double                     g_s)
 {
   const double x = g_s / parameters.sliding_threshold;
   const double b = parameters.transition_factor;
@@ -28,18 +30,19 @@ mu(const FrictionParameters &parameters, const double phi_0, const double g_s)
 
 
 void
-check(const std::string        &name,
-      const FrictionParameters &parameters,
-      const double              phi_0)
+check(const std::string               &name,
+      const ModifiedCoulombParameters &parameters,
+      const double                     phi_0)
 {
   std::cout << name << std::endl;
+  const auto   law   = modified_coulomb(parameters);
   const double a_s   = parameters.sliding_threshold;
   const double end   = a_s * (1. + 2. * parameters.transition_factor);
   double       value = 0, bond = 0, derivative = 0;
   for (unsigned int k = 0; k <= 1000; ++k)
     {
       const double g_s    = 1.5 * end * k / 1000.;
-      const auto   result = friction_coefficient(parameters, phi_0, g_s);
+      const auto   result = law->coefficient({phi_0, g_s}, 0.);
       grow(value, std::abs(result.mu - mu(parameters, phi_0, g_s)));
       grow(bond,
            std::abs(result.mu - (result.phi * parameters.mu_unbroken +
@@ -47,11 +50,10 @@ check(const std::string        &name,
       // derivatives are continuous: only the second one jumps at the kinks
       const double step = 1e-6 * a_s;
       grow(derivative,
-           a_s *
-             std::abs(result.dmu -
-                      (friction_coefficient(parameters, phi_0, g_s + step).mu -
-                       friction_coefficient(parameters, phi_0, g_s - step).mu) /
-                        (2. * step)));
+           a_s * std::abs(result.dmu -
+                          (law->coefficient({phi_0, g_s + step}, 0.).mu -
+                           law->coefficient({phi_0, g_s - step}, 0.).mu) /
+                            (2. * step)));
     }
   for (const double kink : {a_s, end})
     for (double distance = 0.1; distance > 1e-13; distance *= 0.1)
@@ -59,7 +61,7 @@ check(const std::string        &name,
         {
           const double g_s = kink * (1. + sign * distance);
           grow(value,
-               std::abs(friction_coefficient(parameters, phi_0, g_s).mu -
+               std::abs(law->coefficient({phi_0, g_s}, 0.).mu -
                         mu(parameters, phi_0, g_s)));
         }
   report("  deviation of mu", value, 1e-14);
@@ -67,7 +69,7 @@ check(const std::string        &name,
   report("  deviation of a_s dmu/dg_s", derivative, 1e-8);
 
   const auto at = [&](const double g_s) {
-    return friction_coefficient(parameters, phi_0, g_s);
+    return law->coefficient({phi_0, g_s}, 0.);
   };
   report("  bonded up to a_s",
          at(0.).phi == phi_0 && at(a_s).phi == phi_0 &&
@@ -96,9 +98,9 @@ check(const std::string        &name,
       for (unsigned int k = first; k <= 1001; ++k)
         steepest = std::max(steepest, -at(end * k / 1000.).dmu);
       grow(deviation,
-           std::abs(steepest_fall(parameters, phi_0, end * first / 1000.) -
+           std::abs(law->steepest_fall({phi_0, end * first / 1000.}) -
                     steepest) /
-             steepest_fall(parameters, phi_0));
+             law->steepest_fall({phi_0}));
     }
   report("  steepest fall that is left, relative deviation", deviation, 1e-5);
 
@@ -116,7 +118,7 @@ check(const std::string        &name,
                   parameters.mu_broken);
         sum *= (to - from) / (3. * n);
         grow(integral,
-             std::abs(adhesive_strength(parameters, phi_0, from, to) - sum) /
+             std::abs(law->adhesive_strength({phi_0, from}, to - from) - sum) /
                a_s);
       }
   report("  deviation of the integral of mu - mu_b, in a_s", integral, 1e-8);
@@ -127,29 +129,29 @@ check(const std::string        &name,
 int
 main()
 {
-  FrictionParameters parameters;
+  ModifiedCoulombParameters parameters;
   check("Values of the paper", parameters, 1.);
   check("Partly bonded", parameters, 0.37);
   parameters.transition_factor = 1.86;
   parameters.sliding_threshold = 0.026;
   check("Values of the second data set", parameters, 1.);
 
-  FrictionParameters coulomb;
-  coulomb.kind        = FrictionLawKind::coulomb;
-  const auto constant = friction_coefficient(coulomb, 1., 0.03);
+  const double mu_b     = ModifiedCoulombParameters().mu_broken;
+  const auto   constant = coulomb()->coefficient({1., 0.01}, 0.02);
   report("Coulomb: mu_b everywhere",
-         constant.mu == coulomb.mu_broken && constant.dmu == 0. &&
-           friction_coefficient(coulomb, 1., 0.).mu == coulomb.mu_broken &&
-           steepest_fall(coulomb, 1.) == 0. &&
-           adhesive_strength(coulomb, 1., 0., 1.) == 0.);
+         constant.mu == mu_b && constant.dmu == 0. &&
+           coulomb()->coefficient({}, 0.).mu == mu_b &&
+           coulomb()->steepest_fall({}) == 0. &&
+           coulomb()->adhesive_strength({}, 1.) == 0. &&
+           coulomb()->friction_strength({}, 1.) == mu_b);
   report("  its bond still decays",
-         friction_coefficient(coulomb, 1., 0.).phi == 1. &&
-           friction_coefficient(coulomb, 1., 1.).phi == 0.);
-  FrictionParameters none;
-  none.kind = FrictionLawKind::frictionless;
+         coulomb()->coefficient({}, 0.).phi == 1. &&
+           coulomb()->coefficient({}, 1.).phi == 0.);
   report("Frictionless: zero",
-         friction_coefficient(none, 1., 0.).mu == 0. &&
-           friction_coefficient(none, 1., 0.03).dmu == 0. &&
-           steepest_fall(none, 1.) == 0. &&
-           adhesive_strength(none, 1., 0., 1.) == 0.);
+         frictionless()->coefficient({}, 0.).mu == 0. &&
+           frictionless()->coefficient({}, 0.03).dmu == 0. &&
+           frictionless()->steepest_fall({}) == 0. &&
+           frictionless()->friction_strength({}, 1.) == 0. &&
+           frictionless()->adhesive_strength({}, 1.) == 0.);
+  return 0;
 }

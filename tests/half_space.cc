@@ -375,4 +375,5 @@ main()
   check_hertz_and_mindlin();
   check_elastic_layer();
   check_published_curves();
+  return 0;
 }

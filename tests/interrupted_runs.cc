@@ -8,6 +8,7 @@
 #include <debond/support/interruption.h>
 #include <debond/support/runtime.h>
 
+#include <nlohmann/json.hpp>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -127,9 +128,7 @@ end
 bool
 has_halved_steps(const std::string &directory)
 {
-  const std::string smallest =
-    JsonObject::from_file(directory + "/summary.json").value("smallest_step");
-  return std::stod(smallest) < 0.9 / 12;
+  return read_json(directory + "/summary.json")["smallest_step"] < 0.9 / 12;
 }
 
 
@@ -293,4 +292,5 @@ main()
     end)",
         {1, 2, 6},
         true);
+  return 0;
 }

@@ -212,4 +212,5 @@ main()
   report("No more is lost than the steps since the last checkpoint",
          nothing_lost);
   report("The files at the end are those of a run in one go", same);
+  return 0;
 }

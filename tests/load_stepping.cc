@@ -4,7 +4,7 @@
 // more than the fewest possible, and end phases exactly.
 
 #include <debond/system/adaptive_stepping.h>
-#include <debond/system/load_stepping.h>
+#include <debond/system/planned_steps.h>
 
 #include <string>
 #include <utility>
@@ -14,20 +14,28 @@
 
 using namespace Debond;
 
-/** Takes a planned step; sub-steps larger than @p largest fail. Returns the
- *  ends of those that succeed, or nothing if the step is given up. */
+/** Takes the next planned step from @p start; sub-steps longer than @p largest
+ *  fail. Returns the ends of those that succeed, or nothing if the step is
+ * given up. */
 std::vector<double>
-take(LoadStepping &stepping, const unsigned int step, const double largest)
+take(PlannedSteps &control, const double start, const double largest)
 {
   std::vector<double> times;
-  for (stepping.begin(step); !stepping.finished();)
-    if (stepping.fraction() <= largest)
-      {
-        times.push_back(stepping.target_time());
-        stepping.accept();
-      }
-    else if (!stepping.reject())
-      return {};
+  if (control.is_between_phases())
+    control.begin_phase(StepState());
+  do
+    {
+      const Step   step = control.next();
+      const double from = times.empty() ? start : times.back();
+      if (step.time - from <= largest * (1. + 1e-9))
+        {
+          times.push_back(step.time);
+          control.take(step, StepState(), 0);
+        }
+      else if (!control.reject(step))
+        return {};
+    }
+  while (!control.row_is_complete());
   return times;
 }
 
@@ -87,24 +95,20 @@ adaptive_times(const double  tolerance,
   parameters.smallest_step_fraction = 1e-6;
   AdaptiveStepping    stepping(parameters, 2.5);
   std::vector<double> times{0.};
-  for (unsigned int phase = 0; phase < 2; ++phase)
+  const auto          state_at = [&](const double time) {
+    return StepState{time,
+                     forces_at(time, ripple),
+                     drive_at(time, sideways),
+                     0.};
+  };
+  while (!stepping.is_finished())
     {
-      stepping.begin_phase(phase,
-                           forces_at(times.back(), ripple),
-                           drive_at(times.back(), sideways));
-      while (!stepping.phase_is_finished())
-        {
-          if (stepping.wants_middle())
-            stepping.note_middle(forces_at(stepping.middle_time(), ripple));
-          const double time = stepping.target_time();
-          const double error =
-            stepping.error(forces_at(time, ripple), drive_at(time, sideways));
-          if (error > 1. && stepping.shrink(error))
-            continue;
-          stepping.accept(forces_at(time, ripple), error);
-          times.push_back(time);
-        }
-      if (phase == 0)
+      if (stepping.is_between_phases())
+        stepping.begin_phase(state_at(times.back()));
+      const Step step = stepping.next();
+      if (stepping.take(step, state_at(step.time), 1))
+        times.push_back(step.time);
+      if (times.back() == 1.)
         n_pressing = times.size() - 1;
     }
   return times;
@@ -236,19 +240,32 @@ main()
            !plan.ends_phase(4) && plan.ends_phase(1003) &&
            plan.ends_phase(1010));
 
-  LoadStepping stepping(parameters);
+  // from 0.1 to 0.5, 0.9 and 1.3
+  PlannedSteps whole(parameters);
   report("A step that succeeds is taken whole",
-         are(take(stepping, 2, 1.), {plan.time(2)}));
-  stepping.begin(3);
-  report("It says so", stepping.is_whole_step());
+         are(take(whole, 0.1, 0.4), {plan.time(1)}));
+  const Step second = whole.next();
+  report("The next one is its continuation",
+         second.extrapolate && second.time == plan.time(2));
+  whole.take(second, StepState(), 0);
+  take(whole, plan.time(2), 0.4);
+  whole.begin_phase(StepState());
+  report("One in a new phase is not", !whole.next().extrapolate);
 
-  // from 0.1 to 0.5
-  LoadStepping halving(parameters);
-  report("Halved twice", are(take(halving, 1, 0.25), {0.2, 0.3, 0.4, 0.5}));
-  bool hit_exactly = true;
+  PlannedSteps halving(parameters);
+  report("Halved twice", are(take(halving, 0.1, 0.1), {0.2, 0.3, 0.4, 0.5}));
+  bool         hit_exactly = true;
+  unsigned int n_parts     = 0;
   for (unsigned int k = 2; k <= 1010; ++k)
-    hit_exactly = hit_exactly && take(halving, k, 0.125).back() == plan.time(k);
-  report("Planned times are hit exactly by sub-steps", hit_exactly);
+    {
+      const double start = plan.time(k - 1), end = plan.time(k);
+      const auto   times = take(halving, start, 0.125 * (end - start));
+      hit_exactly        = hit_exactly && times.back() == end;
+      n_parts += times.size();
+    }
+  report("Planned times are hit exactly by sub-steps",
+         hit_exactly && n_parts == 8 * 1009);
+  report("Then all is done", halving.is_finished());
 
   // ends a and b of which a + (b - a) is not b
   for (const auto &[a, b] : {std::make_pair(0.3, 0.9),
@@ -258,36 +275,32 @@ main()
       LoadSteppingParameters single;
       single.times = {a, b};
       single.steps = {1};
-      LoadStepping sub_steps(single);
-      hit_exactly = hit_exactly && sub_steps.time(1) == b &&
-                    take(sub_steps, 1, 0.25).back() == b;
+      PlannedSteps sub_steps(single);
+      hit_exactly = hit_exactly && LoadStepping(single).time(1) == b &&
+                    take(sub_steps, a, 0.25 * (b - a)).back() == b;
     }
   report("Also where differences are rounded", hit_exactly);
 
   // failures of the first quarter only: 1/4, then 1/4 + 1/2, no more than fits
-  LoadStepping growing(parameters);
-  growing.begin(1);
-  growing.reject();
-  growing.reject();
-  std::vector<double> fractions;
-  for (; !growing.finished(); growing.accept())
-    fractions.push_back(growing.fraction());
-  report("Grows again on its grid", are(fractions, {0.25, 0.25, 0.5}));
-  growing.begin(2);
-  report("The next step is whole", growing.is_whole_step());
+  PlannedSteps growing(parameters);
+  for (unsigned int n = 0; n < 2; ++n)
+    growing.reject(growing.next());
+  report("Grows again on its grid",
+         are(take(growing, 0.1, 1.), {0.2, 0.3, 0.5}));
+  report("The next step is whole", are(take(growing, 0.5, 1.), {plan.time(2)}));
 
-  LoadStepping keeping(parameters);
-  take(keeping, 1, 0.25);
-  keeping.begin(2);
+  PlannedSteps keeping(parameters);
+  take(keeping, 0.1, 0.1);
   report("The size is kept for the next step",
-         keeping.fraction() < 1. && !keeping.is_whole_step());
+         keeping.next().time < plan.time(2));
 
-  LoadStepping small(parameters);
-  small.begin(1);
+  PlannedSteps small(parameters);
   unsigned int n = 0;
-  while (small.reject())
+  while (small.reject(small.next()))
     ++n;
   std::cout << "Can be halved " << n << " times" << std::endl;
-  report("1/64 is allowed", !take(stepping, 1, 1. / 64.).empty());
-  report("1/128 is not", take(stepping, 1, 1. / 128.).empty());
+  PlannedSteps allowed(parameters), forbidden(parameters);
+  report("1/64 is allowed", !take(allowed, 0.1, 0.4 / 64.).empty());
+  report("1/128 is not", take(forbidden, 0.1, 0.4 / 128.).empty());
+  return 0;
 }

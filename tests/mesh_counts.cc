@@ -221,4 +221,5 @@ main()
   bone.contact_surface = implant.contact_surface = SurfaceKind::bilinear;
   check_cells("Bone, bilinear", bone, Side::bone);
   check_cells("Coin, bilinear", implant, Side::implant);
+  return 0;
 }

@@ -337,4 +337,5 @@ main()
   check("Coin, bilinear", coin, Side::implant, 0.04);
   check_small_strains();
   check_cauchy_stress();
+  return 0;
 }

@@ -100,12 +100,12 @@ compare(const NurbsSurface    &surface,
   std::vector<std::array<double, 6>> ours(surface.n_control_points(),
                                           std::array<double, 6>{});
   for (unsigned int k = 0; k < basis.size; ++k)
-    ours[basis.control_point[k]] = {basis.N[k],
-                                    basis.N_1[k],
-                                    basis.N_2[k],
-                                    basis.N_11[k],
-                                    basis.N_12[k],
-                                    basis.N_22[k]};
+    ours[basis.control_point[k]] = {{basis.N[k],
+                                     basis.N_1[k],
+                                     basis.N_2[k],
+                                     basis.N_11[k],
+                                     basis.N_12[k],
+                                     basis.N_22[k]}};
 
   const std::vector<Number> reference = reference_basis(surface, xi);
   for (unsigned int k = 0; k < ours.size(); ++k)
@@ -185,4 +185,5 @@ main()
         surface_with(linear_1, linear_2, true));
   check("Degree 1, uneven knots, weights 1",
         surface_with(linear_1, linear_2, false));
+  return 0;
 }

@@ -99,4 +99,5 @@ main()
              1e-14);
       check_area_and_normals(disk);
     }
+  return 0;
 }

@@ -167,4 +167,5 @@ main()
     KnotVector(2, {0, 0, 0.5, 1, 1, 1});
   });
   expect_refusal("degree 3", [] { KnotVector::uniform(3, 4); });
+  return 0;
 }

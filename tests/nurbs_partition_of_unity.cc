@@ -132,4 +132,5 @@ main()
   check_sums("Uneven knots and weights, degree 1", uneven_surface(1));
   check_affine(2);
   check_affine(1);
+  return 0;
 }

@@ -5,6 +5,7 @@
 // rotation prescribed, before and after its jump, and the energy that the jump
 // releases against the area that the path encloses with it.
 
+#include <debond/interface/bond_friction.h>
 #include <debond/models/closed_forms.h>
 
 #include <algorithm>
@@ -54,12 +55,10 @@ check_rigid_bodies()
     end)");
 
   Debond::RigidBodiesTorsion::Parameters parameters;
-  parameters.radius                     = 2.5;
-  parameters.normal_penalty             = 585;
-  parameters.tangential_penalty         = 585;
-  parameters.push_in                    = 2.6 / 585;
-  parameters.friction.sliding_threshold = 0.005;
-  parameters.friction.transition_factor = 0.3;
+  parameters.radius    = 2.5;
+  parameters.pressure  = 2.6;
+  parameters.stiffness = 585;
+  parameters.friction  = Debond::modified_coulomb({0.40, 0.58, 0.005, 0.3});
   const Debond::RigidBodiesTorsion      bodies(parameters);
   const Debond::CompliantMachineTorsion machine(bodies, 3000, 2. * degree);
 

@@ -186,4 +186,5 @@ main()
   check_interpolation();
   check_radial_reference();
   check_files();
+  return 0;
 }

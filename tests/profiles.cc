@@ -147,10 +147,9 @@ test()
 {
   run_scene("profiles", scene_text);
   RigidBodiesTorsion::Parameters parameters;
-  parameters.radius             = 2.5;
-  parameters.push_in            = 2.6 / 585;
-  parameters.normal_penalty     = 585;
-  parameters.tangential_penalty = 585;
+  parameters.radius    = 2.5;
+  parameters.pressure  = 2.6;
+  parameters.stiffness = 585;
   const RigidBodiesTorsion exact(parameters);
 
   auto   profile  = read_columns("results/profiles/profiles.csv");

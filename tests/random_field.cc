@@ -88,4 +88,5 @@ main()
   check_order();
   check_fairness();
   check_correlation();
+  return 0;
 }

@@ -70,11 +70,10 @@ Curve
 closed_form(const double phi_0)
 {
   Debond::RigidBodiesTorsion::Parameters parameters;
-  parameters.radius             = 2.5;
-  parameters.push_in            = 0.0049;
-  parameters.normal_penalty     = 585;
-  parameters.tangential_penalty = 585;
-  parameters.phi_0              = phi_0;
+  parameters.radius    = 2.5;
+  parameters.pressure  = 585 * 0.0049;
+  parameters.stiffness = 585;
+  parameters.phi_0     = phi_0;
   const Debond::RigidBodiesTorsion form(parameters);
   Curve                            curve;
   for (const double angle : angles)

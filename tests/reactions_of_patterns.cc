@@ -47,10 +47,9 @@ Eigen::Vector2d
 lateral_force(const double theta)
 {
   Debond::RigidBodiesTorsion::Parameters parameters;
-  parameters.radius             = 2.5;
-  parameters.push_in            = 0.0049;
-  parameters.normal_penalty     = 585;
-  parameters.tangential_penalty = 585;
+  parameters.radius    = 2.5;
+  parameters.pressure  = 585 * 0.0049;
+  parameters.stiffness = 585;
   const Debond::RigidBodiesTorsion bonded(parameters);
   parameters.phi_0 = 0;
   const Debond::RigidBodiesTorsion unbonded(parameters);
@@ -161,4 +160,5 @@ main()
   Debond::set_up_libraries();
   check_closed_form();
   check_turned();
+  return 0;
 }

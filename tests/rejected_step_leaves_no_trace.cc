@@ -29,10 +29,7 @@ class Run
 {
 public:
   explicit Run(const Scene &scene)
-    : timer(timings,
-            dealii::TimerOutput::never,
-            dealii::TimerOutput::wall_times)
-    , system(scene, timer)
+    : system(scene)
   {
     system.start(0.);
   }
@@ -87,9 +84,6 @@ public:
   }
 
 private:
-  std::ostringstream  timings;
-  dealii::TimerOutput timer;
-
 public:
   CoupledSystem system;
   double        accepted_time = 0;
@@ -262,4 +256,5 @@ main()
   check("Neo-Hookean bodies, shear", shear);
   check("The bone is the slave, shear", linear + shear + bone_is_slave);
   check("Under a force and a moment", linear + loaded);
+  return 0;
 }

@@ -7,6 +7,7 @@
 #include <debond/support/input_error.h>
 
 #include <fcntl.h>
+#include <nlohmann/json.hpp>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -102,14 +103,22 @@ main()
 
   test_lock();
 
-  Debond::JsonObject object;
-  object.add("text", "quote \", backslash \\, tab \t");
-  object.add("third", 1. / 3);
-  object.add("undefined", std::numeric_limits<double>::quiet_NaN());
-  object.add("infinite", std::numeric_limits<double>::infinity());
-  object.add("steps", 1000U);
-  object.add("converged", true);
-  object.add("warnings", std::vector<std::string>{"first", "second"});
-  object.add("none", std::vector<std::string>{});
-  std::cout << object.text();
+  Debond::write_json("results/object.json",
+                     {{"text", "quote \", backslash \\, tab \t, no UTF-8 \xB5"},
+                      {"third", 1. / 3},
+                      {"undefined", std::numeric_limits<double>::quiet_NaN()},
+                      {"infinite", std::numeric_limits<double>::infinity()},
+                      {"steps", 1000U},
+                      {"converged", true},
+                      {"warnings", std::vector<std::string>{"first", "second"}},
+                      {"none", std::vector<std::string>{}}});
+  std::cout << std::ifstream("results/object.json").rdbuf();
+  const auto object = Debond::read_json("results/object.json");
+  std::cout << "read again: " << object["steps"] << ", "
+            << (object["third"] == 1. / 3 ? "all digits" : "digits are lost")
+            << '\n';
+  std::ofstream("results/object.json") << "[1, 2";
+  std::cout << "no object: " << Debond::read_json("results/object.json")
+            << ", no file: " << Debond::read_json("results/none.json") << '\n';
+  return 0;
 }

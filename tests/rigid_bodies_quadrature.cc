@@ -35,10 +35,9 @@ Debond::RigidBodiesTorsion::Parameters
 paper()
 {
   Debond::RigidBodiesTorsion::Parameters parameters;
-  parameters.radius             = 2.5;
-  parameters.push_in            = 2.6 / 585;
-  parameters.normal_penalty     = 585;
-  parameters.tangential_penalty = 585;
+  parameters.radius    = 2.5;
+  parameters.pressure  = 2.6;
+  parameters.stiffness = 585;
   return parameters;
 }
 
@@ -100,9 +99,9 @@ double
 towed(const double r, const double theta)
 {
   const auto   parameters = paper();
-  const double length     = parameters.push_in; // p / eps_t
+  const double length     = parameters.pressure / parameters.stiffness;
   const auto   mu         = [&](const double slip) {
-    return Debond::friction_coefficient(parameters.friction, 1., slip);
+    return parameters.friction->coefficient({1., slip}, 0.);
   };
   const double longest = mu(0).mu * length; // gap of a sticking point
   const double begin  = longest < 2 * r ? 2 * std::asin(longest / (2 * r)) : 7.;
@@ -156,7 +155,7 @@ look_at_points(
               look(x.head<2>().norm(),
                    theta,
                    point.trial.tangential_traction.norm() /
-                     closed_form.pressure());
+                     closed_form.disk.pressure);
             }
         });
 }
@@ -169,7 +168,8 @@ check_traction()
   double by_closed_form = 0, by_towed = 0;
   look_at_points(5, [&](const double r, const double theta, const double t) {
     grow(by_closed_form,
-         std::abs(t - closed_form.traction(r, theta) / closed_form.pressure()));
+         std::abs(t -
+                  closed_form.traction(r, theta) / closed_form.disk.pressure));
   });
   report("traction over pressure differs from the closed form",
          by_closed_form,

@@ -39,6 +39,7 @@ main()
   const Debond::BodyParameters &implant = again.implant;
   std::cout << "cells of the implant: " << implant.cells[0] << ' '
             << implant.cells[1] << ' ' << implant.cells[2] << '\n'
-            << "tangential penalty: " << again.interface.tangential_penalty
+            << "tangential penalty: " << again.interface.tangential_stiffness()
             << '\n';
+  return 0;
 }

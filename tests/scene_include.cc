@@ -47,4 +47,5 @@ main()
   show("set Title = first\ninclude base.prm\n");
   show("include base.prm\ninclude base.prm\n");
   show("include loop.prm\n");
+  return 0;
 }

@@ -120,7 +120,7 @@ namespace
     show("times without steps", in("Load steps", "set Times = 0, 1"));
     show("implant wider than bone", in("Implant", "set Radius = 7"));
     show("three numbers of cells for a coin",
-         in("Implant", "set Cells = 3, 3, 2"));
+         in("Implant", "set Cells = 3, 4, 2"));
     show("size of a coin", in("Implant", "set Size = 4, 4, 3"));
     show("radius of the sphere of a coin",
          in("Implant", "set Cap radius = 20"));
@@ -157,4 +157,5 @@ main()
   show_unknown_names();
   show_wrong_values();
   show_contradictions();
+  return 0;
 }

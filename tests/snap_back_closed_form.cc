@@ -3,6 +3,7 @@
 // computation finds, and the energy released in the jump against the integral
 // between spring and torque.
 
+#include <debond/interface/bond_friction.h>
 #include <debond/models/closed_forms.h>
 
 #include <boost/math/quadrature/gauss.hpp>
@@ -20,12 +21,10 @@ RigidBodiesTorsion
 brittle_bond()
 {
   RigidBodiesTorsion::Parameters parameters;
-  parameters.radius                     = 2.5;
-  parameters.normal_penalty             = 585;
-  parameters.tangential_penalty         = 585;
-  parameters.push_in                    = 2.6 / 585;
-  parameters.friction.sliding_threshold = 0.005;
-  parameters.friction.transition_factor = 0.3;
+  parameters.radius    = 2.5;
+  parameters.pressure  = 2.6;
+  parameters.stiffness = 585;
+  parameters.friction  = Debond::modified_coulomb({0.40, 0.58, 0.005, 0.3});
   return RigidBodiesTorsion(parameters);
 }
 
@@ -101,4 +100,5 @@ main()
       "snaps back at " + std::to_string(int(stiffness)) + " N mm/rad",
       CompliantMachineTorsion(bodies, stiffness, 2. * degree).jumps().empty() ==
         (stiffness > 8901.6));
+  return 0;
 }

@@ -225,7 +225,7 @@ test()
       std::cout << error.what() << std::endl;
     }
   auto table = read_study("results/study/study.csv");
-  for (const std::string &column :
+  for (const std::string column :
        {"variant", "Model", "converged", "dofs", "T_max_Nmm"})
     if (column != "T_max_Nmm")
       {

@@ -37,4 +37,5 @@ main()
   show("speed * t", 0);
   show("1,5 * t", 0);
   show("t; t", 0);
+  return 0;
 }

@@ -9,6 +9,8 @@
 
 #include <deal.II/base/numbers.h>
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -350,12 +352,11 @@ show_files()
   RunSummary summary;
   summary.measures =
     measure_torque_curve(make_rows({{0, 0, 0, 0}}), settings());
-  summary.reason   = "test";
-  summary.warnings = {"one", "two"};
-  summary.seconds  = {{"dense solve", 1.5}};
-  JsonObject json;
-  add_summary(summary, json);
-  std::cout << json.text() << std::endl;
+  summary.reason                    = "test";
+  summary.warnings                  = {"one", "two"};
+  summary.seconds                   = {{"dense solve", 1.5}};
+  const nlohmann::ordered_json json = summary;
+  std::cout << json.dump(2) << std::endl;
 }
 
 
@@ -369,4 +370,5 @@ main()
   check_errors();
   show_refusals();
   show_files();
+  return 0;
 }

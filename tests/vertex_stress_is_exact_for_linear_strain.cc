@@ -142,4 +142,5 @@ main()
   report("deviation of the equivalent stress of shear under pressure",
          std::abs(von_mises(shear) - 3. * std::sqrt(3.)),
          1e-14);
+  return 0;
 }

@@ -7,7 +7,7 @@
 // integrated in time by Boost; and the smaller the viscosity, the closer its
 // work comes to the energy that the closed form of the jump releases.
 
-#include <debond/interface/friction_law.h>
+#include <debond/interface/bond_friction.h>
 #include <debond/models/closed_forms.h>
 
 #include <boost/math/quadrature/gauss.hpp>
@@ -20,13 +20,10 @@ using namespace Debond;
 constexpr double R = 2.5, eps = 585, p = 2.6, k = 3000,
                  turning = 2. * M_PI / 180.; ///< of the machine per time
 
-FrictionParameters
+FrictionLawPointer
 brittle()
 {
-  FrictionParameters friction;
-  friction.sliding_threshold = 0.005;
-  friction.transition_factor = 0.3;
-  return friction;
+  return modified_coulomb({0.40, 0.58, 0.005, 0.3});
 }
 
 
@@ -82,7 +79,7 @@ public:
     for (std::size_t i = 0; i < radius.size(); ++i)
       {
         const double over = eps * (radius[i] * theta - state[i]) -
-                            friction_coefficient(friction, 1., state[i]).mu * p;
+                            friction->coefficient({1., state[i]}, 0.).mu * p;
         rate[i] = std::max(0., over) / viscosity;
         rate.back() += weight[i] * viscosity * rate[i] * rate[i];
       }
@@ -109,7 +106,7 @@ public:
 
 private:
   const double             viscosity;
-  const FrictionParameters friction = brittle();
+  const FrictionLawPointer friction = brittle();
   std::vector<double>      radius, weight;
 };
 
@@ -208,11 +205,10 @@ void
 check_limit()
 {
   RigidBodiesTorsion::Parameters parameters;
-  parameters.radius             = R;
-  parameters.normal_penalty     = eps;
-  parameters.tangential_penalty = eps;
-  parameters.push_in            = p / eps;
-  parameters.friction           = brittle();
+  parameters.radius    = R;
+  parameters.pressure  = p;
+  parameters.stiffness = eps;
+  parameters.friction  = brittle();
   const RigidBodiesTorsion      bodies(parameters);
   const CompliantMachineTorsion machine(bodies, k, turning);
   const double released = machine.jumps().at(0).released_energy;

@@ -5,6 +5,7 @@
 // quadrature points of the wedge; the height of the wedge from the balance of
 // the vertical force.
 
+#include <debond/interface/bond_friction.h>
 #include <debond/interface/contact_point.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -61,7 +62,7 @@ public:
             points.push_back(point);
           }
       }
-    height = -G / (law.normal_penalty * area);
+    height = -G / (law.normal->initial_stiffness() * area);
   }
 
   /** Moves by @p distance, finds the height, accepts the states. */
@@ -179,10 +180,9 @@ check_constant_friction()
                                        std::array<double, 2>{{1e4, 200}}})
       {
         ContactPointLaw law;
-        law.normal_penalty     = eps_n;
+        law.normal             = penalty_law(eps_n);
         law.tangential_penalty = eps_t;
-        law.friction.kind      = FrictionLawKind::coulomb;
-        law.friction.mu_broken = mu;
+        law.friction           = coulomb(mu);
         Wedge wedge(slope, law, G);
 
         if (slope > 0 && eps_t / eps_n * slope < mu)
@@ -236,7 +236,7 @@ void
 check_falling_friction()
 {
   ContactPointLaw law;
-  law.normal_penalty     = 600;
+  law.normal             = penalty_law(600);
   law.tangential_penalty = 600;
   Wedge  wedge(0.1, law, 12.);
   double deviation = 0, spread = 0, largest = 0, smallest = 1;
@@ -246,15 +246,15 @@ check_falling_friction()
       if (!wedge.all(PointStatus::slip))
         continue;
       const double mu =
-        friction_coefficient(law.friction, 1., wedge.slip(spread)).mu;
+        law.friction->coefficient({1., wedge.slip(spread)}, 0.).mu;
       grow(deviation,
            std::abs(wedge.force_ratio() - wedge_force_ratio(0.1, mu)));
       largest  = std::max(largest, mu);
       smallest = std::min(smallest, mu);
     }
   report("falls from its unbroken to its broken value",
-         largest == law.friction.mu_unbroken &&
-           smallest == law.friction.mu_broken);
+         largest == ModifiedCoulombParameters().mu_unbroken &&
+           smallest == ModifiedCoulombParameters().mu_broken);
   report("F/G with mu at the sliding distance", deviation, 1e-9);
 }
 
@@ -265,4 +265,5 @@ main()
 {
   check_constant_friction();
   check_falling_friction();
+  return 0;
 }

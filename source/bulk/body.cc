@@ -34,10 +34,11 @@ namespace Debond
     // this matrix being an operator and not the solution.
     if (!linearise(linearisation_point()) &&
         !linearise(Eigen::VectorXd::Zero(v.size())))
-      throw InputError(
+      throw EntryError(
         std::string(body_mesh.side() == Side::bone ? "Bone" : "Implant") +
-        " / Cells: the stiffness of this body is not positive definite: its "
-        "cells are too thin, or its Poisson ratio is too close to 0.5");
+          " / Cells",
+        "the stiffness of this body is not positive definite: its cells are "
+        "too thin, or its Poisson ratio is too close to 0.5");
   }
 
 

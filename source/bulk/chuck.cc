@@ -1,9 +1,7 @@
 #include <debond/bulk/chuck.h>
-#include <debond/input/allowed_values.h>
+#include <debond/input/entry_table.h>
 #include <debond/support/input_error.h>
 #include <debond/support/skew.h>
-
-#include <deal.II/base/parameter_handler.h>
 
 #include <Eigen/Geometry>
 
@@ -22,80 +20,56 @@ namespace Debond
 
 
 
-  namespace
+  std::string
+  ChuckParameters::entry_name(const unsigned int component,
+                              const std::string &entry)
   {
-    void
-    declare_component(dealii::ParameterHandler &prm,
-                      const unsigned int        component)
-    {
-      const bool        rotation = is_rotation(component);
-      const std::string axis(1, "xyz"[component % 3]);
-
-      prm.declare_entry(
-        "Control",
-        rotation ? "angle" : "displacement",
-        Allowed::choice(rotation ? "angle | moment" : "displacement | force"),
-        rotation ? "What Value means: `angle' [deg] or `moment' [N mm] of the "
-                   "chuck, positive about +" +
-                     axis + "." :
-                   "What Value means: `displacement' [mm] or `force' [N] of "
-                   "the chuck, positive along +" +
-                     axis + ".");
-      prm.declare_entry("Value",
-                        "0",
-                        Allowed::text(
-                          std::string("an expression in t, in ") +
-                          (rotation ? "degrees or N mm" : "mm or N")),
-                        std::string("Expression in the time t (muParser; "
-                                    "constants pi and R [mm]), in ") +
-                          (rotation ? "degrees for angle, N mm for moment" :
-                                      "mm for displacement, N for force") +
-                          ". Note that sin and cos expect radians: "
-                          "sin(2 * pi * t).");
-      prm.declare_entry("File",
-                        "",
-                        Allowed::only(""),
-                        "Reserved: a CSV table instead of Value.");
-      prm.declare_entry(
-        "Stiffness",
-        "0",
-        Allowed::number_from(0, rotation ? "N mm/rad" : "N/mm"),
-        std::string("Stiffness ") + (rotation ? "[N mm/rad]" : "[N/mm]") +
-          " of the machine in series with this component; 0: a rigid machine.");
-    }
-  } // namespace
-
-
-
-  void
-  ChuckParameters::declare(dealii::ParameterHandler &prm)
-  {
-    prm.enter_subsection("Chuck");
-    for (unsigned int c = 0; c < n_components; ++c)
-      {
-        prm.enter_subsection(names[c]);
-        declare_component(prm, c);
-        prm.leave_subsection();
-      }
-    prm.leave_subsection();
+    return std::string("Chuck / ") + names[component] + " / " + entry;
   }
 
 
 
   void
-  ChuckParameters::parse(dealii::ParameterHandler &prm)
+  ChuckParameters::declare(EntryTable &table)
   {
-    prm.enter_subsection("Chuck");
+    table.enter_subsection("Chuck");
     for (unsigned int c = 0; c < n_components; ++c)
       {
-        prm.enter_subsection(names[c]);
-        const std::string control = prm.get("Control");
-        component[c].loaded       = control == "force" || control == "moment";
-        component[c].value        = prm.get("Value");
-        component[c].stiffness    = prm.get_double("Stiffness");
-        prm.leave_subsection();
+        const bool        rotation = is_rotation(c);
+        const std::string axis(1, "xyz"[c % 3]);
+        table.enter_subsection(names[c]);
+        table.add("Control",
+                  component[c].loaded,
+                  Allowed::choice(rotation ? "angle | moment" :
+                                             "displacement | force"),
+                  rotation ?
+                    "What Value means: `angle' [deg] or `moment' [N mm] of the "
+                    "chuck, positive about +" +
+                      axis + "." :
+                    "What Value means: `displacement' [mm] or `force' [N] of "
+                    "the chuck, positive along +" +
+                      axis + ".");
+        table.add("Value",
+                  component[c].value,
+                  Allowed::text(std::string("an expression in t, in ") +
+                                (rotation ? "degrees or N mm" : "mm or N")),
+                  std::string("Expression in the time t (muParser; constants "
+                              "pi and R [mm]), in ") +
+                    (rotation ? "degrees for angle, N mm for moment" :
+                                "mm for displacement, N for force") +
+                    ". Note that sin and cos expect radians: sin(2 * pi * t).");
+        table.reserve("File", "", "Reserved: a CSV table instead of Value.");
+        table.add(
+          "Stiffness",
+          component[c].stiffness,
+          Allowed::number_between(1e-9, 1e18, rotation ? "N mm/rad" : "N/mm")
+            .or_number(0),
+          std::string("Stiffness ") + (rotation ? "[N mm/rad]" : "[N/mm]") +
+            " of the machine in series with this component; 0: a rigid "
+            "machine.");
+        table.leave_subsection();
       }
-    prm.leave_subsection();
+    table.leave_subsection();
   }
 } // namespace Debond
 
@@ -153,7 +127,7 @@ namespace Debond
     for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
       {
         const auto &component = parameters.component[k];
-        value_functions.emplace_back(component.value, radius);
+        value_functions.push_back(component.value_over_time(radius));
         stiffness[k]  = component.stiffness;
         loaded[k]     = component.loaded;
         compliant[k]  = stiffness[k] > 0.;
@@ -180,9 +154,8 @@ namespace Debond
           }
         catch (const InputError &error)
           {
-            throw InputError(std::string("Chuck / ") +
-                             ChuckParameters::names[k] +
-                             " / Value: " + error.what());
+            throw EntryError(ChuckParameters::entry_name(k, "Value"),
+                             error.what());
           }
       }
     return result;

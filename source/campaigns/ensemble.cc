@@ -1,56 +1,40 @@
 #include <debond/campaigns/ensemble.h>
+#include <debond/campaigns/variant.h>
 #include <debond/input/csv_table.h>
 #include <debond/support/number_text.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace Debond
 {
   namespace
   {
-    using Angles = ReferenceCurve; // angle [deg], torque [N mm]
-
     /** Differences of angles below this are rounding errors [deg]. */
     double
-    tolerance_of(const Angles &curve)
+    tolerance_of(const ReferenceCurve &curve)
     {
-      double lowest = curve.front().first, highest = lowest;
-      for (const auto &[angle, torque] : curve)
-        {
-          lowest  = std::min(lowest, angle);
-          highest = std::max(highest, angle);
-        }
-      return 1e-9 * std::max(1., highest - lowest);
+      const auto [lowest, highest] =
+        std::minmax_element(curve.begin(), curve.end());
+      return 1e-9 * std::max(1., highest->first - lowest->first);
     }
 
 
 
     /** The rows with an angle of their own, the last of those that share one.
-     *  @p direction: +1 or -1, as it turns; 0 if it turns back. */
-    Angles
-    without_repeated_angles(const Angles &curve, int &direction)
+     */
+    ReferenceCurve
+    without_repeated_angles(const ReferenceCurve &curve)
     {
-      const double tolerance = tolerance_of(curve);
-      Angles       rows{curve.front()};
-      direction = 0;
+      ReferenceCurve rows;
+      const double   tolerance = curve.empty() ? 0. : tolerance_of(curve);
       for (const auto &row : curve)
-        {
-          const double turned = row.first - rows.back().first;
-          if (std::abs(turned) <= tolerance)
-            {
-              rows.back().second = row.second;
-              continue;
-            }
-          const int now = (turned > 0. ? 1 : -1);
-          if (direction != 0 && now != direction)
-            {
-              direction = 0;
-              return rows;
-            }
-          direction = now;
+        if (!rows.empty() &&
+            std::abs(row.first - rows.back().first) <= tolerance)
+          rows.back().second = row.second;
+        else
           rows.push_back(row);
-        }
       return rows;
     }
 
@@ -59,14 +43,16 @@ namespace Debond
     /** Torque at an angle, linear between rows in ascending order; NaN beside
      *  them. */
     double
-    torque_at(const Angles &rows, const double angle, const double tolerance)
+    torque_at(const ReferenceCurve &rows,
+              const double          angle,
+              const double          tolerance)
     {
       if (angle < rows.front().first - tolerance ||
           angle > rows.back().first + tolerance)
         return SampleStatistics::undefined;
       const auto above = std::lower_bound(rows.begin(),
                                           rows.end(),
-                                          Angles::value_type(angle, -HUGE_VAL));
+                                          std::make_pair(angle, -HUGE_VAL));
       if (above == rows.begin())
         return rows.front().second;
       if (above == rows.end())
@@ -82,40 +68,31 @@ namespace Debond
 
   TorqueBand::TorqueBand(const std::vector<ReferenceCurve> &curves)
   {
-    std::vector<Angles> ascending;
-    std::vector<double> grid;
+    std::vector<ReferenceCurve> ascending;
+    ReferenceCurve              longest;
     for (const ReferenceCurve &curve : curves)
       {
-        int    direction = 0;
-        Angles one_way;
-        if (!curve.empty())
-          one_way = without_repeated_angles(curve, direction);
-        if (direction == 0)
+        ReferenceCurve one_way = without_repeated_angles(curve);
+        if (one_way.size() < 2)
+          continue; // nothing turns
+        const bool rises = std::is_sorted(one_way.begin(), one_way.end());
+        if (!rises && !std::is_sorted(one_way.rbegin(), one_way.rend()))
           {
-            left_out += (one_way.size() > 1);
+            ++left_out;
             continue;
           }
-        if (one_way.size() > grid.size())
-          {
-            grid.clear();
-            for (const auto &[angle, torque] : one_way)
-              grid.push_back(angle);
-          }
-        if (direction < 0)
+        if (one_way.size() > longest.size())
+          longest = one_way;
+        if (!rises)
           std::reverse(one_way.begin(), one_way.end());
         ascending.push_back(std::move(one_way));
       }
-    if (grid.empty())
-      return;
-
-    const double tolerance =
-      1e-9 * std::max(1., std::abs(grid.back() - grid.front()));
-    for (const double angle : grid)
+    for (const auto &row : longest)
       {
         std::vector<double> torques;
-        for (const Angles &curve : ascending)
-          torques.push_back(torque_at(curve, angle, tolerance));
-        rows.push_back({angle, sample_statistics(std::move(torques))});
+        for (const ReferenceCurve &curve : ascending)
+          torques.push_back(torque_at(curve, row.first, tolerance_of(longest)));
+        rows.push_back({row.first, sample_statistics(std::move(torques))});
       }
   }
 
@@ -141,48 +118,86 @@ namespace Debond
                                    {"initial_stiffness", "_Nm_per_rad"},
                                    {"largest_bonded_patch", "_mm2"}};
 
+    using Fields = std::vector<std::string>;
 
 
-    std::string
-    statistics_header(const Quantity &quantity)
+
+    void
+    add_names(const Quantity &quantity, Fields &fields)
     {
-      std::string columns;
       for (const char *const what : {"_mean", "_sd", "_p05", "_p50", "_p95"})
-        columns += "," + quantity.name + what + quantity.unit;
-      return columns;
+        fields.push_back(quantity.name + what + quantity.unit);
     }
 
 
 
-    std::string
-    statistics_fields(const SampleStatistics &s)
+    void
+    add_statistics(const SampleStatistics &s, Fields &fields)
     {
-      std::string fields;
       for (const double value : {s.mean, s.sd, s.p05, s.p50, s.p95})
-        fields += "," + (std::isfinite(value) ? to_text(value) : "nan");
-      return fields;
+        fields.push_back(std::isfinite(value) ? to_text(value) : "nan");
     }
 
 
 
-    /** Fields of the varied entries with a comma behind each. */
+    /** Members that agree in their values. */
+    struct Group
+    {
+      Fields                              values;
+      std::vector<const EnsembleMember *> converged;
+      unsigned int                        n_failed = 0;
+    };
+
+
+
+    /** In the order of their first members. */
+    std::vector<Group>
+    groups_of(const std::vector<EnsembleMember> &members)
+    {
+      std::vector<Group>            groups;
+      std::map<Fields, std::size_t> number_of;
+      for (const EnsembleMember &member : members)
+        {
+          const auto [known, is_new] =
+            number_of.emplace(member.values, groups.size());
+          if (is_new)
+            groups.push_back({member.values, {}, 0});
+          if (member.converged)
+            groups[known->second].converged.push_back(&member);
+          else
+            ++groups[known->second].n_failed;
+        }
+      return groups;
+    }
+
+
+
+    TorqueBand
+    band_of(const Group &group)
+    {
+      std::vector<ReferenceCurve> curves;
+      for (const EnsembleMember *const member : group.converged)
+        curves.push_back(member->curve);
+      return TorqueBand(curves);
+    }
+
+
+
     std::string
-    leading_fields(const std::vector<std::string> &texts)
+    summary_of(const Group &group)
     {
-      std::string fields;
-      for (const std::string &text : texts)
-        fields += csv_field(text) + ",";
-      return fields;
-    }
-
-
-
-    double
-    number(const EnsembleMember &member, const std::string &name)
-    {
-      const auto found = member.summary.find(name);
-      return found == member.summary.end() ? SampleStatistics::undefined :
-                                             found->second;
+      Fields fields = group.values;
+      fields.push_back(std::to_string(group.converged.size()));
+      fields.push_back(std::to_string(group.n_failed));
+      for (const Quantity &quantity : quantities)
+        {
+          std::vector<double> numbers;
+          for (const EnsembleMember *const member : group.converged)
+            numbers.push_back(
+              number(member->summary, quantity.name + quantity.unit));
+          add_statistics(sample_statistics(std::move(numbers)), fields);
+        }
+      return csv_line(fields);
     }
   } // namespace
 
@@ -191,74 +206,36 @@ namespace Debond
   Ensemble::Ensemble(const std::vector<std::string>    &entries,
                      const std::vector<EnsembleMember> &members)
   {
-    curve_table = leading_fields(entries) + "angle_deg,members" +
-                  statistics_header({"torque", "_Nmm"}) + "\n";
-    summary_table = leading_fields(entries) + "members,failed";
+    Fields of_curves = entries, of_summary = entries;
+    of_curves.insert(of_curves.end(), {"angle_deg", "members"});
+    add_names({"torque", "_Nmm"}, of_curves);
+    of_summary.insert(of_summary.end(), {"members", "failed"});
     for (const Quantity &quantity : quantities)
-      summary_table += statistics_header(quantity);
-    summary_table += "\n";
+      add_names(quantity, of_summary);
+    curves  = csv_line(of_curves);
+    summary = csv_line(of_summary);
 
-    std::vector<std::vector<std::string>>     order;
-    std::map<std::vector<std::string>, Group> groups;
-    for (const EnsembleMember &member : members)
+    for (const Group &group : groups_of(members))
       {
-        Group &group = groups[member.values];
-        if (group.empty())
-          order.push_back(member.values);
-        group.push_back(&member);
-      }
-    for (const auto &values : order)
-      {
-        std::string place;
+        summary += summary_of(group);
+        const TorqueBand band = band_of(group);
+        for (const TorqueBand::Row &row : band.rows)
+          {
+            Fields fields = group.values;
+            fields.push_back(to_text(row.angle_deg));
+            fields.push_back(std::to_string(row.torque.n));
+            add_statistics(row.torque, fields);
+            curves += csv_line(fields);
+          }
+        if (band.left_out == 0)
+          continue;
+        notes += "ensemble.csv leaves out " + std::to_string(band.left_out) +
+                 " of " + std::to_string(group.converged.size()) + " members";
         for (std::size_t i = 0; i < entries.size(); ++i)
-          place += (i == 0 ? " of " : "; ") + entries[i] + " = " + values[i];
-        add_curves(groups[values], place);
-        add_summary(groups[values]);
+          notes +=
+            (i == 0 ? " of " : "; ") + entries[i] + " = " + group.values[i];
+        notes += ": their rotation reverses, so that an angle has more than "
+                 "one torque\n";
       }
-  }
-
-
-
-  void
-  Ensemble::add_curves(const Group &group, const std::string &place)
-  {
-    std::vector<ReferenceCurve> curves;
-    for (const EnsembleMember *const member : group)
-      if (member->converged)
-        curves.push_back(member->curve);
-    const TorqueBand band(curves);
-    for (const TorqueBand::Row &row : band.rows)
-      curve_table +=
-        leading_fields(group.front()->values) + to_text(row.angle_deg) + "," +
-        std::to_string(row.torque.n) + statistics_fields(row.torque) + "\n";
-    if (band.left_out > 0)
-      left_out += "ensemble.csv leaves out " + std::to_string(band.left_out) +
-                  " of " + std::to_string(curves.size()) + " members" + place +
-                  ": their rotation reverses, so that an angle has more than "
-                  "one torque\n";
-  }
-
-
-
-  void
-  Ensemble::add_summary(const Group &group)
-  {
-    const auto n_converged = std::count_if(group.begin(),
-                                           group.end(),
-                                           [](const EnsembleMember *member) {
-                                             return member->converged;
-                                           });
-    summary_table += leading_fields(group.front()->values) +
-                     std::to_string(n_converged) + "," +
-                     std::to_string(group.size() - n_converged);
-    for (const Quantity &quantity : quantities)
-      {
-        std::vector<double> values;
-        for (const EnsembleMember *const member : group)
-          if (member->converged)
-            values.push_back(number(*member, quantity.name + quantity.unit));
-        summary_table += statistics_fields(sample_statistics(values));
-      }
-    summary_table += "\n";
   }
 } // namespace Debond

@@ -1,5 +1,4 @@
 #include <debond/campaigns/model_ladder.h>
-#include <debond/support/number_text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,29 +17,6 @@ namespace Debond
 
 
 
-    /** The value of an entry `Cells`. */
-    std::string
-    entry_of(const Cells &cells, const BodyParameters &body)
-    {
-      std::ostringstream text;
-      if (!body.is_round())
-        text << cells[0] << ", ";
-      text << cells[1] << ", " << cells[2];
-      return text.str();
-    }
-
-
-
-    std::string
-    in_words(const Cells &cells)
-    {
-      std::ostringstream text;
-      text << cells[0] << " x " << cells[1] << " x " << cells[2];
-      return text.str();
-    }
-
-
-
     bool
     can_be_halved(const Cells &cells, const unsigned int fewest_across)
     {
@@ -48,6 +24,17 @@ namespace Debond
              std::min(cells[0], cells[1]) >= 2 * fewest_across && cells[2] >= 4;
     }
 
+
+
+    double
+    number_of_unknowns(const BodyParameters &body)
+    {
+      if (body.material == Material::rigid)
+        return 0.;
+      const double x = body.cells[0], y = body.cells[1], z = body.cells[2];
+      const double more = body.contact_surface == SurfaceKind::nurbs ? 2. : 1.;
+      return 3. * ((x + 1.) * (y + 1.) * z + (x + more) * (y + more));
+    }
   } // namespace
 
 
@@ -62,14 +49,20 @@ namespace Debond
 
 
 
-  double
-  predicted_unknowns(const BodyParameters &body)
+  std::string
+  in_words(const std::array<unsigned int, 3> &cells)
   {
-    if (body.material == Material::rigid)
-      return 0.;
-    const double x = body.cells[0], y = body.cells[1], z = body.cells[2];
-    const double more = body.contact_surface == SurfaceKind::nurbs ? 2. : 1.;
-    return 3. * ((x + 1.) * (y + 1.) * z + (x + more) * (y + more));
+    return std::to_string(cells[0]) + " x " + std::to_string(cells[1]) + " x " +
+           std::to_string(cells[2]);
+  }
+
+
+
+  std::string
+  Rung::model() const
+  {
+    return is_foundation() ? "foundation" :
+                             name_of(std::max(materials[0], materials[1]));
   }
 
 
@@ -77,7 +70,7 @@ namespace Debond
   std::string
   Rung::description() const
   {
-    return model + ", " + in_words(scene.bone.cells) + " and " +
+    return model() + ", " + in_words(scene.bone.cells) + " and " +
            in_words(scene.implant.cells) + " cells";
   }
 
@@ -86,28 +79,23 @@ namespace Debond
   double
   Rung::unknowns() const
   {
-    return model == "foundation" ?
+    return is_foundation() ?
              0. :
-             predicted_unknowns(scene.bone) + predicted_unknowns(scene.implant);
+             number_of_unknowns(scene.bone) + number_of_unknowns(scene.implant);
   }
 
 
 
-  ModelLadder::ModelLadder(const Scene &scene)
+  ModelLadder::ModelLadder(const Scene &scene, const double step_tolerance)
     : scene(scene)
+    , step_tolerance(step_tolerance)
     , coarsest{{scene.bone.cells, scene.implant.cells}}
   {
-    const auto poorer = [](const Material material, const Material limit) {
-      return std::min(material, limit); // in the order of their cost
-    };
     for (const Material limit :
          {Material::rigid, Material::linear, Material::neo_hookean})
-      {
-        const Materials next{{poorer(scene.bone.material, limit),
-                              poorer(scene.implant.material, limit)}};
-        if (all_materials.empty() || next != all_materials.back())
-          all_materials.push_back(next);
-      }
+      if (const Materials next = limited_to(limit);
+          all_materials.empty() || next != all_materials.back())
+        all_materials.push_back(next);
     while (can_be_halved(coarsest[0], 15) && can_be_halved(coarsest[1], 3))
       for (Cells &cells : coarsest)
         for (unsigned int &n : cells)
@@ -117,40 +105,10 @@ namespace Debond
 
 
   Materials
-  ModelLadder::linear_materials() const
+  ModelLadder::limited_to(const Material limit) const
   {
-    return {{std::min(scene.bone.material, Material::linear),
-             std::min(scene.implant.material, Material::linear)}};
-  }
-
-
-
-  Scene
-  ModelLadder::with(const std::vector<std::string> &overrides,
-                    const unsigned int              number) const
-  {
-    std::vector<std::string> all{"Output/Console=quiet",
-                                 "Output/Directory=" + scene.output.directory +
-                                   "/rung-" + std::to_string(number)};
-    all.insert(all.end(), overrides.begin(), overrides.end());
-    Scene result =
-      Scene::from_entries(with_overrides(scene.entries, all), scene.name);
-    result.output.overwrite_other_results = true;
-    result.output.resumable               = false;
-    return result;
-  }
-
-
-
-  std::vector<std::string>
-  ModelLadder::cells(const unsigned int mesh) const
-  {
-    std::array<Cells, 2> refined = coarsest;
-    for (Cells &cells : refined)
-      for (unsigned int &n : cells)
-        n <<= mesh;
-    return {"Bone/Cells=" + entry_of(refined[0], scene.bone),
-            "Implant/Cells=" + entry_of(refined[1], scene.implant)};
+    return {{std::min(scene.bone.material, limit), // in the order of their cost
+             std::min(scene.implant.material, limit)}};
   }
 
 
@@ -158,42 +116,43 @@ namespace Debond
   Rung
   ModelLadder::finite_elements(const unsigned int number,
                                const Materials   &materials,
-                               const unsigned int mesh,
-                               const double       step_tolerance) const
+                               const unsigned int mesh) const
   {
-    std::vector<std::string> overrides = cells(mesh);
-    overrides.insert(overrides.end(),
-                     {"Model=finite elements",
-                      "Load steps/Adaptive=true",
-                      "Load steps/Tolerance=" + to_text(step_tolerance, 17),
-                      "Bone/Material=" + name_of(materials[0]),
-                      "Implant/Material=" + name_of(materials[1])});
     Rung rung;
-    rung.model     = name_of(std::max(materials[0], materials[1]));
-    rung.materials = materials;
-    rung.mesh      = mesh;
-    rung.scene     = with(overrides, number);
+    rung.materials     = materials;
+    rung.mesh          = mesh;
+    rung.scene         = scene;
+    rung.scene.model   = ModelKind::finite_elements;
+    unsigned int which = 0;
+    for (BodyParameters *const body : {&rung.scene.bone, &rung.scene.implant})
+      {
+        body->material = materials[which];
+        body->cells    = coarsest[which++];
+        for (unsigned int &n : body->cells)
+          n <<= mesh;
+      }
+    rung.scene.load_steps.adaptive  = true;
+    rung.scene.load_steps.tolerance = step_tolerance;
+    OutputParameters &output        = rung.scene.output;
+    output.console                  = ConsoleKind::quiet;
+    output.directory += "/rung-" + std::to_string(number);
+    output.overwrite_other_results = true;
+    output.resumable               = false;
     return rung;
   }
 
 
 
   Rung
-  ModelLadder::foundation(const unsigned int number,
-                          const double       step_tolerance) const
+  ModelLadder::foundation(const unsigned int number) const
   {
-    std::vector<std::string> overrides = cells(0);
-    overrides.insert(overrides.end(),
-                     {"Model=foundation",
-                      "Load steps/Adaptive=true",
-                      "Load steps/Tolerance=" + to_text(step_tolerance, 17),
-                      "Closed form/Pressure=0",
-                      "Closed form/Normal stiffness=0",
-                      "Closed form/Torsional stiffness=0"});
-    Rung rung;
-    rung.model     = "foundation";
-    rung.materials = linear_materials();
-    rung.scene     = with(overrides, number);
+    Rung rung        = finite_elements(number, all_materials.back(), 0);
+    rung.materials   = linear_materials(); // those of the linear solution
+    rung.scene.model = ModelKind::foundation;
+    // the bodies' own, whatever the scene says
+    rung.scene.closed_form.pressure            = 0.;
+    rung.scene.closed_form.normal_stiffness    = 0.;
+    rung.scene.closed_form.torsional_stiffness = 0.;
     return rung;
   }
 
@@ -202,16 +161,19 @@ namespace Debond
   Scene
   ModelLadder::below_coarsest(double &ratio) const
   {
-    Scene result = scene;
-    ratio        = 2.;
+    Scene        result = scene;
+    unsigned int which  = 0;
+    ratio               = 2.;
     for (BodyParameters *const body : {&result.bone, &result.implant})
-      for (unsigned int d = 0; d < 3; ++d)
-        {
-          const unsigned int n = coarsest[body == &result.bone ? 0 : 1][d];
-          body->cells[d]       = std::max(d < 2 ? 2U : 1U, (n + 1) / 2);
-          if (body->material != Material::rigid || d < 2)
-            ratio = std::min(ratio, double(n) / body->cells[d]);
-        }
+      {
+        const Cells &cells = coarsest[which++];
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            body->cells[d] = std::max(d < 2 ? 2U : 1U, (cells[d] + 1) / 2);
+            if (body->material != Material::rigid || d < 2)
+              ratio = std::min(ratio, double(cells[d]) / body->cells[d]);
+          }
+      }
     return result;
   }
 
@@ -223,25 +185,19 @@ namespace Debond
     if (mesh > largest_mesh)
       return "the mesh has been refined " + std::to_string(largest_mesh) +
              " times";
-    const bool   is_round = scene.implant.is_round();
-    const double share    = // of the bone's face that contact reaches
-      is_round ? 4. * std::pow(scene.implant.radius, 2) /
-                   (scene.bone.size[0] * scene.bone.size[1]) :
-                    scene.implant.size[0] * scene.implant.size[1] /
-                   (scene.bone.size[0] * scene.bone.size[1]);
-    double unknowns = 0., n_cells = 0., contact_unknowns = 0.;
-    for (unsigned int b = 0; b < 2; ++b)
+    const Rung   next     = finite_elements(0, materials, mesh);
+    const double unknowns = next.unknowns();
+    double       n_cells = 0., contact_unknowns = 0.;
+    for (const BodyParameters *const body :
+         {&next.scene.bone, &next.scene.implant})
       {
-        BodyParameters body = b == 0 ? scene.bone : scene.implant;
-        body.material       = materials[b];
-        body.cells          = coarsest[b];
-        for (unsigned int &n : body.cells)
-          n <<= mesh;
-        unknowns += predicted_unknowns(body);
-        if (body.material != Material::rigid)
-          contact_unknowns +=
-            3. * (b == 0 ? share : 1.) * body.cells[0] * double(body.cells[1]);
-        n_cells += double(body.cells[0]) * body.cells[1] * body.cells[2];
+        const double on_face = double(body->cells[0]) * body->cells[1];
+        double       share   = 1.; // of it that contact reaches
+        for (const unsigned int d : {0, 1})
+          share *= scene.implant.width(d) / body->width(d);
+        n_cells += on_face * body->cells[2];
+        if (body->material != Material::rigid)
+          contact_unknowns += 3. * share * on_face;
       }
     std::ostringstream text;
     if (unknowns > scene.automatic.largest_number_of_unknowns)

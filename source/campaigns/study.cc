@@ -1,21 +1,22 @@
 #include <debond/campaigns/ensemble.h>
+#include <debond/campaigns/run_scene.h>
 #include <debond/campaigns/study.h>
 #include <debond/campaigns/variant_process.h>
 #include <debond/campaigns/variant_queue.h>
 #include <debond/input/csv_table.h>
 #include <debond/input/parameter_loop.h>
-#include <debond/models/problem.h>
 #include <debond/output/torque_curve.h>
 #include <debond/support/directory_lock.h>
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
+#include <debond/support/number_text.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <ostream>
+#include <sstream>
 
 namespace Debond
 {
@@ -28,28 +29,6 @@ namespace Debond
       std::snprintf(name, sizeof(name), "variant-%03u", variant + 1);
       return name;
     }
-
-
-
-    /** A number with fewer digits, for people. */
-    std::string
-    rounded(const std::string &number)
-    {
-      char text[32];
-      std::snprintf(text, sizeof(text), "%.4g", std::atof(number.c_str()));
-      return text;
-    }
-
-
-
-    std::string
-    csv_line(const std::vector<std::string> &texts)
-    {
-      std::string line;
-      for (const std::string &text : texts)
-        line += (&text == &texts.front() ? "" : ",") + csv_field(text);
-      return line + "\n";
-    }
   } // namespace
 
 
@@ -60,10 +39,11 @@ namespace Debond
       {
         varied.push_back(entry.full_name());
         if (entry.full_name() == "Output / Directory")
-          throw InputError(entry.place +
-                           ": Output / Directory: a study gives each variant "
-                           "a directory of its own below this one: expected "
-                           "one value");
+          throw EntryError(entry.full_name(),
+                           "a study gives each variant a directory of its own "
+                           "below this one: expected one value",
+                           entry.value,
+                           entry.place);
       }
     const Scene first =
       Scene::from_entries(study_variants(entries)[0].entries, name);
@@ -72,9 +52,10 @@ namespace Debond
     std::vector<StudyVariant> combinations =
       study_variants(entries, first.study.factors_at_once);
     if (reference > combinations.size())
-      throw InputError(
-        first.with_place("Study / Reference variant: this study has " +
-                         std::to_string(combinations.size()) + " variants"));
+      throw first.with_place(EntryError("Study / Reference variant",
+                                        "this study has " +
+                                          std::to_string(combinations.size()) +
+                                          " variants"));
     for (StudyVariant &combination : combinations)
       {
         // what only the study uses must not make another scene of a variant
@@ -119,7 +100,10 @@ namespace Debond
         out << describe(i) << (variants[i].done ? " (done already)" : "")
             << '\n';
         if (variants[i].scene.model != ModelKind::finite_elements)
-          Problem::create(variants[i].scene); // refuses what it cannot do
+          {
+            std::ostringstream none; // only refuses what it cannot do
+            check_scene(variants[i].scene, none);
+          }
       }
   }
 
@@ -132,9 +116,9 @@ namespace Debond
     std::error_code error;
     std::filesystem::create_directories(directory, error);
     if (error)
-      throw InputError(
-        "Output / Directory = '" + directory +
-        "': this directory cannot be created: " + error.message());
+      throw EntryError("Output / Directory",
+                       "this directory cannot be created: " + error.message(),
+                       directory);
     const auto lock = DirectoryLock::take(directory);
     for (Variant &variant : variants)
       {
@@ -142,11 +126,12 @@ namespace Debond
         output.overwrite_other_results = force;
         variant.look_up();
         if (variant.content == DirectoryContent::other_scene && !force)
-          throw InputError("Output / Directory = '" + directory +
-                           "': " + output.directory +
-                           " holds results of another scene (compare its "
-                           "parameters.prm): choose another directory, or "
-                           "overwrite them with --force");
+          throw EntryError("Output / Directory",
+                           output.directory +
+                             " holds results of another scene (compare its "
+                             "parameters.prm): choose another directory, or "
+                             "overwrite them with --force",
+                           directory);
         variant.done = variant.done && !force;
         // what is left over from another scene, or not wanted any more
         if (force || variant.content != DirectoryContent::same_scene)
@@ -244,9 +229,9 @@ namespace Debond
       out << "failed: " << variants[variant].failure << std::endl;
     else
       {
-        const StudyRow &summary = variants[variant].summary;
-        out << "T_max " << rounded(member(summary, "T_max_Nmm")) << " N mm, "
-            << rounded(member(summary, "wall_seconds")) << " s" << std::endl;
+        const auto &summary = variants[variant].summary;
+        out << "T_max " << to_text(number(summary, "T_max_Nmm"), 4) << " N mm, "
+            << to_text(number(summary, "wall_seconds"), 4) << " s" << std::endl;
       }
   }
 
@@ -260,17 +245,15 @@ namespace Debond
     for (unsigned int i = 0; i < varied.size(); ++i)
       row.emplace_back(varied[i], variant.values[i]);
 
-    StudyRow summary = variant.summary;
+    nlohmann::ordered_json summary = variant.summary;
     if (!variant.done)
       {
-        const std::string why =
+        summary["converged"] = false;
+        summary["reason"] =
           variant.failure.empty() ? "not run yet" : variant.failure;
-        if (summary.empty())
-          summary = {{"converged", ""}, {"reason", ""}};
-        set_member(summary, "converged", "false");
-        set_member(summary, "reason", why);
       }
-    row.insert(row.end(), summary.begin(), summary.end());
+    for (const auto &member : summary.items())
+      row.emplace_back(member.key(), text_of(member.value()));
     return row;
   }
 
@@ -338,20 +321,17 @@ namespace Debond
     std::vector<EnsembleMember> members;
     for (const Variant &variant : variants)
       {
-        EnsembleMember next;
-        next.values    = without_seed(variant.values);
-        next.converged = variant.done;
-        for (const auto &[name, value] : variant.summary)
-          next.summary[name] = std::atof(value.c_str());
-        if (variant.done)
-          next.curve = read_reference_curve(variant.scene.output.directory +
-                                            "/torque.csv");
-        members.push_back(std::move(next));
+        const std::string curve =
+          variant.scene.output.directory + "/torque.csv";
+        members.push_back({without_seed(variant.values),
+                           variant.done,
+                           variant.summary,
+                           read_reference_curve(variant.done ? curve : "")});
       }
     const Ensemble ensemble(without_seed(varied), members);
-    write_file(directory + "/ensemble.csv", ensemble.curves());
-    write_file(directory + "/ensemble_summary.csv", ensemble.summary());
-    out << ensemble.notes() << "Statistics over all seeds are in " << directory
+    write_file(directory + "/ensemble.csv", ensemble.curves);
+    write_file(directory + "/ensemble_summary.csv", ensemble.summary);
+    out << ensemble.notes << "Statistics over all seeds are in " << directory
         << "/ensemble.csv and ensemble_summary.csv" << std::endl;
   }
 } // namespace Debond

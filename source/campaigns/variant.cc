@@ -3,89 +3,62 @@
 #include <debond/support/number_text.h>
 #include <debond/support/sample_statistics.h>
 
-#define BOOST_BIND_GLOBAL_PLACEHOLDERS
-#include <boost/property_tree/json_parser.hpp>
-#include <boost/property_tree/ptree.hpp>
+#include <boost/algorithm/string/join.hpp>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 namespace Debond
 {
   std::string
-  member(const StudyRow &members, const std::string &name)
+  text_of(const nlohmann::ordered_json &value)
   {
-    for (const auto &[other, value] : members)
-      if (other == name)
-        return value;
-    return "";
+    if (value.is_string())
+      return value;
+    if (value.is_number_float())
+      return to_text(value);
+    if (value.is_array())
+      return boost::join(value.get<std::vector<std::string>>(), "; ");
+    return value.is_null() ? "nan" : value.dump();
   }
 
 
 
-  void
-  set_member(StudyRow          &members,
-             const std::string &name,
-             const std::string &value)
+  double
+  number(const nlohmann::ordered_json &summary, const std::string &name)
   {
-    for (auto &[other, text] : members)
-      if (other == name)
-        text = value;
+    const auto found = summary.find(name);
+    return found != summary.end() && found->is_number() ?
+             found->get<double>() :
+             SampleStatistics::undefined;
   }
 
 
 
   namespace
   {
-    /** StudyRow of a summary.json as text; lists joined, null as nan. Empty if
-     *  there is none. */
-    StudyRow
-    read_summary(const std::string &filename)
-    {
-      boost::property_tree::ptree tree;
-      try
-        {
-          boost::property_tree::read_json(filename, tree);
-        }
-      catch (const boost::property_tree::json_parser_error &)
-        {
-          return {};
-        }
-      StudyRow members;
-      for (const auto &[name, child] : tree)
-        {
-          std::string value = child.data() == "null" ? "nan" : child.data();
-          for (const auto &item : child)
-            value += (value.empty() ? "" : "; ") + item.second.data();
-          members.emplace_back(name, value);
-        }
-      return members;
-    }
-
-
-
     /** Gives the members that are seconds the medians over all runs. */
     void
-    take_medians(StudyRow &summary, const std::vector<StudyRow> &repetitions)
+    take_medians(nlohmann::ordered_json                    &summary,
+                 const std::vector<nlohmann::ordered_json> &repetitions)
     {
-      for (auto &[name, text] : summary)
-        if (name == "wall_seconds" || name.rfind("seconds_", 0) == 0)
+      for (auto &member : summary.items())
+        if (member.key() == "wall_seconds" ||
+            member.key().rfind("seconds_", 0) == 0)
           {
             std::vector<double> seconds;
-            for (const StudyRow &repetition : repetitions)
-              seconds.push_back(std::atof(member(repetition, name).c_str()));
-            text = to_text(sample_statistics(std::move(seconds)).p50);
+            for (const auto &repetition : repetitions)
+              seconds.push_back(number(repetition, member.key()));
+            member.value() = sample_statistics(std::move(seconds)).p50;
           }
     }
 
 
 
     std::string
-    repetition_file(const std::string &directory, const unsigned int number)
+    repetition_file(const Variant &variant, const std::size_t number)
     {
-      return directory + "/repetition-" + std::to_string(number) + ".json";
+      return variant.scene.output.directory + "/repetition-" +
+             std::to_string(number) + ".json";
     }
 
 
@@ -105,36 +78,6 @@ namespace Debond
       settings.reference = read_reference_curve(reference_file);
       return measure_torque_curve(rows, settings);
     }
-
-
-
-    using NamedNumbers = std::vector<std::pair<std::string, double>>;
-
-    NamedNumbers
-    all_measures(const CurveMeasures &curve, const ProfileMeasures &local)
-    {
-      NamedNumbers measures = error_measures(curve);
-      for (const auto &measure : error_measures(local))
-        measures.push_back(measure);
-      return measures;
-    }
-
-
-
-    /** Columns of study.csv that compare the results in one directory with
-     *  those in another: torque curve and, if both have them, profiles. */
-    NamedNumbers
-    compare(const std::string &directory, const std::string &reference)
-    {
-      ProfileMeasures   local;
-      const std::string own      = directory + "/profiles.csv",
-                        expected = reference + "/profiles.csv";
-      if (std::filesystem::exists(own) && std::filesystem::exists(expected))
-        local = compare_profiles(read_profiles(own), read_profiles(expected));
-      return all_measures(compare_curves(directory + "/torque.csv",
-                                         reference + "/torque.csv"),
-                          local);
-    }
   } // namespace
 
 
@@ -145,16 +88,16 @@ namespace Debond
     const OutputParameters &output = scene.output;
     content = content_of_result_directory(output, scene.completed_parameters);
     if (content == DirectoryContent::same_scene)
-      summary = read_summary(output.directory + "/summary.json");
-    done = member(summary, "converged") == "true" &&
+      summary = read_json(output.directory + "/summary.json");
+    done = summary.value("converged", false) &&
            std::filesystem::exists(output.directory + "/torque.csv");
     if (n_repetitions == 1)
       return;
     repetitions.clear();
     while (repetitions.size() < n_repetitions)
       {
-        const StudyRow next = read_summary(
-          repetition_file(output.directory, repetitions.size() + 1));
+        const auto next =
+          read_json(repetition_file(*this, repetitions.size() + 1));
         if (next.empty())
           break;
         repetitions.push_back(next);
@@ -166,25 +109,12 @@ namespace Debond
 
 
 
-  // The next run writes a new summary in the place of this one.
-  void
-  Variant::keep_repetition() const
-  {
-    const std::string &place = scene.output.directory;
-    std::ostringstream text;
-    text << std::ifstream(place + "/summary.json").rdbuf();
-    write_file(repetition_file(place, repetitions.size() + 1), text.str());
-  }
-
-
-
   void
   Variant::forget_repetitions()
   {
-    const std::string &place = scene.output.directory;
-    std::error_code    none;
+    std::error_code none;
     for (unsigned int i = 1;
-         std::filesystem::remove(repetition_file(place, i), none);
+         std::filesystem::remove(repetition_file(*this, i), none);
          ++i)
       ;
     repetitions.clear();
@@ -196,7 +126,7 @@ namespace Debond
   Variant::wants_another_run() const
   {
     return n_repetitions > 1 && failure.empty() &&
-           member(summary, "converged") == "true" &&
+           summary.value("converged", false) &&
            repetitions.size() < n_repetitions;
   }
 
@@ -206,8 +136,12 @@ namespace Debond
   Variant::end_run(const std::string &why_failed)
   {
     failure = why_failed;
+    // the next run writes a new summary in the place of this one
     if (n_repetitions > 1 && failure.empty())
-      keep_repetition();
+      std::filesystem::copy_file(
+        scene.output.directory + "/summary.json",
+        repetition_file(*this, repetitions.size() + 1),
+        std::filesystem::copy_options::overwrite_existing);
     look_up();
     done = done && failure.empty();
   }
@@ -220,10 +154,21 @@ namespace Debond
     if (compared)
       return;
     compared = done && other.done;
-    for (const auto &[name, value] :
-         compared ?
-           compare(scene.output.directory, other.scene.output.directory) :
-           all_measures({}, {}))
-      set_member(summary, name, to_text(value));
+    CurveMeasures   curve;
+    ProfileMeasures local;
+    if (compared)
+      {
+        const std::string own       = scene.output.directory + "/",
+                          reference = other.scene.output.directory + "/";
+        curve = compare_curves(own + "torque.csv", reference + "torque.csv");
+        if (std::filesystem::exists(own + "profiles.csv") &&
+            std::filesystem::exists(reference + "profiles.csv"))
+          local = compare_profiles(read_profiles(own + "profiles.csv"),
+                                   read_profiles(reference + "profiles.csv"));
+      }
+    for (const auto &measures : {error_measures(curve), error_measures(local)})
+      for (const auto &[name, value] : measures)
+        if (summary.contains(name))
+          summary[name] = value;
   }
 } // namespace Debond

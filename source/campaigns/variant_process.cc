@@ -1,7 +1,7 @@
+#include <debond/campaigns/run_scene.h>
 #include <debond/campaigns/variant_process.h>
 #include <debond/models/debonding_problem.h>
 #include <debond/models/memory_estimate.h>
-#include <debond/models/problem.h>
 #include <debond/models/resumed_run.h>
 #include <debond/support/interruption.h>
 
@@ -14,7 +14,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
-#include <stdexcept>
+#include <system_error>
 #include <vector>
 
 namespace Debond
@@ -34,7 +34,7 @@ namespace Debond
       // that there are no results of another scene
       Scene anew                          = scene;
       anew.output.overwrite_other_results = true;
-      Problem::create(anew, bodies)->run();
+      run_scene(anew, bodies);
     }
 
 
@@ -65,29 +65,17 @@ namespace Debond
         {
           message = error.what();
         }
-      const char *text = message.c_str();
-      for (std::size_t left = message.size(); left > 0;)
-        {
-          const ssize_t written = write(write_end, text, left);
-          if (written <= 0)
-            break;
-          text += written;
-          left -= written;
-        }
+      dprintf(write_end, "%s", message.c_str());
       _exit(message.empty() ? 0 : 1);
     }
 
 
 
-    std::string
-    read_to_end(const int read_end)
+    /** Throws what went wrong in the last call of @p function. */
+    [[noreturn]] void
+    throw_system_error(const char *const function)
     {
-      std::string text;
-      char        buffer[4096];
-      for (ssize_t n; (n = read(read_end, buffer, sizeof(buffer))) > 0;)
-        text.append(buffer, n);
-      close(read_end);
-      return text;
+      throw std::system_error(errno, std::generic_category(), function);
     }
 
 
@@ -96,16 +84,19 @@ namespace Debond
     std::string
     end_of(const pid_t process, const int read_end)
     {
-      std::string words  = read_to_end(read_end);
-      int         status = 0;
+      std::string words;
+      char        buffer[4096];
+      for (ssize_t n; (n = read(read_end, buffer, sizeof(buffer))) > 0;)
+        words.append(buffer, n);
+      close(read_end);
+      int status = 0;
       while (waitpid(process, &status, 0) < 0)
         if (errno != EINTR)
-          throw std::runtime_error(std::string("waitpid: ") +
-                                   std::strerror(errno));
-      if (WIFSIGNALED(status))
-        words = std::string("the process was ended by the system: ") +
-                strsignal(WTERMSIG(status));
-      return words;
+          throw_system_error("waitpid");
+      return WIFSIGNALED(status) ?
+               std::string("the process was ended by the system: ") +
+                 strsignal(WTERMSIG(status)) :
+               words;
     }
   } // namespace
 
@@ -126,10 +117,10 @@ namespace Debond
   {
     int pipe_ends[2];
     if (pipe(pipe_ends) != 0)
-      throw std::runtime_error(std::string("pipe: ") + std::strerror(errno));
+      throw_system_error("pipe");
     const pid_t process = fork();
     if (process < 0)
-      throw std::runtime_error(std::string("fork: ") + std::strerror(errno));
+      throw_system_error("fork");
     if (process == 0)
       {
         close(pipe_ends[0]);
@@ -149,7 +140,7 @@ namespace Debond
       waiting.push_back({job.second.read_end, POLLIN, 0});
     while (poll(waiting.data(), waiting.size(), -1) < 0)
       if (errno != EINTR)
-        throw std::runtime_error(std::string("poll: ") + std::strerror(errno));
+        throw_system_error("poll");
     if (interrupting_signal() != 0)
       return std::nullopt;
     auto job = jobs.begin();

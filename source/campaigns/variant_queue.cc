@@ -6,6 +6,7 @@
 #include <debond/system/coupled_system.h>
 
 #include <deal.II/base/multithread_info.h>
+#include <deal.II/base/timer.h>
 
 #include <algorithm>
 #include <iostream>
@@ -63,11 +64,8 @@ namespace Debond
       try
         {
           require_memory(scene);
-          dealii::Timer       clock;
-          dealii::TimerOutput timer(std::cout,
-                                    dealii::TimerOutput::never,
-                                    dealii::TimerOutput::wall_times);
-          CoupledSystem       system(scene, timer);
+          dealii::Timer clock;
+          CoupledSystem system(scene);
           system.start(scene.load_steps.times.front());
           system.bodies()->seconds_shared = clock.wall_time();
           return system.bodies();
@@ -100,28 +98,15 @@ namespace Debond
 
 
 
-  VariantQueue::VariantQueue(const unsigned int n_jobs)
-    : n_jobs(n_jobs)
-  {}
-
-  VariantQueue::~VariantQueue() = default;
-
-
-
   void
   VariantQueue::add(const unsigned int variant,
                     const Scene       &scene,
                     const bool         may_share)
   {
-    const std::string       key   = may_share ? common_part(scene) : "";
-    std::shared_ptr<Group> &group = group_of[key];
-    if (!group)
-      {
-        group            = std::make_shared<Group>();
-        group->may_share = !key.empty();
-        groups.push_back(group);
-      }
-    group->variants.emplace_back(variant, &scene);
+    const std::string  key = may_share ? common_part(scene) : "";
+    const unsigned int group =
+      group_of.emplace(key, group_of.size()).first->second;
+    waiting.insert({group, {variant, &scene, !key.empty()}});
   }
 
 
@@ -129,22 +114,18 @@ namespace Debond
   VariantQueue::Next
   VariantQueue::next()
   {
-    Group &group                = *groups.front();
-    const auto [variant, scene] = group.variants.front();
-    if (!group.is_begun)
+    const auto [group, first] = *waiting.begin();
+    if (group != last_group)
       {
         bodies.reset(); // before there are others
-        if (group.may_share && group.variants.size() >= std::max(2U, n_jobs))
-          bodies = condensed_bodies_in_one_thread(*scene);
-        group.is_begun = true;
+        if (first.may_share && waiting.count(group) >= std::max(2U, n_jobs))
+          bodies = condensed_bodies_in_one_thread(*first.scene);
+        last_group = group;
       }
-    group.variants.pop_front();
-    const Next result{variant, bodies};
-    if (group.variants.empty())
-      {
-        bodies.reset();
-        groups.pop_front();
-      }
+    waiting.erase(waiting.begin());
+    const Next result{first.variant, bodies};
+    if (waiting.find(group) == waiting.end())
+      bodies.reset();
     return result;
   }
 } // namespace Debond

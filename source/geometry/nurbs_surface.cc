@@ -1,5 +1,4 @@
 #include <debond/geometry/nurbs_surface.h>
-#include <debond/geometry/surface_geometry.h>
 
 #include <Eigen/LU>
 
@@ -475,5 +474,16 @@ namespace Debond
                         new_knots[1],
                         net,
                         std::vector<double>(net.cols(), 1.));
+  }
+
+
+
+  Eigen::Vector3d
+  interpolate(const SurfaceBasis &basis, const ControlNet &control_points)
+  {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (unsigned int a = 0; a < basis.size; ++a)
+      sum += basis.N[a] * control_points.col(basis.control_point[a]);
+    return sum;
   }
 } // namespace Debond

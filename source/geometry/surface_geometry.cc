@@ -40,17 +40,6 @@ namespace Debond
 
 
 
-  Eigen::Vector3d
-  interpolate(const SurfaceBasis &basis, const ControlNet &control_points)
-  {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (unsigned int a = 0; a < basis.size; ++a)
-      sum += basis.N[a] * control_points.col(basis.control_point[a]);
-    return sum;
-  }
-
-
-
   void
   spread(const SurfaceBasis    &basis,
          const Eigen::Vector3d &value,

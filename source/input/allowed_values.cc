@@ -1,30 +1,61 @@
 #include <debond/input/allowed_values.h>
-#include <debond/input/special_characters.h>
+#include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 namespace Debond
 {
-  AllowedValues::AllowedValues(std::function<bool(const std::string &)> test,
-                               std::string description)
+  AllowedValues::AllowedValues(Test                     test,
+                               std::string              description,
+                               std::vector<std::string> names)
     : test(std::move(test))
     , words(std::move(description))
+    , choices(std::move(names))
   {}
+
+
+
+  std::string
+  AllowedValues::refusal(const std::string &text) const
+  {
+    const std::optional<std::string> hint = test(dealii::Utilities::trim(text));
+    if (!hint)
+      return "";
+    const std::string special = remark_on_special_character(text);
+    const std::string remark  = special.empty() ? *hint : special;
+    return "expected " + words + (remark.empty() ? "" : "; " + remark);
+  }
+
+
+
+  AllowedValues
+  AllowedValues::or_number(const double number) const
+  {
+    const auto or_this =
+      [test = test,
+       number](const std::string &text) -> std::optional<std::string> {
+      double value = 0;
+      if (read_number(text, value) && value == number)
+        return std::nullopt;
+      return test(text);
+    };
+    return {or_this, exact_text(number) + ", or " + words};
+  }
 
 
 
   bool
   AllowedValues::match(const std::string &text) const
   {
-    return test(dealii::Utilities::trim(text));
+    return refusal(text).empty();
   }
 
 
@@ -85,96 +116,73 @@ namespace Debond
 
 
 
-  std::vector<double>
-  to_numbers(const std::string &text)
+  std::string
+  remark_on_special_character(const std::string &text)
   {
-    std::vector<double> numbers;
-    for (const std::string &item : split_list(text))
-      {
-        double number = 0;
-        read_number(item, number);
-        numbers.push_back(number);
-      }
-    return numbers;
-  }
-
-
-
-  std::vector<unsigned int>
-  to_whole_numbers(const std::string &text)
-  {
-    std::vector<unsigned int> numbers;
-    for (const double number : to_numbers(text))
-      numbers.push_back(static_cast<unsigned int>(number));
-    return numbers;
+    const auto special = std::find_if(text.begin(), text.end(), [](char c) {
+      return static_cast<unsigned char>(c) > 127;
+    });
+    if (special == text.end())
+      return "";
+    return "there is a special character in it behind '" +
+           shortened(std::string(text.begin(), special)) +
+           "', perhaps a typographic minus, quote or blank";
   }
 
 
 
   namespace
   {
-    std::string
-    in_unit(const std::string &unit)
-    {
-      return unit.empty() ? "" : " [" + unit + "]";
-    }
-
-
-
-    /** Admits one number that passes @p test. */
-    template <typename Test>
-    AllowedValues
-    number_that(const Test        &test,
-                const std::string &range,
-                const std::string &unit)
-    {
-      return {[test](const std::string &text) {
-                double value = 0;
-                return read_number(text, value) && test(value);
-              },
-              "a number" + range + in_unit(unit)};
-    }
+    constexpr double infinity = std::numeric_limits<double>::infinity();
 
 
 
     bool
-    is_whole(const std::string &text, const double lower, const double upper)
+    consists_of(const std::string &text, const std::string &letters)
     {
-      double value = 0;
-      return text.find_first_not_of("+0123456789") == std::string::npos &&
-             read_number(text, value) && value >= lower && value <= upper;
+      return text.find_first_not_of(letters) == std::string::npos;
     }
 
 
 
-    template <typename Test>
-    std::function<bool(const std::string &)>
-    list_of(const Test        &test,
-            const unsigned int min_count,
-            const unsigned int max_count)
-    {
-      return [=](const std::string &text) {
-        const std::vector<std::string> items = split_list(text);
-        if (items.size() < min_count ||
-            (max_count > 0 && items.size() > max_count))
-          return false;
-        for (const std::string &item : items)
-          if (!test(item))
-            return false;
-        return true;
-      };
-    }
-
-
-
+    /** What may be wrong with something that is no number. */
     std::string
-    how_many(const unsigned int min_count, const unsigned int max_count)
+    why_no_number(const std::string &text)
     {
-      if (max_count == 0)
-        return std::to_string(min_count) + " or more";
-      if (min_count == max_count)
-        return std::to_string(min_count);
-      return std::to_string(min_count) + " to " + std::to_string(max_count);
+      const std::vector<std::string> items  = split_list(text);
+      double                         number = 0;
+      if (items.empty())
+        return "a value is missing";
+      if (items.size() == 2 && read_number(items[0], number) &&
+          consists_of(items[1], "0123456789"))
+        return "decimals are written with a point, and nothing stands between "
+               "thousands";
+      const std::string beginning =
+        text.substr(0, text.find_first_not_of("0123456789+-."));
+      if (read_number(beginning, number) &&
+          !consists_of(text, "0123456789+-.eE"))
+        return "give the number alone, without unit or formula";
+      return "'" + shortened(text) + "' cannot be read as a number";
+    }
+
+
+
+    /** One number that passes @p test. */
+    template <typename Predicate>
+    AllowedValues
+    number_that(const Predicate   &is_allowed,
+                const std::string &range,
+                const std::string &unit)
+    {
+      const auto test =
+        [is_allowed](const std::string &text) -> std::optional<std::string> {
+        double value = 0;
+        if (!read_number(text, value))
+          return why_no_number(text);
+        return is_allowed(value) ? std::nullopt : std::make_optional("");
+      };
+      return {test,
+              "a number" + range + (unit.empty() ? "" : " [" + unit + "]")};
     }
   } // namespace
 
@@ -194,7 +202,7 @@ namespace Debond
     number_above(const double bound, const std::string &unit)
     {
       return number_that([bound](const double x) { return x > bound; },
-                         " > " + to_text(bound),
+                         " > " + exact_text(bound),
                          unit);
     }
 
@@ -204,7 +212,7 @@ namespace Debond
     number_from(const double bound, const std::string &unit)
     {
       return number_that([bound](const double x) { return x >= bound; },
-                         " >= " + to_text(bound),
+                         " >= " + exact_text(bound),
                          unit);
     }
 
@@ -215,23 +223,10 @@ namespace Debond
                    const double       upper,
                    const std::string &unit)
     {
-      return number_that([=](
-                           const double x) { return x >= lower && x <= upper; },
-                         " from " + to_text(lower) + " to " + to_text(upper),
-                         unit);
-    }
-
-
-
-    AllowedValues
-    number_between_excluding_lower(const double       lower,
-                                   const double       upper,
-                                   const std::string &unit)
-    {
-      return number_that([=](
-                           const double x) { return x > lower && x <= upper; },
-                         " > " + to_text(lower) + " and <= " + to_text(upper),
-                         unit);
+      return number_that(
+        [=](const double x) { return x >= lower && x <= upper; },
+        " from " + exact_text(lower) + " to " + exact_text(upper),
+        unit);
     }
 
 
@@ -239,62 +234,72 @@ namespace Debond
     AllowedValues
     whole_number(const unsigned int lower, const unsigned int upper)
     {
-      const std::string range =
-        upper == std::numeric_limits<unsigned int>::max() ?
-          " >= " + std::to_string(lower) :
-          " from " + std::to_string(lower) + " to " + std::to_string(upper);
-      return {[=](const std::string &text) {
-                return is_whole(text, lower, upper);
-              },
-              "a whole number" + range};
-    }
-
-
-
-    AllowedValues
-    numbers(const unsigned int min_count,
-            const unsigned int max_count,
-            const bool         positive,
-            const std::string &unit)
-    {
-      const auto test = [positive](const std::string &item) {
+      const auto test =
+        [=](const std::string &text) -> std::optional<std::string> {
         double value = 0;
-        return read_number(item, value) && (!positive || value > 0);
-      };
-      return {list_of(test, min_count, max_count),
-              how_many(min_count, max_count) + " numbers" +
-                (positive ? " > 0" : "") + " separated by commas" +
-                in_unit(unit)};
-    }
-
-
-
-    AllowedValues
-    whole_numbers(const unsigned int min_count, const unsigned int max_count)
-    {
-      const auto test = [](const std::string &item) {
-        return is_whole(item, 1, 1e9);
-      };
-      return {list_of(test, min_count, max_count),
-              how_many(min_count, max_count) +
-                " whole numbers >= 1 separated by commas"};
-    }
-
-
-
-    AllowedValues
-    choice(const std::string &choices, const std::string &later)
-    {
-      const auto test = [choices](const std::string &text) {
-        for (const std::string &choice :
-             dealii::Utilities::split_string_list(choices, '|'))
-          if (text == choice)
-            return true;
-        return false;
+        if (!read_number(text, value))
+          return why_no_number(text);
+        return consists_of(text, "+0123456789") && value >= lower &&
+                   value <= upper ?
+                 std::nullopt :
+                 std::make_optional("");
       };
       return {test,
-              choices +
-                (later.empty() ? "" : " (not in this version: " + later + ")")};
+              "a whole number from " + std::to_string(lower) + " to " +
+                std::to_string(upper)};
+    }
+
+
+
+    AllowedValues
+    list(const AllowedValues &each,
+         const unsigned int   min_count,
+         const unsigned int   max_count)
+    {
+      const auto test =
+        [=](const std::string &text) -> std::optional<std::string> {
+        const std::vector<std::string> items  = split_list(text);
+        double                         number = 0;
+        for (const std::string &item : items)
+          if (!read_number(item, number))
+            return text.find(';') != std::string::npos ||
+                       consists_of(item, "0123456789+-.eE \t") ?
+                     "values are separated by commas" :
+                     why_no_number(item);
+          else if (!each.match(item))
+            return "'" + item + "' is not";
+        if (items.size() < min_count ||
+            (max_count > 0 && items.size() > max_count))
+          return "here are " + std::to_string(items.size()) +
+                 (max_count > 0 && items.size() > max_count ?
+                    " (decimals are written with a point)" :
+                    "");
+        return std::nullopt;
+      };
+      const std::string how_many =
+        std::to_string(min_count) +
+        (max_count == 0         ? " or more" :
+         max_count == min_count ? "" :
+                                  " to " + std::to_string(max_count));
+      return {test,
+              how_many + " values separated by commas, each " +
+                each.description()};
+    }
+
+
+
+    AllowedValues
+    choice(const std::string &choices)
+    {
+      const std::vector<std::string> names =
+        dealii::Utilities::split_string_list(choices, '|');
+      const auto test =
+        [names](const std::string &text) -> std::optional<std::string> {
+        return std::find(names.begin(), names.end(), text) != names.end() ?
+                 std::nullopt :
+                 std::make_optional("");
+      };
+      return {test, choices, names};
     }
 
 
@@ -302,7 +307,7 @@ namespace Debond
     AllowedValues
     yes_or_no()
     {
-      return choice("true | false");
+      return choice("false | true");
     }
 
 
@@ -310,7 +315,10 @@ namespace Debond
     AllowedValues
     text(const std::string &what)
     {
-      return {[](const std::string &text) { return !text.empty(); }, what};
+      return {[](const std::string &text) {
+                return text.empty() ? std::make_optional("") : std::nullopt;
+              },
+              what};
     }
 
 
@@ -318,7 +326,7 @@ namespace Debond
     AllowedValues
     optional_text(const std::string &what)
     {
-      return {[](const std::string &) { return true; }, what};
+      return {[](const std::string &) { return std::nullopt; }, what};
     }
 
 
@@ -326,10 +334,14 @@ namespace Debond
     AllowedValues
     directory()
     {
-      const auto test = [](const std::string &text) {
-        return !text.empty() && !has_quotes(text) && text[0] != '~' &&
-               text[0] != '$' && text.find('\\') == std::string::npos &&
-               std::filesystem::path(text).lexically_normal() != "/";
+      const auto test =
+        [](const std::string &text) -> std::optional<std::string> {
+        if (!text.empty() && text[0] != '~' && text[0] != '$' &&
+            text.find_first_of("\"'`\\") == std::string::npos &&
+            std::filesystem::path(text).lexically_normal() != "/")
+          return std::nullopt;
+        return "it is taken as it is: without quotes and backslashes, without "
+               "~ or $ at its beginning, and not /";
       };
       return {test, "the name of a directory"};
     }
@@ -337,16 +349,15 @@ namespace Debond
 
 
     AllowedValues
-    only(const std::string &value)
+    reserved(const std::string &value)
     {
-      const auto test = [value](const std::string &text) {
-        double required = 0, given = 0;
-        return text == value || (read_number(value, required) &&
-                                 read_number(text, given) && given == required);
+      const auto test =
+        [value](const std::string &text) -> std::optional<std::string> {
+        return text == value ? std::nullopt : std::make_optional("");
       };
       return {test,
-              (value.empty() ? std::string("nothing") : value) +
-                " (not in this version: anything else)"};
+              (value.empty() ? "nothing" : value) +
+                " (others are not in this version)"};
     }
   } // namespace Allowed
 } // namespace Debond

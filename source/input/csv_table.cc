@@ -2,8 +2,12 @@
 #include <debond/input/csv_table.h>
 #include <debond/input/input_file.h>
 #include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
 
 #include <deal.II/base/utilities.h>
+
+#include <boost/algorithm/string/join.hpp>
+#include <boost/algorithm/string/replace.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -23,25 +27,11 @@ namespace Debond
       [[noreturn]] void
       refuse(const std::string &message) const
       {
-        throw InputError(entry + " = '" + filename + "', line " +
-                         std::to_string(number) + ": " + message);
+        throw EntryError(entry,
+                         "line " + std::to_string(number) + ": " + message,
+                         filename);
       }
     };
-
-
-
-    /** "a, b and c" */
-    std::string
-    enumerate(const std::vector<std::string> &names)
-    {
-      std::string text;
-      for (std::size_t i = 0; i < names.size(); ++i)
-        text += (i == 0                ? "" :
-                 i + 1 == names.size() ? " and " :
-                                         ", ") +
-                names[i];
-      return text;
-    }
 
 
 
@@ -59,8 +49,8 @@ namespace Debond
           if (found == header.end())
             line.refuse("the first line must name the columns, separated by "
                         "commas, " +
-                        enumerate(names) + " among them; there is no '" + name +
-                        "'");
+                        boost::join(names, ", ") +
+                        " among them; there is no '" + name + "'");
           if (std::count(header.begin(), header.end(), name) > 1)
             line.refuse("there are two columns '" + name + "'");
           columns.push_back(found - header.begin());
@@ -93,8 +83,10 @@ namespace Debond
     open_table(const std::string &filename, const std::string &entry)
     {
       constexpr unsigned int largest_MB = 200;
-      return std::istringstream(read_input_text(
-        filename, entry + " = '" + filename + "': ", largest_MB));
+      const auto             refuse     = [&](const std::string &why) {
+        throw EntryError(entry, why, filename);
+      };
+      return std::istringstream(read_input_text(filename, refuse, largest_MB));
     }
 
 
@@ -170,13 +162,11 @@ namespace Debond
       }
     if (rows.empty())
       {
-        std::string header;
-        for (const std::string &name : names)
-          header += (header.empty() ? "" : ",") + name;
-        throw InputError(entry + " = '" + filename +
-                         "': this file holds no row of numbers; expected are "
-                         "a line " +
-                         header + " and rows below");
+        throw EntryError(entry,
+                         "this file holds no row of numbers; expected are a "
+                         "line " +
+                           boost::join(names, ",") + " and rows below",
+                         filename);
       }
     return rows;
   }
@@ -184,13 +174,23 @@ namespace Debond
 
 
   std::string
-  csv_field(const std::string &text)
+  csv_line(const std::vector<std::string> &texts)
   {
-    if (text.find_first_of(",\"\n") == std::string::npos)
-      return text;
-    std::string quoted = "\"";
-    for (const char c : text)
-      quoted += (c == '"' ? std::string("\"\"") : std::string(1, c));
-    return quoted + "\"";
+    std::vector<std::string> fields = texts;
+    for (std::string &field : fields)
+      if (field.find_first_of(",\"\n") != std::string::npos)
+        field = '"' + boost::replace_all_copy(field, "\"", "\"\"") + '"';
+    return boost::join(fields, ",") + "\n";
+  }
+
+
+
+  std::string
+  csv_line(const std::vector<double> &numbers)
+  {
+    std::vector<std::string> texts;
+    for (const double number : numbers)
+      texts.push_back(to_text(number + 0.)); // no "-0"
+    return csv_line(texts);
   }
 } // namespace Debond

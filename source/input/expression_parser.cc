@@ -1,258 +1,167 @@
+#include <debond/input/allowed_values.h>
 #include <debond/input/expression_parser.h>
-#include <debond/input/special_characters.h>
 #include <debond/support/input_error.h>
 
+#include <deal.II/base/mu_parser_internal.h>
 #include <deal.II/base/numbers.h>
+#include <deal.II/base/utilities.h>
+
+#include <boost/algorithm/string/case_conv.hpp>
+
+#include <muParser.h>
 
 #include <algorithm>
-#include <cctype>
-#include <iostream>
 #include <map>
+#include <memory>
 #include <regex>
-#include <sstream>
 #include <vector>
 
 namespace Debond
 {
   namespace
   {
-    /** deal.II's parser writes its complaints to the error stream, too. */
-    class SilentErrorStream
-    {
-    public:
-      SilentErrorStream()
-        : original(std::cerr.rdbuf(nullptr))
-      {}
-
-      ~SilentErrorStream()
-      {
-        std::cerr.rdbuf(original);
-        std::cerr.clear();
-      }
-
-    private:
-      std::streambuf *const original;
-    };
-
-
-
-    /** What muParser says of an expression, taken out of the lines that
-     *  deal.II's exception puts around it. */
+    /** Why the parser must not see an expression, or nothing: it would take it
+     *  for something else than it is meant to be. */
     std::string
-    words_of_parser(const std::string &message)
+    why_refused(const std::string &expression)
     {
-      const std::string            key   = "The parser said: ";
-      const std::string::size_type begin = message.find(key);
-      if (begin == std::string::npos)
-        return "it is no valid expression";
-      // Long sentences are wrapped; an empty line ends them.
-      std::istringstream words(
-        message.substr(begin, message.find("\n\n", begin) - begin)
-          .substr(key.size()));
-      std::string result, word;
-      while (words >> word && word.compare(0, 2, "--") != 0)
-        result += (result.empty() ? "" : " ") + word;
-      return result;
+      constexpr std::size_t longest = 10000;
+      if (expression.size() > longest)
+        return "it has more than " + std::to_string(longest) + " letters";
+      const std::string special = remark_on_special_character(expression);
+      if (!special.empty())
+        return special;
+      if (expression.find("**") != std::string::npos)
+        return "powers are written ^";
+      static const std::regex assignment("(^|[^<>!=])=([^=]|$)");
+      if (std::regex_search(expression, assignment))
+        return "equality is written ==, and nothing can be assigned";
+      return "";
     }
 
 
 
-    /** The parser takes `0,5 * t` for two expressions and returns the last. */
-    bool
-    has_comma_outside_parentheses(const std::string &expression)
-    {
-      int depth = 0;
-      for (const char c : expression)
-        {
-          depth += (c == '(') - (c == ')');
-          if (c == ',' && depth == 0)
-            return true;
-        }
-      return false;
-    }
-  } // namespace
-
-
-
-  namespace
-  {
-    /** The parser takes `r = 1` for an assignment, and its value for that of
-     * the expression. */
-    bool
-    has_assignment(const std::string &expression)
-    {
-      for (std::string::size_type i = 0; i < expression.size(); ++i)
-        {
-          if (expression[i] != '=')
-            continue;
-          const bool is_double =
-            i + 1 < expression.size() && expression[i + 1] == '=';
-          if (is_double)
-            ++i;
-          else if (i == 0 || std::string("<>!").find(expression[i - 1]) ==
-                               std::string::npos)
-            return true;
-        }
-      return false;
-    }
-
-
-
-    /** The names of variables and functions in an expression, in order. */
-    std::vector<std::string>
-    names_in(const std::string &expression)
-    {
-      static const std::regex word(
-        R"((\.?\d[\d.]*([eE][+-]?\d+)?)|([A-Za-z_]\w*))");
-      std::vector<std::string> names;
-      for (std::sregex_iterator match(expression.begin(),
-                                      expression.end(),
-                                      word);
-           match != std::sregex_iterator();
-           ++match)
-        if ((*match)[3].matched)
-          names.push_back(match->str());
-      return names;
-    }
-
-
-
-    /** What other languages call otherwise; nothing if @p name is not known
-     *  to be such a name. */
+    /** What is meant by a @p token that the parser does not know, which may be
+     *  a name of another language or one in capitals; nothing if that is not
+     *  known either. */
     std::string
-    remark_on_name(const std::string &name, const std::string &variables)
+    remark_on_token(const std::string              &token,
+                    const std::vector<std::string> &names)
     {
       const std::string remainder =
         "the remainder of a divided by b is written a - b * floor(a / b)";
-      static const std::map<std::string, std::string> foreign{
+      const std::map<std::string, std::string> foreign{
         {"mod", remainder},
         {"fmod", remainder},
         {"%", remainder},
         {"and", "`and' is written &&"},
+        {"&", "`and' is written &&"},
         {"or", "`or' is written ||"},
         {"e", "the exponential function is written exp(x)"},
-        {"|", "absolute values are written abs(x)"}};
-      const auto found = foreign.find(name);
+        {"|", "absolute values are written abs(x)"},
+        {"rand", "rand would make another scene of it every time"},
+        {";", "it holds a ;"}};
+      std::smatch       word;
+      const std::string beginning = shortened(token);
+      std::regex_search(beginning, word, std::regex("^(\\w+|.)"));
+      const auto found = foreign.find(word.str());
       if (found != foreign.end())
         return found->second;
-
-      std::string lower = name;
-      for (char &c : lower)
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-      const auto is_known = [&](const std::string &word) {
-        return ("," + variables + ",pi,R,").find("," + word + ",") !=
-               std::string::npos;
-      };
-      if (!is_known(name) && is_known(lower))
-        return "it is written " + lower + ", not " + name;
+      const std::string lower = boost::to_lower_copy(word.str());
+      if (lower != word.str() &&
+          std::find(names.begin(), names.end(), lower) != names.end())
+        return "it is written " + lower + ", not " + word.str();
       return "";
     }
 
 
 
-    /** A remark on frequent mistakes in an expression that the parser has
-     *  refused, or nothing. */
-    std::string
-    remark_on_expression(const std::string &expression,
-                         const std::string &variables)
+    /** The functions that deal.II adds to those of muParser. */
+    void
+    define_functions(mu::Parser &parser)
     {
-      if (has_quotes(expression))
-        return "it stands without quotes";
-      // regular expressions need a deep stack for long texts
-      std::vector<std::string> names = names_in(shortened(expression));
-      if (expression.find('%') != std::string::npos)
-        names.emplace_back("%");
-      if (expression.find('|') != std::string::npos &&
-          expression.find("||") == std::string::npos)
-        names.emplace_back("|");
-      for (const std::string &name : names)
-        {
-          const std::string remark = remark_on_name(name, variables);
-          if (!remark.empty())
-            return remark;
-        }
-      return "";
+      namespace functions = dealii::internal::FunctionParser;
+      parser.DefineFun("if", functions::mu_if);
+      parser.DefineFun("int", functions::mu_int);
+      parser.DefineFun("ceil", functions::mu_ceil);
+      parser.DefineFun("floor", functions::mu_floor);
+      parser.DefineFun("cot", functions::mu_cot);
+      parser.DefineFun("csc", functions::mu_csc);
+      parser.DefineFun("sec", functions::mu_sec);
+      parser.DefineFun("pow", functions::mu_pow);
+      parser.DefineFun("erf", functions::mu_erf);
+      parser.DefineFun("erfc", functions::mu_erfc);
     }
 
 
 
-    /** The parser takes && and || only with blanks around them. */
+    /** The parser wants the parenthesis of a function right behind its name. */
     std::string
-    with_blanks(const std::string &expression)
+    without_blanks_before_parentheses(std::string expression)
     {
-      std::string result;
-      for (std::string::size_type i = 0; i < expression.size(); ++i)
-        {
-          const std::string two = expression.substr(i, 2);
-          if (two == "&&" || two == "||")
-            {
-              result += " " + two + " ";
-              ++i;
-            }
-          else
-            result += expression[i];
-        }
-      return result;
+      for (std::size_t i = 1; i < expression.size(); ++i)
+        for (std::size_t j = i;
+             j > 0 && expression[j] == '(' && expression[j - 1] == ' ';
+             --j)
+          std::swap(expression[j], expression[j - 1]);
+      return expression;
     }
+
+
+
+    struct ParserOfVariables
+    {
+      mu::Parser          parser;
+      std::vector<double> values; ///< of the variables
+    };
   } // namespace
 
 
 
-  template <int dim>
-  std::unique_ptr<dealii::FunctionParser<dim>>
-  make_parser(const std::string &variables,
-              const std::string &expression,
-              const double       radius)
+  Expression
+  read_expression(const std::string &variables,
+                  const std::string &expression,
+                  const double       radius)
   {
-    constexpr std::size_t longest = 10000; // letters
-    const std::string complaint   = "the expression '" + shortened(expression) +
-                                  "' in " + variables + " cannot be read: ";
-    if (expression.size() > longest)
-      throw InputError(complaint + "it has more than " +
-                       std::to_string(longest) + " letters");
-    const std::string special =
-      remark_on_special_character_in_expression(expression);
-    if (!special.empty())
-      throw InputError(complaint + special.substr(2));
-    if (expression.find(';') != std::string::npos)
-      throw InputError(complaint + "it holds a ;");
-    if (expression.find("rand") != std::string::npos)
-      throw InputError(complaint + "rand would make another scene of it every "
-                                   "time");
-    if (expression.find("**") != std::string::npos)
-      throw InputError(complaint + "powers are written ^");
-    if (has_comma_outside_parentheses(expression))
-      throw InputError(complaint + "decimals are written with a point");
-    if (has_assignment(expression))
-      throw InputError(complaint + "equality is written ==, and nothing can be "
-                                   "assigned");
-    auto       parser = std::make_unique<dealii::FunctionParser<dim>>();
-    const bool last_is_time =
-      std::count(variables.begin(), variables.end(), ',') == dim;
+    const auto refuse = [&](const std::string &why) {
+      throw InputError("this expression in " + variables +
+                       " cannot be read: " + why);
+    };
+    const std::string why = why_refused(expression);
+    if (!why.empty())
+      refuse(why);
+
+    std::vector<std::string> names =
+      dealii::Utilities::split_string_list(variables);
+    const auto  shared = std::make_shared<ParserOfVariables>();
+    mu::Parser &parser = shared->parser;
+    shared->values.resize(names.size());
+    for (std::size_t i = 0; i < names.size(); ++i)
+      parser.DefineVar(names[i], &shared->values[i]);
+    parser.DefineConst("pi", dealii::numbers::PI);
+    parser.DefineConst("R", radius);
+    define_functions(parser);
     try
       {
-        const SilentErrorStream silence;
-        parser->initialize(variables,
-                           with_blanks(expression),
-                           {{"pi", dealii::numbers::PI}, {"R", radius}},
-                           last_is_time);
-        // The parser reads the expression only when it is first evaluated.
-        parser->value(dealii::Point<dim>());
+        parser.SetExpr(without_blanks_before_parentheses(expression));
+        parser.Eval(); // reads it
       }
-    catch (const std::exception &error)
+    catch (const mu::Parser::exception_type &error)
       {
-        const std::string remark = remark_on_expression(expression, variables);
-        throw InputError(complaint + (remark.empty() ?
-                                        words_of_parser(error.what()) :
-                                        remark));
+        names.insert(names.end(), {"pi", "R"});
+        const bool is_quoted =
+          expression.find_first_of("\"'`") != std::string::npos;
+        const std::string remark = is_quoted ?
+                                     "it stands without quotes" :
+                                     remark_on_token(error.GetToken(), names);
+        refuse(remark.empty() ? shortened(error.GetMsg()) : remark);
       }
-    return parser;
+    if (parser.GetNumResults() > 1)
+      refuse("decimals are written with a point");
+
+    return [shared](const std::initializer_list<double> &values) {
+      std::copy(values.begin(), values.end(), shared->values.begin());
+      return shared->parser.Eval();
+    };
   }
-
-
-
-  template std::unique_ptr<dealii::FunctionParser<1>>
-  make_parser<1>(const std::string &, const std::string &, double);
-  template std::unique_ptr<dealii::FunctionParser<3>>
-  make_parser<3>(const std::string &, const std::string &, double);
 } // namespace Debond

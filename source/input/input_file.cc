@@ -1,5 +1,4 @@
 #include <debond/input/input_file.h>
-#include <debond/support/input_error.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -11,19 +10,18 @@ namespace Debond
 {
   std::string
   read_input_bytes(const std::string &filename,
-                   const std::string &where,
+                   const FileRefusal &refuse,
                    const unsigned int largest_MB)
   {
     std::error_code unknown;
     if (std::filesystem::is_directory(filename, unknown))
-      throw InputError(where + "this is a directory");
-    const auto refuse = [&where]() {
-      throw InputError(where +
-                       "this file cannot be read: " + std::strerror(errno));
+      refuse("this is a directory");
+    const auto refuse_file = [&refuse]() {
+      refuse(std::string("this file cannot be read: ") + std::strerror(errno));
     };
     std::ifstream file(filename, std::ios::binary);
     if (!file)
-      refuse();
+      refuse_file();
 
     // some have no end, and no size that could be asked for
     const std::size_t largest = std::size_t(largest_MB) * 1000000;
@@ -33,11 +31,11 @@ namespace Debond
         file.read(&part[0], part.size());
         bytes.append(part, 0, file.gcount());
         if (bytes.size() > largest)
-          throw InputError(where + "this file has more than " +
-                           std::to_string(largest_MB) + " MB");
+          refuse("this file has more than " + std::to_string(largest_MB) +
+                 " MB");
       }
     if (file.bad())
-      refuse();
+      refuse_file();
     return bytes;
   }
 
@@ -45,29 +43,29 @@ namespace Debond
 
   std::string
   read_input_text(const std::string &filename,
-                  const std::string &where,
+                  const FileRefusal &refuse,
                   const unsigned int largest_MB)
   {
-    return plain_text(read_input_bytes(filename, where, largest_MB), where);
+    return plain_text(read_input_bytes(filename, refuse, largest_MB), refuse);
   }
 
 
 
   std::string
-  plain_text(const std::string &bytes, const std::string &where)
+  plain_text(const std::string &bytes, const FileRefusal &refuse)
   {
     const auto begins_with = [&bytes](const char *const mark) {
       return bytes.compare(0, std::strlen(mark), mark) == 0;
     };
     if (begins_with("\xFF\xFE") || begins_with("\xFE\xFF"))
-      throw InputError(where + "this text is in UTF-16: save it as UTF-8");
+      refuse("this text is in UTF-16: save it as UTF-8");
     const auto is_binary = [](const char c) {
       const auto code = static_cast<unsigned char>(c);
       return code == 127 ||
              (code < 32 && c != '\n' && c != '\r' && c != '\t' && c != '\f');
     };
     if (std::any_of(bytes.begin(), bytes.end(), is_binary))
-      throw InputError(where + "this is not a text file");
+      refuse("this is not a text file");
 
     std::string text;
     text.reserve(bytes.size());

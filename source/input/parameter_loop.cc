@@ -3,6 +3,8 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <boost/algorithm/string.hpp>
+
 #include <algorithm>
 #include <map>
 #include <regex>
@@ -25,15 +27,10 @@ namespace Debond
     split_at(const std::string &text, const std::string &separator)
     {
       std::vector<std::string> items;
-      std::string::size_type   begin = 0;
-      for (;;)
-        {
-          const auto end = text.find(separator, begin);
-          items.push_back(trim(text.substr(begin, end - begin)));
-          if (end == std::string::npos)
-            return items;
-          begin = end + separator.size();
-        }
+      boost::iter_split(items, text, boost::first_finder(separator));
+      for (std::string &item : items)
+        item = trim(item);
+      return items;
     }
 
 
@@ -41,8 +38,7 @@ namespace Debond
     [[noreturn]] void
     refuse(const SceneEntry &entry, const std::string &why)
     {
-      throw InputError(entry.place + ": " + entry.full_name() + " = '" +
-                       shortened(entry.value) + "': " + why);
+      throw EntryError(entry.full_name(), why, entry.value, entry.place);
     }
 
 
@@ -52,6 +48,7 @@ namespace Debond
     {
       std::vector<std::string> values;
       std::string              name;           ///< of {{name: ...}}, or empty
+      std::string              axis;           ///< the name, or the entry
       bool                     by_run = false; ///< {{a||b}}
     };
 
@@ -61,26 +58,21 @@ namespace Debond
     std::vector<std::string>
     expand_range(const SceneEntry &entry, const std::string &item)
     {
-      static const std::regex whole("([+-]?[0-9]{1,9})\\s*\\.\\.\\s*"
-                                    "([+-]?[0-9]{1,9})");
       // what was meant as a range; not the path ../table.csv
-      static const std::regex attempt(
-        "[-+.0-9eE]*[0-9][-+.0-9eE]*\\s*\\.\\.\\s*"
-        "[-+.0-9eE]*|"
-        "\\.\\.\\s*[-+]?[0-9]+");
-      // matching is recursive: long texts would overflow the stack
-      constexpr std::size_t longest = 100;
-      std::smatch           match;
-      if (item.size() > longest || !std::regex_match(item, match, whole))
-        {
-          if (item.size() <= longest && std::regex_match(item, attempt))
-            refuse(entry,
-                   "'" + item +
-                     "' is no range: expected FIRST..LAST with whole numbers "
-                     "of at most nine digits");
-          return {item};
-        }
-      const int first = std::stoi(match[1]), last = std::stoi(match[2]);
+      const auto dots = item.find("..");
+      if (dots == std::string::npos ||
+          item.find_first_not_of("0123456789+-.eE \t") != std::string::npos)
+        return {item};
+      const std::string       ends[] = {trim(item.substr(0, dots)),
+                                        trim(item.substr(dots + 2))};
+      static const std::regex whole("[+-]?[0-9]{1,9}");
+      for (const std::string &end : ends)
+        if (end.size() > 10 || !std::regex_match(end, whole))
+          refuse(entry,
+                 "'" + shortened(item) +
+                   "' is no range: expected FIRST..LAST with whole numbers of "
+                   "at most nine digits");
+      const int first = std::stoi(ends[0]), last = std::stoi(ends[1]);
       if (first > last)
         refuse(entry,
                "the range '" + item +
@@ -99,20 +91,13 @@ namespace Debond
     std::string
     name_of_choice(const std::string &inside)
     {
-      const auto is_letter = [](const char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-      };
-      const auto is_part = [&is_letter](const char c) {
-        return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == ' ' ||
-               c == '-';
-      };
-      const auto colon = inside.find(':');
-      if (colon == std::string::npos)
-        return "";
-      const std::string name    = trim(inside.substr(0, colon));
-      const bool        is_name = !name.empty() && is_letter(name[0]) &&
-                           std::all_of(name.begin(), name.end(), is_part);
-      return is_name ? name : "";
+      static const std::regex name("[A-Za-z][A-Za-z0-9_ -]*");
+      const std::string       before = trim(inside.substr(0, inside.find(':')));
+      // matching is recursive: long texts would overflow the stack
+      return before.size() < 100 && inside.find(':') != std::string::npos &&
+                 std::regex_match(before, name) ?
+               before :
+               "";
     }
 
 
@@ -136,6 +121,7 @@ namespace Debond
       choice.name = name_of_choice(inside);
       if (!choice.name.empty())
         inside.erase(0, inside.find(':') + 1);
+      choice.axis   = choice.name.empty() ? entry.full_name() : choice.name;
       choice.by_run = inside.find("||") != std::string::npos;
       if (choice.by_run && !choice.name.empty())
         refuse(entry, "a named choice takes | between its values, not ||");
@@ -168,21 +154,20 @@ namespace Debond
         if (n > most_variants)
           refuse(entry, too_many);
         if (choice.by_run)
-          by_run.emplace_back(entry, n);
-        else if (choice.name.empty() || strides.count(choice.name) == 0)
           {
-            // an entry without a name is an axis of its own
-            strides[choice.name.empty() ? entry.full_name() : choice.name] = {
-              n_combinations, n};
-            if (n > most_variants / n_combinations)
-              refuse(entry, too_many);
-            n_combinations *= n;
+            by_run.emplace_back(entry, n);
+            return;
           }
-        else if (strides.at(choice.name).second != n)
+        const auto [axis, is_new] =
+          strides.emplace(choice.axis, std::make_pair(n_combinations, n));
+        if (!is_new && axis->second.second != n)
           refuse(entry,
                  std::to_string(n) + " values, but an entry before has " +
-                   std::to_string(strides.at(choice.name).second) + " for '" +
+                   std::to_string(axis->second.second) + " for '" +
                    choice.name + "'");
+        if (is_new && n > most_variants / n_combinations)
+          refuse(entry, too_many);
+        n_combinations *= is_new ? n : 1;
       }
 
       /** Variants of all; with entries {{a||b}} alone their number of values.
@@ -203,14 +188,11 @@ namespace Debond
       }
 
       unsigned int
-      index(const SceneEntry  &entry,
-            const Choice      &choice,
-            const unsigned int variant) const
+      index(const Choice &choice, const unsigned int variant) const
       {
         if (choice.by_run)
           return variant;
-        const auto [stride, n] =
-          strides.at(choice.name.empty() ? entry.full_name() : choice.name);
+        const auto [stride, n] = strides.at(choice.axis);
         return variant / stride % n;
       }
 
@@ -288,7 +270,7 @@ namespace Debond
             if (choice != choices.end())
               {
                 entry.value =
-                  choice->second.values[axes.index(entry, choice->second, i)];
+                  choice->second.values[axes.index(choice->second, i)];
                 variant.values.push_back(entry.value);
               }
             variant.entries.push_back(entry);

@@ -1,9 +1,11 @@
+#include <debond/input/allowed_values.h>
 #include <debond/input/input_file.h>
 #include <debond/input/scene_file.h>
-#include <debond/input/special_characters.h>
 #include <debond/support/input_error.h>
 
 #include <deal.II/base/utilities.h>
+
+#include <boost/algorithm/string/case_conv.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -51,22 +53,16 @@ namespace Debond
 
 
 
-    std::string
-    in_lower_case(std::string text)
+    constexpr unsigned int largest_MB = 10;
+
+
+
+    FileRefusal
+    refusal_at(const std::string &where)
     {
-      std::transform(text.begin(), text.end(), text.begin(), [](const char c) {
-        return (c >= 'A' && c <= 'Z') ? static_cast<char>(c - 'A' + 'a') : c;
-      });
-      return text;
-    }
-
-
-
-    std::string
-    contents_of(const std::string &filename, const std::string &where)
-    {
-      constexpr unsigned int largest_MB = 10;
-      return read_input_text(filename, where, largest_MB);
+      return [where](const std::string &why) {
+        throw InputError(where + ": " + why);
+      };
     }
 
 
@@ -78,16 +74,10 @@ namespace Debond
       void
       read(const std::string &text, const std::string &name);
 
-      std::vector<SceneEntry>
-      entries() const;
+      /** In the order of reading. */
+      std::vector<SceneEntry> entries;
 
     private:
-      struct OpenSubsection
-      {
-        std::string name;
-        std::string place;
-      };
-
       void
       read_statement(const std::string &statement, const std::string &place);
       void
@@ -98,26 +88,17 @@ namespace Debond
       open_subsection(const std::string &name, const std::string &place);
       void
       close_subsection(const std::string &rest, const std::string &place);
-      void
-      refuse_repetition(const SceneEntry &entry) const;
 
-      std::vector<std::string>
-      current_path() const;
-
-      struct Found
-      {
-        SceneEntry entry;
-        /** The file of the entry and those that include it, outermost first. */
-        std::vector<std::string> files;
-        unsigned int             number; ///< in the order of reading
-      };
-
-      std::vector<std::string>    files;
-      std::vector<OpenSubsection> open_subsections;
+      std::vector<std::string> files; ///< that are open, outermost first
+      std::vector<std::string> path;  ///< subsections that are open
+      std::vector<std::string> path_places;
       /** Number of subsections that were open when the current file began. */
-      std::size_t                  outer_subsections = 0;
-      std::map<std::string, Found> found;
-      unsigned int                 n_found = 0, n_included = 0;
+      std::size_t outer_subsections = 0;
+      /** Name of an entry -> its index, and its file with those that include
+       *  it. */
+      std::map<std::string, std::size_t>    index_of;
+      std::vector<std::vector<std::string>> files_of;
+      unsigned int                          n_included = 0;
     };
 
 
@@ -127,9 +108,9 @@ namespace Debond
     {
       files.push_back(name);
       const std::size_t outer_subsections_before = outer_subsections;
-      outer_subsections                          = open_subsections.size();
+      outer_subsections                          = path.size();
 
-      std::istringstream lines(plain_text(text, name + ": "));
+      std::istringstream lines(plain_text(text, refusal_at(name)));
       std::string        line, statement, place;
       unsigned int       line_number = 0;
       while (std::getline(lines, line))
@@ -150,31 +131,12 @@ namespace Debond
       // A backslash at the very end continues nothing.
       read_statement(trim(statement), place);
 
-      if (open_subsections.size() > outer_subsections)
-        throw InputError(open_subsections.back().place + ": the subsection '" +
-                         open_subsections.back().name +
+      if (path.size() > outer_subsections)
+        throw InputError(path_places.back() + ": the subsection '" +
+                         path.back() +
                          "' that begins here is not closed by 'end'");
       outer_subsections = outer_subsections_before;
       files.pop_back();
-    }
-
-
-
-    std::vector<SceneEntry>
-    SceneReader::entries() const
-    {
-      std::vector<const Found *> in_order;
-      for (const auto &item : found)
-        in_order.push_back(&item.second);
-      std::sort(in_order.begin(),
-                in_order.end(),
-                [](const Found *a, const Found *b) {
-                  return a->number < b->number;
-                });
-      std::vector<SceneEntry> result;
-      for (const Found *const item : in_order)
-        result.push_back(item->entry);
-      return result;
     }
 
 
@@ -185,8 +147,9 @@ namespace Debond
     {
       if (statement.empty())
         return;
-      const std::string::size_type blank = statement.find_first_of(" \t");
-      const std::string keyword = in_lower_case(statement.substr(0, blank));
+      const auto        blank = statement.find_first_of(" \t");
+      const std::string keyword =
+        boost::to_lower_copy(statement.substr(0, blank));
       const std::string rest =
         blank == std::string::npos ? "" : trim(statement.substr(blank));
 
@@ -199,10 +162,14 @@ namespace Debond
       else if (keyword == "include" && !rest.empty())
         read_include(rest, place);
       else
-        throw InputError(place + ": cannot read '" + shortened(statement) +
-                         "': expected 'subsection NAME', 'set NAME = VALUE', "
-                         "'end' or 'include FILE'" +
-                         remark_on_special_character(keyword));
+        {
+          const std::string remark = remark_on_special_character(keyword);
+          throw InputError(
+            place + ": cannot read '" + shortened(statement) +
+            "': expected 'subsection NAME', 'set NAME = VALUE', 'end' or "
+            "'include FILE'" +
+            (remark.empty() ? "" : "; " + remark));
+        }
     }
 
 
@@ -210,36 +177,33 @@ namespace Debond
     void
     SceneReader::read_set(const std::string &rest, const std::string &place)
     {
-      const std::string::size_type equal = rest.find('=');
-      const std::string            name  = single_blanks(rest.substr(0, equal));
+      const auto        equal = rest.find('=');
+      const std::string name  = single_blanks(rest.substr(0, equal));
       if (equal == std::string::npos || name.empty())
         throw InputError(place + ": cannot read 'set " + shortened(rest) +
                          "': expected 'set NAME = VALUE'");
-      const SceneEntry entry{current_path(),
-                             name,
-                             trim(rest.substr(equal + 1)),
-                             place};
-      refuse_repetition(entry);
-      found[entry.full_name()] = Found{entry, files, n_found};
-      ++n_found;
-    }
-
-
-
-    void
-    SceneReader::refuse_repetition(const SceneEntry &entry) const
-    {
-      const auto position = found.find(entry.full_name());
-      if (position == found.end())
-        return;
-      const std::vector<std::string> &earlier = position->second.files;
+      const SceneEntry entry{path, name, trim(rest.substr(equal + 1)), place};
+      const auto [position, is_new] =
+        index_of.emplace(entry.full_name(), entries.size());
+      const std::size_t index = position->second;
+      if (is_new)
+        {
+          entries.push_back(entry);
+          files_of.push_back(files);
+          return;
+        }
+      const std::vector<std::string> &earlier = files_of[index];
       const bool                      was_included =
         earlier.size() > files.size() &&
         std::equal(files.begin(), files.end(), earlier.begin());
       if (!was_included)
-        throw InputError(entry.place + ": " + entry.full_name() +
-                         " is set a second time (first in " +
-                         position->second.entry.place + ")");
+        throw EntryError(entry.full_name(),
+                         "it is set a second time (first in " +
+                           entries[index].place + ")",
+                         entry.value,
+                         place);
+      entries[index]  = entry;
+      files_of[index] = files;
     }
 
 
@@ -248,28 +212,20 @@ namespace Debond
     SceneReader::read_include(const std::string &filename,
                               const std::string &place)
     {
-      namespace fs                      = std::filesystem;
-      const std::string      where      = place + ": '" + filename + "': ";
+      namespace fs             = std::filesystem;
+      const FileRefusal refuse = refusal_at(place + ": '" + filename + "'");
       constexpr unsigned int most_files = 1000;
       if (++n_included > most_files)
-        throw InputError(where + "more than " + std::to_string(most_files) +
-                         " files are included");
+        refuse("more than " + std::to_string(most_files) +
+               " files are included");
       std::error_code unknown;
       if (!fs::exists(filename, unknown))
-        throw InputError(where +
-                         "there is no such file (included files are "
-                         "looked for in the working directory)" +
-                         (has_quotes(filename) ?
-                            "; names of files stand without quotes" :
-                            ""));
-      const std::string text    = contents_of(filename, where);
-      const auto        is_open = [&](const std::string &file) {
-        std::error_code error;
-        return fs::equivalent(file, filename, error);
-      };
-      if (std::any_of(files.begin(), files.end(), is_open))
-        throw InputError(place + ": the file '" + filename +
-                         "' includes itself, directly or through others");
+        refuse("there is no such file (names of files stand without quotes and "
+               "are looked for in the working directory)");
+      const std::string text = read_input_text(filename, refuse, largest_MB);
+      for (const std::string &file : files)
+        if (fs::equivalent(file, filename, unknown))
+          refuse("this file includes itself, directly or through others");
       read(text, filename);
     }
 
@@ -280,10 +236,11 @@ namespace Debond
                                  const std::string &place)
     {
       constexpr std::size_t deepest = 20; // that of a scene is 2
-      if (open_subsections.size() == deepest)
+      if (path.size() == deepest)
         throw InputError(place + ": more than " + std::to_string(deepest) +
                          " subsections are open: is an 'end' missing?");
-      open_subsections.push_back({single_blanks(name), place});
+      path.push_back(single_blanks(name));
+      path_places.push_back(place);
     }
 
 
@@ -295,21 +252,11 @@ namespace Debond
       if (!rest.empty())
         throw InputError(place + ": cannot read 'end " + shortened(rest) +
                          "': 'end' stands alone in its line");
-      if (open_subsections.size() <= outer_subsections)
+      if (path.size() <= outer_subsections)
         throw InputError(place +
                          ": this 'end' closes nothing: no subsection is open");
-      open_subsections.pop_back();
-    }
-
-
-
-    std::vector<std::string>
-    SceneReader::current_path() const
-    {
-      std::vector<std::string> path;
-      for (const OpenSubsection &subsection : open_subsections)
-        path.push_back(subsection.name);
-      return path;
+      path.pop_back();
+      path_places.pop_back();
     }
   } // namespace
 
@@ -320,10 +267,9 @@ namespace Debond
   {
     SceneReader reader;
     reader.read(text, name);
-    std::vector<SceneEntry> entries = reader.entries();
-    if (entries.empty())
+    if (reader.entries.empty())
       throw InputError(name + ": this scene is empty: it sets no entry");
-    return entries;
+    return reader.entries;
   }
 
 
@@ -331,7 +277,8 @@ namespace Debond
   std::vector<SceneEntry>
   read_scene_file(const std::string &filename)
   {
-    return read_scene_text(contents_of(filename, filename + ": "), filename);
+    return read_scene_text(
+      read_input_text(filename, refusal_at(filename), largest_MB), filename);
   }
 
 
@@ -364,29 +311,29 @@ namespace Debond
   SceneEntry
   read_override(const std::string &text)
   {
-    const std::string::size_type equal      = text.find('=');
-    const std::string            entry_name = trim(text.substr(0, equal));
-    if (equal == std::string::npos || entry_name.empty())
-      throw InputError("--set: cannot read '" + text +
-                       "': expected \"SUBSECTION/ENTRY=VALUE\"");
-    const std::string value = trim(text.substr(equal + 1));
+    const auto refuse = [&text](const std::string &why) {
+      throw InputError("--set: cannot read '" + text + "': " + why);
+    };
+    const auto        equal = text.find('=');
+    const std::string value =
+      equal == std::string::npos ? "" : trim(text.substr(equal + 1));
     // Such a value could not be written into a scene file again.
     if (value.find_first_of("#\n") != std::string::npos ||
         (!value.empty() && value.back() == '\\'))
-      throw InputError("--set: cannot read '" + text +
-                       "': a value holds no '#' and no line end, and does not "
-                       "end in a backslash");
+      refuse("a value holds no '#' and no line end, and does not end in a "
+             "backslash");
 
     SceneEntry         entry{{}, "", value, "--set"};
-    std::istringstream parts(entry_name);
+    std::istringstream parts(trim(text.substr(0, equal)));
     std::string        part;
+    bool               is_complete = equal != std::string::npos;
     while (std::getline(parts, part, '/'))
       {
         entry.subsections.push_back(single_blanks(part));
-        if (entry.subsections.back().empty())
-          throw InputError("--set: cannot read '" + text +
-                           "': expected \"SUBSECTION/ENTRY=VALUE\"");
+        is_complete = is_complete && !entry.subsections.back().empty();
       }
+    if (!is_complete || entry.subsections.empty())
+      refuse("expected \"SUBSECTION/ENTRY=VALUE\"");
     entry.name = entry.subsections.back();
     entry.subsections.pop_back();
     return entry;

@@ -8,28 +8,18 @@
 namespace Debond
 {
   TimeFunction::TimeFunction(const std::string &expression, const double radius)
-    : expression(expression)
-    , parser(make_parser<1>("t", expression, radius))
+    : function([parsed = read_expression("t", expression, radius)](
+                 const double t) { return parsed({t}); })
   {}
-
-
-
-  TimeFunction::~TimeFunction()                        = default;
-  TimeFunction::TimeFunction(TimeFunction &&) noexcept = default;
-  TimeFunction &
-  TimeFunction::operator=(TimeFunction &&) noexcept = default;
 
 
 
   double
   TimeFunction::operator()(const double t) const
   {
-    const double value = parser->value(dealii::Point<1>(t));
+    const double value = function(t);
     if (!std::isfinite(value))
-      {
-        throw InputError("the expression '" + expression +
-                         "' has no finite value at t = " + to_text(t));
-      }
+      throw InputError("it has no finite value at t = " + to_text(t));
     return value;
   }
 } // namespace Debond

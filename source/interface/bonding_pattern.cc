@@ -1,3 +1,4 @@
+#include <debond/bulk/body_mesh.h>
 #include <debond/bulk/body_parameters.h>
 #include <debond/interface/bonding_pattern.h>
 #include <debond/interface/bonding_source.h>
@@ -299,5 +300,18 @@ namespace Debond
         text += "\n";
       }
     return text;
+  }
+
+
+
+  void
+  check_bonding_pattern(const BondingParameters &parameters,
+                        const BodyParameters    &implant)
+  {
+    using Kind         = BondingPatternKind;
+    const Kind pattern = parameters.pattern;
+    if (pattern == Kind::expression || pattern == Kind::image ||
+        pattern == Kind::file)
+      BondingPattern(parameters, implant, make_contact_surface(implant), 3);
   }
 } // namespace Debond

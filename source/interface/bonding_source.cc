@@ -8,10 +8,12 @@
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 
+#include <deal.II/base/point.h>
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/numerics/rtree.h>
 
-#include <boost/geometry.hpp>
-#include <boost/geometry/index/rtree.hpp>
+#include <boost/algorithm/string/join.hpp>
+#include <boost/geometry/index/adaptors/query.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -31,28 +33,27 @@ namespace Debond
     PlaceFunction
     function_of_expression(const std::string &expression, const double radius)
     {
-      std::shared_ptr<dealii::FunctionParser<3>> parser;
+      Expression phi_0;
       try
         {
-          parser = make_parser<3>("x,y,r,angle", expression, radius);
+          phi_0 = read_expression("x,y,r,angle", expression, radius);
         }
       catch (const InputError &error)
         {
-          throw InputError(bonding_section + "Expression: " + error.what());
+          throw EntryError(bonding_section + "Expression", error.what());
         }
-      return [parser, expression](const Eigen::Vector2d &place) {
-        const double r = place.norm();
-        parser->set_time(std::atan2(place[1], place[0]) * 180. / M_PI);
-        const double value =
-          parser->value(dealii::Point<3>(place[0], place[1], r));
+      return [phi_0, expression](const Eigen::Vector2d &place) {
+        const double angle = std::atan2(place[1], place[0]) * 180. / M_PI;
+        const double value = phi_0({place[0], place[1], place.norm(), angle});
         // rounding may exceed the bounds by its own size
         if (!(value >= -1e-12 && value <= 1. + 1e-12))
-          throw InputError(bonding_section + "Expression = '" +
-                           shortened(expression) + "': phi_0 " +
-                           (std::isfinite(value) ? "= " + to_text(value, 6) :
-                                                   "has no finite value") +
-                           " at x = " + to_text(place[0], 6) + " mm, y = " +
-                           to_text(place[1], 6) + " mm: expected 0 to 1");
+          throw EntryError(bonding_section + "Expression",
+                           "phi_0 " +
+                             (std::isfinite(value) ? "= " + to_text(value, 6) :
+                                                     "has no finite value") +
+                             " at x = " + to_text(place[0], 6) + " mm, y = " +
+                             to_text(place[1], 6) + " mm: expected 0 to 1",
+                           expression);
         return std::clamp(value, 0., 1.);
       };
     }
@@ -183,7 +184,7 @@ namespace Debond
     [[noreturn]] void
     refuse_file(const std::string &filename, const std::string &why)
     {
-      throw InputError(bonding_section + "File = '" + filename + "': " + why);
+      throw EntryError(bonding_section + "File", why, filename);
     }
 
 
@@ -193,8 +194,7 @@ namespace Debond
                 const unsigned int line,
                 const std::string &why)
     {
-      throw InputError(bonding_section + "File = '" + filename + "', line " +
-                       std::to_string(line) + ": " + why);
+      refuse_file(filename, "line " + std::to_string(line) + ": " + why);
     }
 
 
@@ -353,43 +353,8 @@ namespace Debond
 
 
 
-    /** phi_0 of the data point nearest to a place. */
-    class NearestPoint
-    {
-    public:
-      explicit NearestPoint(const std::vector<DataPoint> &points)
-        : points(points)
-      {
-        std::vector<std::pair<Place, unsigned int>> entries;
-        for (unsigned int i = 0; i < points.size(); ++i)
-          entries.emplace_back(Place(points[i].place[0], points[i].place[1]),
-                               i);
-        tree = Tree(entries);
-      }
-
-      double
-      operator()(const Eigen::Vector2d &place) const
-      {
-        std::vector<std::pair<Place, unsigned int>> nearest;
-        tree.query(boost::geometry::index::nearest(Place(place[0], place[1]),
-                                                   1),
-                   std::back_inserter(nearest));
-        return points[nearest[0].second].phi_0;
-      }
-
-    private:
-      using Place = boost::geometry::model::
-        point<double, 2, boost::geometry::cs::cartesian>;
-      using Tree =
-        boost::geometry::index::rtree<std::pair<Place, unsigned int>,
-                                      boost::geometry::index::quadratic<16>>;
-
-      const std::vector<DataPoint> &points;
-      Tree                          tree;
-    };
-
-
-
+    /** Where there is no mean of points inside, or none is wanted, the value of
+     *  the nearest point. */
     std::vector<double>
     values_of_points(const std::vector<DataPoint>       &points,
                      const bool                          by_element,
@@ -399,10 +364,20 @@ namespace Debond
       std::vector<double> values(centres.size(), -1.);
       if (by_element)
         values = means_of_points(points, surface.n_elements());
-      const NearestPoint nearest(points);
+      std::vector<std::pair<dealii::Point<2>, double>> entries;
+      for (const DataPoint &point : points)
+        entries.emplace_back(dealii::Point<2>(point.place[0], point.place[1]),
+                             point.phi_0);
+      const auto tree = dealii::pack_rtree(entries);
       for (unsigned int i = 0; i < values.size(); ++i)
         if (values[i] < 0.)
-          values[i] = nearest(centres[i]);
+          {
+            const dealii::Point<2> centre(centres[i][0], centres[i][1]);
+            for (const auto &[place, phi_0] :
+                 tree | boost::geometry::index::adaptors::queried(
+                          boost::geometry::index::nearest(centre, 1)))
+              values[i] = phi_0;
+          }
       return values;
     }
   } // namespace
@@ -411,45 +386,38 @@ namespace Debond
 
   namespace
   {
-    /** What the columns of a file say. */
-    enum class TableKind
+    [[noreturn]] void
+    refuse_columns(const std::string              &filename,
+                   const std::vector<std::string> &columns)
     {
-      in_order,
-      by_number,
-      points,
-      points_with_unit
-    };
-
-
-
-    TableKind
-    kind_of(const std::string &filename)
-    {
-      const auto columns = read_csv_header(filename, bonding_section + "File");
-      const auto has     = [&columns](const std::string &name) {
-        return std::find(columns.begin(), columns.end(), name) != columns.end();
-      };
-      if (has("phi_0"))
-        {
-          if (has("element"))
-            return TableKind::by_number;
-          if (has("x_mm") && has("y_mm"))
-            return TableKind::points_with_unit;
-          if (has("x") && has("y"))
-            return TableKind::points;
-          if (columns.size() == 1)
-            return TableKind::in_order;
-        }
       if (columns.empty())
         refuse_file(filename, "this file is empty");
-      std::string names;
-      for (const std::string &column : columns)
-        names += (names.empty() ? "" : ",") + column;
       refuse_file(filename,
                   "the first line must name the columns, separated by commas: "
                   "element,phi_0 or phi_0 alone or x,y,phi_0 (x_mm,y_mm); it "
                   "is '" +
-                    names.substr(0, 60) + "'");
+                    boost::join(columns, ",").substr(0, 60) + "'");
+    }
+
+
+
+    std::vector<DataPoint>
+    read_points(const std::string &filename,
+                const std::string &x,
+                const std::string &y)
+    {
+      std::vector<DataPoint>    points;
+      std::vector<unsigned int> lines;
+      for (const auto &row : read_csv_columns(filename,
+                                              bonding_section + "File",
+                                              {x, y, "phi_0"},
+                                              false,
+                                              &lines))
+        {
+          check_phi_0(filename, row[2], lines[points.size()]);
+          points.push_back({{row[0], row[1]}, row[2], 0});
+        }
+      return points;
     }
   } // namespace
 
@@ -462,11 +430,15 @@ namespace Debond
   {
     const std::string &filename = parameters.file;
     const std::string  entry    = bonding_section + "File";
-    const TableKind    kind     = kind_of(filename);
+    const auto         columns  = read_csv_header(filename, entry);
+    const auto         has      = [&columns](const std::string &name) {
+      return std::count(columns.begin(), columns.end(), name) > 0;
+    };
     const bool by_element = parameters.resolution == BondingResolution::element;
-    if (kind == TableKind::in_order || kind == TableKind::by_number)
+    const bool numbered   = has("element");
+    const bool has_mm     = has("x_mm") && has("y_mm");
+    if (has("phi_0") && (numbered || columns.size() == 1))
       {
-        const bool numbered = kind == TableKind::by_number;
         if (!by_element)
           refuse_file(filename,
                       "a value for every element needs Resolution = element; "
@@ -474,10 +446,7 @@ namespace Debond
                       "are expected");
         const auto values =
           values_by_element(filename, numbered, surface.n_elements());
-        const auto columns = read_csv_header(filename, entry);
-        if (numbered &&
-            std::count(columns.begin(), columns.end(), "x_mm") == 1 &&
-            std::count(columns.begin(), columns.end(), "y_mm") == 1)
+        if (numbered && has_mm)
           check_centres(filename,
                         read_csv_columns(filename,
                                          entry,
@@ -485,20 +454,10 @@ namespace Debond
                         centres);
         return values;
       }
-
-    const bool                with_unit = kind == TableKind::points_with_unit;
-    std::vector<DataPoint>    points;
-    std::vector<unsigned int> lines;
-    for (const auto &row : read_csv_columns(
-           filename,
-           entry,
-           {with_unit ? "x_mm" : "x", with_unit ? "y_mm" : "y", "phi_0"},
-           false,
-           &lines))
-      {
-        check_phi_0(filename, row[2], lines[points.size()]);
-        points.push_back({{row[0], row[1]}, row[2], 0});
-      }
+    if (!has("phi_0") || !(has_mm || (has("x") && has("y"))))
+      refuse_columns(filename, columns);
+    const auto points =
+      read_points(filename, has_mm ? "x_mm" : "x", has_mm ? "y_mm" : "y");
     return values_of_points(
       points_on_face(filename, points, surface, size_of(centres)),
       by_element,

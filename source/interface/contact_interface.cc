@@ -12,26 +12,22 @@ namespace Debond
                                      const BodyMesh            &bone,
                                      const BodyMesh            &implant)
     : parameters(parameters)
+    , law(parameters.law())
     , slave(parameters.slave)
     , mesh{{&bone, &implant}}
   {
-    law.normal_penalty      = parameters.normal_penalty;
-    law.tangential_penalty  = parameters.tangential_penalty;
-    law.friction            = parameters.friction;
-    law.opening_breaks_bond = parameters.opening_breaks_bond;
-    law.viscosity           = parameters.viscosity;
-    law.explicit_friction   = parameters.explicit_friction;
     const auto quadrature =
       surface_quadrature(mesh[slave]->surface(), parameters.quadrature_points);
     points.reserve(quadrature.size());
     for (const auto &quadrature_point : quadrature)
       {
         SlavePoint point;
-        point.element = quadrature_point.element;
-        point.xi      = quadrature_point.xi;
-        point.X       = quadrature_point.X;
-        point.basis   = quadrature_point.basis;
-        point.JxW     = quadrature_point.JxW;
+        point.element           = quadrature_point.element;
+        point.xi                = quadrature_point.xi;
+        point.X                 = quadrature_point.X;
+        point.basis             = quadrature_point.basis;
+        point.JxW               = quadrature_point.JxW;
+        point.accepted.internal = parameters.friction->initial_variables();
         points.push_back(point);
       }
     for (const Side side : both_sides)
@@ -188,13 +184,8 @@ namespace Debond
                              point.trial);
         return;
       }
-    // still beyond the edge: open
-    point.trial.failed   = false;
-    point.trial.state    = point.accepted;
-    point.trial.pressure = point.trial.normal_gap = point.trial.softening = 0.;
-    point.trial.traction           = point.trial.tangential_traction =
-      point.trial.viscous_traction = point.trial.slip_increment =
-        Eigen::Vector3d::Zero();
+    leave_open(law, point.accepted,
+               point.trial); // still beyond the edge
   }
 
 
@@ -233,7 +224,7 @@ namespace Debond
   FrictionCoefficient
   ContactInterface::friction(const SlavePoint &point) const
   {
-    return point.friction(law.friction, point.trial.state);
+    return point.friction(*parameters.friction, point.trial.state);
   }
 
 
@@ -255,13 +246,14 @@ namespace Debond
             point.clearance -= moved;
             continue;
           }
-        spent.add(point, law, mode_now.frictionless, Q);
+        spent.add(point, *parameters.friction, mode_now, Q);
         const ContactPointResult &trial = point.trial;
         point.accepted                  = trial.state;
         point.accepted_traction = Q.transpose() * trial.tangential_traction;
         point.accepted_viscous_traction =
           Q.transpose() * trial.viscous_traction;
         point.accepted_pressure = trial.pressure;
+        point.accepted_energy   = trial.energy;
         if (point.accepted.status == PointStatus::open)
           project_accepted(point, surface, configuration, true);
       }

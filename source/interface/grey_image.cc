@@ -1,15 +1,15 @@
 #include <debond/input/input_file.h>
 #include <debond/interface/grey_image.h>
 #include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
 
 #include <boost/crc.hpp>
 
 #include <png.h>
 
 #include <algorithm>
-#include <csetjmp>
-#include <cstring>
-#include <sstream>
+#include <charconv>
+#include <limits>
 
 namespace Debond
 {
@@ -103,7 +103,7 @@ namespace Debond
       [[noreturn]] void
       refuse(const std::string &why) const
       {
-        throw InputError(entry + " = '" + name + "': " + why);
+        throw EntryError(entry, why, name);
       }
 
       void
@@ -111,13 +111,9 @@ namespace Debond
       {
         if (width < 1 || height < 1 || width > largest_side ||
             height > largest_side)
-          {
-            std::ostringstream why;
-            why << "this picture has " << width << " x " << height
-                << " pixels: expected 1 to " << largest_side
-                << " in each direction";
-            refuse(why.str());
-          }
+          refuse("this picture has " + to_text(width) + " x " +
+                 to_text(height) + " pixels: expected 1 to " +
+                 to_text(largest_side) + " in each direction");
       }
     };
 
@@ -130,22 +126,6 @@ namespace Debond
       for (std::size_t i = position; i < position + 4; ++i)
         number = 256 * number + static_cast<unsigned char>(bytes[i]);
       return number;
-    }
-
-
-
-    /** Refuses what libpng would not take, or take apart, without saying why.
-     */
-    void
-    check_header(const ImageFile   &file,
-                 const std::string &bytes,
-                 const std::size_t  position)
-    {
-      file.check_size(big_endian(bytes, position),
-                      big_endian(bytes, position + 4));
-      if (bytes[position + 12] != 0)
-        file.refuse("interlaced PNG files are not read: save it without "
-                    "interlacing");
     }
 
 
@@ -173,7 +153,8 @@ namespace Debond
           if (sum.checksum() != big_endian(bytes, position + 8 + length))
             file.refuse("this PNG file is damaged");
           if (type == "IHDR" && length == 13)
-            check_header(file, bytes, position + 8);
+            file.check_size(big_endian(bytes, position + 8),
+                            big_endian(bytes, position + 12));
           for (const char *const wanted :
                {"IHDR", "PLTE", "tRNS", "IDAT", "IEND"})
             if (type == wanted)
@@ -185,116 +166,65 @@ namespace Debond
 
 
 
-    /** What libpng reads from. */
-    struct PngBytes
-    {
-      const std::string &bytes;
-      std::size_t        position;
-    };
-
-
-
-    void
-    copy_bytes(png_structp png, png_bytep to, const std::size_t n)
-    {
-      auto &source = *static_cast<PngBytes *>(png_get_io_ptr(png));
-      if (n > source.bytes.size() - source.position)
-        png_error(png, "cut off");
-      std::memcpy(to, source.bytes.data() + source.position, n);
-      source.position += n;
-    }
-
-
-
-    // Instead of writing to the error stream.
-    [[noreturn]] void
-    leave(png_structp png, png_const_charp)
-    {
-      png_longjmp(png, 1);
-    }
-    void
-    ignore(png_structp, png_const_charp)
-    {}
-
-
-
-    /** The level of a pixel of @p n channels of 16 bits: grey or red, green and
-     *  blue, then opacity if n is even; what is transparent is black. */
+    /** The level of a pixel of @p n channels: grey or red, green and blue, then
+     *  opacity if n is even; what is transparent is black. */
+    template <typename Channel>
     float
-    level_of(const unsigned char *const pixel, const unsigned int n)
+    level_of(const Channel *const pixel, const unsigned int n)
     {
-      const auto channel = [pixel](const unsigned int i) {
-        return (256. * pixel[2 * i] + pixel[2 * i + 1]) / 65535.;
-      };
-      const double level =
-        n < 3 ? channel(0) :
-                0.30 * channel(0) + 0.59 * channel(1) + 0.11 * channel(2);
-      return n % 2 == 0 ? level * channel(n - 1) : level;
+      constexpr double white = std::numeric_limits<Channel>::max();
+      const double     level =
+        (n < 3 ? pixel[0] :
+                 (30. * pixel[0] + 59. * pixel[1] + 11. * pixel[2]) / 100.) /
+        white;
+      // libpng has multiplied channels of 16 bits by the opacity already
+      return n % 2 == 0 && sizeof(Channel) == 1 ? level * pixel[n - 1] / white :
+                                                  level;
     }
 
 
 
-    void
-    read_rows(png_structp                 png,
-              png_infop                   info,
-              std::vector<unsigned char> &row,
-              GreyImage                  &image)
-    {
-      png_read_info(png, info);
-      png_set_expand(png);    // palettes, and fewer than 8 bits
-      png_set_expand_16(png); // fewer than 16 bits
-      png_read_update_info(png, info);
-      const unsigned int n = png_get_channels(png, info);
-      image.width          = png_get_image_width(png, info);
-      image.height         = png_get_image_height(png, info);
-      image.levels.reserve(std::size_t(image.width) * image.height);
-      row.resize(png_get_rowbytes(png, info));
-      for (unsigned int j = 0; j < image.height; ++j)
-        {
-          png_read_row(png, row.data(), nullptr);
-          for (unsigned int i = 0; i < image.width; ++i)
-            image.levels.push_back(level_of(&row[2 * n * i], n));
-        }
-      png_read_end(png, nullptr);
-    }
-
-
-
-    // libpng jumps back to setjmp() where it finds something wrong: nothing
-    // that has a destructor may begin to live between here and there.
+    /** False if libpng cannot read what png_image_begin_read_from_memory() has
+     *  found. */
+    template <typename Channel>
     bool
-    decode(png_structp                 png,
-           png_infop                   info,
-           std::vector<unsigned char> &row,
-           GreyImage                  &image)
+    read_levels(png_image &png, std::vector<float> &levels)
     {
-      if (setjmp(png_jmpbuf(png)) != 0)
+      std::vector<Channel> channels(PNG_IMAGE_SIZE(png) / sizeof(Channel));
+      if (png_image_finish_read(&png, nullptr, channels.data(), 0, nullptr) ==
+          0)
         return false;
-      read_rows(png, info, row, image);
+      const unsigned int n = PNG_IMAGE_PIXEL_CHANNELS(png.format);
+      levels.reserve(channels.size() / n);
+      for (std::size_t i = 0; i < channels.size(); i += n)
+        levels.push_back(level_of(&channels[i], n));
       return true;
     }
 
 
 
-    // Boost.GIL reads PNG as well, but beyond the end of rows with fewer than 8
-    // bits for a pixel, and leaves libpng no way to be silent.
+    // libpng takes levels of 16 bits for linear in the intensity and others for
+    // sRGB: those that are asked for in the same way stay as they are.
+    // Boost.GIL reads beyond the end of rows with fewer than 8 bits for a
+    // pixel.
     GreyImage
     read_png(const ImageFile &file, const std::string &bytes)
     {
-      const std::string          essence = essence_of_png(file, bytes);
-      PngBytes                   source{essence, 0};
-      GreyImage                  image;
-      std::vector<unsigned char> row;
-      png_structp                png =
-        png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, leave, ignore);
-      png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
-      bool      is_read = false;
-      if (info != nullptr)
+      const std::string essence = essence_of_png(file, bytes);
+      GreyImage         image;
+      png_image         png{};
+      png.version = PNG_IMAGE_VERSION;
+      bool is_read =
+        png_image_begin_read_from_memory(&png, essence.data(), essence.size());
+      if (is_read)
         {
-          png_set_read_fn(png, &source, copy_bytes);
-          is_read = decode(png, info, row, image);
+          png.format &= ~PNG_FORMAT_FLAG_COLORMAP;
+          image.width  = png.width;
+          image.height = png.height;
+          is_read      = (png.format & PNG_FORMAT_FLAG_LINEAR) != 0 ?
+                           read_levels<png_uint_16>(png, image.levels) :
+                           read_levels<png_byte>(png, image.levels);
         }
-      png_destroy_read_struct(&png, &info, nullptr);
       if (!is_read)
         file.refuse("this file is damaged: it begins like a PNG file but "
                     "cannot be read as one");
@@ -318,19 +248,16 @@ namespace Debond
       next(const std::string &what, const unsigned int largest)
       {
         skip_blanks();
-        unsigned int value = 0;
-        const auto   begin = position;
-        for (; position < bytes.size() && bytes[position] >= '0' &&
-               bytes[position] <= '9';
-             ++position)
-          {
-            value = 10 * value + (bytes[position] - '0');
-            if (value > largest)
-              file.refuse(what + " is more than " + std::to_string(largest));
-          }
-        if (position == begin)
+        unsigned int      value = 0;
+        const char *const first = bytes.data() + position;
+        const auto [behind, error] =
+          std::from_chars(first, bytes.data() + bytes.size(), value);
+        if (error == std::errc::invalid_argument)
           file.refuse("this PGM file is damaged or cut off: " + what +
                       " is missing or no number");
+        if (error == std::errc::result_out_of_range || value > largest)
+          file.refuse(what + " is more than " + std::to_string(largest));
+        position += behind - first;
         return value;
       }
 
@@ -424,8 +351,8 @@ namespace Debond
   read_grey_image(const std::string &filename, const std::string &entry)
   {
     const ImageFile   file{filename, entry};
-    const std::string bytes =
-      read_input_bytes(filename, entry + " = '" + filename + "': ", 500);
+    const std::string bytes = read_input_bytes(
+      filename, [&file](const std::string &why) { file.refuse(why); }, 500);
     if (bytes.compare(0, 4, "\x89PNG") == 0)
       return read_png(file, bytes);
     if (bytes.compare(0, 2, "P2") == 0 || bytes.compare(0, 2, "P5") == 0)

@@ -12,9 +12,8 @@ namespace Debond
                            const ContactPointMode &mode,
                            InterfaceSummary       &summary)
     {
-      const ContactPointState &old = point.accepted;
-      const double             slope =
-        steepest_fall(law.friction, old.bond_left(point.phi_0), old.slip);
+      const double slope = law.friction->steepest_fall(
+        friction_state(point.accepted, point.phi_0, mode.duration));
       const double softening =
         slope * point.trial.pressure /
         (law.tangential_penalty + viscous_stiffness(law, mode));
@@ -44,7 +43,7 @@ namespace Debond
           {
             area += point.JxW;
             summary.phi_mean +=
-              point.JxW * point.friction(law.friction, trial.state).phi;
+              point.JxW * point.friction(*law.friction, trial.state).phi;
             switch (trial.state.status)
               {
                 case PointStatus::open:
@@ -61,17 +60,14 @@ namespace Debond
         if (trial.state.status == PointStatus::open)
           {
             // whether it was bonded: opening itself may have broken it
-            if (law.friction.kind == FrictionLawKind::modified_coulomb &&
+            if (law.friction->has_bond() &&
                 point.accepted.status != PointStatus::open &&
-                point.friction(law.friction, point.accepted).phi > 0.)
+                point.friction(*law.friction, point.accepted).phi > 0.)
               ++summary.bonded_opened;
             continue;
           }
         ++summary.n_closed;
-        summary.energy +=
-          0.5 * point.JxW *
-          (trial.pressure * trial.pressure / law.normal_penalty +
-           trial.tangential_traction.squaredNorm() / law.tangential_penalty);
+        summary.energy += point.JxW * trial.energy;
         summary.max_softening =
           std::max(summary.max_softening, trial.softening);
         if (!law.explicit_friction && !mode.frictionless)

@@ -13,10 +13,10 @@ namespace Debond
 
 
   void
-  InterfaceWork::add(const SlavePoint      &point,
-                     const ContactPointLaw &law,
-                     const bool             frictionless,
-                     const Eigen::Matrix3d &frame)
+  InterfaceWork::add(const SlavePoint       &point,
+                     const FrictionLaw      &law,
+                     const ContactPointMode &mode,
+                     const Eigen::Matrix3d  &frame)
   {
     const ContactPointResult &trial = point.trial;
     step_dissipation +=
@@ -32,40 +32,32 @@ namespace Debond
     // the viscous traction is anything between its two ends
     friction += viscous_part;
     friction_bound += viscous_part;
-    if (!frictionless)
-      adhesive += point.JxW * 0.5 * (point.accepted_pressure + trial.pressure) *
-                  adhesive_strength(law.friction,
-                                    trial.state.bond_left(point.phi_0),
-                                    point.accepted.slip,
-                                    trial.state.slip);
-    add_friction(point, law, frictionless);
+    add_friction(point, law, mode);
   }
 
 
 
+  // The law is integrated over the distance that the point slides, from its
+  // accepted state, with the pressure between its two ends.
   void
-  InterfaceWork::add_friction(const SlavePoint      &point,
-                              const ContactPointLaw &law,
-                              const bool             frictionless)
+  InterfaceWork::add_friction(const SlavePoint       &point,
+                              const FrictionLaw      &law,
+                              const ContactPointMode &mode)
   {
     const ContactPointResult &trial = point.trial;
-    const double              p     = point.accepted_pressure,
-                 t                  = point.accepted_traction.norm();
-    if (trial.state.status == PointStatus::open)
-      {
-        friction_bound +=
-          0.5 * point.JxW *
-          (p * p / law.normal_penalty + t * t / law.tangential_penalty);
-        return;
-      }
-    if (frictionless)
+    const bool                opens = trial.state.status == PointStatus::open;
+    if (opens)
+      friction_bound += point.JxW * point.accepted_energy;
+    if (opens || mode.frictionless)
       return;
+    const FrictionState start =
+      friction_state(point.accepted, point.phi_0, mode.duration);
+    const double distance = trial.state.slip - point.accepted.slip;
+    const double p = point.accepted_pressure, mean = 0.5 * (p + trial.pressure);
     const double per_pressure =
-      point.JxW * friction_strength(law.friction,
-                                    trial.state.bond_left(point.phi_0),
-                                    point.accepted.slip,
-                                    trial.state.slip);
-    friction += 0.5 * (p + trial.pressure) * per_pressure;
+      point.JxW * law.friction_strength(start, distance);
+    adhesive += point.JxW * mean * law.adhesive_strength(start, distance);
+    friction += mean * per_pressure;
     friction_bound += 0.5 * std::abs(p - trial.pressure) * per_pressure;
   }
 } // namespace Debond

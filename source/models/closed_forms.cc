@@ -1,5 +1,4 @@
 #include <debond/models/closed_forms.h>
-#include <debond/output/torque_curve.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/numbers.h>
@@ -22,19 +21,16 @@ namespace Debond
 
 
 
-    /** The zero of a function that rises from @p f_a <= 0 at @p a to @p f_b >=
-     *  0 at @p b. */
+    /** The zero between @p a and @p b of a function that rises. Where rounding
+     *  has put it next to one of them, that one. */
     template <typename Function>
     double
-    zero_of(const Function &f,
-            const double    a,
-            const double    b,
-            const double    f_a,
-            const double    f_b)
+    zero_of(const Function &f, const double a, const double b)
     {
-      if (f_a == 0.)
+      const double f_a = f(a), f_b = f(b);
+      if (f_a >= 0.)
         return a;
-      if (f_b == 0.)
+      if (f_b <= 0.)
         return b;
       std::uintmax_t max_iterations = 200;
       const auto     bracket        = boost::math::tools::toms748_solve(
@@ -52,68 +48,83 @@ namespace Debond
 
 
   double
-  TorsionModel::begin_of_decay() const
+  TorsionModel::initial_bonding(const double r) const
   {
-    return friction.sliding_threshold;
+    return r <= disk.bonded_radius ? disk.phi_0 : 0.;
   }
 
 
 
-  double
-  TorsionModel::end_of_decay() const
+  FrictionCoefficient
+  TorsionModel::friction(const double phi_0, const double slip) const
   {
-    return friction.sliding_threshold * (1. + 2. * friction.transition_factor);
+    return disk.friction->coefficient({phi_0, slip}, 0.);
+  }
+
+
+
+  TorsionModel::Point
+  TorsionModel::point_with(const bool   sticks,
+                           const double r,
+                           const double slip,
+                           const double theta,
+                           const double stiffness) const
+  {
+    const auto   law = friction(initial_bonding(r), slip);
+    const double traction =
+      sticks ? stiffness * r * std::abs(theta) : law.mu * disk.pressure;
+    return {sticks, slip, std::copysign(traction, theta), law.phi, law.mu};
   }
 
 
 
   TorsionModel::State
-  TorsionModel::state(const double theta) const
+  TorsionModel::integrate(const double        theta,
+                          std::vector<double> kinks,
+                          const double        stiffness) const
   {
-    std::vector<double> ends{0., R};
-    if (theta != 0.)
-      for (const double r : kinks(theta))
-        ends.push_back(std::min(R, r));
-    std::sort(ends.begin(), ends.end());
-
-    const double mu_without_bond =
-      friction.kind == FrictionLawKind::frictionless ? 0. : friction.mu_broken;
-    State      sum;
-    const auto add = [&](const double r, const double weight) {
-      const Point  here = point(r, theta);
-      const double dA   = 2. * pi * r * weight;
-      const double adhesive =
-        p * adhesive_strength(friction, initial_bonding(r), 0., here.slip);
+    const double R = disk.radius, p = disk.pressure;
+    State        sum;
+    const auto   add = [&](const double r, const double weight) {
+      const Point  here  = point(r, theta);
+      const double phi_0 = initial_bonding(r);
+      const double dA    = 2. * pi * r * weight;
       sum.torque += r * here.traction * dA;
       sum.phi_mean += here.phi * dA / (pi * R * R);
       if (here.traction != 0.) // else the stiffness may be zero, too
         sum.stored_energy +=
-          0.5 * here.traction * here.traction / stiffness() * dA;
-      sum.adhesive_work += adhesive * dA;
-      sum.dissipation += (adhesive + mu_without_bond * p * here.slip) * dA;
+          0.5 * here.traction * here.traction / stiffness * dA;
+      sum.adhesive_work +=
+        p * disk.friction->adhesive_strength({phi_0}, here.slip) * dA;
+      sum.dissipation +=
+        p * disk.friction->friction_strength({phi_0}, here.slip) * dA;
     };
+
     // The fields are smooth between kinks, so that Gauss points do.
-    using Gauss = boost::math::quadrature::gauss<double, 30>;
-    for (unsigned int i = 0; i + 1 < ends.size(); ++i)
-      if (ends[i + 1] > ends[i])
-        {
-          const double half   = 0.5 * (ends[i + 1] - ends[i]);
-          const double middle = 0.5 * (ends[i + 1] + ends[i]);
-          for (unsigned int q = 0; q < Gauss::abscissa().size(); ++q)
-            for (const double side : {-1., 1.})
-              add(middle + side * half * Gauss::abscissa()[q],
-                  half * Gauss::weights()[q]);
-        }
+    kinks.push_back(R);
+    std::sort(kinks.begin(), kinks.end());
+    using Gauss  = boost::math::quadrature::gauss<double, 30>;
+    double begin = 0.;
+    for (const double kink : kinks)
+      {
+        const double end = std::min(R, kink);
+        if (!(end > begin))
+          continue;
+        const double half = 0.5 * (end - begin), middle = 0.5 * (end + begin);
+        for (unsigned int q = 0; q < Gauss::abscissa().size(); ++q)
+          for (const double side : {-1., 1.})
+            add(middle + side * half * Gauss::abscissa()[q],
+                half * Gauss::weights()[q]);
+        begin = end;
+      }
     return sum;
   }
 
 
 
   RigidBodiesTorsion::RigidBodiesTorsion(const Parameters &parameters)
-    : TorsionModel(parameters.radius,
-                   parameters.normal_penalty * parameters.push_in,
-                   parameters.friction)
-    , parameters(parameters)
+    : TorsionModel(parameters)
+    , stiffness(parameters.stiffness)
   {
     AssertThrow(has_unique_solution(parameters),
                 dealii::ExcMessage(
@@ -126,17 +137,9 @@ namespace Debond
   bool
   RigidBodiesTorsion::has_unique_solution(const Parameters &parameters)
   {
-    return steepest_fall(parameters.friction, parameters.phi_0) *
-             parameters.normal_penalty * parameters.push_in <
-           parameters.tangential_penalty;
-  }
-
-
-
-  double
-  RigidBodiesTorsion::initial_bonding(const double r) const
-  {
-    return r <= parameters.bonded_radius ? parameters.phi_0 : 0.;
+    return parameters.friction->steepest_fall({parameters.phi_0}) *
+             parameters.pressure <
+           parameters.stiffness;
   }
 
 
@@ -144,8 +147,7 @@ namespace Debond
   double
   RigidBodiesTorsion::path(const double slip, const double phi_0) const
   {
-    return slip + friction_coefficient(friction, phi_0, slip).mu * p /
-                    parameters.tangential_penalty;
+    return slip + friction(phi_0, slip).mu * disk.pressure / stiffness;
   }
 
 
@@ -155,20 +157,17 @@ namespace Debond
   {
     const double phi_0    = initial_bonding(r);
     const double distance = r * std::abs(theta);
+    const double begin    = disk.friction->kinks().front();
+    const double end      = disk.friction->kinks().back();
     // Before and after the decay the coefficient is constant: mu p / eps_t of
     // the path is elastic.
-    if (distance <= path(begin_of_decay(), phi_0))
+    if (distance <= path(begin, phi_0))
       return std::max(0., distance - path(0., phi_0));
-    if (distance >= path(end_of_decay(), phi_0))
-      return distance - (path(end_of_decay(), phi_0) - end_of_decay());
-    const auto excess = [&](const double g) {
-      return path(g, phi_0) - distance;
-    };
-    return zero_of(excess,
-                   begin_of_decay(),
-                   end_of_decay(),
-                   excess(begin_of_decay()),
-                   excess(end_of_decay()));
+    if (distance >= path(end, phi_0))
+      return distance - (path(end, phi_0) - end);
+    return zero_of([&](const double g) { return path(g, phi_0) - distance; },
+                   begin,
+                   end);
   }
 
 
@@ -176,18 +175,8 @@ namespace Debond
   TorsionModel::Point
   RigidBodiesTorsion::point(const double r, const double theta) const
   {
-    const double phi_0 = initial_bonding(r);
-    Point        here;
-    here.slip              = slip(r, theta);
-    here.sticks            = here.slip == 0.;
-    const auto coefficient = friction_coefficient(friction, phi_0, here.slip);
-    here.phi               = coefficient.phi;
-    here.mu                = coefficient.mu;
-    here.traction = std::copysign(here.sticks ? parameters.tangential_penalty *
-                                                  r * std::abs(theta) :
-                                                here.mu * p,
-                                  theta);
-    return here;
+    const double g_s = slip(r, theta);
+    return point_with(g_s == 0., r, g_s, theta, stiffness);
   }
 
 
@@ -196,25 +185,28 @@ namespace Debond
   RigidBodiesTorsion::stick_radius(const double theta) const
   {
     // a bonded core sticks further out than what surrounds it, or not at all
-    const double bonded_radius = std::min(R, parameters.bonded_radius);
-    const double inner =
-      path(0., parameters.phi_0) / std::max(1e-300, std::abs(theta));
-    if (inner < bonded_radius)
+    const double core  = std::min(disk.radius, disk.bonded_radius);
+    const double angle = std::max(1e-300, std::abs(theta));
+    const double inner = path(0., disk.phi_0) / angle;
+    if (inner < core)
       return inner;
-    const double outer = path(0., 0.) / std::max(1e-300, std::abs(theta));
-    return std::min(R, std::max(bonded_radius, outer));
+    return std::min(disk.radius, std::max(core, path(0., 0.) / angle));
   }
 
 
 
-  std::vector<double>
-  RigidBodiesTorsion::kinks(const double theta) const
+  TorsionModel::State
+  RigidBodiesTorsion::state(const double theta) const
   {
-    std::vector<double> radii{parameters.bonded_radius};
-    for (const double phi_0 : {parameters.phi_0, 0.})
-      for (const double slip : {0., begin_of_decay(), end_of_decay()})
-        radii.push_back(path(slip, phi_0) / std::abs(theta));
-    return radii;
+    std::vector<double> kinks{disk.bonded_radius};
+    if (theta != 0.)
+      for (const double phi_0 : {disk.phi_0, 0.})
+        {
+          kinks.push_back(path(0., phi_0) / std::abs(theta));
+          for (const double slip : disk.friction->kinks())
+            kinks.push_back(path(slip, phi_0) / std::abs(theta));
+        }
+    return integrate(theta, kinks, stiffness);
   }
 
 
@@ -306,14 +298,10 @@ namespace Debond
                                          const double end,
                                          const double wanted) const
   {
-    const auto excess = [&](const double theta) {
-      return machine_angle(theta) - wanted;
-    };
-    return zero_of(excess,
-                   begin,
-                   end,
-                   std::min(0., excess(begin)),
-                   std::max(0., excess(end)));
+    return zero_of(
+      [&](const double theta) { return machine_angle(theta) - wanted; },
+      begin,
+      end);
   }
 
 
@@ -333,12 +321,16 @@ namespace Debond
 
 
 
-  AnalyticalTorsion::AnalyticalTorsion(const Parameters &parameters)
-    : TorsionModel(parameters.radius, parameters.pressure, parameters.friction)
-    , parameters(parameters)
+  AnalyticalTorsion::AnalyticalTorsion(const Disk  &disk,
+                                       const double linear_limit,
+                                       const double full_sliding)
+    : TorsionModel(disk)
+    , linear_limit(linear_limit)
+    , full_sliding(full_sliding)
+    , stiffness(friction(disk.phi_0, 0.).mu * disk.pressure /
+                (disk.radius * linear_limit))
   {
-    AssertThrow(parameters.linear_limit > 0. &&
-                  parameters.full_sliding >= parameters.linear_limit,
+    AssertThrow(linear_limit > 0. && full_sliding >= linear_limit,
                 dealii::ExcMessage("0 < theta_lin <= theta_max is expected."));
   }
 
@@ -348,9 +340,9 @@ namespace Debond
   double
   AnalyticalTorsion::stick_radius(const double theta) const
   {
-    return std::abs(theta) <= parameters.linear_limit ?
-             R :
-             R * parameters.linear_limit / std::abs(theta);
+    return std::abs(theta) <= linear_limit ?
+             disk.radius :
+             disk.radius * linear_limit / std::abs(theta);
   }
 
 
@@ -360,9 +352,9 @@ namespace Debond
   {
     const double angle = std::abs(theta);
     // the angle went from degrees to radians, as theta_max did
-    return angle < parameters.full_sliding * (1. - 1e-12) ?
+    return angle < full_sliding * (1. - 1e-12) ?
              0. :
-             angle - parameters.full_sliding + parameters.linear_limit;
+             angle - full_sliding + linear_limit;
   }
 
 
@@ -371,67 +363,30 @@ namespace Debond
   TorsionModel::Point
   AnalyticalTorsion::point(const double r, const double theta) const
   {
-    const auto unbroken = friction_coefficient(friction, parameters.phi_0, 0.);
-    const double angle  = std::abs(theta);
-    Point        here;
-    here.sticks = angle <= parameters.linear_limit || r < stick_radius(theta);
-    if (here.sticks)
-      {
-        here.phi = unbroken.phi;
-        here.mu  = unbroken.mu;
-        here.traction =
-          unbroken.mu * p * r * angle / (R * parameters.linear_limit);
-      }
-    else
-      {
-        here.slip = r * slip_per_radius(theta);
-        const auto coefficient =
-          friction_coefficient(friction, parameters.phi_0, here.slip);
-        here.phi      = coefficient.phi;
-        here.mu       = coefficient.mu;
-        here.traction = coefficient.mu * p;
-      }
-    here.traction = std::copysign(here.traction, theta);
-    return here;
+    const bool sticks =
+      std::abs(theta) <= linear_limit || r < stick_radius(theta);
+    return point_with(
+      sticks, r, sticks ? 0. : r * slip_per_radius(theta), theta, stiffness);
   }
 
 
 
-  std::vector<double>
-  AnalyticalTorsion::kinks(const double theta) const
+  TorsionModel::State
+  AnalyticalTorsion::state(const double theta) const
   {
-    const double per_radius = slip_per_radius(theta);
-    return {stick_radius(theta),
-            begin_of_decay() / per_radius,
-            end_of_decay() / per_radius};
+    std::vector<double> kinks{stick_radius(theta)};
+    for (const double slip : disk.friction->kinks())
+      kinks.push_back(slip / slip_per_radius(theta));
+    return integrate(theta, kinks, stiffness);
   }
-
-
-
-  // Eqs. (43) and (46)
-  double
-  AnalyticalTorsion::stiffness() const
-  {
-    return friction_coefficient(friction, parameters.phi_0, 0.).mu * p /
-           (R * parameters.linear_limit);
-  }
-
-
-
-  MathieuTorsion::MathieuTorsion(const Parameters &parameters)
-    : TorsionModel(parameters.radius, parameters.pressure, FrictionParameters())
-    , parameters(parameters)
-  {}
 
 
 
   double
   MathieuTorsion::angle(const double c) const
   {
-    return std::sqrt(pi * parameters.adhesion_energy /
-                     (4. * c * parameters.shear_modulus)) +
-           parameters.friction_stress / (2. * parameters.shear_modulus) *
-             std::acosh(std::max(1., R / c));
+    return std::sqrt(pi * w_adh / (4. * c * G)) +
+           tau_0 / (2. * G) * std::acosh(std::max(1., disk.radius / c));
   }
 
 
@@ -439,19 +394,17 @@ namespace Debond
   double
   MathieuTorsion::stick_radius(const double theta) const
   {
+    // a smaller crack belongs to a larger angle
     const auto excess = [&](const double c) {
       return std::abs(theta) - angle(c);
     };
-    if (excess(R) <= 0.)
-      return R; // the crack has not started
-    // a smaller crack belongs to a larger angle
-    double inner = 0.5 * R;
+    if (excess(disk.radius) <= 0.)
+      return disk.radius; // the crack has not started
+    double inner = 0.5 * disk.radius;
     while (excess(inner) > 0. && inner > 1e-300)
       inner *= 0.5;
-    if (excess(inner) > 0.)
-      return 0.; // nothing sticks
-    return zero_of(
-      excess, inner, 2. * inner, excess(inner), excess(2. * inner));
+    return excess(inner) > 0. ? 0. : // nothing sticks
+                                zero_of(excess, inner, 2. * inner);
   }
 
 
@@ -459,24 +412,22 @@ namespace Debond
   TorsionModel::Point
   MathieuTorsion::point(const double r, const double theta) const
   {
-    const double c = stick_radius(theta);
+    const double R = disk.radius, c = stick_radius(theta);
     Point        here;
     here.sticks = r <= c && c > 0.;
     here.phi    = here.sticks ? 1. : 0.;
-    here.slip = here.mu = CurveMeasures::undefined;
+    here.slip = here.mu = undefined;
     if (!here.sticks)
-      here.traction = parameters.friction_stress; // Eq. (15)
-    else if (c < R)                               // Eq. (16)
+      here.traction = tau_0; // Eq. (15)
+    else if (c < R)          // Eq. (16)
       here.traction =
         2. / pi *
-        (std::sqrt(pi * parameters.shear_modulus * parameters.adhesion_energy /
-                   c) *
-           r / std::sqrt(c * c - r * r) +
-         parameters.friction_stress *
+        (std::sqrt(pi * G * w_adh / c) * r / std::sqrt(c * c - r * r) +
+         tau_0 *
            std::asin(r / c * std::sqrt((R * R - c * c) / (R * R - r * r))));
     else // Reissner and Sagoci
-      here.traction = 4. / pi * parameters.shear_modulus * std::abs(theta) * r /
-                      std::sqrt(R * R - r * r);
+      here.traction =
+        4. / pi * G * std::abs(theta) * r / std::sqrt(R * R - r * r);
     here.traction = std::copysign(here.traction, theta);
     return here;
   }
@@ -486,36 +437,16 @@ namespace Debond
   TorsionModel::State
   MathieuTorsion::state(const double theta) const
   {
-    const double c = stick_radius(theta), k = c / R;
-    State        sum;
-    sum.torque =
-      c < R ?
-        8. / 3. * std::pow(c, 2.5) *
-            std::sqrt(pi * parameters.shear_modulus *
-                      parameters.adhesion_energy) +
-          4. / 3. * parameters.friction_stress * std::pow(R, 3) *
-            (std::acos(k) + k * std::sqrt(1. - k * k)) :
-        16. / 3. * parameters.shear_modulus * std::pow(R, 3) * std::abs(theta);
-    sum.torque        = std::copysign(sum.torque, theta);
-    sum.phi_mean      = k * k;
-    sum.adhesive_work = parameters.adhesion_energy * pi * (R * R - c * c);
-    sum.stored_energy = sum.dissipation = CurveMeasures::undefined;
-    return sum;
-  }
-
-
-
-  std::vector<double>
-  MathieuTorsion::kinks(const double theta) const
-  {
-    return {stick_radius(theta)};
-  }
-
-
-
-  double
-  MathieuTorsion::stiffness() const
-  {
-    return CurveMeasures::undefined;
+    const double R = disk.radius, c = stick_radius(theta), k = c / R;
+    const double torque =
+      c < R ? 8. / 3. * std::pow(c, 2.5) * std::sqrt(pi * G * w_adh) +
+                4. / 3. * tau_0 * std::pow(R, 3) *
+                  (std::acos(k) + k * std::sqrt(1. - k * k)) :
+              16. / 3. * G * std::pow(R, 3) * std::abs(theta);
+    return {std::copysign(torque, theta),
+            k * k,
+            undefined,
+            undefined,
+            w_adh * pi * (R * R - c * c)};
   }
 } // namespace Debond

@@ -1,21 +1,475 @@
-#include <debond/models/debonding_run.h>
+#include <debond/models/debonding_problem.h>
 #include <debond/models/forecast.h>
 #include <debond/models/memory_estimate.h>
+#include <debond/models/simulation.h>
+#include <debond/output/checkpoint.h>
+#include <debond/output/console.h>
+#include <debond/output/field_output.h>
+#include <debond/output/profile_output.h>
 #include <debond/support/input_error.h>
-#include <debond/support/number_text.h>
+#include <debond/support/interruption.h>
+#include <debond/support/runtime.h>
+#include <debond/support/serialization.h>
+#include <debond/support/timed_section.h>
+
+#include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <iostream>
+#include <map>
+#include <optional>
 #include <sstream>
 
 namespace Debond
 {
+  namespace
+  {
+    /** "N degrees of freedom, M of them unknowns, ..." */
+    std::string
+    unknowns_of(const CoupledSystem &system)
+    {
+      const BodyMesh    &bone    = system.bone.mesh();
+      const BodyMesh    &implant = system.implant.mesh();
+      std::ostringstream text;
+      text << bone.n_dofs_as_published() + implant.n_dofs_as_published()
+           << " degrees of freedom, "
+           << bone.n_unknowns() + implant.n_unknowns() << " of them unknowns, "
+           << system.n_unknowns()
+           << " after condensation on the contact surfaces";
+      return text.str();
+    }
+
+
+
+    /** A run that begins anew leaves nothing of an earlier one that would be
+     *  taken for its own, but does not destroy a checkpoint either. */
+    ResultDirectory
+    open_directory(const Scene &scene, const bool resumes)
+    {
+      if (resumes)
+        return ResultDirectory(scene.output.directory);
+      const ResultDirectory directory(scene.output, scene.completed_parameters);
+      CheckpointFiles       files(directory);
+      if (!scene.output.overwrite_other_results)
+        try
+          {
+            std::vector<std::string> damaged; // of no use to anyone
+            if (const auto checkpoint = files.newest(damaged))
+              throw InputError(
+                directory.path() +
+                " holds the checkpoint of a run that was interrupted after "
+                "step " +
+                std::to_string(checkpoint->step) + ": debond --resume " +
+                directory.path() + " goes on with it, --force begins anew");
+          }
+        catch (const OtherProgram &error)
+          {
+            throw InputError(std::string(error.what()) +
+                             "; --force begins anew");
+          }
+      return directory;
+    }
+
+
+
+    /** At the end of an archive: another layout does not get there. */
+    constexpr unsigned int end_of_state = 0x0deb03d;
+
+    constexpr unsigned int archive_flags = boost::archive::no_header;
+  } // namespace
+
+
+
+  /** A simulation and what the program makes of it: files, lines on the
+   *  console, checkpoints. */
+  struct DebondingProblem::Run
+  {
+    Run(const Scene              &scene,
+        std::shared_ptr<BodyPair> bodies,
+        const Checkpoint         *checkpoint);
+
+    /** From the beginning or the checkpoint to the last row. */
+    void
+    run();
+    /** Writes summary.json. */
+    void
+    finish(bool converged, const std::string &reason);
+    /** What the error says must not be lost, whatever becomes of the summary.
+     */
+    void
+    finish_after(const std::exception &error);
+
+    /** See serialization.h. To be called when everything is set up as at the
+     *  beginning of the run. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &simulation &console &profiles &fields;
+      std::map<std::string, double>           so_far = seconds();
+      archive                                &so_far;
+      if (Archive::is_loading::value)
+        earlier_seconds = so_far;
+    }
+
+    const Scene                     &scene;
+    std::string                      parameters; ///< as in the directory
+    dealii::TimerOutput              timer;
+    dealii::Timer                    wall_clock;
+    double                           seconds_before_steps = 0;
+    std::map<std::string, double>    earlier_seconds; ///< before a checkpoint
+    const ResultDirectory            directory;
+    CheckpointFiles                  checkpoints;
+    const ReferenceCurve             reference;
+    ProfileOutput                    profiles;
+    Console                          console;
+    Simulation                       simulation;
+    FieldOutput                      fields;
+    std::optional<TorqueCurveWriter> torque_curve;
+
+  private:
+    void
+    restore(const Checkpoint &checkpoint);
+    void
+    begin();
+    void
+    write(const TorqueRow &row);
+    void
+    save();
+    void
+    stop_if_interrupted();
+    std::map<std::string, double>
+    seconds() const;
+    CurveSettings
+    curve_settings() const;
+    RunSummary
+    summarise(const CurveSettings &settings) const;
+    void
+    say_result(const CurveMeasures &measures);
+  };
+
+
+
+  DebondingProblem::Run::Run(const Scene              &scene,
+                             std::shared_ptr<BodyPair> bodies,
+                             const Checkpoint *const   checkpoint)
+    : scene(scene)
+    , parameters(scene.completed_parameters)
+    , timer(std::cout,
+            dealii::TimerOutput::never,
+            dealii::TimerOutput::wall_times)
+    , directory(open_directory(scene, checkpoint != nullptr))
+    , checkpoints(directory)
+    , reference(read_reference_curve(scene.output.reference_curve))
+    , profiles(scene, directory)
+    , console(scene.output.console, std::cout)
+    , simulation(scene, std::move(bodies), &timer)
+    , fields(directory,
+             simulation.system().bone,
+             simulation.system().implant,
+             simulation.system().interface,
+             simulation.system().chuck)
+  {
+    if (checkpoint != nullptr)
+      restore(*checkpoint);
+    else
+      {
+        checkpoints.remove();
+        remove_file(directory.file("summary.json"));
+      }
+    simulation.signals.next_row.connect([this] { stop_if_interrupted(); });
+    simulation.signals.row.connect(
+      [this](const TorqueRow &row) { write(row); });
+    simulation.signals.warning.connect([this](const Warning &warning) {
+      console.warn(warning.check, warning.text);
+    });
+  }
+
+
+
+  // What there is before the first row.
+  void
+  DebondingProblem::Run::begin()
+  {
+    const BondingPattern &bonding = simulation.system().interface.bonding();
+    if (!scene.title.empty())
+      console.headline(scene.title);
+    console.headline(unknowns_of(simulation.system()));
+    for (const Warning &warning : simulation.warnings())
+      console.warn(warning.check, warning.text);
+    if (scene.interface.bonding.pattern != BondingPatternKind::homogeneous)
+      {
+        write_file(directory.file("bonding.csv"), bonding.table());
+        console.headline("Initial bonding: " + bonding.description());
+      }
+    torque_curve.emplace(directory, simulation.rows());
+    if (!simulation.rows().empty())
+      {
+        const TorqueRow   &last = simulation.rows().back();
+        std::ostringstream text;
+        text << "Going on after step " << last.step << ", time " << last.time
+             << ", angle " << last.angle_deg << " deg";
+        console.headline(text.str());
+        console.go_on_after(last.step);
+        stop_if_interrupted();
+      }
+    seconds_before_steps = wall_clock.wall_time();
+  }
+
+
+
+  void
+  DebondingProblem::Run::run()
+  {
+    begin();
+    simulation.run();
+    torque_curve->finish();
+  }
+
+
+
+  void
+  DebondingProblem::Run::write(const TorqueRow &row)
+  {
+    const OutputParameters &output      = scene.output;
+    const bool              are_planned = scene.load_steps.rows_are_planned();
+    const LoadStepping      plan(scene.load_steps);
+    {
+      const TimedSection t(&timer, "output");
+      torque_curve->write(row);
+      console.row(row, are_planned ? plan.n_steps() : 0);
+      profiles.write(row.angle_deg, [&] {
+        return profile_points(simulation.system().interface);
+      });
+      const unsigned int number =
+        are_planned ? plan.step_in_phase(row.step) : row.step;
+      if (output.fields_every > 0 &&
+          (number % output.fields_every == 0 ||
+           simulation.control().is_between_phases() ||
+           simulation.is_finished()))
+        fields.write(row.time);
+    }
+    if (output.resumable && output.checkpoint_every > 0 && row.step > 0 &&
+        row.step % output.checkpoint_every == 0 && !simulation.is_finished())
+      save();
+  }
+
+
+
+  void
+  DebondingProblem::Run::stop_if_interrupted()
+  {
+    const int signal = interrupting_signal();
+    if (signal == 0)
+      return;
+    std::string text = "interrupted by " + signal_name(signal) +
+                       " after step " +
+                       std::to_string(simulation.rows().back().step);
+    if (scene.output.resumable)
+      {
+        save();
+        text +=
+          "; debond --resume '" + directory.path() + "' goes on from there";
+      }
+    throw Interrupted(signal, text);
+  }
+
+
+
+  void
+  DebondingProblem::Run::save()
+  {
+    const TimedSection t(&timer, "checkpoints");
+    std::ostringstream bytes(std::ios::binary);
+    {
+      boost::archive::binary_oarchive archive(bytes, archive_flags);
+      archive << *this << end_of_state;
+    }
+    fields.put_on_disk();
+    checkpoints.write({simulation.rows().back().step, parameters, bytes.str()});
+  }
+
+
+
+  void
+  DebondingProblem::Run::restore(const Checkpoint &checkpoint)
+  {
+    unsigned int end = 0;
+    try
+      {
+        std::istringstream bytes(checkpoint.state, std::ios::binary);
+        boost::archive::binary_iarchive archive(bytes, archive_flags);
+        archive >> *this >> end;
+      }
+    catch (const std::exception &)
+      {} // of the archive, or of sizes that are none
+    if (end != end_of_state || simulation.rows().empty())
+      throw InputError("the checkpoint in '" + directory.path() +
+                       "' does not fit this build of the program: only the "
+                       "same program can go on with the run");
+    parameters = checkpoint.parameters;
+    if (scene.output.fields_every > 0)
+      console.warn("fields", fields.forget_later_files());
+  }
+
+
+
+  // With those before a checkpoint, by the names of the parts; "all" is the
+  // whole run.
+  std::map<std::string, double>
+  DebondingProblem::Run::seconds() const
+  {
+    std::map<std::string, double> sums = earlier_seconds;
+    for (const auto &[section, seconds] :
+         timer.get_summary_data(dealii::TimerOutput::total_wall_time))
+      sums[section] += seconds;
+    const double all = wall_clock.wall_time();
+    sums["all"] += all;
+    sums["before steps"] += seconds_before_steps;
+    sums["stepping"] += all - seconds_before_steps;
+    return sums;
+  }
+
+
+
+  CurveSettings
+  DebondingProblem::Run::curve_settings() const
+  {
+    const BodyParameters   &implant   = scene.implant;
+    const ContactInterface &interface = simulation.system().interface;
+    CurveSettings           settings;
+    settings.contact_area_mm2 =
+      implant.shape == BodyShape::coin ?
+        M_PI * implant.radius * implant.radius :
+      implant.shape == BodyShape::cap ?
+        2. * M_PI * implant.cap_radius * implant.rise() :
+        interface.implant_area();
+    settings.mean_phi_0             = scene.output.observed_bonding > 0 ?
+                                        scene.output.observed_bonding :
+                                        interface.bonding().report().mean;
+    settings.full_sliding_angle_deg = scene.output.full_sliding_angle;
+    settings.phase_times            = scene.load_steps.times;
+    settings.reference              = reference;
+    return settings;
+  }
+
+
+
+  RunSummary
+  DebondingProblem::Run::summarise(const CurveSettings &settings) const
+  {
+    const CoupledSystem &system = simulation.system();
+    const BodyMesh &bone = system.bone.mesh(), &implant = system.implant.mesh();
+    RunSummary      summary;
+    summary.measures = measure_torque_curve(simulation.rows(), settings);
+    summary.profile_measures  = profiles.measures();
+    summary.steps             = simulation.effort().steps;
+    summary.smallest_step     = simulation.effort().shortest_step;
+    summary.newton_iterations = simulation.effort().newton_iterations;
+    summary.dofs = bone.n_dofs_as_published() + implant.n_dofs_as_published();
+    summary.unknowns           = bone.n_unknowns() + implant.n_unknowns();
+    summary.condensed_unknowns = system.n_unknowns();
+    const auto seconds         = this->seconds();
+    for (const auto &section :
+         timer.get_summary_data(dealii::TimerOutput::total_wall_time))
+      summary.seconds.emplace_back(section.first, seconds.at(section.first));
+    for (const std::string section : {"before steps", "stepping"})
+      summary.seconds.emplace_back(section, seconds.at(section));
+    if (system.bodies()->seconds_shared > 0.)
+      summary.seconds.emplace_back("shared set-up",
+                                   system.bodies()->seconds_shared);
+    summary.wall_seconds   = seconds.at("all");
+    summary.peak_memory_MB = peak_memory_MB();
+    return summary;
+  }
+
+
+
+  namespace
+  {
+    void
+    add_bonding(const BondingPattern::Report &bonding,
+                nlohmann::ordered_json       &json)
+    {
+      json["phi_0_mean"]               = bonding.mean;
+      json["bonded_area_mm2"]          = bonding.bonded_area;
+      json["bonded_patches"]           = bonding.patches;
+      json["largest_bonded_patch_mm2"] = bonding.largest_patch;
+    }
+  } // namespace
+
+
+
+  void
+  DebondingProblem::Run::finish(const bool converged, const std::string &reason)
+  {
+    console.warn("profile", profiles.finish());
+    const CurveSettings settings = curve_settings();
+    RunSummary          summary  = summarise(settings);
+    if (converged)
+      console.warn("reference",
+                   warning_about_reference(summary.measures, settings));
+    summary.converged = converged;
+    summary.reason    = reason;
+    summary.warnings  = console.warnings();
+
+    nlohmann::ordered_json json = summary;
+    add_bonding(simulation.system().interface.bonding().report(), json);
+    const ReleasedEnergy &released = simulation.checks().released();
+    json["jumps"]                  = released.n_jumps();
+    json["released_energy_Nm"]     = 1e-3 * released.total();
+    write_json(directory.file("summary.json"), json);
+    if (!converged)
+      return;
+    checkpoints.remove(); // there is nothing to go on with
+    say_result(summary.measures);
+  }
+
+
+
+  void
+  DebondingProblem::Run::finish_after(const std::exception &error)
+  {
+    try
+      {
+        finish(false, error.what());
+      }
+    catch (const WriteError &another)
+      {
+        console.warn("summary", another.what());
+      }
+  }
+
+
+
+  void
+  DebondingProblem::Run::say_result(const CurveMeasures &measures)
+  {
+    std::ostringstream text;
+    if (std::isfinite(measures.theta_max_deg))
+      text << "Largest torque " << measures.T_max_Nmm << " N mm at "
+           << measures.theta_max_deg << " deg, at the end "
+           << measures.T_inf_Nmm << " N mm. ";
+    else
+      {
+        const auto &reaction = simulation.rows().back().chuck_reaction;
+        text << "Force of the chuck at the end: " << reaction[0] << ", "
+             << reaction[1] << ", " << reaction[2] << " N. ";
+      }
+    text << "Results are in " << directory.path();
+    console.headline(text.str());
+    if (!console.quiet())
+      timer.print_summary();
+  }
+
+
+
   DebondingProblem::DebondingProblem(const Scene              &scene,
                                      std::shared_ptr<BodyPair> bodies)
     : scene(scene)
-    , state(std::make_unique<Run>(this->scene))
+    , bodies(std::move(bodies))
   {
     require_memory(scene);
-    state->given_bodies = std::move(bodies);
   }
 
   DebondingProblem::~DebondingProblem() = default;
@@ -23,7 +477,8 @@ namespace Debond
   const std::vector<TorqueRow> &
   DebondingProblem::rows() const
   {
-    return state->rows;
+    static const std::vector<TorqueRow> none;
+    return current ? current->simulation.rows() : none;
   }
 
 
@@ -44,206 +499,36 @@ namespace Debond
 
 
 
+  // What cannot be set up leaves no results; what fails later leaves all rows
+  // before, and a summary that says why.
   void
   DebondingProblem::run(const Checkpoint *const checkpoint)
   {
     try
       {
-        set_up(checkpoint);
+        current = std::make_unique<Run>(scene, bodies, checkpoint);
       }
     catch (const InputError &error)
       {
-        throw InputError(scene.with_place(error.what()));
+        throw scene.with_place(error);
       }
-    state->seconds_before_steps = state->wall_clock.wall_time();
     try
       {
-        solve_rows();
-        state->torque_writer->finish();
+        current->run();
       }
     catch (const InputError &error)
       {
         // an expression that turns infinite
-        const InputError placed(scene.with_place(error.what()));
-        finish_after(placed);
+        const InputError placed = scene.with_place(error);
+        current->finish_after(placed);
         throw placed;
       }
     catch (const std::exception &error)
       {
-        finish_after(error);
+        current->finish_after(error);
         throw;
       }
-    finish(true, reason_to_end());
-  }
-
-
-
-  void
-  DebondingProblem::solve_rows()
-  {
-    if (state->rows.empty())
-      solve_first_row();
-    while (!is_finished())
-      {
-        stop_if_interrupted();
-        solve_next_row();
-        if (checkpoint_is_due() && !is_finished())
-          save_checkpoint();
-      }
-  }
-
-
-
-  std::string
-  DebondingProblem::reason_to_end() const
-  {
-    if (state->path && state->path->has_ended())
-      {
-        std::ostringstream reason;
-        reason << "the mean sliding distance has reached "
-               << state->path->end_of_path()
-               << " mm (Load steps / Path ends at slip) at time "
-               << state->time;
-        return reason.str();
-      }
-    return rows_are_accepted_steps() ? "the last time is reached" :
-                                       "all planned steps are done";
-  }
-
-
-
-  namespace
-  {
-    std::string
-    unknowns_of(const CoupledSystem &system)
-    {
-      std::ostringstream text;
-      text << system.bone.mesh().n_dofs_as_published() +
-                system.implant.mesh().n_dofs_as_published()
-           << " degrees of freedom, "
-           << system.bone.mesh().n_unknowns() +
-                system.implant.mesh().n_unknowns()
-           << " of them unknowns, " << system.n_unknowns()
-           << " after condensation on the contact surfaces";
-      return text.str();
-    }
-
-
-
-    void
-    warn_of_locking(const BodyParameters &body,
-                    const std::string    &name,
-                    Console              &console)
-    {
-      if (body.material != Material::rigid && body.poisson_ratio > 0.45)
-        console.warn("locking of " + name,
-                     name +
-                       " / Poisson ratio = " + to_text(body.poisson_ratio) +
-                       ": trilinear cells lock as it approaches 0.5, so that "
-                       "the body is too stiff: compare with finer Cells");
-    }
-  } // namespace
-
-
-
-  void
-  DebondingProblem::set_up(const Checkpoint *const checkpoint)
-  {
-    open_directory(checkpoint != nullptr);
-    {
-      const dealii::TimerOutput::Scope t(state->timer, "set-up");
-      state->system = std::make_unique<CoupledSystem>(scene,
-                                                      state->timer,
-                                                      state->given_bodies);
-    }
-    if (scene.load_steps.adaptive)
-      state->adaptive_stepping =
-        std::make_unique<AdaptiveStepping>(scene.load_steps, state->system->R);
-    if (scene.load_steps.follow_path)
-      state->path = std::make_unique<PathFollowing>(scene);
-    state->system->start(state->stepping.time(0));
-    if (!scene.title.empty())
-      state->console.headline(scene.title);
-    state->console.headline(unknowns_of(*state->system));
-    warn_of_locking(scene.bone, "Bone", state->console);
-    warn_of_locking(scene.implant, "Implant", state->console);
-    if (scene.load_steps.adaptive && scene.interface.viscosity > 0.)
-      state->console.warn("viscosity",
-                          "Load steps / Tolerance does not cover the error in "
-                          "time of Interface / Viscosity, which is of first "
-                          "order in the step: compare with smaller Steps");
-    write_bonding();
-    open_results(checkpoint);
-  }
-
-
-
-  void
-  DebondingProblem::open_directory(const bool resumes)
-  {
-    state->parameters = scene.completed_parameters;
-    state->directory =
-      resumes ? std::make_unique<ResultDirectory>(scene.output.directory) :
-                std::make_unique<ResultDirectory>(scene.output,
-                                                  scene.completed_parameters);
-    state->checkpoints = std::make_unique<CheckpointFiles>(*state->directory);
-    if (!resumes && !scene.output.overwrite_other_results)
-      keep_checkpoint();
-    state->reference = read_reference_curve(scene.output.reference_curve);
-    state->profiles = std::make_unique<ProfileOutput>(scene, *state->directory);
-  }
-
-
-
-  // A run that begins anew leaves nothing of an earlier one that would be taken
-  // for its own.
-  void
-  DebondingProblem::open_results(const Checkpoint *const checkpoint)
-  {
-    if (scene.output.fields_every > 0)
-      state->field_output =
-        std::make_unique<FieldOutput>(*state->directory,
-                                      state->system->bone,
-                                      state->system->implant,
-                                      state->system->interface,
-                                      state->system->chuck);
-    if (checkpoint != nullptr)
-      {
-        restore(*checkpoint);
-        if (state->field_output)
-          state->console.warn("fields",
-                              state->field_output->forget_later_files());
-      }
-    else
-      {
-        state->checkpoints->remove();
-        remove_file(state->directory->file("summary.json"));
-      }
-    state->torque_writer =
-      std::make_unique<TorqueCurveWriter>(*state->directory, state->rows);
-  }
-
-
-
-  void
-  DebondingProblem::write_bonding()
-  {
-    const BondingPattern &bonding = state->system->interface.bonding();
-    if (scene.interface.bonding.pattern == BondingPatternKind::homogeneous)
-      return;
-    write_file(state->directory->file("bonding.csv"), bonding.table());
-    state->console.warn("picture", bonding.report().remark);
-    const ContactInterface &interface = state->system->interface;
-    const double            seen      = interface.mean_seen_bonding();
-    if (std::abs(seen - bonding.report().mean) > 0.01 * bonding.report().mean)
-      state->console.warn("bonding",
-                          "the quadrature points of the bone, which is the "
-                          "slave, see a mean phi_0 of " +
-                            to_text(seen, 4) + " instead of " +
-                            to_text(bonding.report().mean, 4) +
-                            ": Slave = implant meets it exactly, more elements "
-                            "of the bone more closely");
-    state->console.headline("Initial bonding: " + bonding.description());
+    current->finish(true, current->simulation.control().reason_to_end());
   }
 
 
@@ -251,17 +536,19 @@ namespace Debond
   void
   DebondingProblem::check(std::ostream &out)
   {
-    CoupledSystem system(scene, state->timer);
-    system.start(state->stepping.time(0));
+    const Simulation           simulation(scene);
+    const CoupledSystem       &system    = simulation.system();
+    const ContactInterface    &interface = system.interface;
+    const std::vector<double> &times     = scene.load_steps.times;
     out << unknowns_of(system) << '\n'
-        << system.interface.n_points() << " slave quadrature points on the "
-        << name_of(system.interface.slave_side()) << '\n'
+        << interface.n_points() << " slave quadrature points on the "
+        << name_of(interface.slave_side()) << '\n'
         << "memory: some " << std::ceil(estimated_memory_MB(scene)) << " MB\n"
         << "initial bonding " << name_of(scene.interface.bonding.pattern)
-        << ": " << system.interface.bonding().description() << '\n'
-        << state->stepping.n_steps() << " planned steps from time "
-        << scene.load_steps.times.front() << " to "
-        << scene.load_steps.times.back() << '\n';
+        << ": " << interface.bonding().description() << '\n'
+        << LoadStepping(scene.load_steps).n_steps()
+        << " planned steps from time " << times.front() << " to "
+        << times.back() << '\n';
     if (scene.implant.shape == BodyShape::coin)
       print_forecast(scene, out);
   }

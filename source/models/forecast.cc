@@ -38,17 +38,17 @@ namespace Debond
     {
       const InterfaceParameters &interface = scene.interface;
       const double               slope =
-        steepest_fall(interface.friction, interface.bonding.initial_bonding);
-      const double missing = slope * p - interface.tangential_penalty;
+        interface.friction->steepest_fall({interface.bonding.initial_bonding});
+      const double missing = slope * p - interface.tangential_stiffness();
       if (slope == 0. || interface.explicit_friction)
         return;
-      out << "  p / eps_t " << p / interface.tangential_penalty
+      out << "  p / eps_t " << p / interface.tangential_stiffness()
           << " mm; the friction law has one solution below " << 1. / slope
           << " mm\n";
       if (missing >= 0. && interface.viscosity == 0.)
         out << "  so the run will be refused: Interface / Viscosity, a larger "
-               "Tangential penalty stiffness, Sliding threshold or Transition "
-               "factor helps\n";
+               "Tangential penalty stiffness, "
+            << interface.friction->entries_against_fall() << " helps\n";
       else if (missing >= 0.)
         out << "  so Viscosity makes it unique in steps shorter than "
             << interface.viscosity / missing << " of time\n";
@@ -67,13 +67,13 @@ namespace Debond
     const double G_i =
       implant.young_modulus / (2. * (1. + implant.poisson_ratio));
     const double k_n = in_series(
-      scene.interface.normal_penalty,
+      scene.interface.law().normal->initial_stiffness(),
       compliance_free(bone,
                       2. * bone.young_modulus /
                         ((1. - std::pow(bone.poisson_ratio, 2)) * M_PI * R)),
       compliance_free(implant, implant.young_modulus / implant.height));
     const double k_t =
-      in_series(scene.interface.tangential_penalty,
+      in_series(scene.interface.tangential_stiffness(),
                 compliance_free(bone, 32. * G_b / (3. * M_PI * R)),
                 compliance_free(implant, G_i / implant.height));
 
@@ -93,14 +93,14 @@ namespace Debond
       << 0.5 * M_PI * std::pow(R, 4) * k_t << " N mm/rad\n";
     print_uniqueness(scene, p, out);
     RigidBodiesTorsion::Parameters parameters;
-    parameters.radius             = R;
-    parameters.push_in            = p / k_n;
-    parameters.normal_penalty     = k_n;
-    parameters.tangential_penalty = k_t;
-    parameters.phi_0              = scene.interface.bonding.initial_bonding *
+    parameters.radius    = R;
+    parameters.pressure  = p;
+    parameters.stiffness = k_t;
+    parameters.phi_0     = scene.interface.bonding.initial_bonding *
                        scene.interface.bonding.bonded_fraction;
     parameters.friction = scene.interface.friction;
-    if (p <= 0. || scene.chuck.component[ChuckComponent::rotation_z].loaded ||
+    if (p <= 0. || scene.interface.friction->depends_on_rate() ||
+        scene.chuck.component[ChuckComponent::rotation_z].loaded ||
         last[ChuckComponent::rotation_z] == 0.)
       return;
     if (!RigidBodiesTorsion::has_unique_solution(parameters))

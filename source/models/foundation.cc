@@ -1,9 +1,9 @@
 #include <debond/models/foundation.h>
-#include <debond/models/memory_estimate.h>
+#include <debond/models/simulation.h>
 #include <debond/support/input_error.h>
-#include <debond/system/coupled_system.h>
-#include <debond/system/newton.h>
+#include <debond/support/run_error.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -20,33 +20,44 @@ namespace Debond
       for (BodyParameters *const body : {&scene.bone, &scene.implant})
         if (body->material == Material::neo_hookean)
           body->material = Material::linear;
-      scene.interface.friction.kind      = FrictionLawKind::coulomb;
-      scene.interface.friction.mu_broken = 1e6;
-      scene.interface.friction.starts_at = 0;
+      scene.interface.friction           = sticking_law();
+      scene.interface.friction_starts_at = 0;
+      scene.load_steps                   = LoadSteppingParameters();
+      scene.load_steps.times             = {0., 1., 2.};
+      scene.load_steps.steps             = {1, 1};
       scene.chuck                        = ChuckParameters();
-      scene.chuck.component[ChuckComponent::translation_z].value =
-        std::to_string(-1e9 * depth) + " * 1e-9 * min(t, 1)";
-      scene.chuck.component[ChuckComponent::rotation_z].value =
-        std::to_string(1e9 * angle * 180. / M_PI) + " * 1e-9 * max(t - 1, 0)";
+      scene.chuck.component[ChuckComponent::translation_z].function =
+        [depth](const double t) { return -depth * std::min(t, 1.); };
+      scene.chuck.component[ChuckComponent::rotation_z].function =
+        [angle](const double t) {
+          return angle * 180. / M_PI * std::max(t - 1., 0.);
+        };
       return scene;
     }
 
 
 
-    void
-    solve(CoupledSystem &system, const double time)
+    /** Throws InputError if not all of the interface sticks in the next row. */
+    const TorqueRow &
+    next_row(Simulation &simulation)
     {
-      NewtonOptions options;
-      options.stick_first     = true;
-      options.touch_tolerance = 1e-12 * system.R;
-      system.predict(time, false);
-      const NewtonResult result = solve_newton(system, options);
-      if (!result.converged || system.interface.summarise().share_stick < 1.)
-        throw InputError("Closed form: the stiffness of the foundation cannot "
-                         "be found from the bodies of this scene" +
-                         (result.converged ? ", which do not touch all over" :
-                                             ": " + result.why));
-      system.commit(time);
+      std::string why;
+      try
+        {
+          simulation.advance();
+          if (simulation.rows().back().share_stick < 1.)
+            why = ", which do not touch all over";
+        }
+      catch (const RunError &error)
+        {
+          why = std::string(": ") + error.what();
+        }
+      if (!why.empty())
+        throw EntryError("Closed form",
+                         "the stiffness of the foundation cannot be found from "
+                         "the bodies of this scene" +
+                           why);
+      return simulation.rows().back();
     }
 
 
@@ -74,30 +85,26 @@ namespace Debond
   FoundationStiffness
   foundation_stiffness(const Scene &scene)
   {
-    const double        R     = scene.implant.characteristic_radius();
-    const double        depth = 1e-6 * R, angle = 1e-6;
-    dealii::TimerOutput timer(std::cout,
-                              dealii::TimerOutput::never,
-                              dealii::TimerOutput::wall_times);
-    require_memory(scene);
-    CoupledSystem system(sticking_scene(scene, depth, angle), timer);
-    system.start(0.);
-    solve(system, 1.);
+    const double            R     = scene.implant.characteristic_radius();
+    const double            depth = 1e-6 * R, angle = 1e-6;
+    Simulation              simulation(sticking_scene(scene, depth, angle));
+    const ContactInterface &interface = simulation.system().interface;
+    simulation.advance(); // at rest
+
     FoundationStiffness stiffness;
-    stiffness.normal = system.chuck_resultant()[ChuckComponent::translation_z] /
-                       (-depth * system.interface.implant_area());
-    for (const SlavePoint &point : system.interface.get_points())
+    stiffness.normal = next_row(simulation).pressure_MPa / depth;
+    for (const SlavePoint &point : interface.get_points())
       stiffness.points.push_back(
         {std::hypot(point.X[0], point.X[1]),
          point.faces_implant ? point.JxW : 0.,
          point.phi_0,
          point.accepted_pressure / (stiffness.normal * depth),
          0.});
-    const std::vector<double> pressed = traction_about_axis(system.interface);
-    solve(system, 2.);
-    stiffness.torsional = system.chuck_forces()[ChuckComponent::rotation_z] /
-                          (0.5 * M_PI * std::pow(R, 4) * angle);
-    const std::vector<double> turned = traction_about_axis(system.interface);
+    const std::vector<double> pressed = traction_about_axis(interface);
+
+    stiffness.torsional =
+      next_row(simulation).torque_Nmm / (0.5 * M_PI * std::pow(R, 4) * angle);
+    const std::vector<double> turned = traction_about_axis(interface);
     for (std::size_t i = 0; i < turned.size(); ++i)
       stiffness.points[i].stiffness =
         (turned[i] - pressed[i]) / (stiffness.points[i].radius * angle);

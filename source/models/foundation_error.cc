@@ -7,36 +7,34 @@
 
 namespace Debond
 {
-  std::vector<double>
+  Eigen::ArrayXd
   torque_of_points(const FoundationStiffness &stiffness,
-                   const FrictionParameters  &friction,
+                   const FrictionLawPointer  &friction,
                    const double               pressure,
-                   const std::vector<double> &angles)
+                   const Eigen::ArrayXd      &angles)
   {
     double largest_radius = 0.;
     for (const FoundationStiffness::Point &point : stiffness.points)
       largest_radius = std::max(largest_radius, point.radius);
-    const double        tiny = 1e-6 * largest_radius;
-    std::vector<double> torques(angles.size(), 0.);
+    Eigen::ArrayXd torques = Eigen::ArrayXd::Zero(angles.size());
     for (const FoundationStiffness::Point &point : stiffness.points)
       {
-        if (point.area == 0. || point.radius < tiny)
+        if (point.area == 0. || point.radius < 1e-6 * largest_radius)
           continue; // nothing to add to the torque
         RigidBodiesTorsion::Parameters parameters;
-        parameters.radius             = 2. * point.radius; // anything larger
-        parameters.push_in            = 1.;
-        parameters.normal_penalty     = pressure * point.pressure;
-        parameters.tangential_penalty = point.stiffness;
-        parameters.phi_0              = point.phi_0;
-        parameters.friction           = friction;
+        parameters.radius    = 2. * point.radius; // anything larger
+        parameters.pressure  = pressure * point.pressure;
+        parameters.stiffness = point.stiffness;
+        parameters.phi_0     = point.phi_0;
+        parameters.friction  = friction;
         if (!(point.pressure > 0. && point.stiffness > 0.) ||
             !RigidBodiesTorsion::has_unique_solution(parameters))
-          return std::vector<double>(angles.size(),
-                                     std::numeric_limits<double>::quiet_NaN());
+          return torques + std::numeric_limits<double>::quiet_NaN();
         const RigidBodiesTorsion model(parameters);
-        for (std::size_t i = 0; i < angles.size(); ++i)
-          torques[i] +=
-            point.area * point.radius * model.traction(point.radius, angles[i]);
+        torques +=
+          point.area * point.radius * angles.unaryExpr([&](const double angle) {
+            return model.traction(point.radius, angle);
+          });
       }
     return torques;
   }
@@ -45,21 +43,6 @@ namespace Debond
 
   namespace
   {
-    /** The same points with the same pressure and @p torsional stiffness
-     *  [MPa/mm] everywhere. */
-    FoundationStiffness
-    with_uniform_points(FoundationStiffness stiffness, const double torsional)
-    {
-      for (FoundationStiffness::Point &point : stiffness.points)
-        {
-          point.pressure  = 1.;
-          point.stiffness = torsional;
-        }
-      return stiffness;
-    }
-
-
-
     /** Bound of what large strains change of the stiffness: the largest strain
      *  times the share that the bodies have in the compliance. */
     double
@@ -76,35 +59,19 @@ namespace Debond
             std::max(strain,
                      2. * largest_ratio * pressure / body->young_modulus);
       return strain *
-             (1. - std::min(stiffness.normal / scene.interface.normal_penalty,
+             (1. - std::min(stiffness.normal /
+                              scene.interface.law().normal->initial_stiffness(),
                             stiffness.torsional /
-                              scene.interface.tangential_penalty));
+                              scene.interface.tangential_stiffness()));
     }
 
 
 
     /** NaN if one of them is. */
     double
-    largest_magnitude(const std::vector<double> &values)
+    largest_magnitude(const Eigen::ArrayXd &values)
     {
-      double largest = 0.;
-      for (const double value : values)
-        {
-          if (std::isnan(value))
-            return value;
-          largest = std::max(largest, std::abs(value));
-        }
-      return largest;
-    }
-
-
-
-    std::vector<double>
-    difference(std::vector<double> a, const std::vector<double> &b)
-    {
-      for (std::size_t i = 0; i < a.size(); ++i)
-        a[i] -= b[i];
-      return a;
+      return values.abs().maxCoeff<Eigen::PropagateNaN>();
     }
   } // namespace
 
@@ -117,20 +84,21 @@ namespace Debond
                    const FoundationStiffness    &coarse,
                    const double                  cell_ratio)
   {
+    Eigen::ArrayXd angles(rows.size()), torque(rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      {
+        angles[i] = rows[i].angle_deg * M_PI / 180.;
+        torque[i] = rows[i].torque_Nmm;
+      }
     const double pressure = rows.back().pressure_MPa;
     const double coarse_pressure =
       scene.chuck.component[ChuckComponent::translation_z].loaded ?
         pressure :
         pressure * coarse.normal / stiffness.normal;
-    std::vector<double> angles;
-    double              T_max = 0.;
-    for (const TorqueRow &row : rows)
-      {
-        angles.push_back(row.angle_deg * M_PI / 180.);
-        T_max = std::max(T_max, std::abs(row.torque_Nmm));
-      }
 
-    // all on the same points, so that errors of the quadrature cancel
+    // With the points as they are, and with the same torsional stiffness
+    // and pressure everywhere: on the same points, so that errors of the
+    // quadrature cancel.
     const auto torques = [&](const FoundationStiffness &points,
                              const double               mean_pressure) {
       return torque_of_points(points,
@@ -138,23 +106,30 @@ namespace Debond
                               mean_pressure,
                               angles);
     };
-    const auto uniform =
-      torques(with_uniform_points(stiffness, stiffness.torsional), pressure);
-    const auto uniform_of_coarse =
-      torques(with_uniform_points(stiffness, coarse.torsional),
-              coarse_pressure);
-    const auto distribution = difference(torques(stiffness, pressure), uniform);
-    const auto distribution_on_coarse =
-      difference(torques(coarse, coarse_pressure),
-                 torques(with_uniform_points(coarse, coarse.torsional),
-                         coarse_pressure));
-
+    const auto uniform = [&](FoundationStiffness points,
+                             const double        torsional,
+                             const double        mean_pressure) {
+      for (FoundationStiffness::Point &point : points.points)
+        {
+          point.pressure  = 1.;
+          point.stiffness = torsional;
+        }
+      return torques(points, mean_pressure);
+    };
+    const Eigen::ArrayXd uniform_fine =
+      uniform(stiffness, stiffness.torsional, pressure);
+    const Eigen::ArrayXd distribution =
+      torques(stiffness, pressure) - uniform_fine;
+    const Eigen::ArrayXd distribution_on_coarse =
+      torques(coarse, coarse_pressure) -
+      uniform(coarse, coarse.torsional, coarse_pressure);
     const double from_mesh =
-      largest_magnitude(difference(uniform_of_coarse, uniform)) +
-      largest_magnitude(difference(distribution_on_coarse, distribution));
+      largest_magnitude(uniform(stiffness, coarse.torsional, coarse_pressure) -
+                        uniform_fine) +
+      largest_magnitude(distribution_on_coarse - distribution);
     return (2. * largest_magnitude(distribution) +
             from_mesh / (cell_ratio - 1.)) /
-             T_max +
+             torque.abs().maxCoeff() +
            share_of_strains(scene, stiffness, pressure);
   }
 } // namespace Debond

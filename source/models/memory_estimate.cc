@@ -1,4 +1,3 @@
-#include <debond/bulk/body_mesh.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/models/memory_estimate.h>
 #include <debond/scene/scene.h>
@@ -56,98 +55,45 @@ namespace Debond
 
 
 
-    /** A body's numbers of things. */
-    struct Counts
-    {
-      double cells = 0, unknowns = 0;
-      double condensed = 0; ///< unknowns that contact can reach
-      double factor    = 0; ///< entries, without those of condensed ones
-    };
-
-
-
-    /** Share of the body's width that is under the implant, in cells. */
+    /** Bytes that a body takes without dense matrices: triangulation, shape
+     *  functions and sparse matrices, the text of VTU files where there are
+     *  any (measured), and the sparse part of its factor. @p n_condensed: its
+     *  unknowns that contact can reach. */
     double
-    share_under(const Scene &scene, const unsigned int d)
+    bytes_of_body(const Scene          &scene,
+                  const BodyParameters &body,
+                  double               &n_condensed)
     {
-      const double covered = scene.implant.width(d) / scene.bone.size[d];
-      return std::pow(std::min(1., covered), 1. / scene.bone.lateral_grading);
-    }
-
-
-
-    Counts
-    counts_of(const Scene &scene, const Side side)
-    {
-      const BodyParameters &body =
-        side == Side::bone ? scene.bone : scene.implant;
-      const double x = body.cells[0], y = body.cells[1], z = body.cells[2];
-      const double more = body.contact_surface == SurfaceKind::nurbs ? 2. : 1.;
-      Counts       counts;
-      counts.cells = x * y * z;
+      constexpr double per_unknown = 2500.;
+      const double     per_cell = scene.output.fields_every > 0 ? 8000. : 3000.;
+      const double     x = body.cells[0], y = body.cells[1], z = body.cells[2];
+      n_condensed = 0.;
       if (body.material == Material::rigid)
-        return counts;
-      const double on_face = (x + more) * (y + more);
-      counts.unknowns      = 3. * ((x + 1.) * (y + 1.) * (z - 1.) + on_face);
-      counts.condensed     = 3. * on_face;
-      if (side == Side::bone)
+        return per_cell * x * y * z;
+
+      const double more = body.contact_surface == SurfaceKind::nurbs ? 2. : 1.;
+      const double nodes_on_face = (x + more) * (y + more);
+      double       share         = 1.; // of them that contact can reach
+      if (&body == &scene.bone)
         {
-          // whole elements, and the control points around them
-          const auto across = [&](const unsigned int d, const double n) {
-            return std::min(n, n * share_under(scene, d) + 2.) + more;
+          // whole elements under the implant, and the control points around
+          const auto across = [&](const unsigned int d) {
+            const double n = body.cells[d];
+            const double width =
+              std::min(1., scene.implant.width(d) / body.size[d]);
+            const double n_under =
+              n * std::pow(width, 1. / body.lateral_grading);
+            return (std::min(n, n_under + 2.) + more) / (n + more);
           };
-          counts.condensed = 3. * across(0, x) * across(1, y) *
-                             (scene.implant.is_round() ? 0.25 * M_PI : 1.);
+          share =
+            across(0) * across(1) * (scene.implant.is_round() ? M_PI / 4. : 1.);
         }
-      counts.factor =
-        entries_of_factor({{x + 1., y + 1., z}},
-                          {{0., 0., counts.condensed / (3. * on_face)}});
-      return counts;
-    }
-
-
-
-    /** Bytes that a body takes without its factors: triangulation, shape
-     *  functions, sparse matrices, and the text of VTU files where there are
-     *  any. Measured. */
-    double
-    bytes_of_body(const Scene &scene, const Counts &body)
-    {
-      constexpr double per_cell = 3000., per_unknown = 2500.;
-      const double     per_cell_in_files =
-        scene.output.fields_every > 0 ? 5000. : 0.;
-      return (per_cell + per_cell_in_files) * body.cells +
-             per_unknown * body.unknowns;
-    }
-
-
-
-    /** Dense matrices of the condensed unknowns: the trailing block of each
-     *  body's factor and its copy; the matrix of the coupled system and its
-     *  factors where a chuck component is an unknown too. */
-    double
-    dense_entries(const Scene &scene, const Counts &bone, const Counts &implant)
-    {
-      const double squares =
-        bone.condensed * bone.condensed + implant.condensed * implant.condensed;
-      const double n            = bone.condensed + implant.condensed;
-      bool         is_assembled = scene.load_steps.follow_path;
-      for (const auto &component : scene.chuck.component)
-        is_assembled =
-          is_assembled || component.loaded || component.stiffness != 0.;
-      return 2. * squares + (is_assembled ? 2. * n * n + squares : 0.);
-    }
-
-
-
-    double
-    number_of_points(const Scene &scene)
-    {
-      const auto &cells =
-        (scene.interface.slave == Side::implant ? scene.implant : scene.bone)
-          .cells;
-      const double n = scene.interface.quadrature_points;
-      return double(cells[0]) * cells[1] * n * n;
+      n_condensed = 3. * nodes_on_face * share;
+      const double n_unknowns =
+        3. * ((x + 1.) * (y + 1.) * (z - 1.) + nodes_on_face);
+      return per_cell * x * y * z + per_unknown * n_unknowns +
+             bytes_per_number *
+               entries_of_factor({{x + 1., y + 1., z}}, {{0., 0., share}});
     }
 
 
@@ -156,30 +102,38 @@ namespace Debond
     struct Parts
     {
       double bone, implant, points;
+
+      explicit Parts(const Scene &scene)
+      {
+        double n_bone, n_implant;
+        bone    = bytes_of_body(scene, scene.bone, n_bone);
+        implant = bytes_of_body(scene, scene.implant, n_implant);
+
+        // The trailing block of each body's factor and its copy; where a chuck
+        // component is an unknown too, also the matrix of the coupled system
+        // and its factors.
+        const bool is_assembled =
+          scene.load_steps.follow_path ||
+          std::any_of(scene.chuck.component.begin(),
+                      scene.chuck.component.end(),
+                      [](const ChuckComponentParameters &component) {
+                        return component.loaded || component.stiffness != 0.;
+                      });
+        const double squares = n_bone * n_bone + n_implant * n_implant;
+        const double matrices =
+          is_assembled ?
+            3. + 2. * std::pow(n_bone + n_implant, 2) / std::max(1., squares) :
+            2.;
+        bone += bytes_per_number * matrices * n_bone * n_bone;
+        implant += bytes_per_number * matrices * n_implant * n_implant;
+
+        // those of the bonding pattern are similar, and smaller
+        const bool  on_implant = scene.interface.slave == Side::implant;
+        const auto &cells = (on_implant ? scene.implant : scene.bone).cells;
+        points = 2. * sizeof(SlavePoint) * double(cells[0]) * cells[1] *
+                 std::pow(scene.interface.quadrature_points, 2);
+      }
     };
-
-
-
-    Parts
-    parts_of(const Scene &scene)
-    {
-      const Counts bone    = counts_of(scene, Side::bone);
-      const Counts implant = counts_of(scene, Side::implant);
-      const double dense =
-        bytes_per_number * dense_entries(scene, bone, implant);
-      const double squares = std::max(1.,
-                                      bone.condensed * bone.condensed +
-                                        implant.condensed * implant.condensed);
-      const auto   part    = [&](const Counts &body) {
-        return bytes_of_body(scene, body) + bytes_per_number * body.factor +
-               dense * body.condensed * body.condensed / squares;
-      };
-      // those of the bonding pattern are similar, and smaller
-      constexpr double bytes_per_point = 2. * sizeof(SlavePoint);
-      return {part(bone),
-              part(implant),
-              bytes_per_point * number_of_points(scene)};
-    }
   } // namespace
 
 
@@ -188,7 +142,7 @@ namespace Debond
   estimated_memory_MB(const Scene &scene)
   {
     constexpr double program = 150e6; // with its libraries
-    const Parts      parts   = parts_of(scene);
+    const Parts      parts(scene);
     return 1e-6 * (program + parts.bone + parts.implant + parts.points);
   }
 
@@ -220,7 +174,7 @@ namespace Debond
     const double available = available_memory_MB();
     if (needed <= available)
       return;
-    const Parts       parts = parts_of(scene);
+    const Parts       parts(scene);
     const std::string entry =
       parts.points > std::max(parts.bone, parts.implant) ?
         "Interface / Quadrature points" :

@@ -3,6 +3,8 @@
 #include <debond/output/result_files.h>
 #include <debond/support/input_error.h>
 
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -132,9 +134,7 @@ namespace Debond
     bool
     is_finished(const std::string &directory)
     {
-      const std::string summary = directory + "/summary.json";
-      return std::filesystem::exists(summary) &&
-             JsonObject::from_file(summary).value("converged") == "true";
+      return read_json(directory + "/summary.json")["converged"] == true;
     }
   } // namespace
 

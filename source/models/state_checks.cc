@@ -1,6 +1,5 @@
 #include <debond/models/state_checks.h>
-#include <debond/output/console.h>
-#include <debond/system/coupled_system.h>
+#include <debond/system/step_solver.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +7,9 @@
 
 namespace Debond
 {
-  StateChecks::StateChecks(const Scene &scene, Console &console)
-    : scene(scene)
-    , console(console)
-    , way(scene.chuck)
+  StateChecks::StateChecks(const ModelParameters &parameters)
+    : parameters(parameters)
+    , way(parameters.chuck)
   {}
 
 
@@ -33,7 +31,7 @@ namespace Debond
                        system.interface.work().dissipation);
     const std::string where = "step " + std::to_string(step) + ": ";
     // the explicit law does not spend what InterfaceWork::friction says
-    if (!scene.interface.explicit_friction)
+    if (!parameters.interface.explicit_friction)
       check_for_jump(where, forces_before, system, summary);
     check_interface(where, system, summary);
     if (!is_first)
@@ -78,7 +76,7 @@ namespace Debond
   void
   StateChecks::note_violation(const std::string &check, const std::string &text)
   {
-    console.warn(check, text);
+    found.push_back({check, text});
     violated.insert(check);
   }
 
@@ -110,10 +108,10 @@ namespace Debond
      *  judged point by point (InterfaceSummary::steepest_softening).
      */
     bool
-    can_jump(const Scene &scene, const CoupledSystem &system)
+    can_jump(const ModelParameters &parameters, const CoupledSystem &system)
     {
-      return scene.bone.material != Material::rigid ||
-             scene.implant.material != Material::rigid ||
+      return parameters.bone.material != Material::rigid ||
+             parameters.implant.material != Material::rigid ||
              system.chuck.has_compliant_machine();
     }
 
@@ -121,11 +119,11 @@ namespace Debond
 
     /** What follows the state where it jumps. */
     std::string
-    advice(const Scene &scene)
+    advice(const ModelParameters &parameters)
     {
-      if (scene.interface.viscosity > 0.)
+      if (parameters.interface.viscosity > 0.)
         return "Smaller steps follow the viscous motion";
-      if (scene.load_steps.follow_path)
+      if (parameters.load_steps.follow_path)
         return "A smaller Load steps / Largest slip step follows the path "
                "between";
       return "Load steps / Path following = slip follows the path between";
@@ -159,10 +157,10 @@ namespace Debond
              << " N mm of stored energy were released without equilibrium: the "
                 "load cannot be followed there, the state jumped to another "
                 "branch. "
-             << advice(scene);
+             << advice(parameters);
         note_violation("jump", text.str());
       }
-    else if (released_energy.may_hide_a_jump() && can_jump(scene, system))
+    else if (released_energy.may_hide_a_jump() && can_jump(parameters, system))
       note_violation("steep fall",
                      where + "in one step " + change +
                        ": too much to tell a jump from a steep fall; smaller "
@@ -175,12 +173,13 @@ namespace Debond
   {
     // Beyond that a point may find no partner, or the wrong one [mm].
     double
-    deepest_penetration(const Scene &scene, const CoupledSystem &system)
+    deepest_penetration(const ModelParameters &parameters,
+                        const CoupledSystem   &system)
     {
-      double smallest =
-        0.1 * std::min(scene.bone.thickness(), scene.implant.thickness());
-      const auto   n    = system.implant.surface().n_elements();
-      const double area = system.interface.implant_area();
+      double       smallest = 0.1 * std::min(parameters.bone.thickness(),
+                                       parameters.implant.thickness());
+      const auto   n        = system.implant.surface().n_elements();
+      const double area     = system.interface.implant_area();
       return std::min(smallest, std::sqrt(area / n));
     }
   } // namespace
@@ -197,11 +196,11 @@ namespace Debond
         "opening",
         where + "bonded points open (" + std::to_string(summary.bonded_opened) +
           "): the law has no strength in tension, so that pulling costs nothing" +
-          (scene.interface.opening_breaks_bond ?
+          (parameters.interface.opening_breaks_bond ?
              "" :
              ", and points that close again are "
              "bonded as before"));
-    const double too_deep = deepest_penetration(scene, system);
+    const double too_deep = deepest_penetration(parameters, system);
     if (summary.max_penetration > too_deep)
       {
         std::ostringstream text;
@@ -226,8 +225,7 @@ namespace Debond
   void
   StateChecks::check_turn(const std::string &where, const double turn)
   {
-    if (turn > 1.001 * largest_turn &&
-        scene.interface.friction.kind != FrictionLawKind::frictionless)
+    if (turn > 1.001 * largest_turn && parameters.has_friction())
       {
         std::ostringstream text;
         text << where << "the implant turned by " << turn * 180. / M_PI
@@ -245,7 +243,7 @@ namespace Debond
   StateChecks::check_reaction(const std::string &where)
   {
     if (last_reaction_defect >
-        std::max(1e-6, 100. * scene.load_steps.residual_tolerance))
+        std::max(1e-6, 100. * parameters.load_steps.residual_tolerance))
       {
         std::ostringstream text;
         text
@@ -282,24 +280,4 @@ namespace Debond
       }
   }
 
-
-
-  std::string
-  describe_softening(const InterfaceSummary &summary)
-  {
-    const double       slope = summary.softening_slope;
-    std::ostringstream text;
-    text << "the friction law softens faster than the interface is stiff, so "
-            "that its local solution is not unique and the bond would break "
-            "in a jump: at a pressure of p = "
-         << summary.softening_pressure
-         << " MPa the stiffness eps_t (with Viscosity: and eta over the "
-            "step's duration) makes p / eps_t = "
-         << summary.steepest_softening / slope
-         << " mm, and less than 1 / |d mu/d g_s| = " << 1. / slope
-         << " mm has one solution. What helps: Interface / Viscosity, a "
-            "larger Interface / Tangential penalty stiffness, a larger "
-            "Sliding threshold or Transition factor";
-    return text.str();
-  }
 } // namespace Debond

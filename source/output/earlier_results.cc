@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <regex>
-#include <set>
 #include <vector>
 
 namespace Debond
@@ -23,21 +22,11 @@ namespace Debond
     bool
     is_result(const std::filesystem::path &path)
     {
-      static const std::set<std::string> names{"summary.json",
-                                               "torque.csv",
-                                               "auto.csv",
-                                               "bonding.csv",
-                                               "profiles.csv",
-                                               "friction_law.csv",
-                                               "checkpoint-1",
-                                               "checkpoint-2",
-                                               "bulk.pvd",
-                                               "interface.pvd"};
-      static const std::regex            patterns(
-        "(bulk|interface)-[0-9]+\\.vtu|repetition-[0-9]+\\.json");
-      const std::string name = path.filename().string();
-      return names.count(name) > 0 || std::regex_match(name, patterns) ||
-             is_rung(path);
+      static const std::regex name(
+        "(summary|repetition-[0-9]+)\\.json|checkpoint-[12]|"
+        "(torque|auto|bonding|profiles|friction_law)\\.csv|"
+        "(bulk|interface)(-[0-9]+\\.vtu|\\.pvd)");
+      return std::regex_match(path.filename().string(), name) || is_rung(path);
     }
 
 
@@ -46,12 +35,12 @@ namespace Debond
     remove_those(const std::string &directory,
                  bool (*is_one)(const std::filesystem::path &))
     {
-      std::vector<std::filesystem::path> found;
-      for (const auto &entry : std::filesystem::directory_iterator(directory))
-        if (is_one(entry.path()))
-          found.push_back(entry.path());
-      for (const auto &path : found)
-        std::filesystem::remove_all(path);
+      const std::filesystem::directory_iterator entries(directory);
+      for (const auto &path :
+           std::vector<std::filesystem::path>(std::filesystem::begin(entries),
+                                              std::filesystem::end(entries)))
+        if (is_one(path))
+          std::filesystem::remove_all(path);
     }
   } // namespace
 

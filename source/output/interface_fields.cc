@@ -132,22 +132,29 @@ namespace Debond
 
 
 
-    /** Sliding distance [mm] from those points that face the implant: the
-     *  others of a bone have never slid and would heal its bond at the rim. */
-    double
-    slip_under_implant(const ContactInterface        &interface,
-                       const QuadratureGrid::Stencil &stencil)
+    /** Sliding distance [mm] and internal variables from those points that face
+     *  the implant: the others of a bone have never slid and would heal its
+     *  bond at the rim. */
+    FrictionState
+    state_under_implant(const ContactInterface        &interface,
+                        const QuadratureGrid::Stencil &stencil)
     {
-      double slip = 0., weight = 0.;
+      FrictionState state;
+      double        weight = 0.;
+      for (unsigned int a = 0; a < 4; ++a)
+        if (interface.get_points()[stencil.point[a]].faces_implant)
+          weight += stencil.weight[a];
       for (unsigned int a = 0; a < 4; ++a)
         {
           const auto &point = interface.get_points()[stencil.point[a]];
           if (!point.faces_implant)
             continue;
-          slip += stencil.weight[a] * point.trial.state.slip;
-          weight += stencil.weight[a];
+          const double part = stencil.weight[a] / weight;
+          state.slip += part * point.trial.state.slip;
+          for (unsigned int i = 0; i < state.internal.size(); ++i)
+            state.internal[i] += part * point.trial.state.internal[i];
         }
-      return weight > 0. ? slip / weight : 0.;
+      return state;
     }
 
 
@@ -164,21 +171,21 @@ namespace Debond
                    const unsigned int      element,
                    const Eigen::Vector2d  &xi)
     {
-      const QuadratureGrid::Stencil own = grid.within(element, xi);
-      double phi_0 = 0., phi_0_left = 0.; // without bonds that opening broke
+      const QuadratureGrid::Stencil own   = grid.within(element, xi);
+      double                        phi_0 = 0.;
+      FrictionState                 state =
+        state_under_implant(interface, grid.across_elements(xi));
+      state.phi_0 = 0.; // without bonds that opening broke
       for (unsigned int a = 0; a < 4; ++a)
         {
           const auto  &point = interface.get_points()[own.point[a]];
           const double part  = own.weight[a] * point.phi_0;
           phi_0 += part;
           if (!point.trial.state.broken)
-            phi_0_left += part;
+            state.phi_0 += part;
         }
       const FrictionCoefficient friction =
-        friction_coefficient(interface.get_parameters().friction,
-                             phi_0_left,
-                             slip_under_implant(interface,
-                                                grid.across_elements(xi)));
+        interface.get_parameters().friction->reported(state);
       return {{phi_0, friction.phi, friction.mu}};
     }
 

@@ -1,4 +1,3 @@
-#include <debond/input/csv_table.h>
 #include <debond/output/profile_comparison.h>
 
 #include <deal.II/base/point.h>
@@ -12,23 +11,6 @@
 
 namespace Debond
 {
-  Profiles
-  read_profiles(const std::string &filename)
-  {
-    Profiles profiles;
-    if (filename.empty())
-      return profiles;
-    for (const std::vector<double> &row : read_csv_columns(
-           filename,
-           "Output / Reference profiles",
-           {"angle_deg", "x_mm", "y_mm", "area_mm2", "pressure_MPa", "slip_mm"},
-           true))
-      profiles[row[0]].push_back({row[1], row[2], row[3], row[4], row[5]});
-    return profiles;
-  }
-
-
-
   namespace
   {
     using Position = dealii::Point<2>;

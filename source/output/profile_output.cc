@@ -1,48 +1,29 @@
+#include <debond/input/csv_table.h>
 #include <debond/output/profile_output.h>
+#include <debond/support/number_text.h>
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
-#include <locale>
-#include <sstream>
 
 namespace Debond
 {
   namespace
   {
-    std::string
-    csv_line(const std::initializer_list<double> &values)
-    {
-      std::ostringstream line;
-      line.imbue(std::locale::classic());
-      line.precision(12);
-      const char *separator = "";
-      for (const double value : values)
-        {
-          line << separator << value + 0.; // no "-0"
-          separator = ",";
-        }
-      return line.str() + "\n";
-    }
-
-
-
     /** phi and mu from g_s = 0 to 1.5 times the distance after which no bond is
      *  left. */
     std::string
     friction_law_table(const InterfaceParameters &interface)
     {
       constexpr unsigned int n        = 600;
-      const auto            &friction = interface.friction;
-      const double           phi_0    = interface.bonding.initial_bonding;
-      const double           end      = 1.5 * friction.sliding_threshold *
-                         (1. + 2. * friction.transition_factor);
-      const double initial = friction_coefficient(friction, phi_0, 0.).mu;
-      std::string  table   = "slip_mm,phi,mu,mu_over_initial\n";
+      const FrictionLaw     &friction = *interface.friction;
+      const FrictionState    start{interface.bonding.initial_bonding};
+      const double           end     = 1.5 * friction.kinks().back();
+      const double           initial = friction.coefficient(start, 0.).mu;
+      std::string            table   = "slip_mm,phi,mu,mu_over_initial\n";
       for (unsigned int i = 0; i <= n; ++i)
         {
-          const double slip      = end * i / n;
-          const auto coefficient = friction_coefficient(friction, phi_0, slip);
+          const double slip        = end * i / n;
+          const auto   coefficient = friction.coefficient(start, slip);
           table += csv_line({slip,
                              coefficient.phi,
                              coefficient.mu,
@@ -71,74 +52,56 @@ namespace Debond
 
 
 
-  bool
-  ProfileOutput::reaches(const double angle_deg)
+  std::vector<InterfacePoint>
+  profile_points(const ContactInterface &interface)
   {
-    bool reached = false;
-    while (!angles_to_come.empty() &&
-           std::abs(angle_deg) >= angles_to_come.front() * (1. - 1e-9))
-      {
-        angles_to_come.erase(angles_to_come.begin());
-        reached = has_points = true;
-      }
-    return reached;
-  }
-
-
-
-  void
-  ProfileOutput::write(const double            angle_deg,
-                       const ContactInterface &interface)
-  {
-    if (!reaches(angle_deg))
-      return;
+    std::vector<InterfacePoint> points;
     for (const SlavePoint &point : interface.get_points())
       if (point.faces_implant)
         {
-          const auto             coefficient = interface.friction(point);
-          const Eigen::Vector3d &X           = point.X;
-          table += csv_line({angle_deg,
-                             X[0],
-                             X[1],
-                             std::hypot(X[0], X[1]),
-                             point.trial.pressure,
-                             point.trial.tangential_traction.norm(),
-                             point.trial.state.slip,
-                             coefficient.phi,
-                             coefficient.mu,
-                             double(point.trial.state.status),
-                             point.JxW});
+          const auto coefficient = interface.friction(point);
+          points.push_back({point.X[0],
+                            point.X[1],
+                            point.trial.pressure,
+                            point.trial.tangential_traction.norm(),
+                            point.trial.state.slip,
+                            coefficient.phi,
+                            coefficient.mu,
+                            point.trial.state.status,
+                            point.JxW});
         }
+    return points;
   }
 
 
 
   void
-  ProfileOutput::write(const double angle_deg, const TorsionModel &model)
+  ProfileOutput::write(
+    const double                                        angle_deg,
+    const std::function<std::vector<InterfacePoint>()> &points)
   {
-    if (!reaches(angle_deg))
+    const auto first_to_come =
+      std::find_if(angles_to_come.begin(),
+                   angles_to_come.end(),
+                   [&](const double angle) {
+                     return std::abs(angle_deg) < angle * (1. - 1e-9);
+                   });
+    if (first_to_come == angles_to_come.begin())
       return;
-    // between the points, so that neither the axis nor the rim is hit, where
-    // the traction of a bonded disk is infinite
-    constexpr unsigned int n     = 250;
-    const double           theta = angle_deg * M_PI / 180.;
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        const double r     = model.radius() * (i + 0.5) / n;
-        const auto   point = model.point(r, theta);
-        table += csv_line(
-          {angle_deg,
-           r,
-           0.,
-           r,
-           model.pressure(),
-           std::abs(point.traction),
-           point.slip,
-           point.phi,
-           point.mu,
-           double(point.sticks ? PointStatus::stick : PointStatus::slip),
-           2. * M_PI * r * model.radius() / n});
-      }
+    angles_to_come.erase(angles_to_come.begin(), first_to_come);
+    has_points = true;
+    for (const InterfacePoint &p : points())
+      table += csv_line({angle_deg,
+                         p.x,
+                         p.y,
+                         std::hypot(p.x, p.y),
+                         p.pressure,
+                         p.traction,
+                         p.slip,
+                         p.phi,
+                         p.mu,
+                         double(p.status),
+                         p.area});
   }
 
 
@@ -151,10 +114,8 @@ namespace Debond
     write_file(directory.file("profiles.csv"), table);
     if (angles_to_come.empty())
       return "";
-    std::ostringstream warning;
-    warning << "Output / Profile angles: " << angles_to_come.front()
-            << " deg was never reached";
-    return warning.str();
+    return "Output / Profile angles: " + to_text(angles_to_come.front(), 6) +
+           " deg was never reached";
   }
 
 

@@ -1,15 +1,10 @@
-#include <debond/input/allowed_values.h>
 #include <debond/output/earlier_results.h>
 #include <debond/output/result_files.h>
 #include <debond/support/directory_lock.h>
 #include <debond/support/input_error.h>
 
-#include <deal.II/base/parameter_handler.h>
+#include <nlohmann/json.hpp>
 
-#include <cerrno>
-#include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -17,100 +12,6 @@
 
 namespace Debond
 {
-  void
-  OutputParameters::declare(dealii::ParameterHandler &prm)
-  {
-    prm.enter_subsection("Output");
-    prm.declare_entry("Directory",
-                      "output/coin",
-                      Allowed::directory(),
-                      "Directory for the results, relative to the working "
-                      "directory; created if missing. One that holds results "
-                      "of another scene is refused without --force. The name "
-                      "is taken as it is: no quotes, and no ~ or $ at its "
-                      "beginning.");
-    prm.declare_entry("Fields every",
-                      "50",
-                      Allowed::whole_number(0, std::numeric_limits<int>::max()),
-                      "Planned steps between VTU files, counted from the "
-                      "beginning of each phase, whose end is always written; "
-                      "0: no VTU files.");
-    prm.declare_entry("Reference curve",
-                      "",
-                      Allowed::optional_text("the name of a CSV file"),
-                      "CSV file with the columns angle_deg,torque_Nmm to "
-                      "compare the torque curve with; empty: none.");
-    prm.declare_entry("Reference profiles",
-                      "",
-                      Allowed::optional_text("the name of a CSV file"),
-                      "CSV file with the columns angle_deg, x_mm, y_mm, "
-                      "area_mm2, pressure_MPa and slip_mm, as profiles.csv of "
-                      "another run, to compare local values with at those of "
-                      "its angles that Profile angles has; empty: none.");
-    prm.declare_entry("Full sliding angle",
-                      "0",
-                      Allowed::number_from(0, "deg"),
-                      "Angle theta_full [deg] from which on E_fric is counted. "
-                      "0: the last angle with a torque of at least 0.999 of "
-                      "the largest.");
-    prm.declare_entry("Observed bonding",
-                      "0",
-                      Allowed::number_between(0, 1, ""),
-                      "Mean phi_0 that w_adh refers to, Eq. (21), where it was "
-                      "observed and differs from that of the scene; 0: that of "
-                      "the scene.");
-    prm.declare_entry("Profile angles",
-                      "",
-                      Allowed::numbers(0, 0, true, "deg"),
-                      "Angles [deg] at which pressure, traction, sliding "
-                      "distance and friction coefficient of all points of the "
-                      "interface are written into profiles.csv, each at the "
-                      "first planned step that reaches it; empty: none.");
-    prm.declare_entry("Friction law curve",
-                      "false",
-                      Allowed::yes_or_no(),
-                      "Write phi and mu over the sliding distance g_s into "
-                      "friction_law.csv.");
-    prm.declare_entry("Checkpoint every",
-                      "0",
-                      Allowed::whole_number(0, std::numeric_limits<int>::max()),
-                      "Planned steps between checkpoints, from which "
-                      "`debond --resume DIR' goes on with results that are "
-                      "the same to the last bit; where rows are accepted "
-                      "steps, number of rows. 0: only when SIGINT, SIGTERM or "
-                      "SIGHUP interrupts the run. For Model = finite "
-                      "elements.");
-    prm.declare_entry("Console",
-                      "steps",
-                      Allowed::choice("steps | quiet"),
-                      "`steps': lines about the steps (a hundred if very many "
-                      "are planned), progress and timings. "
-                      "`quiet': warnings and errors only.");
-    prm.leave_subsection();
-  }
-
-
-
-  void
-  OutputParameters::parse(dealii::ParameterHandler &prm)
-  {
-    prm.enter_subsection("Output");
-    directory          = prm.get("Directory");
-    fields_every       = prm.get_integer("Fields every");
-    reference_curve    = prm.get("Reference curve");
-    reference_profiles = prm.get("Reference profiles");
-    full_sliding_angle = prm.get_double("Full sliding angle");
-    observed_bonding   = prm.get_double("Observed bonding");
-    profile_angles     = to_numbers(prm.get("Profile angles"));
-    friction_law_curve = prm.get_bool("Friction law curve");
-    checkpoint_every   = prm.get_integer("Checkpoint every");
-    console =
-      prm.get("Console") == "quiet" ? ConsoleKind::quiet : ConsoleKind::steps;
-    prm.leave_subsection();
-  }
-
-
-
   DirectoryContent
   content_of_result_directory(const OutputParameters &output,
                               const std::string      &completed_parameters)
@@ -141,13 +42,13 @@ namespace Debond
                                    const std::string      &completed_parameters)
     : ResultDirectory(output.directory)
   {
-    const std::string entry = "Output / Directory = '" + output.directory + "'";
-
+    const auto refuse = [&output](const std::string &why) {
+      throw EntryError("Output / Directory", why, output.directory);
+    };
     std::error_code error;
     std::filesystem::create_directories(directory, error);
     if (error)
-      throw InputError(
-        entry + ": this directory cannot be created: " + error.message());
+      refuse("this directory cannot be created: " + error.message());
     if (!lock) // there was no directory yet
       lock = DirectoryLock::take(directory);
 
@@ -155,10 +56,9 @@ namespace Debond
       content_of_result_directory(output, completed_parameters) ==
       DirectoryContent::other_scene;
     if (is_of_other_scene && !output.overwrite_other_results)
-      throw InputError(entry +
-                       ": this directory holds results of another scene "
-                       "(compare its parameters.prm): choose another one, "
-                       "or overwrite them with --force");
+      refuse("this directory holds results of another scene (compare its "
+             "parameters.prm): choose another one, or overwrite them with "
+             "--force");
 
     try
       {
@@ -168,135 +68,28 @@ namespace Debond
       }
     catch (const std::exception &reason)
       {
-        throw InputError(entry + ": " + reason.what());
+        refuse(reason.what());
       }
   }
 
 
 
-  namespace
-  {
-    std::string
-    quoted(const std::string &text)
-    {
-      std::string result = "\"";
-      for (const char c : text)
-        if (c == '"' || c == '\\')
-          result += std::string("\\") + c;
-        else if (c == '\n')
-          result += "\\n";
-        else if (c == '\t')
-          result += "\\t";
-        else if (static_cast<unsigned char>(c) < 32)
-          {
-            char code[8];
-            std::snprintf(code, sizeof(code), "\\u%04x", c);
-            result += code;
-          }
-        else
-          result += c;
-      return result + '"';
-    }
-  } // namespace
-
-
-
   void
-  JsonObject::add(const std::string &name, const double value)
+  write_json(const std::string &filename, const nlohmann::ordered_json &json)
   {
-    if (!std::isfinite(value))
-      return add_text(name, "null");
-    std::ostringstream number;
-    number.precision(12);
-    number << value;
-    add_text(name, number.str());
+    // names of files need not be UTF-8
+    constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace;
+    write_file(filename, json.dump(2, ' ', false, replace) + "\n");
   }
 
 
 
-  void
-  JsonObject::add(const std::string &name, const std::string &value)
+  nlohmann::ordered_json
+  read_json(const std::string &filename)
   {
-    add_text(name, quoted(value));
-  }
-
-
-
-  void
-  JsonObject::add(const std::string &name, const char *const value)
-  {
-    add_text(name, quoted(value));
-  }
-
-
-
-  void
-  JsonObject::add(const std::string              &name,
-                  const std::vector<std::string> &values)
-  {
-    std::string list;
-    for (const std::string &value : values)
-      list += (list.empty() ? "" : ", ") + quoted(value);
-    add_text(name, "[" + list + "]");
-  }
-
-
-
-  void
-  JsonObject::add_text(const std::string &name, const std::string &json)
-  {
-    for (auto &[other, value] : members)
-      if (other == name)
-        {
-          value = json;
-          return;
-        }
-    members.emplace_back(name, json);
-  }
-
-
-
-  JsonObject
-  JsonObject::from_file(const std::string &filename)
-  {
-    std::ifstream file(filename);
-    if (!file)
-      throw InputError("cannot read '" + filename +
-                       "': " + std::strerror(errno));
-    JsonObject  object;
-    std::string line;
-    while (std::getline(file, line))
-      {
-        // as text() writes it: "name": value, with a comma but in the last
-        const std::size_t colon = line.find("\": ");
-        if (line.compare(0, 3, "  \"") != 0 || colon == std::string::npos)
-          continue;
-        if (line.back() == ',')
-          line.pop_back();
-        object.add_text(line.substr(3, colon - 3), line.substr(colon + 3));
-      }
-    return object;
-  }
-
-
-
-  std::string
-  JsonObject::value(const std::string &name) const
-  {
-    for (const auto &[other, value] : members)
-      if (other == name)
-        return value;
-    return "null";
-  }
-
-
-
-  std::string
-  JsonObject::text() const
-  {
-    std::string lines;
-    for (const auto &[name, value] : members)
-      lines += (lines.empty() ? "  " : ",\n  ") + quoted(name) + ": " + value;
-    return "{\n" + lines + "\n}\n";
+    std::ifstream                file(filename);
+    const nlohmann::ordered_json json =
+      nlohmann::ordered_json::parse(file, nullptr, false);
+    return json.is_object() ? json : nlohmann::ordered_json::object();
   }
 } // namespace Debond

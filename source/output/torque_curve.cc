@@ -5,96 +5,35 @@
 
 #include <deal.II/base/numbers.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <locale>
-#include <sstream>
 
 namespace Debond
 {
   namespace
   {
-    using Columns = std::vector<std::pair<std::string, double>>;
-
-    /** Names and values of a row, in the order of the file. The first eighteen
-     *  are fixed: users' scripts count on them. */
-    Columns
-    columns(const TorqueRow &row)
-    {
-      Columns           result{{"step", row.step},
-                     {"time", row.time},
-                     {"angle_deg", row.angle_deg},
-                     {"torque_Nmm", row.torque_Nmm},
-                     {"force_N", row.force_N},
-                     {"pressure_MPa", row.pressure_MPa},
-                     {"phi_mean", row.phi_mean},
-                     {"share_stick", row.share_stick},
-                     {"share_slip", row.share_slip},
-                     {"share_open", row.share_open},
-                     {"newton_iterations", row.newton_iterations},
-                     {"energy_defect", row.energy_defect}};
-      const char *const reactions[] = {"chuck_Fx_N",
-                                       "chuck_Fy_N",
-                                       "chuck_Fz_N",
-                                       "chuck_Mx_Nmm",
-                                       "chuck_My_Nmm",
-                                       "chuck_Mz_Nmm"};
-      for (unsigned int k = 0; k < 6; ++k)
-        result.emplace_back(reactions[k], row.chuck_reaction[k]);
-
-      result.insert(result.end(),
-                    {{"work_Nmm", row.work_Nmm},
-                     {"energy_bulk_Nmm", row.energy_bulk_Nmm},
-                     {"energy_interface_Nmm", row.energy_interface_Nmm},
-                     {"dissipation_Nmm", row.dissipation_Nmm},
-                     {"adhesive_work_Nmm", row.adhesive_work_Nmm},
-                     {"energy_defect_bound", row.energy_defect_bound},
-                     {"reaction_defect", row.reaction_defect}});
-      const char *const positions[] = {"chuck_ux_mm",
-                                       "chuck_uy_mm",
-                                       "chuck_uz_mm",
-                                       "chuck_rx_deg",
-                                       "chuck_ry_deg",
-                                       "chuck_rz_deg"};
-      for (unsigned int k = 0; k < 6; ++k)
-        result.emplace_back(positions[k], row.chuck_position[k]);
-      result.insert(result.end(),
-                    {{"viscous_work_Nmm", row.viscous_work_Nmm},
-                     {"warnings", row.warnings}});
-      result.emplace_back("machine_angle_deg", row.machine_angle_deg);
-      result.emplace_back("released_energy_Nmm", row.released_energy_Nmm);
-      return result;
-    }
-
-
-
     std::string
     header()
     {
-      std::string line;
-      for (const auto &column : columns(TorqueRow()))
-        line += (line.empty() ? "" : ",") + column.first;
-      return line + "\n";
+      std::vector<std::string> names;
+      TorqueRow().for_each_column(
+        [&](const std::string &name, double) { names.push_back(name); });
+      return csv_line(names);
     }
 
 
 
     std::string
-    line_of(const TorqueRow &row)
+    line_of(TorqueRow row)
     {
-      std::ostringstream line;
-      line.imbue(std::locale::classic());
-      line.precision(12);
-      bool first = true;
-      for (const auto &column : columns(row))
-        {
-          line << (first ? "" : ",") << column.second + 0.; // no "-0"
-          first = false;
-        }
-      return line.str() + "\n";
+      std::vector<double> values;
+      row.for_each_column([&](const std::string &, const double value) {
+        values.push_back(value);
+      });
+      return csv_line(values);
     }
 
 
@@ -130,19 +69,6 @@ namespace Debond
   TorqueCurveWriter::finish()
   {
     file.finish();
-  }
-
-
-
-  ReferenceCurve
-  read_reference_curve(const std::string &filename)
-  {
-    ReferenceCurve curve;
-    if (!filename.empty())
-      for (const std::vector<double> &row : read_csv_columns(
-             filename, "Output / Reference curve", {"angle_deg", "torque_Nmm"}))
-        curve.emplace_back(row[0], row[1]);
-    return curve;
   }
 
 
@@ -440,49 +366,50 @@ namespace Debond
 
 
   void
-  add_summary(const RunSummary &summary, JsonObject &json)
+  to_json(nlohmann::ordered_json &json, const RunSummary &summary)
   {
     const CurveMeasures &m = summary.measures;
-    json.add("T_max_Nmm", m.T_max_Nmm);
-    json.add("theta_max_deg", m.theta_max_deg);
-    json.add("theta_full_deg", m.theta_full_deg);
-    json.add("T_inf_Nmm", m.T_inf_Nmm);
-    json.add("pressure_MPa", m.pressure_MPa);
-    json.add("E_deb_Nm", m.E_deb_Nm);
-    json.add("E_fric_Nm", m.E_fric_Nm);
-    json.add("W_adh_Nm", m.W_adh_Nm);
-    json.add("w_adh_N_per_m", m.w_adh_N_per_m);
-    json.add("w_adh_star_N_per_m", m.w_adh_star_N_per_m);
-    json.add("D_adh_Nm", m.D_adh_Nm);
-    json.add("dissipation_Nm", m.dissipation_Nm);
-    for (const auto &[name, value] : error_measures(m))
-      if (name != "reference_rows_used") // stands further down
-        json.add(name, value);
-    json.add("steps", summary.steps);
-    json.add("newton_iterations", summary.newton_iterations);
-    json.add("dofs", summary.dofs);
-    json.add("unknowns", summary.unknowns);
-    json.add("wall_seconds", summary.wall_seconds);
-    json.add("converged", summary.converged);
-    json.add("reason", summary.reason);
-    json.add("warnings", summary.warnings);
 
-    json.add("condensed_unknowns", summary.condensed_unknowns);
-    json.add("peak_memory_MB", summary.peak_memory_MB);
-    json.add("reference_rows_used", m.reference_rows_used);
-    json.add("initial_stiffness_Nm_per_rad", m.initial_stiffness_Nm_per_rad);
-    json.add("theta_debonding_deg", m.theta_debonding_deg);
-    json.add("force_end_N", m.force_end_N);
-    json.add("work_Nm", m.work_Nm);
-    json.add("E_bulk_Nm", m.E_bulk_Nm);
-    json.add("E_interface_Nm", m.E_interface_Nm);
-    json.add("largest_energy_defect", m.largest_energy_defect);
-    json.add("largest_reaction_defect", m.largest_reaction_defect);
-    json.add("viscous_dissipation_Nm", m.viscous_dissipation_Nm);
-    json.add("smallest_step", summary.smallest_step);
+    json = {{"T_max_Nmm", m.T_max_Nmm},
+            {"theta_max_deg", m.theta_max_deg},
+            {"theta_full_deg", m.theta_full_deg},
+            {"T_inf_Nmm", m.T_inf_Nmm},
+            {"pressure_MPa", m.pressure_MPa},
+            {"E_deb_Nm", m.E_deb_Nm},
+            {"E_fric_Nm", m.E_fric_Nm},
+            {"W_adh_Nm", m.W_adh_Nm},
+            {"w_adh_N_per_m", m.w_adh_N_per_m},
+            {"w_adh_star_N_per_m", m.w_adh_star_N_per_m},
+            {"D_adh_Nm", m.D_adh_Nm},
+            {"dissipation_Nm", m.dissipation_Nm},
+            {"e_mp", m.e_mp},
+            {"e_rel", m.e_rel},
+            {"difference_max", m.difference_max},
+            {"difference_mean", m.difference_mean},
+            {"steps", summary.steps},
+            {"newton_iterations", summary.newton_iterations},
+            {"dofs", summary.dofs},
+            {"unknowns", summary.unknowns},
+            {"wall_seconds", summary.wall_seconds},
+            {"converged", summary.converged},
+            {"reason", summary.reason},
+            {"warnings", summary.warnings},
+            {"condensed_unknowns", summary.condensed_unknowns},
+            {"peak_memory_MB", summary.peak_memory_MB},
+            {"reference_rows_used", m.reference_rows_used},
+            {"initial_stiffness_Nm_per_rad", m.initial_stiffness_Nm_per_rad},
+            {"theta_debonding_deg", m.theta_debonding_deg},
+            {"force_end_N", m.force_end_N},
+            {"work_Nm", m.work_Nm},
+            {"E_bulk_Nm", m.E_bulk_Nm},
+            {"E_interface_Nm", m.E_interface_Nm},
+            {"largest_energy_defect", m.largest_energy_defect},
+            {"largest_reaction_defect", m.largest_reaction_defect},
+            {"viscous_dissipation_Nm", m.viscous_dissipation_Nm},
+            {"smallest_step", summary.smallest_step}};
     for (const auto &[name, value] : error_measures(summary.profile_measures))
-      json.add(name, value);
+      json[name] = value;
     for (const auto &[name, seconds] : summary.seconds)
-      json.add("seconds_" + with_underscores(name), seconds);
+      json["seconds_" + with_underscores(name)] = seconds;
   }
 } // namespace Debond

@@ -58,38 +58,25 @@ namespace Debond
 
 
 
-    /** What the files of control groups are called. */
-    struct ControlGroupFiles
-    {
-      const char *folder, *limit, *taken;
-      const char *prefix_of_sums; ///< over a group and those that it holds
-    };
-    constexpr ControlGroupFiles version_1 = {"memory",
-                                             "memory.limit_in_bytes",
-                                             "memory.usage_in_bytes",
-                                             "total_"};
-    constexpr ControlGroupFiles version_2 = {"",
-                                             "memory.max",
-                                             "memory.current",
-                                             ""};
-
-
-
-    /** What the limit of one control group leaves [bytes]. */
+    /** What the limit of one control group of version 1 or 2 leaves
+     *  [bytes]. */
     double
-    memory_within(const std::filesystem::path &group,
-                  const ControlGroupFiles     &files)
+    memory_within(const std::filesystem::path &group, const bool is_version_2)
     {
       double limit = 0., taken = 0.;
       // without a limit the file says `max', or is not there
-      if (!(std::ifstream(group / files.limit) >> limit) ||
-          !(std::ifstream(group / files.taken) >> taken))
+      if (!(std::ifstream(group / (is_version_2 ? "memory.max" :
+                                                  "memory.limit_in_bytes")) >>
+            limit) ||
+          !(std::ifstream(group / (is_version_2 ? "memory.current" :
+                                                  "memory.usage_in_bytes")) >>
+            taken))
         return no_limit;
-      const std::string           prefix = files.prefix_of_sums;
-      const std::filesystem::path sums   = group / "memory.stat";
-      const double cached = entry(sums, prefix + "inactive_file") +
-                            entry(sums, prefix + "active_file");
-      return std::max(0., limit - std::max(0., taken - cached));
+      // in version 1 these are sums over the groups that it holds
+      const std::string prefix = is_version_2 ? "" : "total_";
+      for (const char *const files : {"inactive_file", "active_file"})
+        taken -= entry(group / "memory.stat", prefix + files);
+      return std::max(0., limit - std::max(0., taken));
     }
   } // namespace
 
@@ -112,14 +99,13 @@ namespace Debond
         const bool is_version_2 = number == "0" && controllers.empty();
         if (!is_version_2 && controllers != "memory")
           continue;
-        const ControlGroupFiles &files = is_version_2 ? version_2 : version_1;
+        const auto top = is_version_2 ? mount : mount / "memory";
         // in a container, of these only the last may be there
         for (std::filesystem::path group = path;; group = group.parent_path())
           {
             bytes = std::min(bytes,
-                             memory_within(mount / files.folder /
-                                             group.relative_path(),
-                                           files));
+                             memory_within(top / group.relative_path(),
+                                           is_version_2));
             if (!group.has_relative_path())
               break;
           }

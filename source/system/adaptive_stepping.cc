@@ -3,31 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace Debond
 {
-  AdaptiveStepping::AdaptiveStepping(const LoadSteppingParameters &parameters,
-                                     const double                  radius)
-    : parameters(parameters)
-    , radius(radius)
-  {}
-
-
-
   void
-  AdaptiveStepping::begin_phase(const unsigned int phase,
-                                const Forces      &forces,
-                                const Forces      &drive)
+  AdaptiveStepping::begin_phase(const StepState &accepted)
   {
-    note_drive(drive);
-    time         = parameters.times[phase];
-    end          = parameters.times[phase + 1];
-    largest      = (end - time) / parameters.steps[phase];
-    current      = forces;
-    greatest     = greatest.cwiseMax(forces.cwiseAbs());
-    has_previous = false; // a new phase is not the continuation of the last one
-    set_size(largest);
+    StepControl::begin_phase(accepted);
+    note_drive(accepted.drive);
+    current  = accepted.forces;
+    greatest = greatest.cwiseMax(current.cwiseAbs());
+    set_size(planned);
   }
 
 
@@ -47,7 +33,7 @@ namespace Debond
   double
   AdaptiveStepping::smallest() const
   {
-    return parameters.smallest_step_fraction * largest;
+    return parameters.smallest_step_fraction * planned;
   }
 
 
@@ -55,7 +41,7 @@ namespace Debond
   void
   AdaptiveStepping::set_size(const double new_size)
   {
-    size       = std::clamp(new_size, smallest(), largest);
+    size       = std::clamp(new_size, smallest(), planned);
     has_middle = false;
   }
 
@@ -73,19 +59,15 @@ namespace Debond
 
 
 
-  double
-  AdaptiveStepping::middle_time() const
+  Step
+  AdaptiveStepping::next()
   {
-    return 0.5 * (time + target_time());
-  }
-
-
-
-  void
-  AdaptiveStepping::note_middle(const Forces &forces)
-  {
-    middle     = forces;
-    has_middle = true;
+    Step step;
+    step.extrapolate = has_previous;
+    step.whole_time = step.time = target_time();
+    if (!has_previous && !has_middle)
+      step.time = 0.5 * (time + step.whole_time);
+    return step;
   }
 
 
@@ -116,9 +98,9 @@ namespace Debond
 
 
   double
-  AdaptiveStepping::error(const Forces &forces, const Forces &drive)
+  AdaptiveStepping::error(const StepState &state) const
   {
-    note_drive(drive);
+    const Forces &forces = state.forces;
     if (!has_previous) // twice: the curve need not be a parabola
       return 2. *
              relative_to_tolerance(middle - 0.5 * (current + forces), forces);
@@ -136,43 +118,47 @@ namespace Debond
 
 
 
-  void
-  AdaptiveStepping::accept(const Forces &forces, const double error)
-  {
-    const double step = target_time() - time;
-    previous          = current;
-    previous_time     = time;
-    has_previous      = true;
-    current           = forces;
-    time              = target_time();
-    greatest          = greatest.cwiseMax(forces.cwiseAbs());
-    // the error goes with the square of the step; towards 0.8 of the tolerance
-    previous_error = error;
-    set_size(step *
-             std::clamp(std::sqrt(0.8 / std::max(error, 1e-12)), 0.5, 2.));
-  }
-
-
-
   bool
-  AdaptiveStepping::shrink(const double error)
+  AdaptiveStepping::take(const Step      &step,
+                         const StepState &state,
+                         const unsigned int)
   {
-    const double step = target_time() - time;
-    if (step <= smallest() * (1. + 1e-9))
-      return false;
-    set_size(step * std::clamp(std::sqrt(0.8 / error), 0.1, 0.7));
+    if (step.time != step.whole_time)
+      {
+        middle     = state.forces;
+        has_middle = true;
+        return false;
+      }
+    note_drive(state.drive);
+    const double error_now = error(state);
+    const double taken     = step.time - time;
+    if (error_now > 1. && taken > smallest() * (1. + 1e-9))
+      {
+        set_size(taken * std::clamp(std::sqrt(0.8 / error_now), 0.1, 0.7));
+        return false;
+      }
+    previous       = current;
+    previous_time  = time;
+    previous_error = error_now;
+    has_previous   = true;
+    current        = state.forces;
+    time           = step.time;
+    greatest       = greatest.cwiseMax(state.forces.cwiseAbs());
+    // the error goes with the square of the step; towards 0.8 of the tolerance
+    set_size(taken *
+             std::clamp(std::sqrt(0.8 / std::max(error_now, 1e-12)), 0.5, 2.));
     return true;
   }
 
 
 
   bool
-  AdaptiveStepping::reject()
+  AdaptiveStepping::reject(const Step &step)
   {
-    const double step = target_time() - time;
-    if (step <= smallest() * (1. + 1e-9))
+    const double tried = step.whole_time - time;
+    if (tried <= smallest() * (1. + 1e-9))
       return false;
-    set_size(0.5 * step);
+    set_size(0.5 * tried);
     return true;
   }
 } // namespace Debond

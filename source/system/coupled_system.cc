@@ -1,4 +1,5 @@
 #include <debond/interface/contact_zone.h>
+#include <debond/support/timed_section.h>
 #include <debond/system/coupled_system.h>
 
 #include <Eigen/Geometry>
@@ -9,35 +10,36 @@
 
 namespace Debond
 {
-  BodyPair::BodyPair(const Scene &scene)
-    : bone(make_body(scene.bone, Side::bone))
-    , implant(make_body(scene.implant, Side::implant))
+  BodyPair::BodyPair(const ModelParameters &parameters)
+    : bone(make_body(parameters.bone, Side::bone))
+    , implant(make_body(parameters.implant, Side::implant))
   {}
 
 
 
-  CoupledSystem::CoupledSystem(const Scene              &scene,
-                               dealii::TimerOutput      &timer,
-                               std::shared_ptr<BodyPair> bodies)
+  CoupledSystem::CoupledSystem(const ModelParameters    &parameters,
+                               std::shared_ptr<BodyPair> bodies,
+                               dealii::TimerOutput      *timer)
     : both_bodies(bodies ? std::move(bodies) :
-                           std::make_shared<BodyPair>(scene))
+                           std::make_shared<BodyPair>(parameters))
     , bone(*both_bodies->bone)
     , implant(*both_bodies->implant)
-    , chuck(scene.chuck,
-            Eigen::Vector3d(0, 0, scene.implant.thickness()),
-            scene.implant.characteristic_radius())
-    , interface(scene.interface, bone.mesh(), implant.mesh())
-    , R(scene.implant.characteristic_radius())
+    , chuck(parameters.chuck,
+            Eigen::Vector3d(0, 0, parameters.implant.thickness()),
+            parameters.implant.characteristic_radius())
+    , interface(parameters.interface, bone.mesh(), implant.mesh())
+    , R(parameters.implant.characteristic_radius())
     , timer(timer)
-    , force_floor(scene.interface.normal_penalty * interface.implant_area() *
-                  1e-6 * R)
+    , force_floor(parameters.interface.law().normal->initial_stiffness() *
+                  interface.implant_area() * 1e-6 * R)
     , matrix(bone, implant, interface, configuration, path)
   {
     configuration.chuck = &chuck;
-    path.follow         = scene.load_steps.follow_path;
+    path.follow         = parameters.load_steps.follow_path;
     for (unsigned int k = 0; k < 6; ++k)
-      path.stiffness[k] = scene.interface.normal_penalty *
-                          interface.implant_area() * std::pow(scale_of(k), 2);
+      path.stiffness[k] =
+        parameters.interface.law().normal->initial_stiffness() *
+        interface.implant_area() * std::pow(scale_of(k), 2);
   }
 
 
@@ -89,10 +91,10 @@ namespace Debond
     chuck.place(time);
     update_configuration();
     {
-      const dealii::TimerOutput::Scope t(timer, "contact");
+      const TimedSection t(timer, "contact");
       interface.initialise(configuration);
     }
-    const dealii::TimerOutput::Scope t(timer, "condensation");
+    const TimedSection t(timer, "condensation");
     bone.set_contact_control_points(bone_control_points_under_implant(
       bone.surface(), implant.surface(), configuration));
     implant.set_contact_control_points(
@@ -125,7 +127,7 @@ namespace Debond
                                         configuration);
     for (unsigned int A = 0; A < wanted.size(); ++A)
       wanted[A] = wanted[A] || under[A];
-    const dealii::TimerOutput::Scope t(timer, "condensation");
+    const TimedSection t(timer, "condensation");
     bone.set_contact_control_points(wanted);
     number_unknowns();
     return true;
@@ -141,7 +143,7 @@ namespace Debond
       return false;
     if (!interface.has_open_points())
       return false;
-    const dealii::TimerOutput::Scope t(timer, "bulk");
+    const TimedSection t(timer, "bulk");
     bone.complete_surface();
     implant.complete_surface();
     return true;
@@ -200,7 +202,7 @@ namespace Debond
   CoupledSystem::commit(const double parameter)
   {
     {
-      const dealii::TimerOutput::Scope t(timer, "bulk");
+      const TimedSection t(timer, "bulk");
       // closed points face contact unknowns only
       const bool surface_is_seen = interface.has_open_points();
       bone.commit(parameter, surface_is_seen);
@@ -208,9 +210,8 @@ namespace Debond
     }
     chuck.commit(parameter);
     update_configuration();
-    const dealii::TimerOutput::Scope t(timer, "contact");
-    if (path.follow)
-      path.old_slip = interface.mean_slip(configuration).value;
+    const TimedSection t(timer, "contact");
+    path.old_slip = mean_slip();
     interface.commit(configuration);
   }
 
@@ -234,14 +235,26 @@ namespace Debond
 
 
 
+  // The residual at the trial state. For each body, in its frame,
+  //
+  //   r_c = S v_c + Q^T f                           if it is linear,
+  //   r_c = R_c + Q^T f - K_ci K_ii^-1 R_i          if it is Neo-Hookean,
+  //
+  // with the contact forces f of Eqs. (28) and (36) on its control points, and
+  // for each component of the chuck that is not prescribed
+  //
+  //   r_k = sum_A f_A . dx_A/dq_k - load_k.
   CoupledSystem::Residual
   CoupledSystem::evaluate(const ContactPointMode &mode)
   {
     Residual result;
+    // Contact first: f depends on where the surfaces are. It may reach control
+    // points that were no unknowns yet; then the system grows, and f is
+    // evaluated again.
     do
       {
         update_configuration();
-        const dealii::TimerOutput::Scope t(timer, "contact");
+        const TimedSection t(timer, "contact");
         if (!interface.evaluate(configuration, mode))
           {
             result.why = interface.describe_failure();
@@ -250,49 +263,33 @@ namespace Debond
       }
     while (extend_contact_unknowns() || complete_surfaces());
 
-    const dealii::TimerOutput::Scope t(timer, "bulk");
-    double                           norm_squared = 0., interior_squared = 0.;
-    unsigned int                     first = 0;
+    const TimedSection t(timer, "bulk");
+    double             norm_squared = 0., interior_squared = 0.;
+    unsigned int       first = 0;
     for (const Side side : both_sides)
       {
-        Body *const     body = (side == Side::bone ? &bone : &implant);
+        const Body     &body = (side == Side::bone ? bone : implant);
         Body::Residual &part = bulk_residual[side];
-        part = body->residual(configuration.side[side].frame.transpose() *
-                              interface.force(side));
+        // Q^T turns the forces into the body's frame
+        part = body.residual(configuration.side[side].frame.transpose() *
+                             interface.force(side));
         if (!part.valid)
           {
             result.why = std::string("a cell of the ") + name_of(side) +
                          " is turned inside out";
             return result;
           }
-        residual.segment(first, body->n_unknowns()) = part.condensed;
+        residual.segment(first, body.n_unknowns()) = part.condensed;
         norm_squared += part.norm_squared;
         interior_squared += part.interior_squared;
-        first += body->n_unknowns();
+        first += body.n_unknowns();
       }
 
+    // A residual is small compared with the contact force, or, where bodies
+    // barely touch, with that of a penetration of 1e-6 R.
     const double force = interface.force(interface.slave_side()).norm();
     result.reference   = std::max(force_floor, force);
-    const Chuck::Vector6 forces = chuck_forces();
-    for (const auto &[component, number] : configuration.chuck_unknowns)
-      {
-        if (chuck.is_prescribed(component))
-          {
-            residual[number] = 0.; // q_k is set with the time
-            continue;
-          }
-        const double load = chuck.machine_load(component);
-        residual[number]  = forces[component] - load;
-        norm_squared += std::pow(residual[number] / scale_of(component), 2);
-        result.reference =
-          std::max(result.reference, std::abs(load) / scale_of(component));
-      }
-    if (path.follow)
-      {
-        residual[path.number] =
-          path.evaluate(interface, configuration, trial_time, result.reference);
-        norm_squared += std::pow(residual[path.number], 2);
-      }
+    norm_squared += evaluate_chuck(result.reference);
     result.norm  = std::sqrt(norm_squared);
     result.valid = std::isfinite(result.norm) && std::isfinite(force);
     if (!result.valid)
@@ -300,6 +297,35 @@ namespace Debond
     result.interior_share =
       norm_squared > 0. ? interior_squared / norm_squared : 0.;
     return result;
+  }
+
+
+
+  // The rows of the chuck and of the time. Moments count as forces at the
+  // distance R. Returns the square of their norm, and raises the reference to
+  // the largest load.
+  double
+  CoupledSystem::evaluate_chuck(double &reference)
+  {
+    double               norm_squared = 0.;
+    const Chuck::Vector6 forces       = chuck_forces();
+    for (const auto &[component, number] : configuration.chuck_unknowns)
+      if (chuck.is_prescribed(component))
+        residual[number] = 0.; // along a path q_k is set with the time
+      else
+        {
+          const double load = chuck.machine_load(component);
+          residual[number]  = forces[component] - load;
+          norm_squared += std::pow(residual[number] / scale_of(component), 2);
+          reference = std::max(reference, std::abs(load) / scale_of(component));
+        }
+    if (path.follow)
+      {
+        residual[path.number] =
+          path.evaluate(interface, configuration, trial_time, reference);
+        norm_squared += std::pow(residual[path.number], 2);
+      }
+    return norm_squared;
   }
 
 
@@ -315,12 +341,13 @@ namespace Debond
 
 
 
-  std::string
+  // One Newton correction: (S + Q^T (df/dx) Q) dv = r, and v - dv.
+  std::optional<std::string>
   CoupledSystem::solve_and_correct(const double relative_tolerance)
   {
     Eigen::VectorXd &correction = last_correction;
     {
-      const dealii::TimerOutput::Scope t(timer, "dense solve");
+      const TimedSection t(timer, "dense solve");
       correction = solver.solve(matrix, residual, relative_tolerance);
     }
     if (!correction.allFinite())
@@ -338,10 +365,10 @@ namespace Debond
           return std::string("the loaded chuck component ") +
                  ChuckParameters::names[component] + " meets no resistance";
         }
-    const dealii::TimerOutput::Scope t(timer, "bulk");
+    const TimedSection t(timer, "bulk");
     correct_bodies(-correction);
     correct_chuck(-1.);
-    return "";
+    return std::nullopt;
   }
 
 
@@ -385,7 +412,7 @@ namespace Debond
   bool
   CoupledSystem::refactor_bulk()
   {
-    const dealii::TimerOutput::Scope t(timer, "condensation");
+    const TimedSection t(timer, "condensation");
     solver.forget();
     return bone.refactor() && implant.refactor();
   }

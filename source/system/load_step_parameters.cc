@@ -1,119 +1,155 @@
-#include <debond/input/allowed_values.h>
+#include <debond/input/entry_table.h>
+#include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
 #include <debond/system/load_step_parameters.h>
 
-#include <deal.II/base/parameter_handler.h>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace Debond
 {
   void
-  LoadSteppingParameters::declare(dealii::ParameterHandler &prm)
+  LoadSteppingParameters::declare(EntryTable &table)
   {
-    prm.enter_subsection("Load steps");
-    prm.declare_entry("Times",
-                      "0, 1, 2",
-                      Allowed::numbers(2, 0, false, "time"),
-                      "First time and the ends of the phases, increasing. Time "
-                      "is a mere parameter of the load: nothing has inertia.");
-    prm.declare_entry(
+    table.enter_subsection("Load steps");
+    table.add("Times",
+              times,
+              Allowed::list(Allowed::number_between(-1e100, 1e100, "time"),
+                            2,
+                            0),
+              "First time and the ends of the phases, increasing. Time is a "
+              "mere parameter of the load: nothing has inertia.");
+    table.add(
       "Steps",
-      "1, 1000",
-      Allowed::whole_numbers(1, 0),
-      "Number of planned steps in each phase: one number less "
-      "than Times. With Adaptive this sets the largest step. A step that "
-      "turns the chuck by more than 5 degrees is divided: "
-      "sliding points are pulled along the chords of their "
-      "ways.");
-    prm.declare_entry("Adaptive",
-                      "false",
-                      Allowed::yes_or_no(),
-                      "Let the program choose the steps of each phase, at most "
-                      "as large as the planned ones, such that torque and "
-                      "forces drawn as straight lines between the rows keep "
-                      "the Tolerance, relative to the largest value of each "
-                      "(where the machine holds still to a tenth of the "
-                      "largest of all, if that is more); each accepted step "
-                      "is a row. The error in time of Interface / Viscosity is "
-                      "not covered. A step that does not converge is halved in "
-                      "any case.");
-    prm.declare_entry("Tolerance",
-                      "1e-3",
-                      Allowed::number_between(1e-7, 1, ""),
-                      "Relative accuracy wanted of the torque curve. With "
-                      "Adaptive that of drawing it as straight lines between "
-                      "the steps; with Model = auto the largest difference, "
-                      "relative to the largest torque, from the curve of the "
-                      "scene's bodies on a converged mesh. Else not used.");
-    prm.declare_entry("Path following",
-                      "none",
-                      Allowed::choice("none | slip"),
-                      "`none': the program goes through the planned steps of "
-                      "the time, and jumps where the path of equilibrium snaps "
-                      "back. `slip': it follows that path by prescribing the "
-                      "mean sliding distance, while the time, and with it "
-                      "everything the chuck prescribes, is found and may fall; "
-                      "each accepted step is a row. While everything sticks "
-                      "planned steps are taken.");
-    prm.declare_entry("Largest slip step",
-                      "0",
-                      Allowed::number_from(0, "mm"),
-                      "With Path following: largest step of the sliding "
-                      "distance, averaged over the contact face [mm]. 0: a "
-                      "twentieth of the distance over which friction falls, 2 "
-                      "a_s b_s, or of a_s if that is less.");
-    prm.declare_entry("Path ends at slip",
-                      "0",
-                      Allowed::number_from(0, "mm"),
-                      "With Path following: the run ends when the mean sliding "
-                      "distance reaches this [mm], if not at the last time. 0: "
-                      "the radius of the implant. A moment larger than the "
-                      "interface can carry has no last time: the implant would "
-                      "turn for ever.");
-    prm.declare_entry("Smallest step fraction",
-                      "1e-4",
-                      Allowed::number_between_excluding_lower(0, 1, ""),
-                      "Smallest step as a fraction of a planned step; if a "
-                      "smaller one were needed the run stops with an error.");
-    prm.declare_entry("Residual tolerance",
-                      "1e-8",
-                      Allowed::number_between(1e-14, 0.1, ""),
-                      "A step has converged when the residual is below this "
-                      "fraction of the contact force.");
-    prm.declare_entry(
+      steps,
+      Allowed::list(Allowed::whole_number(1, 10000000), 1, 0),
+      "Number of planned steps in each phase: one number less than Times. With "
+      "Adaptive this sets the largest step. A step that turns the chuck by "
+      "more than 5 degrees is divided: sliding points are pulled along the "
+      "chords of their ways.");
+    table.add("Adaptive",
+              adaptive,
+              Allowed::yes_or_no(),
+              "Let the program choose the steps of each phase, at most as "
+              "large as the planned ones, such that torque and forces drawn as "
+              "straight lines between the rows keep the Tolerance, relative to "
+              "the largest value of each (where the machine holds still to a "
+              "tenth of the largest of all, if that is more); each accepted "
+              "step is a row. The error in time of Interface / Viscosity is "
+              "not covered. A step that does not converge is halved in any "
+              "case.");
+    table.add("Tolerance",
+              tolerance,
+              Allowed::number_between(1e-7, 1, ""),
+              "Relative accuracy wanted of the torque curve. With Adaptive "
+              "that of drawing it as straight lines between the steps; with "
+              "Model = auto the largest difference, relative to the largest "
+              "torque, from the curve of the scene's bodies on a converged "
+              "mesh. Else not used.");
+    table.add("Path following",
+              follow_path,
+              Allowed::choice("none | slip"),
+              "`none': the program goes through the planned steps of the time, "
+              "and jumps where the path of equilibrium snaps back. `slip': it "
+              "follows that path by prescribing the mean sliding distance, "
+              "while the time, and with it everything the chuck prescribes, is "
+              "found and may fall; each accepted step is a row. While "
+              "everything sticks planned steps are taken.");
+    table.add("Largest slip step",
+              largest_slip_step,
+              Allowed::number_from(0, "mm"),
+              "With Path following: largest step of the sliding distance, "
+              "averaged over the contact face [mm]. 0: a twentieth of the "
+              "distance over which friction falls, 2 a_s b_s, or of a_s if "
+              "that is less.");
+    table.add("Path ends at slip",
+              path_ends_at_slip,
+              Allowed::number_from(0, "mm"),
+              "With Path following: the run ends when the mean sliding "
+              "distance reaches this [mm], if not at the last time. 0: the "
+              "radius of the implant. A moment larger than the interface can "
+              "carry has no last time: the implant would turn for ever.");
+    table.add("Smallest step fraction",
+              smallest_step_fraction,
+              Allowed::number_between(1e-15, 1, ""),
+              "Smallest step as a fraction of a planned step; if a smaller one "
+              "were needed the run stops with an error.");
+    table.add("Residual tolerance",
+              residual_tolerance,
+              Allowed::number_between(1e-14, 0.1, ""),
+              "A step has converged when the residual is below this fraction "
+              "of the contact force.");
+    table.add(
       "Predictor",
-      "extrapolate",
+      predictor,
       Allowed::choice("extrapolate | stick first | rigid | none"),
       "What the first iteration of a step starts from. `extrapolate': the "
       "straight line through the last two states where there is one in this "
       "phase; else, and if that fails, as `stick first'. The others are there "
       "to be compared with, and a step that fails with them is halved at once. "
-      "`stick first': the last state with the chuck moved, so that the "
-      "implant goes along as it is; closed points stick in the first "
-      "iteration. `rigid': the same, but every point sticks or slides as it "
-      "must from the first iteration on. `none': the implant's deformable "
-      "contact face stays where it is in space.");
-    prm.leave_subsection();
+      "`stick first': the last state with the chuck moved, so that the implant "
+      "goes along as it is; closed points stick in the first iteration. "
+      "`rigid': the same, but every point sticks or slides as it must from the "
+      "first iteration on. `none': the implant's deformable contact face stays "
+      "where it is in space.");
+    table.leave_subsection();
   }
 
 
 
   void
-  LoadSteppingParameters::parse(dealii::ParameterHandler &prm)
+  LoadSteppingParameters::check() const
   {
-    prm.enter_subsection("Load steps");
-    times                  = to_numbers(prm.get("Times"));
-    steps                  = to_whole_numbers(prm.get("Steps"));
-    smallest_step_fraction = prm.get_double("Smallest step fraction");
-    residual_tolerance     = prm.get_double("Residual tolerance");
-    adaptive               = prm.get_bool("Adaptive");
-    tolerance              = prm.get_double("Tolerance");
-    const std::string name = prm.get("Predictor");
-    predictor              = name == "stick first" ? Predictor::stick_first :
-                             name == "rigid"       ? Predictor::rigid :
-                             name == "none"        ? Predictor::none :
-                                                     Predictor::extrapolate;
-    follow_path            = prm.get("Path following") == "slip";
-    largest_slip_step      = prm.get_double("Largest slip step");
-    path_ends_at_slip      = prm.get_double("Path ends at slip");
-    prm.leave_subsection();
+    for (std::size_t i = 1; i < times.size(); ++i)
+      if (!(times[i] > times[i - 1]))
+        throw EntryError("Load steps / Times",
+                         to_text(times[i]) + " after " + to_text(times[i - 1]) +
+                           ": times must increase");
+    if (steps.size() + 1 != times.size())
+      throw EntryError("Load steps / Steps",
+                       "one number fewer than in Times is expected: " +
+                         std::to_string(times.size() - 1) + ", not " +
+                         std::to_string(steps.size()));
+    const double n_steps = std::accumulate(steps.begin(), steps.end(), 0.);
+    if (n_steps > 1e7)
+      throw EntryError("Load steps / Steps",
+                       to_text(n_steps) +
+                         " steps are more than the 1e7 allowed");
+    for (std::size_t i = 1; i < times.size(); ++i)
+      if ((times[i] - times[i - 1]) / steps[i - 1] <
+          1e-9 * std::max(std::abs(times[i]), std::abs(times[i - 1])))
+        throw EntryError(
+          "Load steps / Times",
+          std::to_string(steps[i - 1]) + " steps from " +
+            to_text(times[i - 1], 17) + " to " + to_text(times[i], 17) +
+            " are too small to tell their times apart: let the times begin at "
+            "0");
+    if (adaptive && follow_path)
+      throw EntryError("Load steps / Path following",
+                       "it chooses its steps itself: expected Load steps / "
+                       "Adaptive = false");
+  }
+
+
+
+  std::vector<double>
+  LoadSteppingParameters::sample_times() const
+  {
+    constexpr unsigned int largest_number = 1000;
+    const unsigned int     n_phases       = steps.size();
+    const unsigned int     largest_in_phase =
+      std::max(1U, largest_number / n_phases);
+
+    std::vector<double> samples{times[0]};
+    for (unsigned int phase = 0; phase < n_phases; ++phase)
+      {
+        const double       begin = times[phase], end = times[phase + 1];
+        const unsigned int n = std::min(steps[phase], largest_in_phase);
+        for (unsigned int i = 1; i < n; ++i)
+          samples.push_back(begin + (end - begin) * i / n);
+        samples.push_back(end);
+      }
+    return samples;
   }
 } // namespace Debond

@@ -66,44 +66,4 @@ namespace Debond
   {
     return step <= 1 || phase(step) != phase(step - 1);
   }
-
-
-
-  void
-  LoadStepping::begin(const unsigned int step)
-  {
-    current = step;
-    done    = 0.;
-  }
-
-
-
-  double
-  LoadStepping::target_time() const
-  {
-    if (done + size == 1.)
-      return time(current);
-    return time(current - 1) +
-           (time(current) - time(current - 1)) * (done + size);
-  }
-
-
-
-  void
-  LoadStepping::accept()
-  {
-    done += size;
-    // twice as large if the step then still ends on its grid
-    if (size < 1. && std::fmod(done, 2. * size) == 0.)
-      size *= 2.;
-  }
-
-
-
-  bool
-  LoadStepping::reject()
-  {
-    size *= 0.5;
-    return size >= parameters.smallest_step_fraction;
-  }
 } // namespace Debond

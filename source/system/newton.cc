@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 namespace Debond
@@ -44,6 +45,20 @@ namespace Debond
       const double before =
         *std::min_element(history.begin(), history.end() - 8);
       return recent > 0.5 * before;
+    }
+
+
+
+    std::string
+    describe_failure(const CoupledSystem &system,
+                     const unsigned int   iterations,
+                     const double         error)
+    {
+      std::ostringstream why;
+      why << "no convergence in " << iterations
+          << " iterations, relative residual " << error << ", largest "
+          << system.describe_worst_point();
+      return why.str();
     }
 
 
@@ -113,9 +128,9 @@ namespace Debond
 
 
 
-    // Solves for a correction and applies it. Returns why that was impossible,
-    // or an empty text.
-    std::string
+    // Solves for a correction and applies it. Returns why, if that is
+    // impossible.
+    std::optional<std::string>
     correct(CoupledSystem                 &system,
             const NewtonOptions           &options,
             const ContactPointMode        &mode,
@@ -148,6 +163,8 @@ namespace Debond
     double      last_norm     = 0.;
     for (unsigned int iteration = 0; true; ++iteration)
       {
+        // The residual r = S v_c + Q^T f(v_c) of the state that the last
+        // correction led to.
         const ContactPointMode mode     = mode_of(options, iteration);
         const auto             residual = cautious_from > 0 ?
                                             evaluate_shortened(system, mode, last_norm) :
@@ -160,6 +177,7 @@ namespace Debond
         const double error = residual.norm / residual.reference;
         last_norm          = residual.norm;
         result.history.push_back(error);
+        // Converged, unless points were held that the law might let go.
         if (error <= options.residual_tolerance)
           {
             if (mode.stick_first)
@@ -167,24 +185,28 @@ namespace Debond
             result.converged = true;
             return result;
           }
+        // Give up early: the step is tried in another way, or halved.
         if (iteration == options.max_iterations ||
             hopeless(
               {result.history.begin() + cautious_from, result.history.end()}))
           {
-            std::ostringstream why;
-            why << "no convergence in " << iteration
-                << " iterations, relative residual " << error << ", largest "
-                << system.describe_worst_point();
-            result.why = why.str();
+            result.why = describe_failure(system, iteration, error);
             return result;
           }
+        // The tangent is exact, but only for the present state of each point.
+        // Where points go round between stick and slip, full corrections lead
+        // nowhere.
         if (!mode.stick_first && cautious_from == 0 &&
             options.shorten_in_cycles &&
             cycle_detector.sees_cycle(system.interface.statuses(), error))
           cautious_from = iteration;
-        result.why = correct(system, options, mode, residual, result.history);
-        if (!result.why.empty())
-          return result;
+        // (S + Q^T (df/dx) Q) dv = -r
+        if (const auto failure =
+              correct(system, options, mode, residual, result.history))
+          {
+            result.why = *failure;
+            return result;
+          }
         ++result.iterations;
       }
   }

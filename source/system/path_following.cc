@@ -1,69 +1,52 @@
 #include <debond/system/path_following.h>
 
 #include <algorithm>
-#include <cmath>
+#include <sstream>
 
 namespace Debond
 {
-  namespace
-  {
-    double
-    largest_slip_step(const Scene &scene)
-    {
-      const FrictionParameters &friction = scene.interface.friction;
-      return scene.load_steps.largest_slip_step > 0. ?
-               scene.load_steps.largest_slip_step :
-               friction.sliding_threshold *
-                 std::min(1., 2. * friction.transition_factor) / 20.;
-    }
-  } // namespace
-
-
-
-  PathFollowing::PathFollowing(const Scene &scene)
-    : parameters(scene.load_steps)
-    , largest_slip(largest_slip_step(scene))
-    , end_slip(parameters.path_ends_at_slip > 0. ?
-                 parameters.path_ends_at_slip :
-                 scene.implant.characteristic_radius())
+  PathFollowing::PathFollowing(const LoadSteppingParameters &parameters,
+                               const double                  largest_slip,
+                               const double                  end_slip)
+    : StepControl(parameters)
+    , largest_slip(largest_slip)
+    , end_slip(end_slip)
   {}
 
 
 
   void
-  PathFollowing::begin_phase(const unsigned int phase, const double slip)
+  PathFollowing::begin_phase(const StepState &accepted)
   {
-    time        = parameters.times[phase];
-    end         = parameters.times[phase + 1];
-    planned     = (end - time) / parameters.steps[phase];
-    mean_slip   = slip;
+    StepControl::begin_phase(accepted);
+    mean_slip   = accepted.mean_slip;
     slip_size   = largest_slip;
     time_size   = planned;
-    has_last    = false;
     goes_to_end = slip_failed = time_failed = false;
   }
 
 
 
-  PathFollowing::Step
-  PathFollowing::next() const
+  Step
+  PathFollowing::next()
   {
     Step step;
-    step.extrapolate = has_last;
-    if (has_last && last_slip_step > 0. && !goes_to_end)
+    step.extrapolate = has_previous;
+    if (has_previous && last_slip_step > 0. && !goes_to_end)
       {
         // no further than a straight line can be trusted, or a planned step
         step.ratio = std::min(slip_size / last_slip_step, 2.);
         if (last_time_step > 0.)
           step.ratio = std::min(step.ratio, planned / last_time_step);
-        step.slip    = step.ratio * last_slip_step;
-        step.time    = time + step.ratio * last_time_step;
-        step.by_slip = time_failed || prefers_slip(step);
-        if (step.by_slip)
+        step.slip = step.ratio * last_slip_step;
+        step.time = time + step.ratio * last_time_step;
+        if (time_failed || prefers_slip(step))
           return step;
       }
+    step.slip  = 0.;
     step.time  = end - time < time_size * (1. + 1e-9) ? end : time + time_size;
     step.ratio = last_time_step > 0. ? (step.time - time) / last_time_step : 0.;
+    step.whole_time = step.time;
     return step;
   }
 
@@ -80,13 +63,12 @@ namespace Debond
 
 
   bool
-  PathFollowing::accept(const Step        &step,
-                        const double       new_time,
-                        const double       new_mean_slip,
-                        const unsigned int iterations)
+  PathFollowing::take(const Step        &step,
+                      const StepState   &state,
+                      const unsigned int iterations)
   {
-    const double slipped = new_mean_slip - mean_slip;
-    if (step.by_slip && new_time > end)
+    const double slipped = state.mean_slip - mean_slip;
+    if (step.by_slip() && state.time > end)
       {
         slip_size = 0.5 * step.slip;
         // else the end is beyond a limit point
@@ -95,16 +77,16 @@ namespace Debond
           slip_size < parameters.smallest_step_fraction * largest_slip;
         return false;
       }
-    if (!step.by_slip && slipped > largest_slip * (1. + 1e-6) &&
+    if (!step.by_slip() && slipped > largest_slip * (1. + 1e-6) &&
         reject_time(step))
       return false;
-    has_last    = true;
+    has_previous = true;
     goes_to_end = slip_failed = time_failed = false;
-    last_time_step                          = new_time - time;
+    last_time_step                          = state.time - time;
     last_slip_step                          = slipped;
-    time                                    = new_time;
-    mean_slip                               = new_mean_slip;
-    if (!step.by_slip)
+    time                                    = state.time;
+    mean_slip                               = state.mean_slip;
+    if (!step.by_slip())
       time_size = std::min(planned, 2. * time_size);
     else
       {
@@ -120,7 +102,7 @@ namespace Debond
   bool
   PathFollowing::reject(const Step &step)
   {
-    if (!step.by_slip)
+    if (!step.by_slip())
       return reject_time(step);
     slip_failed = true;
     time_failed = false;
@@ -136,8 +118,21 @@ namespace Debond
   PathFollowing::reject_time(const Step &step)
   {
     goes_to_end = false;
-    time_failed = has_last && last_slip_step > 0.;
+    time_failed = has_previous && last_slip_step > 0.;
     time_size   = 0.5 * (step.time - time);
     return time_size >= 0.5 * parameters.smallest_step_fraction * planned;
+  }
+
+
+
+  std::string
+  PathFollowing::reason_to_end() const
+  {
+    if (!has_ended())
+      return StepControl::reason_to_end();
+    std::ostringstream reason;
+    reason << "the mean sliding distance has reached " << end_slip
+           << " mm (Load steps / Path ends at slip) at time " << time;
+    return reason.str();
   }
 } // namespace Debond

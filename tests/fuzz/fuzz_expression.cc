@@ -15,8 +15,8 @@ LLVMFuzzerTestOneInput(const std::uint8_t *data, const std::size_t size)
       value(t);
   });
   must_read_or_refuse([&expression]() {
-    Debond::make_parser<3>("x,y,r,angle", expression, 2.5)
-      ->value(dealii::Point<3>(0.3, -0.4, 0.5));
+    Debond::read_expression("x,y,r,angle", expression, 2.5)(
+      {0.3, -0.4, 0.5, -53.});
   });
   return 0;
 }

@@ -14,9 +14,12 @@ namespace
   {
     for (const Debond::SceneEntry &entry : entries)
       if (entry.name == "Cells" || entry.name == "Steps")
-        for (const double number : Debond::to_numbers(entry.value))
-          if (number > 100.)
-            return false;
+        for (const std::string &item : Debond::split_list(entry.value))
+          {
+            double number = 0.;
+            if (Debond::read_number(item, number) && number > 100.)
+              return false;
+          }
     return true;
   }
 

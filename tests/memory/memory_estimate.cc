@@ -5,7 +5,6 @@
 // the process, so each case needs more than the one before.
 
 #include <debond/models/memory_estimate.h>
-#include <debond/models/problem.h>
 #include <debond/support/available_memory.h>
 
 #include <sys/resource.h>

@@ -20,7 +20,7 @@
 // Results go to the directory. Prints the judgements and, as the last line, the
 // row of doc/stability.md. Exit code 0 if the outcome is the expected one.
 
-#include <debond/models/problem.h>
+#include <debond/campaigns/run_scene.h>
 #include <debond/scene/scene.h>
 #include <debond/support/input_error.h>
 #include <debond/support/runtime.h>
@@ -139,7 +139,7 @@ namespace
                                  overrides),
           scene_file);
         scene.output.overwrite_other_results = true;
-        Debond::Problem::create(scene)->run();
+        Debond::run_scene(scene);
       }
     catch (const Debond::InputError &error)
       {

@@ -10,9 +10,9 @@
 //   check_scene SCENE.prm DIRECTORY    results go there; exit code 0 only if
 //                                      all expectations are met
 
+#include <debond/campaigns/run_scene.h>
 #include <debond/campaigns/study.h>
 #include <debond/input/parameter_loop.h>
-#include <debond/models/problem.h>
 #include <debond/scene/scene.h>
 #include <debond/support/runtime.h>
 
@@ -69,7 +69,7 @@ namespace
 
     Debond::Scene scene = Debond::Scene::from_entries(entries, scene_file);
     scene.output.overwrite_other_results = true;
-    Debond::Problem::create(scene)->run();
+    Debond::run_scene(scene);
     return {read_results(scene.output.directory)};
   }
 

@@ -2,20 +2,17 @@
 #define debond_bulk_body_parameters_h
 
 #include <array>
-#include <vector>
-
-namespace dealii
-{
-  class ParameterHandler;
-}
+#include <string>
 
 namespace Debond
 {
+  class EntryTable;
+
   enum class BodyShape
   {
-    block,
     coin,
-    cap
+    cap,
+    block
   };
   enum class Material
   {
@@ -29,7 +26,8 @@ namespace Debond
     bilinear
   };
 
-  /** The subsections `Bone` and `Implant` of a scene. */
+  /** The subsections `Bone` and `Implant` of a scene; the defaults are those of
+   *  the bone. */
   struct BodyParameters
   {
     BodyShape             shape = BodyShape::block;
@@ -37,8 +35,8 @@ namespace Debond
     double                radius     = 2.5;      ///< coin, cap [mm]
     double                height     = 3;        ///< coin, cap: axis [mm]
     double                cap_radius = 50;       ///< of the sphere [mm]
-    /** Number of cells in x, y, z; z along the axis (`Cells = n, m` of a coin
-     *  or a cap becomes n, n, m). */
+    /** Number of cells in x, y, z; z along the axis (`Cells = n, m` becomes
+     *  n, n, m). */
     std::array<unsigned int, 3> cells{{15, 15, 2}};
     double                      lateral_grading = 1; ///< block
     double                      layer_grading   = 1;
@@ -64,14 +62,23 @@ namespace Debond
     double
     characteristic_radius() const;
 
-    static void
-    declare_bone(dealii::ParameterHandler &prm);
-    static void
-    declare_implant(dealii::ParameterHandler &prm);
+    /** Refuses what makes no sense together. Throws EntryError; @p section is
+     *  "Bone" or "Implant". */
     void
-    parse_bone(dealii::ParameterHandler &prm);
+    check(const std::string &section) const;
+
+    /** What a scene has that says nothing of the implant. */
+    static BodyParameters
+    default_implant();
+
     void
-    parse_implant(dealii::ParameterHandler &prm);
+    declare_bone(EntryTable &table);
+    void
+    declare_implant(EntryTable &table);
+
+  private:
+    void
+    declare_material(EntryTable &table);
   };
 } // namespace Debond
 #endif

@@ -7,16 +7,14 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace Debond
 {
+  class EntryTable;
+
   namespace Names
   {
     /** In a class of its own: found as ChuckComponent::rotation_z only. */
@@ -52,6 +50,16 @@ namespace Debond
     /** Expression in t (constants pi, R). Units: mm, degrees, N, N mm. */
     std::string value     = "0";
     double      stiffness = 0; ///< of the machine [N/mm or N mm/rad]; 0: rigid
+    /** Of time, in the same units: if it is set, it counts instead of the
+     *  expression. For scenes that a program makes; no entry of a file. */
+    std::function<double(double)> function;
+
+    /** The function that counts; @p radius is the `R` of expressions [mm]. */
+    TimeFunction
+    value_over_time(double radius) const
+    {
+      return function ? TimeFunction(function) : TimeFunction(value, radius);
+    }
   };
 
   /** The subsection `Chuck`: Translation x, y, z, Rotation x, y, z. */
@@ -63,10 +71,12 @@ namespace Debond
 
     std::array<ChuckComponentParameters, n_components> component;
 
-    static void
-    declare(dealii::ParameterHandler &prm);
+    /** "Chuck / Rotation z / Value" and the like. */
+    static std::string
+    entry_name(unsigned int component, const std::string &entry);
+
     void
-    parse(dealii::ParameterHandler &prm);
+    declare(EntryTable &table);
   };
 
   /**

@@ -4,7 +4,8 @@
 #include <debond/output/torque_curve.h>
 #include <debond/support/sample_statistics.h>
 
-#include <map>
+#include <nlohmann/json.hpp>
+
 #include <string>
 #include <vector>
 
@@ -16,10 +17,10 @@ namespace Debond
   {
     /** Values of the varied entries other than the one that stands for chance.
      */
-    std::vector<std::string>      values;
-    bool                          converged = false;
-    std::map<std::string, double> summary; ///< numbers of its summary.json
-    ReferenceCurve                curve;   ///< rows of its torque.csv
+    std::vector<std::string> values;
+    bool                     converged = false;
+    nlohmann::ordered_json   summary; ///< its summary.json
+    ReferenceCurve           curve;   ///< rows of its torque.csv
   };
 
   /**
@@ -46,41 +47,17 @@ namespace Debond
 
   /** The statistics of all groups, in the order of their first members, as the
    *  texts of the files that doc/results.md describes. */
-  class Ensemble
+  struct Ensemble
   {
-  public:
     /** @p entries: full names of the varied entries that EnsembleMember::values
      *  belong to. */
     Ensemble(const std::vector<std::string>    &entries,
              const std::vector<EnsembleMember> &members);
 
-    /** ensemble.csv: the torque band of each group. */
-    const std::string &
-    curves() const
-    {
-      return curve_table;
-    }
-    /** ensemble_summary.csv: a row for each group. */
-    const std::string &
-    summary() const
-    {
-      return summary_table;
-    }
+    std::string curves;  ///< ensemble.csv: the torque band of each group
+    std::string summary; ///< ensemble_summary.csv: a row for each group
     /** Lines on curves that had to be left out of the band; empty if none. */
-    const std::string &
-    notes() const
-    {
-      return left_out;
-    }
-
-  private:
-    using Group = std::vector<const EnsembleMember *>;
-    void
-    add_curves(const Group &group, const std::string &place);
-    void
-    add_summary(const Group &group);
-
-    std::string curve_table, summary_table, left_out;
+    std::string notes;
   };
 } // namespace Debond
 #endif

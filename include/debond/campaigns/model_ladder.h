@@ -18,13 +18,16 @@ namespace Debond
   std::string
   name_of(Material material);
 
+  /** "15 x 15 x 2". */
+  std::string
+  in_words(const std::array<unsigned int, 3> &cells);
+
   /** One model of a scene, and what came out of it. */
   struct Rung
   {
     static constexpr double undefined =
       std::numeric_limits<double>::quiet_NaN();
 
-    std::string  model;     ///< "foundation" or the richer of both materials
     Materials    materials; ///< of bone and implant
     unsigned int mesh = 0;  ///< doublings of the coarsest mesh
     Scene        scene;
@@ -36,18 +39,21 @@ namespace Debond
     double difference = undefined; ///< largest, from the best rung, over T_max
     double estimate   = undefined; ///< of the error, over T_max
 
+    bool
+    is_foundation() const
+    {
+      return scene.model == ModelKind::foundation;
+    }
+    /** "foundation" or the richer of both materials. */
+    std::string
+    model() const;
     /** "linear, 15 x 15 x 2 and 3 x 3 x 2 cells". */
     std::string
     description() const;
-    /** Unknowns of both bodies. */
+    /** Unknowns of both bodies; none of those that are rigid. */
     double
     unknowns() const;
   };
-
-  /** Number of unknowns of a body and, roughly, of those that contact reaches,
-   *  from its cells; none if it is rigid. */
-  double
-  predicted_unknowns(const BodyParameters &body);
 
   /**
    * The models that `Model = auto` may choose among: the scenes that they are.
@@ -59,7 +65,8 @@ namespace Debond
   class ModelLadder
   {
   public:
-    explicit ModelLadder(const Scene &scene);
+    /** @p step_tolerance is that of the adaptive steps of all models. */
+    ModelLadder(const Scene &scene, double step_tolerance);
 
     /** Materials from the poorest, two rigid bodies, to the scene's own. */
     const std::vector<Materials> &
@@ -70,18 +77,20 @@ namespace Debond
 
     /** The richest that are not Neo-Hookean. */
     Materials
-    linear_materials() const;
+    linear_materials() const
+    {
+      return limited_to(Material::linear);
+    }
 
-    /** Finite elements; @p step_tolerance is that of their adaptive steps. */
+    /** Finite elements. @p number: its results go to DIR/rung-NUMBER. */
     Rung
     finite_elements(unsigned int     number,
                     const Materials &materials,
-                    unsigned int     mesh,
-                    double           step_tolerance) const;
+                    unsigned int     mesh) const;
 
     /** The closed form with the linear solution on mesh 0. */
     Rung
-    foundation(unsigned int number, double step_tolerance) const;
+    foundation(unsigned int number) const;
 
     /** The scene with half the cells of mesh 0, rounded up, for the linear
      *  solution only. @p ratio of cell sizes: the smallest of all directions.
@@ -95,12 +104,12 @@ namespace Debond
     limit(const Materials &materials, unsigned int mesh) const;
 
   private:
-    Scene
-    with(const std::vector<std::string> &overrides, unsigned int number) const;
-    std::vector<std::string>
-    cells(unsigned int mesh) const;
+    /** Materials of the scene, none of them richer than @p limit. */
+    Materials
+    limited_to(Material limit) const;
 
     const Scene                                scene;
+    const double                               step_tolerance;
     std::vector<Materials>                     all_materials;
     std::array<std::array<unsigned int, 3>, 2> coarsest;
   };

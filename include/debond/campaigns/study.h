@@ -2,16 +2,21 @@
 #define debond_campaigns_study_h
 
 #include <debond/campaigns/variant.h>
+#include <debond/support/run_error.h>
 
 #include <deal.II/base/timer.h>
 
 #include <iosfwd>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Debond
 {
+  /** Columns of study.csv and their values, of one variant. */
+  using StudyRow = std::vector<std::pair<std::string, std::string>>;
+
   /**
    * A scene whose entries hold several values: runs every variant, several at a
    * time, into DIR/variant-001 and so on, and gathers them in DIR/study.csv.

@@ -1,25 +1,22 @@
 #ifndef debond_campaigns_variant_h
 #define debond_campaigns_variant_h
 
+#include <debond/output/result_files.h>
 #include <debond/scene/scene.h>
 
+#include <nlohmann/json.hpp>
+
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace Debond
 {
-  /** Columns of study.csv and their values, of one variant. */
-  using StudyRow = std::vector<std::pair<std::string, std::string>>;
-
-  /** The value of a column, empty if there is none of this name. */
+  /** A member of a summary as a field of a table: lists joined, null as nan. */
   std::string
-  member(const StudyRow &members, const std::string &name);
-  /** Gives a column that is there another value. */
-  void
-  set_member(StudyRow          &members,
-             const std::string &name,
-             const std::string &value);
+  text_of(const nlohmann::ordered_json &value);
+  /** A number of a summary; NaN if there is none of this name. */
+  double
+  number(const nlohmann::ordered_json &summary, const std::string &name);
 
   /** A variant of a study, and what its directory holds. */
   struct Variant
@@ -28,11 +25,11 @@ namespace Debond
     std::vector<std::string> values;            ///< of the varied entries
     unsigned int             n_repetitions = 1; ///< runs that are wanted
     DirectoryContent         content       = DirectoryContent::no_results;
-    StudyRow                 summary;          ///< its summary.json
+    nlohmann::ordered_json   summary       = nlohmann::ordered_json::object();
     bool                     compared = false; ///< with the reference variant
     bool                     done     = false;
-    std::string              failure;     ///< why it failed, if it did
-    std::vector<StudyRow>    repetitions; ///< summaries of all its runs
+    std::string              failure; ///< why it failed, if it did
+    std::vector<nlohmann::ordered_json> repetitions; ///< summaries of its runs
 
     /** Reads what its directory holds. */
     void
@@ -51,10 +48,6 @@ namespace Debond
      *  number as long as either is not done. */
     void
     compare_with(const Variant &other);
-
-  private:
-    void
-    keep_repetition() const;
   };
 } // namespace Debond
 #endif

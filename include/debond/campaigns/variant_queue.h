@@ -1,7 +1,6 @@
 #ifndef debond_campaigns_variant_queue_h
 #define debond_campaigns_variant_queue_h
 
-#include <deque>
 #include <map>
 #include <memory>
 #include <string>
@@ -27,8 +26,9 @@ namespace Debond
   public:
     /** @p n_jobs variants run at a time: fewer than that share nothing, because
      *  they would wait for each other. */
-    explicit VariantQueue(unsigned int n_jobs);
-    ~VariantQueue();
+    explicit VariantQueue(const unsigned int n_jobs)
+      : n_jobs(n_jobs)
+    {}
 
     /** Appends a variant. @p scene must outlive the queue. @p may_share: false
      *  if the seconds of its set-up are of interest. */
@@ -38,7 +38,7 @@ namespace Debond
     bool
     empty() const
     {
-      return groups.empty();
+      return waiting.empty();
     }
 
     struct Next
@@ -53,17 +53,20 @@ namespace Debond
     next();
 
   private:
-    struct Group
+    struct Waiting
     {
-      std::deque<std::pair<unsigned int, const Scene *>> variants;
-      bool                                               may_share = false;
-      bool                                               is_begun  = false;
+      unsigned int variant;
+      const Scene *scene;
+      bool         may_share;
     };
 
-    const unsigned int                            n_jobs;
-    std::deque<std::shared_ptr<Group>>            groups;
-    std::map<std::string, std::shared_ptr<Group>> group_of;
-    std::shared_ptr<BodyPair>                     bodies;
+    const unsigned int n_jobs;
+    /** By the number of their group, those of a group in the order of add(). */
+    std::multimap<unsigned int, Waiting> waiting;
+    /** Numbers of the groups by what their scenes agree in. */
+    std::map<std::string, unsigned int> group_of;
+    unsigned int                        last_group = -1; ///< one that is begun
+    std::shared_ptr<BodyPair>           bodies;
   };
 } // namespace Debond
 #endif

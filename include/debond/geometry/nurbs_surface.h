@@ -36,6 +36,10 @@ namespace Debond
    */
   using ControlNet = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
+  /** sum_a N_a p_a. */
+  Eigen::Vector3d
+  interpolate(const SurfaceBasis &basis, const ControlNet &control_points);
+
   /** Height [mm] at the distance @p r from the axis of a sphere that touches
    *  z = 0 at the origin from above. */
   double

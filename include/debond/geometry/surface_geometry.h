@@ -20,10 +20,6 @@ namespace Debond
            bool                second_derivatives,
            SurfaceGeometry    &geometry);
 
-  /** sum_a N_a p_a: the first row of contract() alone. */
-  Eigen::Vector3d
-  interpolate(const SurfaceBasis &basis, const ControlNet &control_points);
-
   /** Adds N_a @p value to every control point: what a force at the point of the
    *  surface amounts to at the control points. */
   void

@@ -4,6 +4,7 @@
 #include <deal.II/base/patterns.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,16 +12,36 @@ namespace Debond
 {
   /**
    * What an entry of a scene accepts, together with the words that tell a user
-   * so. deal.II's own patterns know no open intervals, accept `nan`, and
-   * describe themselves in a notation made for programs.
+   * so. deal.II's own patterns accept `nan`, and describe themselves in a
+   * notation made for programs.
    */
   class AllowedValues : public dealii::Patterns::PatternBase
   {
   public:
-    /** @p test decides on the trimmed text of a value; @p description ends the
-     *  sentence "expected ...". */
-    AllowedValues(std::function<bool(const std::string &)> test,
-                  std::string                              description);
+    /** Nothing if the trimmed text of a value is allowed, else a hint what may
+     *  be wrong with it, which may be empty. */
+    using Test = std::function<std::optional<std::string>(const std::string &)>;
+
+    /** @p description ends the sentence "expected ...". @p names: of a choice.
+     */
+    AllowedValues(Test                     test,
+                  std::string              description,
+                  std::vector<std::string> names = {});
+
+    /** "expected ..." with a hint, or nothing if @p text is allowed. */
+    std::string
+    refusal(const std::string &text) const;
+
+    /** The same values and this number. */
+    AllowedValues
+    or_number(double number) const;
+
+    /** What one may choose from, if the entry is a choice. */
+    const std::vector<std::string> &
+    names() const
+    {
+      return choices;
+    }
 
     bool
     match(const std::string &text) const override;
@@ -32,8 +53,9 @@ namespace Debond
     clone() const override;
 
   private:
-    std::function<bool(const std::string &)> test;
-    std::string                              words;
+    Test                     test;
+    std::string              words;
+    std::vector<std::string> choices;
   };
 
   /** The kinds of values that occur in a scene. The unit is part of the words
@@ -46,44 +68,30 @@ namespace Debond
 
     /** A number > @p bound. */
     AllowedValues
-    number_above(const double bound, const std::string &unit);
+    number_above(double bound, const std::string &unit);
 
     /** A number >= @p bound. */
     AllowedValues
-    number_from(const double bound, const std::string &unit);
+    number_from(double bound, const std::string &unit);
 
     /** A number in [@p lower, @p upper]. */
     AllowedValues
-    number_between(const double       lower,
-                   const double       upper,
-                   const std::string &unit);
-
-    /** A number in (@p lower, @p upper]. */
-    AllowedValues
-    number_between_excluding_lower(const double       lower,
-                                   const double       upper,
-                                   const std::string &unit);
+    number_between(double lower, double upper, const std::string &unit);
 
     /** A whole number in [@p lower, @p upper]. */
     AllowedValues
-    whole_number(const unsigned int lower, const unsigned int upper);
+    whole_number(unsigned int lower, unsigned int upper);
 
-    /** Numbers separated by commas, at least @p min_count and at most
-     *  @p max_count of them (0: no limit); each > 0 if @p positive. */
+    /** Numbers that @p each allows, separated by commas, at least @p min_count
+     *  and at most @p max_count of them (0: no limit). */
     AllowedValues
-    numbers(const unsigned int min_count,
-            const unsigned int max_count,
-            const bool         positive,
-            const std::string &unit);
+    list(const AllowedValues &each,
+         unsigned int         min_count,
+         unsigned int         max_count);
 
-    /** Whole numbers >= 1 separated by commas; counts as for numbers(). */
+    /** One of the choices "a | b | c". */
     AllowedValues
-    whole_numbers(const unsigned int min_count, const unsigned int max_count);
-
-    /** One of @p choices; @p later names the choices that scenes may use some
-     *  day and that this version refuses. Both "a | b | c". */
-    AllowedValues
-    choice(const std::string &choices, const std::string &later = "");
+    choice(const std::string &choices);
 
     /** `true` or `false`. */
     AllowedValues
@@ -103,10 +111,9 @@ namespace Debond
     AllowedValues
     directory();
 
-    /** Only @p value, because this version does not have what other values
-     *  would ask for. */
+    /** Only @p value: others may get a meaning some day. */
     AllowedValues
-    only(const std::string &value);
+    reserved(const std::string &value);
   } // namespace Allowed
 
   /** Reads a whole text as one decimal number, surrounding blanks ignored, that
@@ -119,12 +126,10 @@ namespace Debond
   std::vector<std::string>
   split_list(const std::string &text);
 
-  /** The numbers of a list that Allowed::numbers() has admitted. */
-  std::vector<double>
-  to_numbers(const std::string &text);
-
-  /** The same for Allowed::whole_numbers(). */
-  std::vector<unsigned int>
-  to_whole_numbers(const std::string &text);
+  /** Remark on a character of @p text that is not ASCII, or nothing. Word
+   *  processors and web pages put such characters where they can hardly be told
+   *  from plain ones, or not be seen at all. */
+  std::string
+  remark_on_special_character(const std::string &text);
 } // namespace Debond
 #endif

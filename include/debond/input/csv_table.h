@@ -30,8 +30,11 @@ namespace Debond
   std::vector<std::string>
   read_csv_header(const std::string &filename, const std::string &entry);
 
-  /** @p text as a field of a CSV file, quoted if it has to be. */
+  /** A line of a CSV file. Texts are quoted if they have to be, numbers have
+   *  twelve significant digits. */
   std::string
-  csv_field(const std::string &text);
+  csv_line(const std::vector<std::string> &texts);
+  std::string
+  csv_line(const std::vector<double> &numbers);
 } // namespace Debond
 #endif

@@ -1,24 +1,27 @@
 #ifndef debond_input_expression_parser_h
 #define debond_input_expression_parser_h
 
-#include <deal.II/base/function_parser.h>
-
-#include <memory>
+#include <functional>
+#include <initializer_list>
 #include <string>
 
 namespace Debond
 {
+  /** The value of an expression for values of its variables, in their order.
+   *  Not to be called by several threads at a time; copies share a parser. */
+  using Expression =
+    std::function<double(const std::initializer_list<double> &)>;
+
   /**
-   * A parser of an expression (muParser syntax, as in deal.II's FunctionParser)
-   * in @p variables, names separated by commas: dim of them, or dim + 1, the
-   * last of which deal.II calls the time. Constants are `pi` and `R` =
-   * @p radius [mm]; random numbers are refused. Throws InputError with the
-   * expression and the parser's own words if it is invalid.
+   * Reads an expression in muParser's language, with the functions that
+   * deal.II's FunctionParser adds to it but random numbers, in @p variables,
+   * names separated by commas. Constants are `pi` and `R` = @p radius [mm].
+   * Throws InputError with the expression and the parser's own words if it is
+   * invalid.
    */
-  template <int dim>
-  std::unique_ptr<dealii::FunctionParser<dim>>
-  make_parser(const std::string &variables,
-              const std::string &expression,
-              double             radius);
+  Expression
+  read_expression(const std::string &variables,
+                  const std::string &expression,
+                  double             radius);
 } // namespace Debond
 #endif

@@ -4,13 +4,9 @@
 #include <cstdint>
 #include <string>
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace Debond
 {
+  class EntryTable;
   struct BodyParameters;
 
   enum class BondingPatternKind
@@ -45,16 +41,18 @@ namespace Debond
     double             threshold  = -1; ///< image; -1: grey levels as they are
     BondingResolution  resolution = BondingResolution::element;
 
-    static void
-    declare(dealii::ParameterHandler &prm);
-    void
-    parse(dealii::ParameterHandler &prm);
 
-    /** Refuses entries that contradict each other, and the pattern if it
-     *  cannot be formed on this implant: throws InputError whose message begins
-     *  with the name of the entry. */
+    /** Refuses entries that contradict each other or the implant. Throws
+     *  EntryError. */
     void
     check(const BodyParameters &implant) const;
+
+    void
+    declare(EntryTable &table);
+
+  private:
+    void
+    declare_places(EntryTable &table);
   };
 
   /** As the scene names it: `quadrature point`. */

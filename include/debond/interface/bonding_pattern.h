@@ -24,9 +24,8 @@ namespace Debond
   {
   public:
     /** @p surface: the contact face of the @p implant. @p n: quadrature points
-     *  per direction and element. Throws InputError that begins with the name
-     *  of an entry if the expression, the image or the file is not as it should
-     *  be. */
+     *  per direction and element. Throws EntryError if the expression, the
+     * image or the file is not as it should be. */
     BondingPattern(const BondingParameters &parameters,
                    const BodyParameters    &implant,
                    const NurbsSurface      &surface,
@@ -108,5 +107,11 @@ namespace Debond
     std::vector<double> shares; ///< ends of the points' shares of [0,1]
     Report              summary;
   };
+
+  /** Refuses an expression, an image or a file that gives no pattern on this
+   *  implant, before anything runs. Throws EntryError. */
+  void
+  check_bonding_pattern(const BondingParameters &parameters,
+                        const BodyParameters    &implant);
 } // namespace Debond
 #endif

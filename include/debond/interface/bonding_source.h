@@ -18,8 +18,7 @@ namespace Debond
    * part.
    *  @p remark: what a user should know of it, if anything.
    *
-   *  All functions of this file throw InputError that begins with the name of
-   *  the entry. */
+   *  All functions of this file throw EntryError. */
   std::vector<double>
   values_by_place(const BondingParameters &parameters,
                   const BodyParameters    &implant,

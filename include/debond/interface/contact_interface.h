@@ -186,9 +186,9 @@ namespace Debond
     master(const InterfaceConfiguration &configuration) const;
 
     const InterfaceParameters             parameters;
+    const ContactPointLaw                 law;
     const Side                            slave;
     std::array<const BodyMesh *, 2>       mesh;
-    ContactPointLaw                       law;
     std::vector<SlavePoint>               points;
     double                                area_of_implant = 0;
     std::unique_ptr<const BondingPattern> pattern;

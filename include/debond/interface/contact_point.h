@@ -3,7 +3,7 @@
 
 #include <debond/geometry/closest_point.h>
 #include <debond/geometry/nurbs_surface.h>
-#include <debond/interface/friction_law.h>
+#include <debond/interface/contact_law.h>
 
 #include <Eigen/Core>
 
@@ -17,26 +17,15 @@ namespace Debond
     slip  = 2
   };
 
-  /** The history of one slave quadrature point. */
-  struct ContactPointState
+  /** The state of one slave quadrature point. */
+  struct ContactPointState : PointHistory
   {
     PointStatus status = PointStatus::open;
     /** True if @p xi faces the point; false for points beyond the master's
      * edge. */
     bool has_partner = false;
-    /** The bond is gone for good (only with `Opening breaks bond`). */
-    bool broken = false;
     /** Interacting point on the master, xi_hat. */
     Eigen::Vector2d xi = Eigen::Vector2d::Zero();
-    /** Accumulated sliding distance g_s [mm], Eq. (12). */
-    double slip = 0;
-
-    /** @p phi_0, or 0 if the bond is gone for good. */
-    double
-    bond_left(const double phi_0) const
-    {
-      return broken ? 0. : phi_0;
-    }
 
     /** See serialization.h. */
     template <class Archive>
@@ -44,8 +33,19 @@ namespace Debond
     serialize(Archive &archive, const unsigned int)
     {
       archive &status &has_partner &broken &xi &slip;
+      for (double &variable : internal)
+        archive &variable;
     }
   };
+
+  /** A point in this state at the beginning of a step, for its friction law. */
+  inline FrictionState
+  friction_state(const ContactPointState &state,
+                 const double             phi_0,
+                 const double             duration = 0.)
+  {
+    return {state.bond_left(phi_0), state.slip, state.internal, duration};
+  }
 
   /** The master surface in its current configuration. */
   struct MasterSurface
@@ -74,21 +74,6 @@ namespace Debond
   project(const MasterSurface   &master,
           const Eigen::Vector3d &x,
           const Eigen::Vector2d *guess);
-
-  /** What a point is governed by: penalties, friction, its phi_0. */
-  struct ContactPointLaw
-  {
-    double             normal_penalty     = 0; ///< eps_n [MPa/mm]
-    double             tangential_penalty = 0; ///< eps_t [MPa/mm]
-    FrictionParameters friction;
-    bool               opening_breaks_bond = false;
-    /** eta [MPa per (mm per unit of time)]: resistance of a point to the speed
-     *  it slides with. */
-    double viscosity = 0;
-    /** mu at g_s^n instead of g_s: a variant that the implicit law is compared
-     *  with. */
-    bool explicit_friction = false;
-  };
 
   /** How the update is to be done. */
   struct ContactPointMode
@@ -127,6 +112,7 @@ namespace Debond
   {
     ContactPointState state;
     bool              failed = false; ///< the local iteration found no solution
+    bool              negative_friction = false; ///< or one with a negative mu
 
     /** t = eps_n g_n n + t_t [MPa], as it enters the residual of the slave. */
     Eigen::Vector3d traction            = Eigen::Vector3d::Zero();
@@ -137,6 +123,7 @@ namespace Debond
     Eigen::Vector3d slip_increment = Eigen::Vector3d::Zero();
     double          normal_gap     = 0; ///< g_n [mm]
     double          pressure       = 0; ///< p >= 0 [MPa]
+    double          energy         = 0; ///< stored per area [N/mm]
     /** |d mu/d g_s| p / (eps_t + eta / dt) where the law softens; the local
      *  solution is unique while this is below one. */
     double softening = 0;
@@ -146,6 +133,13 @@ namespace Debond
     Eigen::Matrix<double, 3, 15> dt;        ///< dt/dw
     Eigen::Matrix<double, 2, 15> dxi;       ///< dxi_hat/dw
   };
+
+  /** A point that is open whatever its gap, for that it is beyond the edge of
+   *  the master: writes @p result. */
+  void
+  leave_open(const ContactPointLaw   &law,
+             const ContactPointState &old_state,
+             ContactPointResult      &result);
 
   /**
    * The update of one slave quadrature point: (state_n, kinematics) ->

@@ -1,81 +1,217 @@
 #ifndef debond_interface_friction_law_h
 #define debond_interface_friction_law_h
 
-namespace dealii
-{
-  class ParameterHandler;
-}
+#include <debond/input/allowed_values.h>
+#include <debond/interface/point_history.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace Debond
 {
-  enum class FrictionLawKind
+  /** A point at the beginning of a step, as a friction law sees it. */
+  struct FrictionState
   {
-    frictionless,
-    coulomb,
-    modified_coulomb
-  };
-
-  /** The friction entries of the subsection `Interface`. */
-  struct FrictionParameters
-  {
-    FrictionLawKind kind              = FrictionLawKind::modified_coulomb;
-    double          mu_broken         = 0.40;  ///< mu_b
-    double          mu_unbroken       = 0.58;  ///< mu_ub
-    double          sliding_threshold = 0.022; ///< a_s [mm]
-    double          transition_factor = 0.74;  ///< b_s
-    double          starts_at         = 0; ///< frictionless before this time
-
-    static void
-    declare(dealii::ParameterHandler &prm);
-    void
-    parse(dealii::ParameterHandler &prm);
+    double            phi_0 = 1; ///< initial bonding, as far as it is left
+    double            slip  = 0; ///< g_s^n [mm]
+    InternalVariables internal{};
+    /** dt of the step [unit of time]; 0 where no time passes, and nothing has a
+     *  speed. */
+    double duration = 0;
   };
 
   /** The friction coefficient of a point and what it follows from. */
   struct FrictionCoefficient
   {
-    double phi = 0; ///< bonding state, Eq. (13)
+    double phi = 0; ///< bonding state, Eq. (13); 0 for laws without a bond
     double mu  = 0; ///< Eq. (11)
-    double dmu = 0; ///< d mu / d g_s [1/mm]
+    double dmu = 0; ///< d mu / d(distance slid in the step) [1/mm]
   };
 
-  /** s(g_s/a_s) of Eq. (13): 1 below 1, 0 above 1 + 2 b_s, half a sine between.
-   *  @p derivative is ds/dg_s [1/mm]. */
-  double
-  bonding_decay(const FrictionParameters &parameters,
-                double                    slip,
-                double                   &derivative);
-
-  /** Largest fall |d mu/d g_s| of the modified law [1/mm] at sliding distances
-   *  from @p slip [mm] on: pi phi_0 (mu_ub - mu_b) / (4 a_s b_s) as long as it
-   *  is not half way down, 0 for the other laws. */
-  double
-  steepest_fall(const FrictionParameters &parameters,
-                double                    phi_0,
-                double                    slip = 0);
-
-  /** Integral of mu - mu_b over the sliding distance from @p from to @p to
-   * [mm]; 0 for the other laws. */
-  double
-  adhesive_strength(const FrictionParameters &parameters,
-                    double                    phi_0,
-                    double                    from,
-                    double                    to);
-
-  /** Integral of mu over the sliding distance from @p from to @p to [mm]: what
-   *  friction spends, per pressure. */
-  double
-  friction_strength(const FrictionParameters &parameters,
-                    double                    phi_0,
-                    double                    from,
-                    double                    to);
-
-  /** Eqs. (11) and (13) at the accumulated sliding distance @p slip [mm]. For
-   *  `coulomb` mu = mu_b, for `frictionless` 0; phi is reported all the same.
+  /**
+   * The friction law of the interface: how mu follows from what a point has
+   * gone through and from the distance that it slides in the step. The limit of
+   * the tangential traction is mu p.
+   *
+   * All functions are pure: an object never changes, a trial may be thrown
+   * away, and points may be updated in any order. How to add a law:
+   * CONTRIBUTING.md.
    */
-  FrictionCoefficient
-  friction_coefficient(const FrictionParameters &parameters,
-                       double                    phi_0,
-                       double                    slip);
+  class FrictionLaw
+  {
+  public:
+    virtual ~FrictionLaw() = default;
+
+    /** @name A point in a step */
+    //@{
+    /** phi, mu and d mu/d @p distance at the end of a step in which the point
+     *  slides by @p distance >= 0 [mm]. A point sticks while its traction is
+     *  less than with distance 0. A negative mu fails the step. */
+    virtual FrictionCoefficient
+    coefficient(const FrictionState &start, double distance) const = 0;
+
+    /** The internal variables at the end of that step. */
+    virtual InternalVariables
+    advance(const FrictionState &start, double) const
+    {
+      return start.internal;
+    }
+
+    /** The internal variables of a point without a history. */
+    virtual InternalVariables
+    initial_variables() const
+    {
+      return {};
+    }
+
+    /** phi and mu in an accepted @p state, for output. */
+    virtual FrictionCoefficient
+    reported(const FrictionState &state) const
+    {
+      return coefficient(state, 0.);
+    }
+    //@}
+
+    /** @name Works per pressure [mm] */
+    //@{
+    /** Integral of mu over the @p distance [mm] that a point slides. */
+    virtual double
+    friction_strength(const FrictionState &start, double distance) const = 0;
+
+    /** The part of it that the bond accounts for: integral of mu - mu_b. */
+    virtual double
+    adhesive_strength(const FrictionState &, double) const
+    {
+      return 0.;
+    }
+    //@}
+
+    /** @name Uniqueness */
+    //@{
+    /** Bound of -d mu/d g_s [1/mm] >= 0 for all that is still to come: there is
+     *  one solution while it is less than eps_t / p. */
+    virtual double
+    steepest_fall(const FrictionState &start) const = 0;
+
+    /** The entries that make it less, for messages. */
+    virtual std::string
+    entries_against_fall() const
+    {
+      return "";
+    }
+    //@}
+
+    /** @name What kind of law it is */
+    //@{
+    /** No tangential traction at all. */
+    virtual bool
+    is_frictionless() const
+    {
+      return false;
+    }
+    /** mu depends on time: such a law needs one. Closed forms and paths of
+     *  equilibrium have none. */
+    virtual bool
+    depends_on_rate() const
+    {
+      return false;
+    }
+    /** phi matters: a bonded point that opens is worth a warning. */
+    virtual bool
+    has_bond() const
+    {
+      return false;
+    }
+    /** Distance over which mu changes [mm]. */
+    virtual double
+    characteristic_distance() const = 0;
+    /** A file that belongs to the law; empty: none. */
+    virtual std::string
+    file() const
+    {
+      return "";
+    }
+    //@}
+
+    /** @name For closed forms; of laws that do not depend on the rate */
+    //@{
+    /** Sliding distances [mm], ascending, between which mu is smooth; up to the
+     *  first and from the last on it is constant. */
+    virtual const std::vector<double> &
+    kinks() const;
+
+    /** mu of what has no bond. */
+    virtual double
+    mu_without_bond() const
+    {
+      return 0.;
+    }
+    //@}
+  };
+
+  using FrictionLawPointer = std::shared_ptr<const FrictionLaw>;
+
+  /** An entry of a law: a row of a scene's subsection `Interface`, or of a
+   *  subsection of its own in there. */
+  struct LawEntry
+  {
+    std::string   subsection; ///< within `Interface`; may be empty
+    std::string   name;
+    std::string   value; ///< default
+    AllowedValues allowed;
+    std::string   documentation; ///< states the unit
+  };
+
+  /** What a scene says of friction: the name of a law, and the texts of the
+   *  entries of all laws by name, without their subsections. */
+  struct FrictionLawChoice
+  {
+    std::string                        law;
+    std::map<std::string, std::string> entries;
+
+    double
+    number(const std::string &entry) const;
+    const std::string &
+    text(const std::string &entry) const
+    {
+      return entries.at(entry);
+    }
+  };
+
+  /** A law as scenes know it. */
+  struct FrictionLawPlugin
+  {
+    std::string name;        ///< its choice of the entry `Friction law`
+    std::string description; ///< what that choice means
+    /** Laws may share entries. */
+    std::vector<LawEntry> entries;
+    /** Throws EntryError. */
+    FrictionLawPointer (*create)(const FrictionLawChoice &choice);
+  };
+
+  /** All laws, in the order of the choices. */
+  const std::vector<FrictionLawPlugin> &
+  friction_law_plugins();
+
+  class EntryTable;
+
+  /** Rows for `Friction law` and for the entries of all laws, in `Interface`;
+   *  what they are set to goes to @p choice. */
+  void
+  declare_friction_laws(EntryTable &table, FrictionLawChoice &choice);
+
+  /** The law that has been chosen. Throws EntryError. */
+  FrictionLawPointer
+  create_friction_law(const FrictionLawChoice &choice);
+
+  /** The law of a scene that says nothing. */
+  FrictionLawPointer
+  default_friction_law();
+
+  /** A law that no traction of a sensible interface overcomes. */
+  FrictionLawPointer
+  sticking_law();
 } // namespace Debond
 #endif

@@ -27,10 +27,9 @@ namespace Debond
   };
 
   /**
-   * Reads a PNG file (any but interlaced ones; colours become grey, what is
-   * transparent black) or a PGM file (plain or raw, up to 16 bits), told apart
-   * by their first bytes. Throws InputError that begins with the @p entry of
-   * the scene that gave the file.
+   * Reads a PNG file (colours become grey, what is transparent black) or a PGM
+   * file (plain or raw, up to 16 bits), told apart by their first bytes. Throws
+   * InputError that begins with the @p entry of the scene that gave the file.
    */
   GreyImage
   read_grey_image(const std::string &filename, const std::string &entry);

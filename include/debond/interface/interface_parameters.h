@@ -3,30 +3,55 @@
 
 #include <debond/bulk/side.h>
 #include <debond/interface/bonding_parameters.h>
-#include <debond/interface/friction_law.h>
+#include <debond/interface/contact_law.h>
 
 namespace Debond
 {
   /** The subsection `Interface` of a scene. */
   struct InterfaceParameters
   {
-    Side         slave             = Side::implant;
-    unsigned int quadrature_points = 5;   ///< per direction and element
-    double       normal_penalty    = 585; ///< eps_n [MPa/mm]
-    double tangential_penalty      = 585; ///< eps_t [MPa/mm], resolved: never 0
-    bool   opening_breaks_bond     = false;
-    double viscosity               = 0; ///< eta [MPa per (mm per unit of time)]
+    Side         slave               = Side::implant;
+    unsigned int quadrature_points   = 5;   ///< per direction and element
+    double       normal_penalty      = 585; ///< eps_n [MPa/mm]
+    double       tangential_penalty  = 0;   ///< eps_t [MPa/mm], 0: as eps_n
+    bool         opening_breaks_bond = false;
+    /** Never null; what a scene says of it is in friction_choice. */
+    FrictionLawPointer friction = default_friction_law();
+    FrictionLawChoice  friction_choice;
+    double friction_starts_at = 0; ///< frictionless before this time
+    double viscosity          = 0; ///< eta [MPa per (mm per unit of time)]
     /** Variants of the method that are there to be compared with: the direction
      *  of slip is that of the previous gap, Eq. (31) as printed; mu at g_s^n.
      */
     bool slip_along_previous_gap = false, explicit_friction = false;
-    FrictionParameters friction;
-    BondingParameters  bonding;
+    BondingParameters bonding;
 
-    static void
-    declare(dealii::ParameterHandler &prm);
+    /** eps_t [MPa/mm], never 0. */
+    double
+    tangential_stiffness() const
+    {
+      return tangential_penalty == 0. ? normal_penalty : tangential_penalty;
+    }
+
+    /** What governs the points. */
+    ContactPointLaw
+    law() const;
+
+    /** Makes the law of friction_choice, after it has been read. Throws
+     *  EntryError. */
     void
-    parse(dealii::ParameterHandler &prm);
+    create_friction();
+
+    /** Refuses what makes no sense together. Throws EntryError. */
+    void
+    check(const BodyParameters &implant) const;
+
+    void
+    declare(EntryTable &table);
+
+  private:
+    void
+    declare_variants(EntryTable &table);
   };
 } // namespace Debond
 #endif

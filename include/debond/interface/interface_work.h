@@ -35,12 +35,12 @@ namespace Debond
     void
     begin_step();
     /** Adds what @p point spends from its accepted state to its trial state;
-     *  @p frame: Q of the master. */
+     *  @p mode: of the step; @p frame: Q of the master. */
     void
-    add(const SlavePoint      &point,
-        const ContactPointLaw &law,
-        bool                   frictionless,
-        const Eigen::Matrix3d &frame);
+    add(const SlavePoint       &point,
+        const FrictionLaw      &law,
+        const ContactPointMode &mode,
+        const Eigen::Matrix3d  &frame);
 
     /** See serialization.h. */
     template <class Archive>
@@ -52,9 +52,9 @@ namespace Debond
 
   private:
     void
-    add_friction(const SlavePoint      &point,
-                 const ContactPointLaw &law,
-                 bool                   frictionless);
+    add_friction(const SlavePoint       &point,
+                 const FrictionLaw      &law,
+                 const ContactPointMode &mode);
   };
 } // namespace Debond
 #endif

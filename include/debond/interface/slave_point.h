@@ -24,6 +24,7 @@ namespace Debond
     Eigen::Vector3d    accepted_traction         = Eigen::Vector3d::Zero();
     Eigen::Vector3d    accepted_viscous_traction = Eigen::Vector3d::Zero();
     double             accepted_pressure         = 0; ///< [MPa]
+    double             accepted_energy           = 0; ///< [N/mm]
     ContactPointResult trial;
     /** False for points of a bone that does not face the implant at the
      *  start: their area does not count. */
@@ -31,10 +32,9 @@ namespace Debond
 
     /** phi and mu in one of its states. */
     FrictionCoefficient
-    friction(const FrictionParameters &law,
-             const ContactPointState  &state) const
+    friction(const FrictionLaw &law, const ContactPointState &state) const
     {
-      return friction_coefficient(law, state.bond_left(phi_0), state.slip);
+      return law.reported(friction_state(state, phi_0));
     }
 
     /** See serialization.h. */
@@ -44,6 +44,7 @@ namespace Debond
     {
       archive &accepted &clearance       &accepted_traction;
       archive &accepted_viscous_traction &accepted_pressure;
+      archive                            &accepted_energy;
       if (Archive::is_loading::value)
         trial.state = accepted;
     }

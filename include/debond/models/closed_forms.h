@@ -17,27 +17,24 @@ namespace Debond
   class TorsionModel
   {
   public:
-    /** @p radius of the disk R [mm], @p pressure p [MPa], equal everywhere,
-     *  @p friction law. */
-    TorsionModel(double                    radius,
-                 double                    pressure,
-                 const FrictionParameters &friction)
-      : R(radius)
-      , p(pressure)
-      , friction(friction)
+    static constexpr double undefined =
+      std::numeric_limits<double>::quiet_NaN();
+
+    struct Disk
+    {
+      double radius   = 0; ///< R [mm]
+      double pressure = 0; ///< p [MPa], the same everywhere
+      double phi_0    = 1; ///< initial bonding inside bonded_radius
+      /** Points further out are not bonded at the start [mm]. */
+      double bonded_radius = std::numeric_limits<double>::infinity();
+      FrictionLawPointer friction = default_friction_law();
+    };
+    const Disk disk;
+
+    explicit TorsionModel(const Disk &disk)
+      : disk(disk)
     {}
     virtual ~TorsionModel() = default;
-
-    double
-    radius() const
-    {
-      return R;
-    } ///< [mm]
-    double
-    pressure() const
-    {
-      return p;
-    } ///< [MPa]
 
     /** The interface at one radius. NaN: not part of the model. */
     struct Point
@@ -66,7 +63,7 @@ namespace Debond
       double adhesive_work = 0; ///< its part above mu_b p, D_adh [N mm]
     };
     virtual State
-    state(double theta) const;
+    state(double theta) const = 0;
 
     /** Torque T [N mm] at the angle @p theta [rad]: Eq. (37). */
     double
@@ -76,26 +73,28 @@ namespace Debond
     }
 
   protected:
-    /** Radii between which the fields are smooth [mm], in any order; those
-     *  outside of ]0, R[ do not matter. */
-    virtual std::vector<double>
-    kinks(double theta) const = 0;
-    /** phi_0 at a radius. */
-    virtual double
-    initial_bonding(double r) const = 0;
-    /** Stiffness lambda that the sticking traction is stored in [MPa/mm]. */
-    virtual double
-    stiffness() const = 0;
-
-    /** Sliding distances where s(g_s / a_s) of Eq. (13) begins and ceases to
-     *  fall [mm]. */
+    /** phi_0 at a radius [mm]. */
     double
-    begin_of_decay() const;
-    double
-    end_of_decay() const;
+    initial_bonding(double r) const;
+    /** The friction coefficient of a bond after the sliding distance
+     *  @p slip [mm]. */
+    FrictionCoefficient
+    friction(double phi_0, double slip) const;
 
-    const double             R, p;
-    const FrictionParameters friction;
+    /** The point at the radius @p r after the sliding distance @p slip; while
+     *  it sticks, with the @p stiffness of its traction per path
+     *  [MPa/mm]. */
+    Point
+    point_with(bool   sticks,
+               double r,
+               double slip,
+               double theta,
+               double stiffness) const;
+    /** The fields of point() integrated between the radii @p kinks, in any
+     *  order, where they are not smooth; those outside of ]0, R[ do not
+     *  matter. @p stiffness stores the tangential traction [MPa/mm]. */
+    State
+    integrate(double theta, std::vector<double> kinks, double stiffness) const;
   };
 
 
@@ -106,7 +105,7 @@ namespace Debond
    * exact solution of the interface law for rigid bodies, so the finite element
    * program must reproduce it up to quadrature.
    *
-   * The pressure is p = eps_n d everywhere. A point at radius r sticks with the
+   * The pressure p is eps_n d. A point at radius r sticks with the
    * traction t = eps_t r theta while that is at most mu(0) p. Beyond, its path
    * r theta is sliding plus elastic deformation of the interface,
    *
@@ -121,16 +120,9 @@ namespace Debond
   class RigidBodiesTorsion : public TorsionModel
   {
   public:
-    struct Parameters
+    struct Parameters : Disk
     {
-      double radius             = 0; ///< R [mm]
-      double push_in            = 0; ///< d >= 0 [mm]
-      double normal_penalty     = 0; ///< eps_n [MPa/mm]
-      double tangential_penalty = 0; ///< eps_t [MPa/mm]
-      double phi_0              = 1; ///< initial bonding inside bonded_radius
-      /** Points further out are not bonded at the start [mm]. */
-      double bonded_radius = std::numeric_limits<double>::infinity();
-      FrictionParameters friction;
+      double stiffness = 0; ///< eps_t, or lambda of Eq. (39) [MPa/mm]
     };
 
     /** Throws dealii::ExcMessage unless has_unique_solution(). */
@@ -157,22 +149,15 @@ namespace Debond
     point(double r, double theta) const override;
     double
     stick_radius(double theta) const override;
+    State
+    state(double theta) const override;
 
   private:
-    std::vector<double>
-    kinks(double theta) const override;
-    double
-    initial_bonding(double r) const override;
-    double
-    stiffness() const override
-    {
-      return parameters.tangential_penalty;
-    }
     /** The path r theta at which the sliding distance is @p slip [mm]. */
     double
     path(double slip, double phi_0) const;
 
-    const Parameters parameters;
+    const double stiffness;
   };
 
 
@@ -274,37 +259,26 @@ namespace Debond
   class AnalyticalTorsion : public TorsionModel
   {
   public:
-    struct Parameters
-    {
-      double             radius       = 0; ///< R [mm]
-      double             pressure     = 0; ///< p [MPa]
-      double             linear_limit = 0; ///< theta_lin > 0 [rad]
-      double             full_sliding = 0; ///< theta_max >= theta_lin [rad]
-      double             phi_0        = 1; ///< initial bonding, uniform
-      FrictionParameters friction;
-    };
-    explicit AnalyticalTorsion(const Parameters &parameters);
+    /** @p linear_limit theta_lin > 0, @p full_sliding theta_max >= theta_lin
+     *  [rad]. */
+    AnalyticalTorsion(const Disk &disk,
+                      double      linear_limit,
+                      double      full_sliding);
 
     Point
     point(double r, double theta) const override;
     double
     stick_radius(double theta) const override;
+    State
+    state(double theta) const override;
 
   private:
-    std::vector<double>
-    kinks(double theta) const override;
-    double
-    initial_bonding(double) const override
-    {
-      return parameters.phi_0;
-    }
-    double
-    stiffness() const override;
     /** g_s / r of sliding points, Eq. (49) [rad]. */
     double
     slip_per_radius(double theta) const;
 
-    const Parameters parameters;
+    const double linear_limit, full_sliding;
+    const double stiffness; ///< Eqs. (43) and (46)
   };
 
 
@@ -319,16 +293,18 @@ namespace Debond
   class MathieuTorsion : public TorsionModel
   {
   public:
-    struct Parameters
-    {
-      double radius          = 0; ///< R [mm]
-      double shear_modulus   = 0; ///< G > 0 [MPa]
-      double adhesion_energy = 0; ///< w_adh >= 0 [N/mm]
-      double friction_stress = 0; ///< tau_0 >= 0 [MPa]
-      /** Not part of the model: what tau_0 was found from [MPa]. */
-      double pressure = std::numeric_limits<double>::quiet_NaN();
-    };
-    explicit MathieuTorsion(const Parameters &parameters);
+    /** @p shear_modulus G > 0 [MPa], @p adhesion_energy w_adh >= 0 [N/mm],
+     *  @p friction_stress tau_0 >= 0 [MPa]. Of @p disk only the radius counts.
+     */
+    MathieuTorsion(const Disk &disk,
+                   double      shear_modulus,
+                   double      adhesion_energy,
+                   double      friction_stress)
+      : TorsionModel(disk)
+      , G(shear_modulus)
+      , w_adh(adhesion_energy)
+      , tau_0(friction_stress)
+    {}
 
     /** Angle at which the crack has the radius @p c [mm]: Eq. (14) [rad]. */
     double
@@ -345,17 +321,7 @@ namespace Debond
     state(double theta) const override;
 
   private:
-    std::vector<double>
-    kinks(double theta) const override;
-    double
-    initial_bonding(double) const override
-    {
-      return 1.;
-    }
-    double
-    stiffness() const override;
-
-    const Parameters parameters;
+    const double G, w_adh, tau_0;
   };
 } // namespace Debond
 #endif

@@ -4,6 +4,8 @@
 #include <debond/models/foundation.h>
 #include <debond/output/torque_curve.h>
 
+#include <Eigen/Core>
+
 #include <vector>
 
 namespace Debond
@@ -14,11 +16,11 @@ namespace Debond
    * @p pressure is the mean one [MPa]. Not a number if a point has no stiffness
    * or softens faster than it is stiff.
    */
-  std::vector<double>
+  Eigen::ArrayXd
   torque_of_points(const FoundationStiffness &stiffness,
-                   const FrictionParameters  &friction,
+                   const FrictionLawPointer  &friction,
                    double                     pressure,
-                   const std::vector<double> &angles);
+                   const Eigen::ArrayXd      &angles);
 
   /**
    * Estimates, without a finite element solution, how far the curve @p rows of

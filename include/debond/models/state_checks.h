@@ -5,20 +5,29 @@
 #include <debond/system/chuck_way.h>
 #include <debond/system/energy_balance.h>
 
-#include <cmath>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace Debond
 {
-  class Console;
   class CoupledSystem;
-  struct Scene;
+  struct ModelParameters;
 
-  /** Largest rotation in a step [rad]. A sliding point is pulled along the
-   * chord of its way, at half this angle to its direction at the end: 5 degrees
-   * cost a thousandth of the friction. */
-  constexpr double largest_turn = 5. * M_PI / 180.;
+  /** What a user has to know, once; @p check names what has not been passed. */
+  struct Warning
+  {
+    std::string check, text;
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &check &text;
+    }
+  };
 
 
 
@@ -27,8 +36,8 @@ namespace Debond
   class StateChecks
   {
   public:
-    /** Keeps references to both. */
-    StateChecks(const Scene &scene, Console &console);
+    /** Keeps a reference. */
+    explicit StateChecks(const ModelParameters &parameters);
 
     /** Notes the way of the chuck in a step with friction from time @p from to
      *  time @p to, that is about to be accepted as a part of the planned @p
@@ -38,7 +47,7 @@ namespace Debond
 
     /** Notes a state that has just been accepted in a planned step. @p summary
      *  and @p reaction_defect are those of the state before commit(). A check
-     *  that it does not pass is a warning, once, and counts in the next row. */
+     *  that it does not pass is a warning, and counts in the next row. */
     void
     add(unsigned int            step,
         const CoupledSystem    &system,
@@ -61,6 +70,12 @@ namespace Debond
     {
       return last_reaction_defect;
     }
+    /** What was found since the last call. */
+    std::vector<Warning>
+    take_warnings()
+    {
+      return std::exchange(found, {});
+    }
     /** How many checks were not passed by a state since the last call. */
     unsigned int
     take_violations();
@@ -70,8 +85,7 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &energy_balance &released_energy &way &violated;
-      archive                                       &last_reaction_defect;
+      archive &energy_balance &released_energy &way &last_reaction_defect;
     }
 
   private:
@@ -93,17 +107,13 @@ namespace Debond
     void
     check_energy_balance(const std::string &where, double step_dissipation);
 
-    const Scene          &scene;
-    Console              &console;
-    EnergyBalance         energy_balance;
-    ReleasedEnergy        released_energy;
-    ChuckWay              way;
-    std::set<std::string> violated;
-    double                last_reaction_defect = 0;
+    const ModelParameters &parameters;
+    EnergyBalance          energy_balance;
+    ReleasedEnergy         released_energy;
+    ChuckWay               way;
+    std::set<std::string>  violated; ///< since the last row
+    std::vector<Warning>   found;    ///< since they were taken
+    double                 last_reaction_defect = 0;
   };
-
-  /** Why the bond would break in a jump, for messages. */
-  std::string
-  describe_softening(const InterfaceSummary &summary);
 } // namespace Debond
 #endif

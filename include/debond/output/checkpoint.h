@@ -40,7 +40,7 @@ namespace Debond
   {
   public:
     /** To be raised when the state of any class has other members. */
-    static constexpr unsigned int format = 1;
+    static constexpr unsigned int format = 2;
 
     explicit CheckpointFiles(const ResultDirectory &directory);
 

@@ -1,32 +1,15 @@
 #ifndef debond_output_profile_comparison_h
 #define debond_output_profile_comparison_h
 
+#include <debond/scene/reference_data.h>
+
 #include <limits>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace Debond
 {
-  /** What a profiles.csv holds of one point, as far as it is compared. */
-  struct ProfilePoint
-  {
-    double x = 0, y = 0; ///< reference position [mm]
-    double area     = 0; ///< weight [mm^2]
-    double pressure = 0; ///< [MPa]
-    double slip     = 0; ///< g_s [mm]; NaN: not part of the model
-  };
-
-  /** Angle [deg] -> points. */
-  using Profiles = std::map<double, std::vector<ProfilePoint>>;
-
-  /** Reads a profiles.csv. Throws InputError that names the entry `Output /
-   *  Reference profiles`, the file, the line and what was expected. An empty
-   *  @p filename gives no profiles. */
-  Profiles
-  read_profiles(const std::string &filename);
-
   /** Distance of local values from those of a reference; NaN where undefined.
    */
   struct ProfileMeasures

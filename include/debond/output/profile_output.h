@@ -2,16 +2,35 @@
 #define debond_output_profile_output_h
 
 #include <debond/interface/contact_interface.h>
-#include <debond/models/closed_forms.h>
 #include <debond/output/profile_comparison.h>
 #include <debond/output/result_files.h>
 #include <debond/scene/scene.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace Debond
 {
+  /** A point of the interface in profiles.csv. */
+  struct InterfacePoint
+  {
+    double      x = 0, y = 0; ///< reference position [mm]
+    double      pressure = 0; ///< [MPa]
+    double      traction = 0; ///< magnitude of the tangential one [MPa]
+    double      slip     = 0; ///< accumulated sliding distance g_s [mm]
+    double      phi      = 0; ///< bonding state
+    double      mu       = 0; ///< friction coefficient
+    PointStatus status   = PointStatus::open;
+    double      area     = 0; ///< that the point stands for [mm^2]
+  };
+
+  /** Those of the slave points that face the implant, in the trial state. */
+  std::vector<InterfacePoint>
+  profile_points(const ContactInterface &interface);
+
+
+
   /**
    * Tables of the interface for plotting, as CSV:
    *
@@ -29,11 +48,11 @@ namespace Debond
   public:
     ProfileOutput(const Scene &scene, const ResultDirectory &directory);
 
-    /** Adds the state of a row if its angle [deg] reaches a profile angle. */
+    /** Adds the @p points of a row, if its angle [deg] reaches a profile angle;
+     *  only then they are asked for. */
     void
-    write(double angle_deg, const ContactInterface &interface);
-    void
-    write(double angle_deg, const TorsionModel &model);
+    write(double                                              angle_deg,
+          const std::function<std::vector<InterfacePoint>()> &points);
 
     /** Writes profiles.csv, if there is any angle to write about. Returns a
      *  warning about angles that were never reached, or nothing. */
@@ -54,9 +73,6 @@ namespace Debond
     }
 
   private:
-    bool
-    reaches(double angle_deg);
-
     const ResultDirectory &directory;
     std::vector<double>    angles_to_come; ///< ascending [deg]
     const Profiles         reference;      ///< empty: none

@@ -1,57 +1,17 @@
 #ifndef debond_output_result_files_h
 #define debond_output_result_files_h
 
+#include <debond/scene/output_parameters.h>
 #include <debond/support/written_files.h>
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <memory>
 #include <string>
-#include <type_traits>
-#include <utility>
 #include <vector>
-
-namespace dealii
-{
-  class ParameterHandler;
-}
 
 namespace Debond
 {
-  /** steps: lines about the steps, progress and timings; quiet: warnings and
-   * errors only. */
-  enum class ConsoleKind
-  {
-    steps,
-    quiet
-  };
-
-  /** The subsection `Output` of a scene. */
-  struct OutputParameters
-  {
-    std::string  directory = "output/coin";
-    unsigned int fields_every =
-      50;                        ///< planned steps between VTU files, 0: none
-    std::string reference_curve; ///< CSV angle_deg,torque_Nmm, or empty
-    std::string reference_profiles;     ///< a profiles.csv, or empty
-    double      full_sliding_angle = 0; ///< [deg], 0: from the curve
-    double      observed_bonding   = 0; ///< mean phi_0 of w_adh, 0: the scene's
-    std::vector<double> profile_angles; ///< [deg]
-    bool                friction_law_curve = false; ///< write friction_law.csv
-    unsigned int        checkpoint_every = 0; ///< rows; 0: if interrupted only
-    ConsoleKind         console          = ConsoleKind::steps;
-    /** Use a directory that holds results of another scene, or the checkpoint
-     * of an interrupted run. No entry of the scene: the option --force of the
-     *  program. */
-    bool overwrite_other_results = false;
-    /** Whether a run leaves a checkpoint when it is interrupted. No entry of
-     *  the scene: false for runs that are part of a larger one. */
-    bool resumable = true;
-
-    static void
-    declare(dealii::ParameterHandler &prm);
-    void
-    parse(dealii::ParameterHandler &prm);
-  };
-
   enum class DirectoryContent
   {
     no_results,
@@ -101,53 +61,14 @@ namespace Debond
     std::shared_ptr<const DirectoryLock> lock;
   };
 
-  /** A flat JSON object whose members keep the order in which they are added;
-   *  one that is added again gets a new value in its old place. */
-  class JsonObject
-  {
-  public:
-    JsonObject() = default;
-    /** Reads a file that text() has written, for instance a summary.json.
-     *  Throws InputError if it cannot be read. */
-    static JsonObject
-    from_file(const std::string &filename);
+  /** Writes a JSON object with its members in their order and every digit;
+   *  what is not finite becomes `null`. Throws WriteError. */
+  void
+  write_json(const std::string &filename, const nlohmann::ordered_json &json);
 
-    /** Twelve significant digits; `null` if not finite. */
-    void
-    add(const std::string &name, double value);
-    void
-    add(const std::string &name, const std::string &value);
-    /** Without this one a literal would be taken for a bool. */
-    void
-    add(const std::string &name, const char *value);
-    void
-    add(const std::string &name, const std::vector<std::string> &values);
-    /** Whole numbers and bool. */
-    template <typename Integral,
-              typename = std::enable_if_t<std::is_integral<Integral>::value>>
-    void
-    add(const std::string &name, Integral value)
-    {
-      add_text(name,
-               std::is_same<Integral, bool>::value ?
-                 (value ? "true" : "false") :
-                 std::to_string(value));
-    }
-
-    /** The value of a member as it stands in the file; `null` if there is
-     *  none. */
-    std::string
-    value(const std::string &name) const;
-
-    /** The whole object, one member in a line. */
-    std::string
-    text() const;
-
-  private:
-    void
-    add_text(const std::string &name, const std::string &json);
-
-    std::vector<std::pair<std::string, std::string>> members; ///< name, JSON
-  };
+  /** The object in a file, for instance a summary.json; one without members if
+   *  there is no such file, or something else in it. */
+  nlohmann::ordered_json
+  read_json(const std::string &filename);
 } // namespace Debond
 #endif

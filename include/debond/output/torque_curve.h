@@ -4,6 +4,8 @@
 #include <debond/output/profile_comparison.h>
 #include <debond/support/written_files.h>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <array>
 #include <limits>
 #include <string>
@@ -12,7 +14,6 @@
 
 namespace Debond
 {
-  class JsonObject;
   class ResultDirectory;
 
   /** One row of torque.csv: the accepted state at the end of a planned step.
@@ -50,18 +51,52 @@ namespace Debond
     /** Energy that jumps have released so far, see ReleasedEnergy. */
     double released_energy_Nmm = 0;
 
+    /** Calls visit(name, value) for the columns of torque.csv in their order.
+     *  The first eighteen are fixed: users' scripts count on them. */
+    template <typename Visitor>
+    void
+    for_each_column(const Visitor &visit)
+    {
+      visit("step", step);
+      visit("time", time);
+      visit("angle_deg", angle_deg);
+      visit("torque_Nmm", torque_Nmm);
+      visit("force_N", force_N);
+      visit("pressure_MPa", pressure_MPa);
+      visit("phi_mean", phi_mean);
+      visit("share_stick", share_stick);
+      visit("share_slip", share_slip);
+      visit("share_open", share_open);
+      visit("newton_iterations", newton_iterations);
+      visit("energy_defect", energy_defect);
+      for (unsigned int k = 0; k < 6; ++k)
+        visit(std::string("chuck_") + "FFFMMM"[k] + "xyzxyz"[k] +
+                (k < 3 ? "_N" : "_Nmm"),
+              chuck_reaction[k]);
+      visit("work_Nmm", work_Nmm);
+      visit("energy_bulk_Nmm", energy_bulk_Nmm);
+      visit("energy_interface_Nmm", energy_interface_Nmm);
+      visit("dissipation_Nmm", dissipation_Nmm);
+      visit("adhesive_work_Nmm", adhesive_work_Nmm);
+      visit("energy_defect_bound", energy_defect_bound);
+      visit("reaction_defect", reaction_defect);
+      for (unsigned int k = 0; k < 6; ++k)
+        visit(std::string("chuck_") + "uuurrr"[k] + "xyzxyz"[k] +
+                (k < 3 ? "_mm" : "_deg"),
+              chuck_position[k]);
+      visit("viscous_work_Nmm", viscous_work_Nmm);
+      visit("warnings", warnings);
+      visit("machine_angle_deg", machine_angle_deg);
+      visit("released_energy_Nmm", released_energy_Nmm);
+    }
+
     /** See serialization.h. */
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &step &time &angle_deg &torque_Nmm &force_N &pressure_MPa;
-      archive &phi_mean &share_stick &share_slip          &share_open;
-      archive &newton_iterations &energy_defect           &chuck_reaction;
-      archive &work_Nmm &energy_bulk_Nmm                  &energy_interface_Nmm;
-      archive &dissipation_Nmm &adhesive_work_Nmm         &energy_defect_bound;
-      archive &reaction_defect &chuck_position &viscous_work_Nmm &warnings;
-      archive &machine_angle_deg &released_energy_Nmm;
+      for_each_column(
+        [&](const std::string &, auto &value) { archive &value; });
     }
   };
 
@@ -92,24 +127,6 @@ namespace Debond
   private:
     GrowingFile file;
   };
-
-
-
-  /** A measured or computed curve to compare with: angle [deg], torque [N mm].
-   */
-  using ReferenceCurve = std::vector<std::pair<double, double>>;
-
-  /**
-   * Reads a reference curve from a CSV file whose first line names the columns;
-   * `angle_deg` and `torque_Nmm` must be among them (so another run's
-   * torque.csv will do), others are ignored, as are empty lines and lines that
-   * begin with
-   * `#`. Throws InputError that names the entry `Output / Reference curve`, the
-   * file, the line and what was expected. An empty @p filename gives an empty
-   * curve.
-   */
-  ReferenceCurve
-  read_reference_curve(const std::string &filename);
 
 
 
@@ -217,9 +234,9 @@ namespace Debond
     std::vector<std::pair<std::string, double>> seconds;
   };
 
-  /** Adds all members of summary.json in their fixed order, further ones at
-   *  the end. */
+  /** The members of summary.json in their order: `nlohmann::ordered_json json =
+   *  summary;`. */
   void
-  add_summary(const RunSummary &summary, JsonObject &json);
+  to_json(nlohmann::ordered_json &json, const RunSummary &summary);
 } // namespace Debond
 #endif

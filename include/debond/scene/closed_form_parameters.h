@@ -1,13 +1,10 @@
 #ifndef debond_scene_closed_form_parameters_h
 #define debond_scene_closed_form_parameters_h
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace Debond
 {
+  class EntryTable;
+
   /** The subsection `Closed form` of a scene: what the models foundation,
    *  analytical and mathieu need besides the other entries. */
   struct ClosedFormParameters
@@ -20,10 +17,8 @@ namespace Debond
     double shear_modulus       = 40.4; ///< G [MPa]
     double adhesion_energy     = 22.2; ///< w_adh [N/m]
 
-    static void
-    declare(dealii::ParameterHandler &prm);
     void
-    parse(dealii::ParameterHandler &prm);
+    declare(EntryTable &table);
   };
 } // namespace Debond
 #endif

@@ -1,14 +1,11 @@
 #ifndef debond_scene_scene_h
 #define debond_scene_scene_h
 
-#include <debond/bulk/body_parameters.h>
-#include <debond/bulk/chuck.h>
 #include <debond/input/scene_file.h>
-#include <debond/interface/interface_parameters.h>
-#include <debond/output/result_files.h>
 #include <debond/scene/closed_form_parameters.h>
+#include <debond/scene/output_parameters.h>
 #include <debond/support/input_error.h>
-#include <debond/system/load_step_parameters.h>
+#include <debond/system/model_parameters.h>
 
 #include <iosfwd>
 #include <string>
@@ -33,10 +30,8 @@ namespace Debond
   {
     unsigned int largest_number_of_unknowns = 250000;
 
-    static void
-    declare(dealii::ParameterHandler &prm);
     void
-    parse(dealii::ParameterHandler &prm);
+    declare(EntryTable &table);
   };
 
   /** The subsection `Study`, for scenes whose entries hold several values. */
@@ -46,42 +41,34 @@ namespace Debond
     unsigned int factors_at_once   = 0; ///< 0: all combinations
     unsigned int repetitions       = 1; ///< runs of each variant
 
-    static void
-    declare(dealii::ParameterHandler &prm);
     void
-    parse(dealii::ParameterHandler &prm);
+    declare(EntryTable &table);
   };
 
-  /** Everything a `.prm` file says. A plain value: copy it, change it, run it.
-   */
-  struct Scene
+  /** Everything a `.prm` file says. A plain value: make one, copy it, change
+   *  it, check() it, run it. One that nothing was said of is the paper's coin
+   *  on bone, whose chuck does not move. */
+  struct Scene : ModelParameters
   {
-    std::string            title;
-    ModelKind              model = ModelKind::finite_elements;
-    BodyParameters         bone;
-    BodyParameters         implant;
-    InterfaceParameters    interface;
-    ChuckParameters        chuck;
-    LoadSteppingParameters load_steps;
-    ClosedFormParameters   closed_form;
-    AutoParameters         automatic;
-    StudyParameters        study;
-    OutputParameters       output;
+    std::string          title;
+    ModelKind            model = ModelKind::finite_elements;
+    ClosedFormParameters closed_form;
+    AutoParameters       automatic;
+    StudyParameters      study;
+    OutputParameters     output;
 
     /** The entries that the scene sets, and its name: where to look for a
      *  mistake. */
     std::vector<SceneEntry> entries;
     std::string             name;
 
-    /** @p message, which begins with the name of an entry, with file and line
-     *  before it and, if the name is followed by a colon, the value of the
-     *  entry after its name; with the name of the scene if it does not set the
-     *  entry. A message that has its place already stays as it is. */
-    std::string
-    with_place(const std::string &message) const;
+    /** An EntryError with the value of the entry and the place where it is set,
+     *  or the name of the scene if it is not; other errors as they are. */
+    InputError
+    with_place(const InputError &error) const;
 
     /** All entries, completed with defaults, as a `.prm` text that gives the
-     *  same scene again. Filled when the scene is read. */
+     *  same scene again. Filled when the scene is read, or by complete(). */
     std::string completed_parameters;
 
     /** Reads a file, then the overrides "Subsection/Entry=value" in order.
@@ -99,14 +86,16 @@ namespace Debond
               const std::vector<std::string> &overrides = {},
               const std::string              &name      = "scene");
 
-    static void
-    declare(dealii::ParameterHandler &prm);
     void
-    parse(dealii::ParameterHandler &prm);
+    declare(EntryTable &table);
 
-    /** Refuses what is allowed entry by entry but makes no sense together:
-     *  throws InputError whose message begins with the name of the entry. Done
-     *  by from_file() and from_text(); for scenes that a program changes. */
+    /** Fills completed_parameters of a scene that a program has made. */
+    void
+    complete();
+
+    /** Refuses values that are not allowed, and what is allowed entry by entry
+     *  but makes no sense together: throws EntryError. Done by from_file() and
+     *  from_text(); for scenes that a program has made or changed. */
     void
     check() const;
   };

@@ -1,6 +1,7 @@
 #ifndef debond_support_input_error_h
 #define debond_support_input_error_h
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -22,5 +23,35 @@ namespace Debond
     constexpr std::size_t longest = 300;
     return text.size() <= longest ? text : text.substr(0, longest) + "...";
   }
+
+  /**
+   * A mistake in one entry of a scene. Whoever finds it knows the entry and
+   * what is wrong; what the scene says and where is added by
+   * Scene::with_place(). The message is
+   *
+   *   PLACE: ENTRY = 'VALUE': WHY
+   */
+  class EntryError : public InputError
+  {
+  public:
+    /** @p entry: the full name, "Bone / Size"; empty for the scene as a whole.
+     *  @p why: what is wrong, or what is expected. @p place: "scene.prm:12". */
+    EntryError(const std::string         &entry,
+               const std::string         &why,
+               std::optional<std::string> value = {},
+               const std::string         &place = "")
+      : InputError((place.empty() ? "" : place + ": ") + shortened(entry) +
+                   (value ? " = '" + shortened(*value) + "'" : "") +
+                   (entry.empty() ? "" : ": ") + why)
+      , entry(entry)
+      , why(why)
+      , value(std::move(value))
+      , place(place)
+    {}
+
+    const std::string                entry, why;
+    const std::optional<std::string> value;
+    const std::string                place;
+  };
 } // namespace Debond
 #endif

@@ -2,8 +2,7 @@
 #define debond_system_adaptive_stepping_h
 
 #include <debond/system/load_stepping.h>
-
-#include <Eigen/Core>
+#include <debond/system/step_control.h>
 
 #include <array>
 
@@ -24,68 +23,49 @@ namespace Debond
    * straight line through the step before, in the first step of a phase from a
    * trial in its middle.
    */
-  class AdaptiveStepping
+  class AdaptiveStepping : public StepControl
   {
   public:
-    using Forces = Eigen::Matrix<double, 6, 1>;
+    using Forces = Chuck::Vector6;
 
     /** @p radius makes forces of moments, to compare them with [mm]. */
-    AdaptiveStepping(const LoadSteppingParameters &parameters, double radius);
+    AdaptiveStepping(const LoadSteppingParameters &parameters,
+                     const double                  radius)
+      : StepControl(parameters)
+      , radius(radius)
+    {}
 
-    /** Goes to the beginning of a phase, where the chuck exerts @p forces and
-     *  the scene prescribes @p drive, displacements and angles or loads. */
     void
-    begin_phase(unsigned int phase, const Forces &forces, const Forces &drive);
-    bool
-    phase_is_finished() const
-    {
-      return time == end;
-    }
+    begin_phase(const StepState &accepted) override;
 
-    /** End of the step that is to be tried next. */
-    double
-    target_time() const;
-    /** Whether a trial in the middle of the step, at middle_time(), has to be
-     *  made before its end can be judged. */
+    /** First of all a trial in the middle, in the first step of a phase. */
+    Step
+    next() override;
+    /** Where the curves bend too much between the states before and @p state,
+     *  the step has to be smaller, if it can. */
     bool
-    wants_middle() const
-    {
-      return !has_previous && !has_middle;
-    }
-    double
-    middle_time() const;
-    void
-    note_middle(const Forces &forces);
-
-    /** The error of the curves in the step relative to the tolerance, given
-     *  forces and drive at its end. */
-    double
-    error(const Forces &forces, const Forces &drive);
-    /** Takes the step; @p error is the above. */
-    void
-    accept(const Forces &forces, double error);
-    /** Makes the step smaller because of its @p error; false if it cannot be
-     *  smaller and has to be taken as it is. */
+    take(const Step &, const StepState &state, unsigned int) override;
+    /** Halves the step. */
     bool
-    shrink(double error);
-    /** Halves the step because it could not be solved; false if it cannot be
-     *  smaller. */
-    bool
-    reject();
+    reject(const Step &) override;
 
     /** See serialization.h. */
     template <class Archive>
     void
-    serialize(Archive &archive, const unsigned int)
+    serialize(Archive &archive, const unsigned int version)
     {
-      archive &time &end &size &largest &current &previous &middle;
-      archive &previous_time &previous_error &has_previous &has_middle;
-      archive &greatest &first_drive &has_first_drive      &is_driven;
+      StepControl::serialize(archive, version);
+      archive &size &current &previous &middle &previous_time &previous_error;
+      archive &has_middle &greatest &first_drive &has_first_drive &is_driven;
     }
 
   private:
     double
     smallest() const;
+    double
+    target_time() const;
+    double
+    error(const StepState &state) const;
     double
     relative_to_tolerance(const Forces &difference, const Forces &forces) const;
     void
@@ -93,18 +73,17 @@ namespace Debond
     void
     note_drive(const Forces &drive);
 
-    const LoadSteppingParameters parameters;
-    const double                 radius;
-    double                       time = 0, end = 0, size = 0, largest = 0;
-    Forces current        = Forces::Zero(); ///< at the beginning of the step
-    Forces previous       = Forces::Zero(); ///< one step before
-    Forces middle         = Forces::Zero();
-    double previous_time  = 0;
-    double previous_error = 0; ///< of the step before
-    bool   has_previous = false, has_middle = false;
-    Forces greatest        = Forces::Zero(); ///< so far
-    Forces first_drive     = Forces::Zero();
-    bool   has_first_drive = false;
+    const double radius;
+    double       size     = 0;
+    Forces       current  = Forces::Zero(); ///< at the beginning of the step
+    Forces       previous = Forces::Zero(); ///< one step before
+    Forces       middle   = Forces::Zero();
+    double       previous_time   = 0;
+    double       previous_error  = 0; ///< of the step before
+    bool         has_middle      = false;
+    Forces       greatest        = Forces::Zero(); ///< so far
+    Forces       first_drive     = Forces::Zero();
+    bool         has_first_drive = false;
     std::array<bool, 6> is_driven{}; ///< whether the drive has changed so far
   };
 } // namespace Debond

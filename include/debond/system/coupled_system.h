@@ -4,22 +4,26 @@
 #include <debond/bulk/body.h>
 #include <debond/bulk/chuck.h>
 #include <debond/interface/contact_interface.h>
-#include <debond/scene/scene.h>
 #include <debond/system/coupled_tangent.h>
 #include <debond/system/dense_solver.h>
+#include <debond/system/model_parameters.h>
 #include <debond/system/path_equation.h>
 
-#include <deal.II/base/timer.h>
-
 #include <memory>
+#include <optional>
 #include <string>
+
+namespace dealii
+{
+  class TimerOutput;
+}
 
 namespace Debond
 {
   /** The two bodies of a scene. */
   struct BodyPair
   {
-    explicit BodyPair(const Scene &scene);
+    explicit BodyPair(const ModelParameters &parameters);
 
     std::unique_ptr<Body> bone, implant;
     /** Seconds that a study has spent on them for all variants that use them.
@@ -46,13 +50,13 @@ namespace Debond
     std::shared_ptr<BodyPair> both_bodies;
 
   public:
-    /** Seconds go to the sections `bulk`, `condensation`, `contact` and `dense
-     *  solve` of @p timer, which must outlive this object. @p bodies: those of
-     *  the scene if they have been built already, at rest; they are this
-     *  system's from now on. */
-    CoupledSystem(const Scene              &scene,
-                  dealii::TimerOutput      &timer,
-                  std::shared_ptr<BodyPair> bodies = nullptr);
+    /** @p bodies: those of @p parameters if they have been built already, at
+     *  rest; they are this system's from now on. Seconds go to the sections
+     *  `bulk`, `condensation`, `contact` and `dense solve` of @p timer, if
+     *  there is one; it must outlive this object. */
+    explicit CoupledSystem(const ModelParameters    &parameters,
+                           std::shared_ptr<BodyPair> bodies = nullptr,
+                           dealii::TimerOutput      *timer  = nullptr);
     /** Its parts refer to each other. */
     CoupledSystem(const CoupledSystem &) = delete;
 
@@ -127,8 +131,8 @@ namespace Debond
     }
 
     /** Solves for the Newton correction to @p relative_tolerance and applies
-     * it. Returns why that was impossible, or an empty text. */
-    std::string
+     *  it. If that is impossible nothing is applied; returns why. */
+    std::optional<std::string>
     solve_and_correct(double relative_tolerance);
     /** Takes back all of the last correction but @p fraction of it; evaluate()
      *  is to follow. Fractions of several calls multiply. */
@@ -148,6 +152,14 @@ namespace Debond
      *  is not positive definite. */
     bool
     refactor_bulk();
+
+    /** Mean sliding distance of the trial state [mm], and 0 where no path is
+     *  followed. */
+    double
+    mean_slip() const
+    {
+      return path.follow ? interface.mean_slip(configuration).value : 0.;
+    }
 
     /** Where the residual of the last evaluate() is largest, for messages. */
     std::string
@@ -220,6 +232,8 @@ namespace Debond
   private:
     void
     update_configuration();
+    double
+    evaluate_chuck(double &reference);
     void
     number_unknowns();
     bool
@@ -233,10 +247,10 @@ namespace Debond
     void
     correct_chuck(double factor);
 
-    dealii::TimerOutput &timer;
-    unsigned int         unknowns    = 0;
-    double               force_floor = 0; ///< [N]
-    Eigen::VectorXd      residual, last_correction;
+    dealii::TimerOutput *const timer;
+    unsigned int               unknowns    = 0;
+    double                     force_floor = 0; ///< [N]
+    Eigen::VectorXd            residual, last_correction;
     /** Of each body in the last evaluate(). */
     std::array<Body::Residual, 2> bulk_residual;
     DenseSolver                   solver;

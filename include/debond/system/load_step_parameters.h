@@ -1,16 +1,12 @@
 #ifndef debond_system_load_step_parameters_h
 #define debond_system_load_step_parameters_h
 
-#include <string>
 #include <vector>
-
-namespace dealii
-{
-  class ParameterHandler;
-}
 
 namespace Debond
 {
+  class EntryTable;
+
   /** What the first iteration of a step starts from. */
   enum class Predictor
   {
@@ -37,10 +33,24 @@ namespace Debond
     /** Mean sliding distance at which the path ends [mm]; 0: the radius. */
     double path_ends_at_slip = 0;
 
-    static void
-    declare(dealii::ParameterHandler &prm);
+    /** Else each accepted step is a row. */
+    bool
+    rows_are_planned() const
+    {
+      return !adaptive && !follow_path;
+    }
+
+    /** Refuses times and steps that make no sense together. Throws EntryError.
+     */
     void
-    parse(dealii::ParameterHandler &prm);
+    check() const;
+    /** The planned times, or an even choice of them if there are many; first
+     *  and last time of each phase included. */
+    std::vector<double>
+    sample_times() const;
+
+    void
+    declare(EntryTable &table);
   };
 } // namespace Debond
 #endif

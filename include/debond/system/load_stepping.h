@@ -6,9 +6,8 @@
 namespace Debond
 {
   /**
-   * The planned steps of a scene and the sub-steps a planned step is cut into.
-   * Steps are counted, not accumulated: planned times are hit exactly, and a
-   * sub-step is a power of two of its planned step.
+   * The planned times of a scene. Steps are counted, not accumulated: planned
+   * times are hit exactly.
    */
   class LoadStepping
   {
@@ -37,53 +36,9 @@ namespace Debond
     unsigned int
     phase(unsigned int step) const;
 
-    /** @name Sub-steps */
-    //@{
-    /** Goes to the start of a planned step; the size of sub-steps of the one
-     *  before is kept. */
-    void
-    begin(unsigned int step);
-    bool
-    finished() const
-    {
-      return done == 1.;
-    }
-    /** End of the sub-step that is to be tried next. */
-    double
-    target_time() const;
-    /** The sub-step as a fraction of the planned step. */
-    double
-    fraction() const
-    {
-      return size;
-    }
-    bool
-    is_whole_step() const
-    {
-      return done == 0. && size == 1.;
-    }
-    /** The sub-step succeeded: the next one may be twice as large. */
-    void
-    accept();
-    /** The sub-step failed: the next one is half as large. False if that is
-     *  below the smallest step. */
-    bool
-    reject();
-    //@}
-
-    /** See serialization.h. */
-    template <class Archive>
-    void
-    serialize(Archive &archive, const unsigned int)
-    {
-      archive &current &done &size;
-    }
-
   private:
     const LoadSteppingParameters parameters;
     unsigned int                 total_steps = 0;
-    unsigned int                 current     = 0;
-    double done = 0, size = 1; ///< exact: sums of powers of two
   };
 } // namespace Debond
 #endif

@@ -1,7 +1,7 @@
 #ifndef debond_system_path_following_h
 #define debond_system_path_following_h
 
-#include <debond/scene/scene.h>
+#include <debond/system/step_control.h>
 
 namespace Debond
 {
@@ -13,19 +13,25 @@ namespace Debond
    * other control, and then smaller. No step goes further in time than a
    * planned one.
    */
-  class PathFollowing
+  class PathFollowing : public StepControl
   {
   public:
-    explicit PathFollowing(const Scene &scene);
+    /** The path ends at a mean sliding distance of @p end_slip [mm]; no step is
+     *  larger than @p largest_slip [mm]. */
+    PathFollowing(const LoadSteppingParameters &parameters,
+                  double                        largest_slip,
+                  double                        end_slip);
 
-    /** Goes to the beginning of a phase. */
     void
-    begin_phase(unsigned int phase, double mean_slip);
+    begin_phase(const StepState &accepted) override;
+    Step
+    next() override;
     bool
-    phase_is_finished() const
-    {
-      return time == end;
-    }
+    take(const Step      &step,
+         const StepState &state,
+         unsigned int     iterations) override;
+    bool
+    reject(const Step &step) override;
 
     /** Whether the mean sliding distance has reached the end of the path. */
     bool
@@ -33,44 +39,22 @@ namespace Debond
     {
       return mean_slip >= end_slip;
     }
-    double
-    end_of_path() const
-    {
-      return end_slip;
-    } ///< [mm]
-
-    /** The step that is to be tried next. */
-    struct Step
-    {
-      bool   by_slip     = false;
-      bool   extrapolate = false;
-      double time        = 0; ///< wanted, or a guess if by_slip
-      double slip        = 0; ///< growth of the mean slip, if by_slip [mm]
-      /** Size relative to the step before: for the extrapolated start. */
-      double ratio = 0;
-    };
-    Step
-    next() const;
-
-    /** Judges a step that was solved: false if it went too far, and a smaller
-     *  one has to be tried. */
     bool
-    accept(const Step  &step,
-           double       new_time,
-           double       new_mean_slip,
-           unsigned int iterations);
-    /** Makes the step smaller because it could not be solved; false if it
-     *  cannot be smaller. */
-    bool
-    reject(const Step &step);
+    is_finished() const override
+    {
+      return StepControl::is_finished() || has_ended();
+    }
+    std::string
+    reason_to_end() const override;
 
     /** See serialization.h. */
     template <class Archive>
     void
-    serialize(Archive &archive, const unsigned int)
+    serialize(Archive &archive, const unsigned int version)
     {
-      archive &time &end &planned &mean_slip &slip_size &time_size;
-      archive &last_time_step &last_slip_step &has_last &goes_to_end;
+      StepControl::serialize(archive, version);
+      archive &mean_slip &slip_size           &time_size;
+      archive &last_time_step &last_slip_step &goes_to_end;
     }
 
   private:
@@ -79,12 +63,10 @@ namespace Debond
     bool
     reject_time(const Step &step);
 
-    const LoadSteppingParameters parameters;
-    const double                 largest_slip, end_slip; ///< [mm]
-    double                       time = 0, end = 0, planned = 0, mean_slip = 0;
-    double slip_size = 0, time_size = 0; ///< of the next step
-    double last_time_step = 0, last_slip_step = 0;
-    bool   has_last = false;
+    const double largest_slip, end_slip; ///< [mm]
+    double       mean_slip = 0;
+    double       slip_size = 0, time_size = 0; ///< of the next step
+    double       last_time_step = 0, last_slip_step = 0;
     /** The last slip step would have left the phase. */
     bool goes_to_end = false;
     /** What has failed since the last accepted step; the other control is tried

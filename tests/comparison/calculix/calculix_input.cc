@@ -44,17 +44,18 @@ Writes a scene of debond as an input of CalculiX.
   {
     const std::string cannot = "calculix_input: cannot translate ";
 
-    const FrictionParameters &friction = scene.interface.friction;
-    const BondingParameters  &bonding  = scene.interface.bonding;
-    if (friction.kind == FrictionLawKind::modified_coulomb &&
-        friction.mu_broken != friction.mu_unbroken &&
-        bonding.initial_bonding != 0 && bonding.bonded_fraction != 0)
+    const FrictionLaw       &friction = *scene.interface.friction;
+    const BondingParameters &bonding  = scene.interface.bonding;
+    if (friction.depends_on_rate())
+      throw InputError(cannot + "a friction law that depends on the rate");
+    if (friction.has_bond() && bonding.initial_bonding != 0 &&
+        bonding.bonded_fraction != 0)
       throw InputError(cannot +
                        "a friction coefficient that changes with sliding: "
                        "expected Interface / Friction law = coulomb or "
                        "frictionless, or equal coefficients");
-    if (friction.kind != FrictionLawKind::frictionless &&
-        friction.starts_at > scene.load_steps.times.front())
+    if (!friction.is_frictionless() &&
+        scene.interface.friction_starts_at > scene.load_steps.times.front())
       throw InputError(cannot +
                        "Interface / Friction starts at after the first time");
 
@@ -302,17 +303,16 @@ Writes a scene of debond as an input of CalculiX.
     write_contact(std::ostream &out) const
     {
       const InterfaceParameters &interface = scene.interface;
-      const FrictionParameters  &friction  = interface.friction;
-      const bool slave_is_implant          = interface.slave == Side::implant;
+      const double               mu = interface.friction->mu_without_bond();
+      const bool slave_is_implant   = interface.slave == Side::implant;
       // The tension behind the slope means nothing for this type of contact.
       out << "*SURFACE INTERACTION, NAME=INTERFACE\n"
              "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n"
           << to_text(interface.normal_penalty) << ", 1.\n";
-      if (friction.kind != FrictionLawKind::frictionless &&
-          friction.mu_broken > 0)
+      if (mu > 0)
         out << "*FRICTION\n"
-            << to_text(friction.mu_broken) << ", "
-            << to_text(interface.tangential_penalty) << '\n';
+            << to_text(mu) << ", " << to_text(interface.tangential_stiffness())
+            << '\n';
       out << "*CONTACT PAIR, INTERACTION=INTERFACE, TYPE=SURFACE TO SURFACE\n"
           << (slave_is_implant ? "FACE_OF_IMPLANT, FACE_OF_BONE\n" :
                                  "FACE_OF_BONE, FACE_OF_IMPLANT\n");

@@ -1,0 +1,179 @@
+#ifndef debond_input_entry_table_h
+#define debond_input_entry_table_h
+
+#include <debond/input/allowed_values.h>
+#include <debond/input/scene_file.h>
+#include <debond/support/number_text.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <algorithm>
+#include <functional>
+#include <ostream>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace Debond
+{
+  /**
+   * The entries of a scene, one row each. A row ties an entry to the member of
+   * a struct: the value of the member is the default, what the entry is set to
+   * goes there. The structs must live as long as the table.
+   *
+   * @code
+   *   void
+   *   BodyParameters::declare(EntryTable &table)
+   *   {
+   *     table.enter_subsection("Bone");
+   *     table.add("Poisson ratio",
+   *               poisson_ratio,
+   *               Allowed::number_between(0, 0.49, ""),
+   *               "Poisson's ratio nu, dimensionless.");
+   *     table.leave_subsection();
+   *   }
+   * @endcode
+   */
+  class EntryTable
+  {
+  public:
+    void
+    enter_subsection(const std::string &name);
+    void
+    leave_subsection();
+
+    /** A row. @p member: a number, a text, a list of numbers (vector or array);
+     *  or a bool or an enumeration whose values are in the order of the choice.
+     *  @p documentation is for users and states the unit. Throws EntryError if
+     *  the member has a value that is not allowed. */
+    template <typename T>
+    void
+    add(const std::string   &name,
+        T                   &member,
+        const AllowedValues &allowed,
+        const std::string   &documentation);
+
+    /** A row whose text is interpreted by @p set. */
+    void
+    add(const std::string                              &name,
+        const std::string                              &value,
+        const std::function<void(const std::string &)> &set,
+        const AllowedValues                            &allowed,
+        const std::string                              &documentation);
+
+    /** An entry that can only have this value yet. */
+    void
+    reserve(const std::string &name,
+            const std::string &value,
+            const std::string &documentation);
+
+    /** Sets an entry, and the member that belongs to it. Throws EntryError if
+     *  it is unknown or its value not allowed. */
+    void
+    set(const SceneEntry &entry);
+
+    /** All entries with their values as a scene. */
+    std::string
+    text() const;
+
+    /** The same with documentation and what the entries allow. */
+    void
+    print(std::ostream &out) const;
+
+  private:
+    struct Row
+    {
+      std::vector<std::string> subsections;
+      std::string              name;
+      AllowedValues            allowed;
+      std::string              documentation;
+    };
+
+    /** What an unknown entry may have been meant to be, or nothing. */
+    std::string
+    likely_name(const SceneEntry &entry) const;
+
+    std::vector<std::string> path; ///< the subsections that are open
+    std::vector<Row>         rows;
+    dealii::ParameterHandler prm; ///< the values
+  };
+
+
+
+  /** A value as a scene has it. */
+  template <typename T>
+  std::string
+  entry_text(const T &value)
+  {
+    if constexpr (std::is_same_v<T, std::string>)
+      return value;
+    else if constexpr (std::is_floating_point_v<T>)
+      return exact_text(value);
+    else if constexpr (std::is_integral_v<T>)
+      return std::to_string(value);
+    else
+      {
+        std::string list;
+        for (const auto &item : value)
+          list += (list.empty() ? "" : ", ") + entry_text(item);
+        return list;
+      }
+  }
+
+
+
+  /** The opposite, for texts that are allowed. */
+  template <typename T>
+  void
+  read_entry(const std::string &text, T &value)
+  {
+    if constexpr (std::is_same_v<T, std::string>)
+      value = text;
+    else if constexpr (std::is_arithmetic_v<T>)
+      {
+        double number = 0;
+        read_number(text, number);
+        value = static_cast<T>(number);
+      }
+    else
+      {
+        const std::vector<std::string> items = split_list(text);
+        if constexpr (std::is_same_v<T, std::vector<typename T::value_type>>)
+          value.resize(items.size());
+        for (std::size_t i = 0; i < std::min(value.size(), items.size()); ++i)
+          read_entry(items[i], value[i]);
+      }
+  }
+
+
+
+  template <typename T>
+  void
+  EntryTable::add(const std::string   &name,
+                  T                   &member,
+                  const AllowedValues &allowed,
+                  const std::string   &documentation)
+  {
+    if constexpr (std::is_enum_v<T> || std::is_same_v<T, bool>)
+      {
+        const std::vector<std::string> names = allowed.names();
+        add(
+          name,
+          names.at(static_cast<unsigned int>(member)),
+          [&member, names](const std::string &text) {
+            member = static_cast<T>(
+              std::find(names.begin(), names.end(), text) - names.begin());
+          },
+          allowed,
+          documentation);
+      }
+    else
+      add(
+        name,
+        entry_text(member),
+        [&member](const std::string &text) { read_entry(text, member); },
+        allowed,
+        documentation);
+  }
+} // namespace Debond
+#endif

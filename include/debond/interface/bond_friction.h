@@ -1,0 +1,82 @@
+#ifndef debond_interface_bond_friction_h
+#define debond_interface_bond_friction_h
+
+#include <debond/interface/friction_law.h>
+
+namespace Debond
+{
+  /**
+   * Laws of a bond that breaks as a point slides: Eq. (11),
+   *
+   *   mu = phi mu_ub + (1 - phi) mu_b,   phi = phi_0 s(g_s),
+   *
+   * whose decay s falls from 1, or less, and never rises.
+   */
+  class BondFriction : public FrictionLaw
+  {
+  public:
+    /** mu_b and mu_ub. */
+    BondFriction(double mu_broken, double mu_unbroken);
+
+    FrictionCoefficient
+    coefficient(const FrictionState &start, double distance) const override;
+    double
+    friction_strength(const FrictionState &start,
+                      double               distance) const override;
+    double
+    adhesive_strength(const FrictionState &start,
+                      double               distance) const override;
+    double
+    steepest_fall(const FrictionState &start) const override;
+    bool
+    has_bond() const override
+    {
+      return drop != 0.;
+    }
+    double
+    mu_without_bond() const override
+    {
+      return mu_b;
+    }
+
+    /** The entries of mu_b and mu_ub, and @p more. */
+    static std::vector<LawEntry>
+    entries(const std::vector<LawEntry> &more);
+
+  protected:
+    /** s at the sliding distance @p slip [mm]; @p slope: ds/dg_s [1/mm]. */
+    virtual double
+    decay(double slip, double &slope) const = 0;
+    /** Integral of s from 0 to @p slip [mm]. */
+    virtual double
+    integrated_decay(double slip) const = 0;
+    /** Bound of -ds/dg_s from @p slip on [1/mm]. */
+    virtual double
+    steepest_decay(double slip) const = 0;
+
+  private:
+    const double mu_b, mu_ub, drop; ///< mu_ub - mu_b
+  };
+
+
+
+  /** Eq. (13) with its four parameters. */
+  struct ModifiedCoulombParameters
+  {
+    double mu_broken         = 0.40;  ///< mu_b
+    double mu_unbroken       = 0.58;  ///< mu_ub
+    double sliding_threshold = 0.022; ///< a_s [mm]
+    double transition_factor = 0.74;  ///< b_s
+  };
+
+  FrictionLawPointer
+  modified_coulomb(const ModifiedCoulombParameters &parameters = {});
+
+  /** Coulomb's law, whose @p mu no bond changes, and none. The bond is reported
+   *  as with the default of Eq. (13). */
+  FrictionLawPointer
+  coulomb(double mu = ModifiedCoulombParameters().mu_broken);
+  FrictionLawPointer
+  frictionless();
+} // namespace Debond
+#endif

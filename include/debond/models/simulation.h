@@ -1,0 +1,165 @@
+#ifndef debond_models_simulation_h
+#define debond_models_simulation_h
+
+#include <debond/models/state_checks.h>
+#include <debond/output/torque_curve.h>
+#include <debond/scene/scene.h>
+#include <debond/support/run_error.h>
+#include <debond/system/adaptive_stepping.h>
+#include <debond/system/coupled_system.h>
+#include <debond/system/path_following.h>
+#include <debond/system/planned_steps.h>
+#include <debond/system/step_solver.h>
+
+#include <boost/signals2/signal.hpp>
+
+#include <limits>
+#include <memory>
+#include <variant>
+#include <vector>
+
+namespace Debond
+{
+  /**
+   * The model `finite elements`: from a scene to a sequence of accepted states,
+   * each at the end of a row of the torque curve,
+   *
+   *     Simulation simulation(scene);
+   *     simulation.run();
+   *     for (const TorqueRow &row : simulation.rows()) ...
+   *
+   * It knows no directory, console, clock, signal or file; what does looks on.
+   * The checks that make a state trustworthy belong to it: that the residual
+   * meets the tolerance and the law had one solution, else a step is not
+   * accepted; and StateChecks, whose results are warnings and figures in the
+   * rows.
+   */
+  class Simulation
+  {
+  public:
+    /** Builds meshes and interface of @p scene, of which the subsections
+     *  `Study` and `Output` have no meaning here. @p bodies and @p timer: see
+     *  CoupledSystem. Throws InputError if there is not enough memory. */
+    explicit Simulation(const Scene              &scene,
+                        std::shared_ptr<BodyPair> bodies = nullptr,
+                        dealii::TimerOutput      *timer  = nullptr);
+    Simulation(const Simulation &) = delete; ///< its parts refer to each other
+
+    /** For who looks on while the simulation runs. A function that is connected
+     *  may throw to end it; the simulation is then in its last accepted state.
+     */
+    struct Signals
+    {
+      /** A row is to be solved for, after those that there are. */
+      boost::signals2::signal<void()> next_row;
+      /** The newest row; the system is in its state. */
+      boost::signals2::signal<void(const TorqueRow &)> row;
+      /** A check was not passed for the first time, see warnings(). */
+      boost::signals2::signal<void(const Warning &)> warning;
+    };
+    Signals signals;
+
+    /** Solves for all rows that are left. Throws RunError where the load cannot
+     *  be followed; the rows before stay. Throws InputError if an expression of
+     *  the scene has no finite value. */
+    void
+    run();
+    /** Solves for one more row; the first is the state at the first time. */
+    void
+    advance();
+    bool
+    is_finished() const
+    {
+      return step_control.is_finished();
+    }
+
+    const std::vector<TorqueRow> &
+    rows() const
+    {
+      return all_rows;
+    }
+    /** Bodies, chuck and interface in the last accepted state. */
+    const CoupledSystem &
+    system() const
+    {
+      return coupled_system;
+    }
+    const StateChecks &
+    checks() const
+    {
+      return state_checks;
+    }
+    const StepControl &
+    control() const
+    {
+      return step_control;
+    }
+    /** What the checks found, each once; known from the beginning is what the
+     *  scene itself warns of. */
+    const std::vector<Warning> &
+    warnings() const
+    {
+      return all_warnings;
+    }
+
+    struct Effort
+    {
+      unsigned int steps             = 0; ///< accepted, sub-steps included
+      unsigned int newton_iterations = 0; ///< also of attempts that failed
+      /** Time of the shortest accepted step. */
+      double shortest_step = std::numeric_limits<double>::quiet_NaN();
+    };
+    const Effort &
+    effort() const
+    {
+      return spent;
+    }
+
+    /** See serialization.h. Between rows; a simulation that is loaded is one of
+     *  the same scene that has just been constructed. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &coupled_system &solver &state_checks &all_rows &all_warnings;
+      archive &spent.steps &spent.newton_iterations &spent.shortest_step;
+      std::visit([&archive](auto &chosen) { archive &chosen; }, steps);
+    }
+
+    const Scene scene;
+
+  private:
+    using Steps = std::variant<PlannedSteps, AdaptiveStepping, PathFollowing>;
+
+    static Steps
+    choose_steps(const Scene &scene);
+    void
+    solve_first_row();
+    void
+    solve_row();
+    StepState
+    state() const;
+    void
+    accept(const StepResult &result);
+    void
+    add_row(const InterfaceSummary &summary, unsigned int iterations);
+    void
+    refuse_jump(const StepResult &result) const;
+    [[noreturn]] void
+    give_up(const Step &step, const StepResult &result) const;
+    void
+    judge_whole_run();
+    void
+    warn(const Warning &warning);
+
+    CoupledSystem          coupled_system;
+    StepSolver             solver;
+    Steps                  steps;
+    StepControl           &step_control; ///< the one that was chosen
+    StateChecks            state_checks;
+    std::vector<TorqueRow> all_rows;
+    std::vector<Warning>   all_warnings;
+    Effort                 spent;
+  };
+} // namespace Debond
+#endif

@@ -1,0 +1,112 @@
+#ifndef debond_system_step_solver_h
+#define debond_system_step_solver_h
+
+#include <debond/system/coupled_system.h>
+#include <debond/system/newton.h>
+#include <debond/system/step_control.h>
+
+#include <string>
+#include <vector>
+
+namespace Debond
+{
+  /** Largest rotation in a step [rad]. A sliding point is pulled along the
+   * chord of its way, at half this angle to its direction at the end: 5 degrees
+   * cost a thousandth of the friction. */
+  constexpr double largest_turn = 5. * M_PI / 180.;
+
+
+
+  /** What became of a step. */
+  struct StepResult
+  {
+    bool converged = false; ///< the residual of the true law is small enough
+    bool unique    = false; ///< the law had only one solution at every point
+    /** It cannot be unique in smaller steps either. */
+    bool             hopeless = false;
+    std::string      why;            ///< if it is not to be accepted
+    unsigned int     iterations = 0; ///< linear solves of all attempts
+    InterfaceSummary interface;      ///< of the last attempt
+
+    bool
+    is_acceptable() const
+    {
+      return converged && unique;
+    }
+  };
+
+
+
+  /**
+   * Finds the state at the end of a step: Newton's method, begun in one way
+   * after the other until one leads to a state that is to be accepted. The
+   * state stays a trial until commit(); without one the system is rolled back.
+   */
+  class StepSolver
+  {
+  public:
+    /** Keeps references to both. Accepted states begin at the first time. */
+    StepSolver(const ModelParameters &parameters, CoupledSystem &system);
+
+    /** The state at the first time, from where the bodies were placed. */
+    StepResult
+    solve_first();
+    StepResult
+    solve(const Step &step);
+    /** Accepts the state that has been found. */
+    void
+    commit();
+
+    /** Of the last accepted state. */
+    double
+    time() const
+    {
+      return accepted_time;
+    }
+    /** Number of accepted steps; the first state is not one. */
+    unsigned int
+    n_steps() const
+    {
+      return n_states > 0 ? n_states - 1 : 0;
+    }
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &accepted_time &n_states;
+    }
+
+  private:
+    /** A way to begin Newton's method, and to go on. */
+    struct Attempt
+    {
+      /** Begins on the line through the last two states. */
+      bool extrapolates;
+      /** Takes full corrections only, also where points go round in a cycle. */
+      bool jumps;
+      /** Begins where the springs of the machine are relaxed. */
+      bool relaxes_machine;
+    };
+    static const Attempt extrapolated, from_rest, jump, beyond;
+    /** Those of a step, in the order in which they are made. */
+    std::vector<Attempt>
+    attempts(const Step &step) const;
+
+    bool
+    turns_too_far(double time) const;
+    StepResult
+    make(const Attempt &attempt, const Step &step);
+    void
+    start(const Attempt &attempt, const Step &step);
+    NewtonOptions
+    options(const Attempt &attempt, const Step &step) const;
+
+    const ModelParameters &parameters;
+    CoupledSystem         &system;
+    double                 accepted_time;
+    unsigned int           n_states = 0;
+  };
+} // namespace Debond
+#endif

@@ -1,0 +1,46 @@
+#include <debond/interface/normal_law.h>
+
+namespace Debond
+{
+  namespace
+  {
+    class Penalty : public NormalLaw
+    {
+    public:
+      Penalty(const double stiffness, const bool opening_breaks_bond)
+        : eps_n(stiffness)
+        , opening_breaks_bond(opening_breaks_bond)
+      {}
+
+      NormalResponse
+      respond(const double g_n, const PointHistory &) const override
+      {
+        return {-eps_n * g_n, eps_n, 0.5 * eps_n * g_n * g_n};
+      }
+
+      void
+      open(PointHistory &history) const override
+      {
+        history.broken = history.broken || opening_breaks_bond;
+      }
+
+      double
+      initial_stiffness() const override
+      {
+        return eps_n;
+      }
+
+    private:
+      const double eps_n;
+      const bool   opening_breaks_bond;
+    };
+  } // namespace
+
+
+
+  std::shared_ptr<const NormalLaw>
+  penalty_law(const double stiffness, const bool opening_breaks_bond)
+  {
+    return std::make_shared<Penalty>(stiffness, opening_breaks_bond);
+  }
+} // namespace Debond

@@ -1,0 +1,208 @@
+#include <debond/input/csv_table.h>
+#include <debond/interface/bond_friction.h>
+#include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
+
+#include <boost/math/interpolators/pchip.hpp>
+
+#include <math.h> // pchip expects isnan() outside of any namespace
+
+#include <algorithm>
+
+namespace Debond
+{
+  namespace
+  {
+    constexpr const char *table_entry = "Friction table";
+
+    /** s(g_s) through the points of a table: monotone cubics between them
+     *  (Fritsch and Carlson), constant from the last one on. */
+    class TableFriction : public BondFriction
+    {
+    public:
+      TableFriction(const double               mu_broken,
+                    const double               mu_unbroken,
+                    const std::string         &filename,
+                    const std::vector<double> &slip,
+                    const std::vector<double> &phi)
+        : BondFriction(mu_broken, mu_unbroken)
+        , filename(filename)
+        , slip(slip)
+        , last(phi.back())
+        , curve(std::vector<double>(slip), std::vector<double>(phi))
+        , integral(slip.size(), 0.)
+        , steepest(slip.size(), 0.)
+      {
+        for (std::size_t i = 1; i < slip.size(); ++i)
+          integral[i] =
+            integral[i - 1] + integral_between(slip[i - 1], slip[i]);
+        for (std::size_t i = slip.size() - 1; i-- > 0;)
+          steepest[i] = std::max(steepest[i + 1], steepest_between(i));
+      }
+
+      const std::vector<double> &
+      kinks() const override
+      {
+        return slip;
+      }
+
+      double
+      characteristic_distance() const override
+      {
+        const double fall = *std::max_element(steepest.begin(), steepest.end());
+        return fall > 0. ? std::min(slip.back(), 1. / fall) : slip.back();
+      }
+
+      std::string
+      file() const override
+      {
+        return filename;
+      }
+
+      std::string
+      entries_against_fall() const override
+      {
+        return "distance over which the bond of Friction table falls";
+      }
+
+    protected:
+      double
+      decay(const double g_s, double &slope) const override
+      {
+        slope = 0.;
+        if (g_s >= slip.back())
+          return last;
+        slope = curve.prime(g_s);
+        return curve(g_s);
+      }
+
+      double
+      integrated_decay(const double g_s) const override
+      {
+        if (g_s >= slip.back())
+          return integral.back() + last * (g_s - slip.back());
+        const std::size_t i = interval_of(g_s);
+        return integral[i] + integral_between(slip[i], g_s);
+      }
+
+      double
+      steepest_decay(const double g_s) const override
+      {
+        return g_s >= slip.back() ? 0. : steepest[interval_of(g_s)];
+      }
+
+    private:
+      std::size_t
+      interval_of(const double g_s) const
+      {
+        return std::upper_bound(slip.begin(), slip.end(), g_s) - slip.begin() -
+               1;
+      }
+
+      // Simpson's rule is exact for a cubic.
+      double
+      integral_between(const double from, const double to) const
+      {
+        return (to - from) / 6. *
+               (curve(from) + 4. * curve(0.5 * (from + to)) + curve(to));
+      }
+
+      // The slope is a parabola: largest at its ends or its vertex.
+      double
+      steepest_between(const std::size_t i) const
+      {
+        const double a = slip[i], h = slip[i + 1] - a;
+        const double left = curve.prime(a), right = curve.prime(a + h);
+        const double middle  = curve.prime(a + 0.5 * h);
+        const double bending = 2. * (left - 2. * middle + right);
+        const double at =
+          bending != 0. ? 0.5 * (left - right + bending) / bending : 0.;
+        const double vertex =
+          at > 0. && at < 1. ? curve.prime(a + at * h) : middle;
+        return -std::min({left, right, vertex});
+      }
+
+      const std::string         filename;
+      const std::vector<double> slip; ///< g_s of the rows [mm]
+      const double              last; ///< phi of the last one
+      const boost::math::interpolators::pchip<std::vector<double>> curve;
+
+      std::vector<double> integral; ///< of s, from 0 to each row [mm]
+      std::vector<double> steepest; ///< bound from each row on [1/mm]
+    };
+
+
+
+    [[noreturn]] void
+    refuse_table(const std::string &where, const std::string &why)
+    {
+      throw InputError(where + ": " + why);
+    }
+
+
+
+    FrictionLawPointer
+    read_table(const double       mu_broken,
+               const double       mu_unbroken,
+               const std::string &filename)
+    {
+      const std::string place = std::string("Interface / ") + table_entry;
+      if (filename.empty())
+        refuse_table(place,
+                     "Friction law = table needs the name of a CSV file");
+      std::vector<double>       slip, phi;
+      std::vector<unsigned int> lines;
+      for (const std::vector<double> &row :
+           read_csv_columns(filename, place, {"slip_mm", "phi"}, false, &lines))
+        {
+          const std::string where =
+            filename + ":" + std::to_string(lines[slip.size()]);
+          if (slip.empty() ? row[0] != 0. : !(row[0] > slip.back()))
+            refuse_table(where,
+                         "slip_mm = " + to_text(row[0]) +
+                           ": expected distances that begin with 0 and ascend");
+          if (!(row[1] >= 0. && row[1] <= 1.))
+            refuse_table(where,
+                         "phi = " + to_text(row[1]) + ": expected 0 to 1");
+          if (!phi.empty() && row[1] > phi.back())
+            refuse_table(where,
+                         "phi = " + to_text(row[1]) + " is more than " +
+                           to_text(phi.back()) +
+                           " in the row before: a bond does not heal");
+          slip.push_back(row[0]);
+          phi.push_back(row[1]);
+        }
+      if (slip.size() < 4)
+        refuse_table(filename,
+                     "expected at least four rows of slip_mm and phi");
+      return std::make_shared<TableFriction>(
+        mu_broken, mu_unbroken, filename, slip, phi);
+    }
+  } // namespace
+
+
+
+  FrictionLawPlugin
+  table_plugin()
+  {
+    return {
+      "table",
+      "as modified coulomb, with the decay of the bond from Friction table",
+      BondFriction::entries(
+        {{"",
+          table_entry,
+          "",
+          Allowed::optional_text("the name of a CSV file"),
+          "CSV file with the columns slip_mm, the sliding distance g_s [mm], "
+          "ascending from 0, and phi, the bonding state there of a point that "
+          "was fully bonded, from 1 to 0, dimensionless, which may not rise. "
+          "Monotone cubics lie between the rows, of which there are four at "
+          "least; from the last one on phi is constant. Used by table. The "
+          "path is relative to the working directory."}}),
+      [](const FrictionLawChoice &choice) {
+        return read_table(choice.number("Friction coefficient broken"),
+                          choice.number("Friction coefficient unbroken"),
+                          choice.text(table_entry));
+      }};
+  }
+} // namespace Debond

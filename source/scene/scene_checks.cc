@@ -1,0 +1,233 @@
+#include <debond/input/entry_table.h>
+#include <debond/input/time_function.h>
+#include <debond/interface/bonding_pattern.h>
+#include <debond/scene/scene.h>
+#include <debond/support/number_text.h>
+#include <debond/system/load_stepping.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace Debond
+{
+  namespace
+  {
+    void
+    check_faces(const BodyParameters &bone, const BodyParameters &implant)
+    {
+      for (unsigned int d = 0; d < 2; ++d)
+        if (implant.width(d) > bone.size[d])
+          throw EntryError(std::string("Implant / ") +
+                             (implant.is_round() ? "Radius" : "Size"),
+                           "the implant is " + to_text(implant.width(d)) +
+                             " mm wide in " + "xy"[d] +
+                             ", wider than the bone below it (Bone / Size: " +
+                             to_text(bone.size[d]) + " mm)");
+    }
+
+
+
+    /** Whether a component changes with time or carries a load; refuses
+     *  expressions that cannot be read or have no finite value, and values that
+     *  cannot be computed with. */
+    bool
+    check_component(const ChuckComponentParameters &component,
+                    const std::string              &entry,
+                    const std::vector<double>      &times,
+                    const double                    radius)
+    {
+      const double largest = component.loaded ? 1e12 : 1e6;
+      try
+        {
+          const TimeFunction function    = component.value_over_time(radius);
+          const double       first_value = function(times.front());
+          bool               varies      = false;
+          for (const double time : times)
+            {
+              const double value = function(time);
+              if (std::abs(value) > largest)
+                throw InputError("it is " + to_text(value) +
+                                 " at t = " + to_text(time) +
+                                 ": expected at most " + to_text(largest));
+              varies = varies || value != first_value;
+            }
+          return varies || (component.loaded && first_value != 0);
+        }
+      catch (const InputError &error)
+        {
+          throw EntryError(entry, error.what());
+        }
+    }
+
+
+
+    void
+    check_chuck(const Scene &scene)
+    {
+      const std::vector<double> times = scene.load_steps.sample_times();
+      bool                      moves = false;
+      for (unsigned int c = 0; c < ChuckParameters::n_components; ++c)
+        {
+          const ChuckComponentParameters &component = scene.chuck.component[c];
+          if (component.loaded && component.stiffness != 0)
+            throw EntryError(ChuckParameters::entry_name(c, "Stiffness"),
+                             std::string(
+                               "it has no effect where the machine prescribes "
+                               "a load: it is for Control = ") +
+                               (is_rotation(c) ? "angle" : "displacement"));
+          const bool this_moves =
+            check_component(component,
+                            ChuckParameters::entry_name(c, "Value"),
+                            times,
+                            scene.implant.characteristic_radius());
+          moves = moves || this_moves;
+        }
+      if (!moves)
+        throw EntryError("",
+                         "nothing moves in this scene: all six chuck "
+                         "components have constant values and none carries a "
+                         "load. Give for instance Chuck / Translation z / "
+                         "Value = -0.0049 * min(t, 1)");
+    }
+
+
+
+    void
+    check_path_following(const Scene &scene)
+    {
+      if (!scene.load_steps.follow_path)
+        return;
+      const std::string entry = "Load steps / Path following";
+      if (scene.model != ModelKind::finite_elements)
+        throw EntryError(entry, "it is for Model = finite elements");
+      if (scene.interface.viscosity > 0.)
+        throw EntryError(entry,
+                         "along a path of equilibrium the time may fall and is "
+                         "no clock for Interface / Viscosity = " +
+                           to_text(scene.interface.viscosity) +
+                           ": expected only one of them");
+    }
+
+
+
+    /** A step has friction or has none. */
+    void
+    check_start_of_friction(const InterfaceParameters    &interface,
+                            const LoadSteppingParameters &load_steps)
+    {
+      const std::string          entry = "Interface / Friction starts at";
+      const std::vector<double> &times = load_steps.times;
+      if (!interface.friction->is_frictionless() &&
+          interface.friction_starts_at > times.back())
+        throw EntryError(entry,
+                         "this is after the last of Load steps / Times: use "
+                         "Friction law = frictionless if none is wanted");
+
+      if (interface.friction_starts_at <= times.front())
+        return;
+      if (load_steps.adaptive || load_steps.follow_path)
+        {
+          if (std::find(times.begin(),
+                        times.end(),
+                        interface.friction_starts_at) == times.end())
+            throw EntryError(entry,
+                             "this is inside a phase: with adaptive steps or "
+                             "Path following one of Load steps / Times is "
+                             "expected");
+          return;
+        }
+      const LoadStepping stepping(load_steps);
+      for (unsigned int step = 0; step <= stepping.n_steps(); ++step)
+        if (std::abs(stepping.time(step) - interface.friction_starts_at) <=
+            1e-9 * (times.back() - times.front()))
+          return;
+      throw EntryError(entry,
+                       "this is inside a planned step: expected the end of a "
+                       "step (Load steps / Times and Steps)");
+    }
+
+
+
+    /** What has no rate. */
+    void
+    check_rate(const Scene &scene)
+    {
+      if (!scene.interface.friction->depends_on_rate())
+        return;
+      const auto refuse = [](const std::string &entry) {
+        throw EntryError(entry,
+                         "it does not go with this Friction law, whose "
+                         "coefficient depends on the sliding speed");
+      };
+      if (scene.load_steps.follow_path)
+        refuse("Load steps / Path following");
+      if (scene.interface.explicit_friction)
+        refuse("Interface / Friction update");
+      if (scene.output.friction_law_curve)
+        refuse("Output / Friction law curve");
+      if (scene.model != ModelKind::finite_elements)
+        refuse("Model");
+    }
+
+
+
+    /** The results of an earlier run may be removed before the next begins. */
+    void
+    check_bonding_file(const std::string &file, const std::string &directory)
+    {
+      namespace fs = std::filesystem;
+      std::error_code wrong;
+      if (!file.empty() &&
+          fs::weakly_canonical(file, wrong).parent_path() ==
+            fs::weakly_canonical(directory, wrong) &&
+          !wrong)
+        throw EntryError("Interface / Bonding / File",
+                         "this file is in the directory that the scene writes "
+                         "its results to (Output / Directory): copy it "
+                         "elsewhere first");
+    }
+
+
+
+    /** Such patterns are others on other meshes. */
+    void
+    check_pattern_of_auto(const BondingParameters &bonding)
+    {
+      const bool is_random = bonding.pattern == BondingPatternKind::random;
+      if (bonding.pattern == BondingPatternKind::file ||
+          (is_random && bonding.correlation_length == 0.))
+        throw EntryError(
+          "Interface / Bonding / Pattern",
+          std::string("it belongs to one mesh, but Model = auto compares "
+                      "several: use Model = finite elements, or ") +
+            (is_random ? "give a Correlation length" : "another pattern"));
+    }
+  } // namespace
+
+
+
+  void
+  Scene::check() const
+  {
+    // the table refuses values out of their ranges
+    Scene      copy = *this;
+    EntryTable table;
+    copy.declare(table);
+
+    bone.check("Bone");
+    implant.check("Implant");
+    check_faces(bone, implant);
+    interface.check(implant);
+    check_bonding_pattern(interface.bonding, implant);
+    if (model == ModelKind::automatic)
+      check_pattern_of_auto(interface.bonding);
+    load_steps.check();
+    check_start_of_friction(interface, load_steps);
+    check_rate(*this);
+    check_chuck(*this);
+    check_path_following(*this);
+    output.check();
+    check_bonding_file(interface.bonding.file, output.directory);
+  }
+} // namespace Debond

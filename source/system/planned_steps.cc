@@ -1,0 +1,45 @@
+#include <debond/system/planned_steps.h>
+
+#include <cmath>
+
+namespace Debond
+{
+  Step
+  PlannedSteps::next()
+  {
+    if (row_is_complete())
+      {
+        ++current;
+        done = 0.;
+      }
+    const double from = plan.time(current - 1), to = plan.time(current);
+    Step         step;
+    step.extrapolate = has_previous;
+    step.time = done + size == 1. ? to : from + (to - from) * (done + size);
+    step.whole_time = step.time;
+    return step;
+  }
+
+
+
+  bool
+  PlannedSteps::take(const Step &step, const StepState &, const unsigned int)
+  {
+    time         = step.time;
+    has_previous = true;
+    done += size;
+    // twice as large if the step then still ends on its grid
+    if (size < 1. && std::fmod(done, 2. * size) == 0.)
+      size *= 2.;
+    return true;
+  }
+
+
+
+  bool
+  PlannedSteps::reject(const Step &)
+  {
+    size *= 0.5;
+    return size >= parameters.smallest_step_fraction;
+  }
+} // namespace Debond

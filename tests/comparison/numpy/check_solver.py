@@ -1,0 +1,129 @@
+#!/usr/bin/python3
+"""Checks of this solver that need no other program."""
+import os
+import sys
+
+os.environ.setdefault('OPENBLAS_NUM_THREADS', '1')
+sys.dont_write_bytecode = True
+
+import numpy as np  # noqa: E402
+
+import interface  # noqa: E402
+import nurbs  # noqa: E402
+import scene_file  # noqa: E402
+import simulation  # noqa: E402
+import solids  # noqa: E402
+
+RADIUS, HEIGHT = 2.5, 3.
+RANDOM = np.random.default_rng(1)
+
+
+def small_solids(young=1000.):
+    yield solids.bone_block([8., 8., 4.], (5, 2), 1.5, young, .3, 'neo-hookean')
+    yield solids.coin(RADIUS, HEIGHT, (3, 2), 1., young, .3, 'neo-hookean')
+
+
+def relative(a, b):
+    return np.abs(a - b).max() / np.abs(b).max()
+
+
+def derivatives_of_the_energy():
+    """Forces against differences of the energy, and the tangent against differences of the forces."""
+    worst, step = 0., 1e-5
+    for solid in small_solids():
+        u = 0.02 * RANDOM.standard_normal(solid.points.shape)
+        direction = RANDOM.standard_normal(solid.points.shape)
+        slope = (solid.energy(u + step * direction) - solid.energy(u - step * direction)) / (2 * step)
+        worst = max(worst, relative(slope, (solid.forces(u) * direction).sum()))
+        change = (solid.forces(u + step * direction) - solid.forces(u - step * direction)) / (2 * step)
+        worst = max(worst, relative((solid.tangent(u) @ direction.ravel()).reshape(-1, 3), change))
+    return worst
+
+
+def rigid_motion():
+    """Forces after a turn by two radians, relative to those of a strain of one."""
+    components = [.1, -.2, .3, .8, -.5, 1.2]
+    worst = 0.
+    for solid in small_solids():
+        turned = simulation.Simulation(solid, solid, None, 1., HEIGHT, 1.)
+        turned.move_chuck(components)
+        u = solid.points @ turned.rotation.T - solid.points
+        worst = max(worst, np.abs(solid.forces(u)).max() / np.abs(solid.forces(solid.points)).max())
+    return worst
+
+
+def uniform_stress():
+    """Forces inside the bone under a homogeneous deformation, relative to those on its surface."""
+    bone = next(iter(small_solids()))
+    f = bone.forces(bone.points @ (0.1 * RANDOM.standard_normal((3, 3))).T)
+    low, high = bone.points.min(0), bone.points.max(0)
+    inside = ((bone.points > low + 1e-9) & (bone.points < high - 1e-9)).all(1)
+    return np.abs(f[inside]).max() / np.abs(f).max()
+
+
+def points_on_a_disk():
+    """Closest points of the disk to points above and beside it, against the circle; mm."""
+    face, plane = nurbs.disk(RADIUS, 3)
+    points = np.column_stack([plane, np.zeros(len(plane))])
+    x = np.append(RANDOM.uniform(-4, 4, (1000, 2)), RANDOM.uniform(-.05, .05, (1000, 1)), axis=1)
+    xi, beyond = interface.closest_points(face, points, x, np.full((1000, 2), .5))
+    if (beyond != (np.hypot(x[:, 0], x[:, 1]) > RADIUS)).any():
+        return np.inf
+    return np.abs(face.point(points, xi)[0] - x * [1, 1, 0])[~beyond].max()
+
+
+def closed_form_traction(law, r, depth, normal, tangential, angle):
+    """Traction at radii r (m,) between rigid bodies: r angle = g_s + mu(g_s) p / eps_t, by bisection."""
+    pressure = normal * depth
+    low, high = np.zeros_like(r), r * angle
+    for _ in range(200):
+        middle = (low + high) / 2
+        mu, _ = law.coefficient(middle, np.ones_like(r))
+        far = middle + mu * pressure / tangential > r * angle
+        low, high = np.where(far, low, middle), np.where(far, middle, high)
+    sticks = tangential * r * angle <= law.coefficient(0 * r, np.ones_like(r))[0] * pressure
+    return np.where(sticks, tangential * r * angle, law.coefficient(low, np.ones_like(r))[0] * pressure)
+
+
+def stiff_bodies():
+    """Torque between almost rigid bodies against the closed form at the same points, relative to its maximum."""
+    law = interface.FrictionLaw(.58, .4, .022, .74)
+    bone, coin = small_solids(young=1e9)
+    contact = interface.Interface(coin, bone, +1, law, (600., 400.), 4, lambda x, y: 1.)
+    solver = simulation.Simulation(bone, coin, contact, contact.area.sum(), HEIGHT, 1e-9)
+    solver.start([0., 0., -.005, 0., 0., 0.])
+    r = np.hypot(*contact.positions(coin.points[:25])[:, :2].T)
+    here, exact = [], []
+    for angle in np.radians(np.linspace(.05, 2, 40)):
+        solver.step([0., 0., -.005, 0., 0., angle])
+        here.append(solver.results()['torque_Nmm'])
+        exact.append(contact.area @ (r * closed_form_traction(law, r, .005, 600., 400., angle)))
+    return relative(np.array(here), np.array(exact))
+
+
+def reactions_of_the_top():
+    """Contact forces against reactions of the implant's top in a general motion, relative."""
+    scene = scene_file.Scene(os.path.join(os.path.dirname(os.path.abspath(__file__)), 'general_motion.prm'))
+    solver = scene.simulation()
+    solver.start(scene.components(0.))
+    for time in scene.times[1:4]:
+        solver.step(scene.components(time))
+    return max(relative(a, b) for a, b in zip(solver.top_reactions(), solver.reactions()))
+
+
+CHECKS = {derivatives_of_the_energy: 1e-7, rigid_motion: 1e-13, uniform_stress: 1e-12, points_on_a_disk: 1e-13,
+          stiff_bodies: 1e-4, reactions_of_the_top: 1e-10}
+
+
+def main():
+    failed = False
+    for check, limit in CHECKS.items():
+        value = check()
+        bad = not value <= limit
+        failed = failed or bad
+        print('%-28s %8.1e (at most %g)%s' % (check.__name__, value, limit, '  FAILED' * bad))
+    sys.exit(failed)
+
+
+if __name__ == '__main__':
+    main()

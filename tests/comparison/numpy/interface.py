@@ -1,0 +1,289 @@
+"""The frictional interface: points of the slave surface against the master surface, appendix A of the paper.
+
+Shapes: m slave points. Units mm, N, MPa; sliding distances and gaps in mm, parameters xi of the master in [0, 1]^2.
+"""
+from types import SimpleNamespace
+
+import numpy as np
+import scipy.sparse as sparse
+
+
+class FrictionLaw:
+    """mu(g_s): from `unbroken` to `broken` beyond a sliding distance of `threshold` mm, Eqs. (11) and (13).
+
+    Coulomb's law has the same coefficient twice.
+    """
+
+    def __init__(self, unbroken, broken, threshold, transition):
+        self.unbroken, self.broken = unbroken, broken
+        self.threshold, self.transition = threshold, transition
+
+    def bonding(self, slid):
+        """s(g_s / a_s) of Eq. (13) and its derivative [1/mm], both (m,); phi = phi_0 s."""
+        q = slid / self.threshold
+        phase = np.pi / (2 * self.transition) * (q - self.transition - 1)
+        falling = (q >= 1) & (q <= 1 + 2 * self.transition)
+        value = np.where(q < 1, 1., np.where(falling, (1 - np.sin(phase)) / 2, 0.))
+        slope = -np.pi / (4 * self.transition * self.threshold) * np.where(falling, np.cos(phase), 0.)
+        return value, slope
+
+    def bonding_integral(self, slid):
+        """The integral of s over the sliding distance, from 0 to g_s (m,) [mm]."""
+        q = np.clip(slid / self.threshold, 1, 1 + 2 * self.transition)
+        phase = np.pi / (2 * self.transition) * (q - self.transition - 1)
+        falling = (q - 1) / 2 + self.transition / np.pi * np.cos(phase)
+        return np.minimum(slid, self.threshold) + self.threshold * falling
+
+    def coefficient(self, slid, bonded):
+        """mu of Eq. (11) and d mu / d g_s [1/mm], both (m,); bonded (m,) is phi_0."""
+        value, slope = self.bonding(slid)
+        difference = bonded * (self.unbroken - self.broken)
+        return self.broken + difference * value, difference * slope
+
+
+def closest_points(surface, control_points, x, xi):
+    """Parameters (m, 2) of the points of the surface closest to x (m, 3), and which x lie beyond its edge (m,).
+
+    Gauss-Newton iteration from xi (m, 2), damped by the distance, as the corners of a disk are singular; a parameter
+    that would leave [0, 1] stays at its end. Steps along the edge are shortened more, as it is curved. Points beyond
+    the edge are those that are not above their closest points, which need not be known well then.
+    """
+    size = np.abs(control_points[:, :2] - control_points[:, :2].mean(0)).max()
+    for _ in range(300):
+        y, tangents = surface.point(control_points, xi)
+        slope = np.einsum('mki,mi->mk', tangents, x - y)
+        metric = np.einsum('mki,mli->mkl', tangents, tangents)
+        held = ((xi <= 0) & (slope < 0)) | ((xi >= 1) & (slope > 0))
+        at_edge = held.any(1)
+        metric[at_edge, 0, 1] = metric[at_edge, 1, 0] = 0
+        distance = np.linalg.norm(x - y, axis=1)[:, None, None]
+        metric = (1 + at_edge[:, None, None] * distance / size) * metric + (distance + 1e-14) * size * np.eye(2)
+        step = np.linalg.solve(metric, np.where(held, 0, slope)[..., None])[..., 0]
+        step *= np.minimum(1, 0.2 / np.maximum(np.abs(step).max(1), 1e-300))[:, None]
+        following = np.clip(xi + step, 0, 1)
+        way = np.linalg.norm(np.einsum('mki,mk->mi', tangents, following - xi), axis=1)
+        normal = np.cross(tangents[:, 0], tangents[:, 1])
+        normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+        beside = np.linalg.norm(x - y - _dot(x - y, normal)[:, None] * normal, axis=1)
+        beyond = beside > 1e-6 * size
+        xi = following
+        if (way < np.where(beyond, 1e-3 * beside, 1e-14 * size)).all():
+            return xi, beyond
+    raise ArithmeticError('a closest point was not found')
+
+
+def face_quadrature(solid, count):
+    """Points (m, 2) in the parameters of the contact face and the reference areas (m,) [mm2] that they stand for.
+
+    Gauss points, `count` per direction and element.
+    """
+    n = solid.face.elements
+    abscissae, weights = np.polynomial.legendre.leggauss(count)
+    s = ((np.arange(n)[:, None] + (1 + abscissae) / 2) / n).ravel()
+    w = np.tile(weights / (2 * n), n)
+    xi = np.stack(np.meshgrid(s, s, indexing='ij'), -1).reshape(-1, 2)
+    _, tangents = solid.face.point(solid.points[:solid.face.weights.size], xi)
+    return xi, np.outer(w, w).ravel() * np.linalg.norm(np.cross(tangents[:, 0], tangents[:, 1]), axis=1)
+
+
+class Interface:
+    """Slave points with their history: parameters xi of the interacting points, sliding distances g_s.
+
+    slave, master     solids.Solid
+    towards           +1 or -1: sign of a_1 x a_2 of the master's surface that points to the slave
+    stiffness         normal and tangential, MPa/mm
+    bonding           phi_0 as a function of reference positions x, y (m,)
+    """
+
+    def __init__(self, slave, master, towards, law, stiffness, points_per_direction, bonding):
+        self.slave, self.master, self.towards, self.law = slave, master, towards, law
+        self.normal_stiffness, self.tangential_stiffness = stiffness
+        xi, self.area = face_quadrature(slave, points_per_direction)  # tractions are nominal
+        self.numbers, self.values, _ = slave.face.basis(xi)
+        place = self.positions(slave.points[:slave.face.weights.size])
+        self.bonded = np.broadcast_to(np.asarray(bonding(place[:, 0], place[:, 1]), float), self.area.shape)
+        self.xi = np.full(xi.shape, 0.5)
+        self.slid = np.zeros(len(xi))
+        self.beyond = np.zeros(len(xi), bool)
+        self.pressure, self.shear = np.zeros(len(xi)), np.zeros((len(xi), 3))  # of the accepted state
+        self.dissipation = self.adhesive_work = 0.  # N mm
+
+    def positions(self, slave_points):
+        """Current positions (m, 3) of the slave points; slave_points are those of the slave's control points."""
+        return np.einsum('ma,mai->mi', self.values, slave_points[self.numbers])
+
+    def face(self, slave_points, master_points, which):
+        """Give the points `which` (m,) the closest points of the master as partners, with no history of motion."""
+        x = self.positions(slave_points)[which]
+        if len(x):
+            xi, beyond = closest_points(self.master.face, master_points, x, np.clip(self.xi[which], 0, 1))
+            self.xi[which] = np.where(beyond[:, None], 0.5, xi)  # anywhere: they have no partner
+            self.beyond[which] = beyond
+
+    def _place(self, master_points, xi):
+        """The master at xi: functions, position, normal towards the slave, dual vectors a^1, a^2 (m, 2, 3)."""
+        numbers, values, slopes = self.master.face.basis(xi)
+        near = master_points[numbers]
+        tangents = np.einsum('mak,mai->mki', slopes, near)
+        normal = np.cross(tangents[:, 0], tangents[:, 1])
+        normal *= self.towards / np.linalg.norm(normal, axis=1)[:, None]
+        metric = np.einsum('mki,mli->mkl', tangents, tangents)
+        return SimpleNamespace(numbers=numbers, values=values, slopes=slopes, normal=normal,
+                               point=np.einsum('ma,mai->mi', values, near), dual=np.linalg.solve(metric, tangents))
+
+    def respond(self, slave_points, master_points, friction=True, all_stick=False):
+        """State at given control points of both surfaces, from the accepted history, which does not change.
+
+        The partner of a sticking point stays. A sliding point's partner moves until the tangential traction is
+        mu(g_s) p in the direction of the trial gap, Eqs. (29) and (30), with g_s of Eq. (32) at the end of the step.
+        """
+        x = self.positions(slave_points)
+        start = self._place(master_points, self.xi)
+        trial = x - start.point
+        normal_gap = _dot(start.normal, trial)
+        shear = self.tangential_stiffness * np.linalg.norm(trial - normal_gap[:, None] * start.normal, axis=1)
+        mu = self.law.coefficient(self.slid, self.bonded)[0] if friction else np.zeros(len(x))
+        closed = (normal_gap < 0) & ~self.beyond
+        sliding = closed & (shear > -mu * self.normal_stiffness * normal_gap)
+        if all_stick:
+            sliding[:] = False
+
+        xi, inside = self.xi.copy(), np.ones(len(x), bool)
+        if sliding.any():
+            xi[sliding], inside[sliding] = self._slide(x, trial, start, sliding, master_points, friction)
+        state = self._place(master_points, np.clip(xi, 0, 1))
+        state.start, state.xi, state.gap = start, xi, x - state.point
+        state.normal_gap = _dot(state.normal, state.gap)
+        state.closed = closed & inside & (state.normal_gap < 0)
+        state.sliding = sliding & state.closed
+        state.pressure = -self.normal_stiffness * state.normal_gap * state.closed
+        tangential_gap = state.gap - state.normal_gap[:, None] * state.normal
+        state.shear = self.tangential_stiffness * tangential_gap * state.closed[:, None]
+        state.traction = -state.pressure[:, None] * state.normal + state.shear
+        way = np.linalg.norm(state.point - start.point, axis=1) * state.sliding
+        state.slid = self.slid + (way if friction else 0)
+        state.mu, state.mu_slope = self.law.coefficient(state.slid, self.bonded)
+        if not friction:
+            state.mu, state.mu_slope = np.zeros((2, len(x)))
+        state.direction, state.trial_length = _direction(trial, state.normal)
+        return state
+
+    def _slide(self, x, trial, start, which, master_points, friction):
+        """Parameters of the partners of sliding points (k, 2), and whether they lie on the master (k,).
+
+        Newton's method for the gap that the law asks for, with the law's slope but without the curvature of the master.
+        """
+        x, trial, origin = x[which], trial[which], start.point[which]
+        xi, slid, bonded = self.xi[which], self.slid[which], self.bonded[which]
+        ratio = self.normal_stiffness / self.tangential_stiffness
+        for _ in range(100):
+            place = self._place(master_points, xi)
+            gap = x - place.point
+            depth = -_dot(place.normal, gap)
+            tau, _ = _direction(trial, place.normal)
+            mu, slope = np.zeros((2, len(x)))
+            if friction:
+                way = np.linalg.norm(place.point - origin, axis=1)
+                mu, slope = self.law.coefficient(slid + way, bonded)
+            excess = gap + depth[:, None] * place.normal - (ratio * mu * depth)[:, None] * tau
+            inside = ((xi >= 0) & (xi <= 1)).all(1)
+            if np.abs(excess[inside]).max(initial=0.) < 1e-13:
+                return xi, inside
+            along = _dot(excess, tau)
+            excess += ((1 / (1 + ratio * slope * depth) - 1) * along)[:, None] * tau
+            step = np.einsum('mki,mi->mk', place.dual, excess)
+            xi = np.where(inside[:, None], xi + step, xi)
+        raise ArithmeticError('the partner of a sliding point was not found')
+
+    def nodal_forces(self, state):
+        """Forces on the control points of slave and master as they enter the residual, (., 3) each, Eq. (28)."""
+        load = self.area[:, None] * state.traction
+        on_slave = np.zeros((self.slave.face.weights.size, 3))
+        on_master = np.zeros((self.master.face.weights.size, 3))
+        np.add.at(on_slave, self.numbers, self.values[..., None] * load[:, None])
+        np.add.at(on_master, state.numbers, -state.values[..., None] * load[:, None])
+        return on_slave, on_master
+
+    def tangent(self, state):
+        """Sparse derivative of the nodal forces with respect to the control points of slave, then master.
+
+        The gap at the end follows from the change of gap, `h`, at a fixed partner and that of the trial gap. The
+        turning of the master's normal is left out: Newton's method converges linearly, the more quickly the smaller
+        the strains.
+        """
+        slave, master = self.slave.face.weights.size, self.master.face.weights.size
+
+        def interpolation(numbers, values, offset):
+            rows = np.repeat(np.arange(len(values)), values.shape[1])
+            matrix = sparse.csr_matrix((values.ravel(), (rows, numbers.ravel() + offset)),
+                                       shape=(len(values), slave + master))
+            return sparse.kron(matrix, sparse.identity(3), 'csr')
+
+        end = interpolation(state.numbers, state.values, slave)
+        x = interpolation(self.numbers, self.values, 0)
+        h = x - end
+        trial = x - interpolation(state.start.numbers, state.start.values, slave)
+
+        by_gap, by_trial = self._gap_derivatives(state)
+        gap = _blocks(by_gap) @ h + _blocks(by_trial) @ trial
+        normal = state.normal[:, :, None] * state.normal[:, None, :]
+        stiffness = self.tangential_stiffness * np.eye(3) + (self.normal_stiffness - self.tangential_stiffness) * normal
+        result = h.T @ (_blocks((self.area * state.closed)[:, None, None] * stiffness) @ gap)
+        for k in range(2):  # the force on the master moves with the partner
+            slope = interpolation(state.numbers, state.slopes[:, :, k], slave)
+            weight = (self.area * state.sliding)[:, None, None]
+            moved = _blocks(weight * state.traction[:, :, None] * state.dual[:, k, None]) @ (h - gap)
+            result = result - slope.T @ moved
+        return result
+
+    def _gap_derivatives(self, state):
+        """d gap = A h + B d trial: the blocks A, B (m, 3, 3)."""
+        ratio = self.normal_stiffness / self.tangential_stiffness
+        depth = -state.normal_gap
+        tau = state.direction
+        normal = state.normal[:, :, None] * state.normal[:, None, :]
+        along = tau[:, :, None] * tau[:, None, :]
+        share = 1 / (1 + ratio * state.mu_slope * depth)
+        by_gap = normal - (ratio * state.mu * share)[:, None, None] * tau[:, :, None] * state.normal[:, None, :]
+        by_trial = ((ratio * state.mu_slope * depth * share)[:, None, None] * along
+                    + (ratio * state.mu * depth / state.trial_length)[:, None, None] * (np.eye(3) - normal - along))
+        by_gap[~state.sliding] = 0
+        by_trial[~state.sliding] = np.eye(3)
+        return by_gap, by_trial
+
+    def accept(self, state, slave_points, master_points, turn):
+        """Make the state the history; open points face the closest point of the master anew.
+
+        turn (3, 3) is the rotation of the master's frame since the last state was accepted. Adds to the dissipation,
+        traction times way on the master, and to its adhesive part, pressure times the integral of mu - mu_b over the
+        sliding distance; tractions and pressures are the means of those at both ends of the step.
+        """
+        way = (state.point - state.start.point) * state.sliding[:, None]
+        self.dissipation += (self.area * _dot(state.shear + self.shear @ turn.T, way) / 2).sum()
+        spent = self.law.bonding_integral(state.slid) - self.law.bonding_integral(self.slid)
+        spent *= self.bonded * (self.law.unbroken - self.law.broken)
+        self.adhesive_work += (self.area * (state.pressure + self.pressure) / 2 * spent).sum()
+        self.xi, self.slid, self.pressure, self.shear = state.xi, state.slid, state.pressure, state.shear
+        self.face(slave_points, master_points, ~state.closed)
+
+    def energy(self, state):
+        """Energy stored in the interface's two compliances, N mm."""
+        shear = (state.shear ** 2).sum(1) / self.tangential_stiffness
+        return 0.5 * (self.area * (state.pressure ** 2 / self.normal_stiffness + shear)).sum()
+
+
+def _dot(a, b):
+    return (a * b).sum(1)
+
+
+def _direction(trial, normal):
+    """Unit vectors (m, 3) of the trial gaps in the tangent planes, and the lengths (m,) of these parts."""
+    tangential = trial - _dot(trial, normal)[:, None] * normal
+    length = np.maximum(np.linalg.norm(tangential, axis=1), 1e-300)
+    return tangential / length[:, None], length
+
+
+def _blocks(matrices):
+    """Block-diagonal sparse matrix of (m, 3, 3)."""
+    count = len(matrices)
+    return sparse.bsr_matrix((matrices, np.arange(count), np.arange(count + 1)), shape=(3 * count,) * 2).tocsr()

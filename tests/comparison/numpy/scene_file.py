@@ -1,0 +1,179 @@
+"""Reads the scene files (.prm) of debond, as far as this solver knows what they ask for.
+
+An entry that is not in the table below, or has a value beyond what the solver can do, is an error: nothing that a scene
+says is passed over.
+"""
+import math
+
+import numpy as np
+
+import interface
+import simulation
+import solids
+
+FREE_TEXT = object()  # entries that say nothing about the mechanics
+
+# Defaults of debond, from `debond --print-parameters`; a tuple holds all values that the solver
+# knows, the default first.
+BODY = {'Layer grading': 1., 'Material': ('neo-hookean', 'linear'), 'Poisson ratio': .3,
+        'Contact surface': ('nurbs',)}
+ENTRIES = {
+    'Title': FREE_TEXT, 'Model': ('finite elements',), 'Task': ('simulate',),
+    **{'Bone/' + name: value for name, value in BODY.items()},
+    'Bone/Size': [12.5, 12.5, 5.], 'Bone/Cells': [15., 15., 2.], 'Bone/Young modulus': 18000.,
+    'Bone/Lateral grading': ('1',),
+    **{'Implant/' + name: value for name, value in BODY.items()},
+    'Implant/Shape': ('coin',), 'Implant/Radius': 2.5, 'Implant/Height': 3., 'Implant/Cells': [3., 2.],
+    'Implant/Young modulus': 113000.,
+    'Interface/Slave': ('implant', 'bone'), 'Interface/Quadrature points': 5.,
+    'Interface/Penalty stiffness': 585., 'Interface/Tangential penalty stiffness': 0.,
+    'Interface/Friction law': ('modified coulomb', 'coulomb', 'frictionless'),
+    'Interface/Friction coefficient broken': .4, 'Interface/Friction coefficient unbroken': .58,
+    'Interface/Sliding threshold': .022, 'Interface/Transition factor': .74, 'Interface/Friction starts at': 0.,
+    'Interface/Opening breaks bond': ('false',), 'Interface/Viscosity': ('0',),
+    'Interface/Bonding/Pattern': ('homogeneous', 'expression'), 'Interface/Bonding/Initial bonding': 1.,
+    'Interface/Bonding/Resolution': ('element', 'quadrature point'), 'Interface/Bonding/Expression': '1',
+    'Load steps/Times': [0., 1., 2.], 'Load steps/Steps': [1., 1000.], 'Load steps/Adaptive': ('false',),
+    'Load steps/Residual tolerance': 1e-8,
+    **{'Output/' + name: FREE_TEXT for name in ('Directory', 'Fields every', 'Console', 'Checkpoint every')},
+}
+COMPONENTS = ['%s %s' % (kind, axis) for kind in ('Translation', 'Rotation') for axis in 'xyz']
+for component in COMPONENTS:
+    ENTRIES['Chuck/%s/Value' % component] = '0'
+    ENTRIES['Chuck/%s/Control' % component] = ('displacement',) if component[0] == 'T' else ('angle',)
+
+FUNCTIONS = {name: getattr(np, name) for name in ('sin', 'cos', 'tan', 'sqrt', 'exp', 'abs')}
+FUNCTIONS.update(pi=np.pi, min=np.minimum, max=np.maximum)
+
+
+class NotSupported(ValueError):
+    """The scene asks for what this solver cannot do."""
+
+
+def _statements(path):
+    """Pairs of entry, 'Subsection/Name', and value."""
+    sections = []
+    with open(path, encoding='utf-8') as lines:
+        for line in lines:
+            line = line.partition('#')[0].strip()
+            if line.startswith('subsection '):
+                sections.append(line[len('subsection '):].strip())
+            elif line == 'end':
+                sections.pop()
+            elif line.startswith('set '):
+                name, _, value = line[len('set '):].partition('=')
+                yield '/'.join(sections + [name.strip()]), value.strip()
+            elif line:
+                raise NotSupported('%s: "%s"' % (path, line))
+
+
+def _value(name, text):
+    """The value of an entry as a number, a list of numbers or a text."""
+    known = ENTRIES.get(name)
+    if known is None or (isinstance(known, tuple) and text not in known):
+        raise NotSupported('this solver does not know "%s = %s"' % (name, text))
+    if isinstance(known, float):
+        return float(text)
+    if isinstance(known, list):
+        return [float(number) for number in text.split(',')]
+    return text
+
+
+def read_entries(path, changes=()):
+    """Values of all entries of the table by name; changes are texts 'Entry=value' that override the scene."""
+    values = {name: default[0] if isinstance(default, tuple) else default
+              for name, default in ENTRIES.items()}
+    for name, text in list(_statements(path)) + [change.split('=', 1) for change in changes]:
+        values[name] = _value(name, text)
+    return values
+
+
+def _expression(text, **constants):
+    """A function of keyword arguments from an expression of muParser."""
+    code = compile(text.replace('^', '**'), text, 'eval')
+    return lambda **variables: eval(code, {'__builtins__': {}}, {**FUNCTIONS, **constants, **variables})
+
+
+def _whole(numbers):
+    return [int(number) for number in numbers]
+
+
+class Scene:
+    """A scene: the planned times and the simulation that goes through them."""
+
+    def __init__(self, path, changes=()):
+        self.entries = read_entries(path, changes)
+        self.radius, self.height = self.entries['Implant/Radius'], self.entries['Implant/Height']
+        self.times = self._times()
+        self.motion = [_expression(self.entries['Chuck/%s/Value' % name], R=self.radius) for name in COMPONENTS]
+
+    def _times(self):
+        """All planned times, the first one included."""
+        ends, steps = self.entries['Load steps/Times'], _whole(self.entries['Load steps/Steps'])
+        if len(steps) != len(ends) - 1:
+            raise NotSupported('%d phases have %d numbers of steps' % (len(ends) - 1, len(steps)))
+        phases = [np.linspace(a, b, n + 1)[1:] for a, b, n in zip(ends, ends[1:], steps)]
+        return np.concatenate([ends[:1]] + phases)
+
+    def components(self, time):
+        """The chuck at a time: translations x, y, z [mm], rotations x, y, z [rad]."""
+        values = [float(component(t=time)) for component in self.motion]
+        return values[:3] + [math.radians(angle) for angle in values[3:]]
+
+    def _bone(self):
+        get = self.entries.get
+        nx, ny, nz = _whole(get('Bone/Cells'))
+        if nx != ny:
+            raise NotSupported('as many cells of the bone in x as in y')
+        return solids.bone_block(get('Bone/Size'), (nx, nz), get('Bone/Layer grading'), get('Bone/Young modulus'),
+                                 get('Bone/Poisson ratio'), get('Bone/Material'))
+
+    def _implant(self):
+        get = self.entries.get
+        return solids.coin(self.radius, self.height, _whole(get('Implant/Cells')), get('Implant/Layer grading'),
+                           get('Implant/Young modulus'), get('Implant/Poisson ratio'), get('Implant/Material'))
+
+    def _law(self):
+        get = self.entries.get
+        broken, unbroken = (get('Interface/Friction coefficient ' + name) for name in ('broken', 'unbroken'))
+        if get('Interface/Friction law') == 'coulomb':
+            unbroken = broken
+        return interface.FrictionLaw(unbroken, broken, get('Interface/Sliding threshold'),
+                                     get('Interface/Transition factor'))
+
+    def _bonding(self):
+        """phi_0 as a function of x, y (m,) [mm]."""
+        get = self.entries.get
+        homogeneous = get('Interface/Bonding/Pattern') == 'homogeneous'
+        if not homogeneous and get('Interface/Bonding/Resolution') != 'quadrature point':
+            raise NotSupported('an expression of the bonding needs Resolution = quadrature point')
+        if not homogeneous and get('Interface/Slave') == 'bone':
+            raise NotSupported('an expression of the bonding needs Slave = implant')
+        expression = _expression('1' if homogeneous else get('Interface/Bonding/Expression'), R=self.radius)
+        factor = get('Interface/Bonding/Initial bonding')
+        return lambda x, y: factor * expression(x=x, y=y, r=np.hypot(x, y), angle=np.degrees(np.arctan2(y, x)))
+
+    def simulation(self):
+        get = self.entries.get
+        bone, implant = self._bone(), self._implant()
+        normal = get('Interface/Penalty stiffness')
+        stiffness = normal, get('Interface/Tangential penalty stiffness') or normal
+        slave, master, towards = (implant, bone, +1) if get('Interface/Slave') == 'implant' else (bone, implant, -1)
+        points = int(get('Interface/Quadrature points'))
+        contact = interface.Interface(slave, master, towards, self._law(), stiffness, points, self._bonding())
+        area = interface.face_quadrature(implant, points)[1].sum()
+        return simulation.Simulation(bone, implant, contact, area, self.height, get('Load steps/Residual tolerance'))
+
+    def _friction(self, time):
+        """Whether a step that begins at this time has friction."""
+        return (self.entries['Interface/Friction law'] != 'frictionless'
+                and time >= self.entries['Interface/Friction starts at'] - 1e-12)
+
+    def run(self):
+        """Yields the results of the first time and of every planned step."""
+        solver = self.simulation()
+        begins = np.concatenate([self.times[:1], self.times[:-1]])
+        for number, (begin, time) in enumerate(zip(begins, self.times)):
+            advance = solver.step if number else solver.start
+            advance(self.components(time), self._friction(begin))
+            yield {'step': number, 'time': time, 'iterations': solver.iterations, **solver.results()}

@@ -1,0 +1,173 @@
+"""Implant and bone with the interface between them, moved by the rigid top face of the implant, the chuck.
+
+The bone's displacements are those in space. The implant's are those in the frame of the chuck: a point X of the implant
+is at C + u + Q (X - C + v), C = (0, 0, height), so that v = 0 on its top face. Units mm, N, MPa, N mm, radians.
+"""
+import numpy as np
+import scipy.sparse as sparse
+import scipy.sparse.linalg
+from scipy.spatial.transform import Rotation
+
+
+class NotConverged(ArithmeticError):
+    """Newton's method has found no equilibrium."""
+
+
+class Simulation:
+    """Two solids.Solid, the interface.Interface between them, and the state that was accepted last.
+
+    contact_area    of the implant's face, mm2
+    height          of the chuck's reference point C above z = 0
+    tolerance       of the residual, relative to the contact forces (Euclidean norms over all unknowns)
+    """
+
+    def __init__(self, bone, implant, interface, contact_area, height, tolerance):
+        self.bone, self.implant, self.interface = bone, implant, interface
+        self.contact_area, self.tolerance = contact_area, tolerance
+        self.centre = np.array([0., 0., height])
+        self.bone_displacement = np.zeros(bone.points.shape)
+        self.implant_displacement = np.zeros(implant.points.shape)
+        self.free = np.flatnonzero(~np.vstack([bone.held, implant.held]).ravel())
+        self.state = None
+        self.accepted_rotation = np.eye(3)
+        self.iterations = 0
+        self.work = 0.  # of the chuck, N mm
+
+    # ---- kinematics
+
+    def move_chuck(self, components):
+        """components: translations x, y, z [mm], rotations x, y, z [rad]; Q = exp(skew(a)) R_z(gamma)."""
+        self.components = np.array(components)
+        self.translation = self.components[:3]
+        tilt = Rotation.from_rotvec([components[3], components[4], 0.])
+        self.rotation = (tilt * Rotation.from_rotvec([0., 0., components[5]])).as_matrix()
+
+    def _axes(self):
+        """Angular velocities (3, 3), in columns, that belong to unit rates of the three rotations."""
+        x, y = self.components[3:5]
+        angle = np.hypot(x, y)
+        skew = np.array([[0, 0, y], [0, 0, -x], [-y, x, 0]])
+        second = (angle - np.sin(angle)) / angle ** 3 if angle > 1e-3 else 1 / 6 - angle ** 2 / 120
+        of_tilt = np.eye(3) + 0.5 * np.sinc(angle / (2 * np.pi)) ** 2 * skew + second * skew @ skew
+        return np.column_stack([of_tilt[:, :2], self.rotation[:, 2]])
+
+    def _control_points(self):
+        """Current control points of the contact faces of slave and master."""
+        bone, implant = self.bone.face.weights.size, self.implant.face.weights.size
+        local = self.implant.points[:implant] - self.centre + self.implant_displacement[:implant]
+        on_implant = self.centre + self.translation + local @ self.rotation.T
+        on_bone = (self.bone.points + self.bone_displacement)[:bone]
+        return (on_implant, on_bone) if self.interface.slave is self.implant else (on_bone, on_implant)
+
+    def _motion(self):
+        """Sparse matrix: unknowns of bone and implant to the motion of the control points of slave, then master."""
+        def of_face(solid, turn):
+            return sparse.kron(sparse.eye(solid.face.weights.size, len(solid.points)), turn, 'csr')
+
+        bone, implant = of_face(self.bone, np.eye(3)), of_face(self.implant, self.rotation)
+        if self.interface.slave is self.implant:
+            return sparse.bmat([[None, implant], [bone, None]], 'csr')
+        return sparse.bmat([[bone, None], [None, implant]], 'csr')
+
+    # ---- equilibrium
+
+    def start(self, components, friction=True):
+        """The first state: undeformed bodies where the chuck is, then equilibrium as in a step."""
+        self.move_chuck(components)
+        self.interface.face(*self._control_points(), np.ones(len(self.interface.area), bool))
+        self._solve(friction)
+
+    def step(self, components, friction=True):
+        """Equilibrium with the chuck at `components`; counts the work of the chuck, with mean forces."""
+        before, force = self.components, self._conjugate_forces()
+        self.move_chuck(components)
+        self._solve(friction)
+        self.work += (force + self._conjugate_forces()) @ (self.components - before) / 2
+
+    def _solve(self, friction):
+        """Newton's method; the implant first moves along with the chuck as it is, then the state is accepted.
+
+        The tangent of the solids is that of the state before, whose strains differ little.
+        In the first iteration all closed points stick: points that begin to slide as the rigid implant would make them
+        may change between sliding and sticking for ever.
+        """
+        motion = self._motion()
+        bulk = sparse.block_diag([self.bone.tangent(self.bone_displacement),
+                                  self.implant.tangent(self.implant_displacement)], 'csr')
+        least = 1e-6 * self.interface.normal_stiffness * self.contact_area * self.centre[2]  # N, where all is open
+        for self.iterations in range(60):
+            first = self.iterations == 0
+            self.state = self.interface.respond(*self._control_points(), friction, all_stick=first)
+            contact = np.concatenate(self.interface.nodal_forces(self.state)).ravel()
+            internal = np.concatenate([self.bone.forces(self.bone_displacement).ravel(),
+                                       self.implant.forces(self.implant_displacement).ravel()])
+            residual = (internal + motion.T @ contact)[self.free]
+            if not np.isfinite(residual).all():
+                break
+            if not first and np.linalg.norm(residual) <= self.tolerance * max(np.linalg.norm(contact), least):
+                self._accept()
+                return
+            tangent = bulk + motion.T @ self.interface.tangent(self.state) @ motion
+            change = np.zeros(len(internal))
+            change[self.free] = -scipy.sparse.linalg.spsolve(tangent[self.free][:, self.free].tocsc(), residual)
+            on_bone, on_implant = np.split(change.reshape(-1, 3), [len(self.bone.points)])
+            self.bone_displacement = self.bone_displacement + on_bone
+            self.implant_displacement = self.implant_displacement + on_implant
+        raise NotConverged('no equilibrium after %d iterations' % self.iterations)
+
+    def _accept(self):
+        turn = self.rotation @ self.accepted_rotation.T if self.interface.master is self.implant else np.eye(3)
+        self.interface.accept(self.state, *self._control_points(), turn)
+        self.accepted_rotation = self.rotation
+
+    # ---- results
+
+    def reactions(self):
+        """What the chuck exerts on the implant: force [N] and moment about C + u [N mm], (3,) each, in space.
+
+        It balances the tractions of the interface, with the lever arms of the deformed implant.
+        """
+        state, slave = self.state, self.interface.slave is self.implant
+        force = self.interface.area[:, None] * (state.traction if slave else -state.traction)
+        place = state.point + state.gap if slave else state.point
+        return force.sum(0), np.cross(place - self.centre - self.translation, force).sum(0)
+
+    def top_reactions(self):
+        """The same from the internal forces of the implant's top face.
+
+        At equilibrium the forces are those of `reactions`, and the moments too if the implant is neo-hookean; a linear
+        body balances moments with undeformed lever arms.
+        """
+        top = self.implant.layers[-1]
+        forces = self.implant.forces(self.implant_displacement)[top] @ self.rotation.T
+        arms = (self.implant.points[top] - self.centre) @ self.rotation.T
+        return forces.sum(0), np.cross(arms, forces).sum(0)
+
+    def _conjugate_forces(self):
+        """Forces and moments (6,) that do work on the rates of the six components."""
+        force, moment = self.reactions()
+        return np.concatenate([force, self._axes().T @ moment])
+
+    def results(self):
+        """Reactions, shares of the contact face, mean bonding state and energies, by the names of torque.csv."""
+        force, moment = self.reactions()
+        state = self.state
+        area = np.where(self.interface.beyond, 0, self.interface.area)
+
+        def share(which):
+            return area[which].sum() / area.sum()
+
+        bonding = self.interface.bonded * self.interface.law.bonding(state.slid)[0]
+        row = {'chuck_F%s_N' % axis: value for axis, value in zip('xyz', force)}
+        row.update({'chuck_M%s_Nmm' % axis: value for axis, value in zip('xyz', moment)})
+        row.update(torque_Nmm=moment @ self.rotation[:, 2], force_N=-force[2],
+                   pressure_MPa=-force[2] / self.contact_area,
+                   phi_mean=area @ bonding / area.sum(),
+                   share_stick=share(state.closed & ~state.sliding), share_slip=share(state.sliding),
+                   share_open=share(~state.closed),
+                   energy_bulk_Nmm=(self.bone.energy(self.bone_displacement)
+                                    + self.implant.energy(self.implant_displacement)),
+                   energy_interface_Nmm=self.interface.energy(state),
+                   work_Nmm=self.work, dissipation_Nmm=self.interface.dissipation,
+                   adhesive_work_Nmm=self.interface.adhesive_work)
+        return row

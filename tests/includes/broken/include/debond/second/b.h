@@ -1,0 +1,2 @@
+#pragma once
+#include <debond/second/c.h>

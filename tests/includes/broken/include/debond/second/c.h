@@ -1,0 +1,3 @@
+#pragma once
+#include <debond/first/a.h>
+#include <debond/second/b.h>

@@ -1,0 +1,4 @@
+#include <debond/second/b.h>
+#include <vector>
+
+int broken_order;

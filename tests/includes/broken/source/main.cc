@@ -1,0 +1,3 @@
+#include <debond/second/b.h>
+#include <debond/first/gone.h>
+#include "a.h"

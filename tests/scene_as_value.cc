@@ -1,0 +1,104 @@
+// A scene is a plain value: one that is made without any text has the same
+// parameters as one that is read, and its mistakes are refused in the same
+// words.
+
+#include <debond/scene/scene.h>
+#include <debond/support/number_text.h>
+
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <string>
+
+namespace
+{
+  using namespace Debond;
+
+  Scene
+  turning()
+  {
+    Scene scene;
+    scene.title                    = "made";
+    scene.bone.size                = {{10, 11, 4.5}};
+    scene.implant.young_modulus    = 1.1e5;
+    scene.interface.slave          = Side::bone;
+    scene.load_steps.times         = {0, 1, 3};
+    scene.load_steps.steps         = {2, 10};
+    scene.load_steps.adaptive      = true;
+    scene.load_steps.tolerance     = 1. / 3.;
+    scene.chuck.component[2].value = "-0.0049 * min(t, 1)";
+    scene.chuck.component[5].value = "10 * max(t - 1, 0)";
+    return scene;
+  }
+
+  const std::string the_same = "set Title = made\n"
+                               "subsection Bone\n"
+                               "  set Size = 10, 11, 4.5\n"
+                               "end\n"
+                               "subsection Implant\n"
+                               "  set Young modulus = 110000\n"
+                               "end\n"
+                               "subsection Interface\n"
+                               "  set Slave = bone\n"
+                               "end\n"
+                               "subsection Load steps\n"
+                               "  set Times = 0, 1, 3\n"
+                               "  set Steps = 2, 10\n"
+                               "  set Adaptive = true\n"
+                               "  set Tolerance = 0.3333333333333333\n"
+                               "end\n"
+                               "subsection Chuck\n"
+                               "  subsection Translation z\n"
+                               "    set Value = -0.0049 * min(t, 1)\n"
+                               "  end\n"
+                               "  subsection Rotation z\n"
+                               "    set Value = 10 * max(t - 1, 0)\n"
+                               "  end\n"
+                               "end\n";
+
+
+
+  void
+  show(const std::function<void(Scene &)> &mistake)
+  {
+    Scene scene = turning();
+    mistake(scene);
+    try
+      {
+        scene.check();
+        std::cout << "accepted\n";
+      }
+    catch (const InputError &error)
+      {
+        std::cout << scene.with_place(error).what() << '\n';
+      }
+  }
+} // namespace
+
+
+
+int
+main()
+{
+  Scene made = turning();
+  made.check();
+  made.complete();
+  const Scene read = Scene::from_text(the_same);
+  std::cout << "made as read: "
+            << (made.completed_parameters == read.completed_parameters) << '\n'
+            << "tolerance as it was: "
+            << (read.load_steps.tolerance == made.load_steps.tolerance) << '\n';
+
+  show([](Scene &scene) { scene.bone.poisson_ratio = 0.5; });
+  show([](Scene &scene) {
+    scene.bone.young_modulus = std::numeric_limits<double>::quiet_NaN();
+  });
+  show([](Scene &scene) { scene.interface.quadrature_points = 0; });
+  show([](Scene &scene) { scene.implant.cells = {{2, 3, 2}}; });
+  show([](Scene &scene) { scene.load_steps.steps = {1}; });
+  show([](Scene &scene) { scene.chuck = ChuckParameters(); });
+
+  for (const double number :
+       {0., -1., 0.1, 585., 18000., 113000., 1e6, 1e-3, 1e-8, 0.022, 1. / 3.})
+    std::cout << exact_text(number) << (number == 1. / 3. ? "\n" : " ");
+}

@@ -159,15 +159,16 @@ compare(const MatrixXd &K, const std::vector<int> &c, Deviation &deviation)
           grow(deviation.solve,
                (condensation.schur_solve(S * x_c) - x_c).norm() / x_c.norm());
         }
-      const VectorXd our_condensed = condensation.forward(r);
-      const VectorXd our_x         = condensation.backward(x_c);
-      grow(deviation.forward, (our_condensed - condensed).norm() / r.norm());
+      const auto     ours_of_r = condensation.forward(r);
+      const VectorXd our_x     = condensation.backward(x_c, ours_of_r.interior);
+      const VectorXd our_shape = condensation.backward(x_c, VectorXd());
+      grow(deviation.forward,
+           (ours_of_r.condensed - condensed).norm() / r.norm());
       grow(deviation.backward, (our_x - x).norm() / x.norm());
       if (!c.empty())
-        grow(deviation.extend,
-             (condensation.extend(x_c) - shape).norm() / shape.norm());
+        grow(deviation.extend, (our_shape - shape).norm() / shape.norm());
       else
-        grow(deviation.extend, condensation.extend(x_c).norm());
+        grow(deviation.extend, our_shape.norm());
     }
 }
 

@@ -20,10 +20,7 @@ using namespace Debond;
 void
 move(CoupledSystem &system, const Eigen::VectorXd &dv)
 {
-  const unsigned int n_b = system.bone.n_unknowns();
-  const unsigned int n_i = system.implant.n_unknowns();
-  system.bone.correct(dv.head(n_b));
-  system.implant.correct(dv.segment(n_b, n_i));
+  system.correct_bodies(dv);
   for (const auto &[component, number] : system.configuration.chuck_unknowns)
     system.chuck.correct(component, dv[number]);
 }

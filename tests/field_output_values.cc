@@ -117,16 +117,19 @@ vector_at(const std::vector<float> &values, const unsigned int i)
 /** Rigid bodies on the interface as the chuck has moved them. */
 struct Model
 {
-  InterfaceParameters interface_parameters;
-  Body                bone, implant;
-  Chuck               chuck;
-  ContactInterface    interface;
+  InterfaceParameters   interface_parameters;
+  std::unique_ptr<Body> body_of_bone, body_of_implant;
+  Body                 &bone, &implant;
+  Chuck                 chuck;
+  ContactInterface      interface;
 
   explicit Model(const std::array<BodyParameters, 2> &bodies,
                  const BondingParameters &bonding = BondingParameters())
     : interface_parameters(with(bonding))
-    , bone(bodies[0], Side::bone)
-    , implant(bodies[1], Side::implant)
+    , body_of_bone(make_body(bodies[0], Side::bone))
+    , body_of_implant(make_body(bodies[1], Side::implant))
+    , bone(*body_of_bone)
+    , implant(*body_of_implant)
     , chuck(motion(), Eigen::Vector3d(0, 0, bodies[1].height), 2.5)
     , interface(interface_parameters, bone.mesh(), implant.mesh())
   {

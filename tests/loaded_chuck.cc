@@ -95,9 +95,10 @@ check_reactions(const std::vector<std::string> &overrides)
     moved.tail<3>() += from.cross(force.head<3>().eval());
     return moved;
   };
-  const Vector6 bone = system.bone.support_reaction(Eigen::Vector3d::Zero());
-  Vector6       implant =
-    system.implant.support_reaction(system.chuck.reference_centre());
+  const Vector6 bone =
+    system.support_reaction(Side::bone, Eigen::Vector3d::Zero());
+  Vector6 implant =
+    system.support_reaction(Side::implant, system.chuck.reference_centre());
   implant.head<3>()   = (system.chuck.rotation() * implant.head<3>()).eval();
   implant.tail<3>()   = (system.chuck.rotation() * implant.tail<3>()).eval();
   implant             = move(implant, system.chuck.centre());

@@ -55,11 +55,8 @@ check(const std::string &slave)
   system.prescribe_slip(1e-3);
   system.chuck.correct(5, 0.006);
   const unsigned int n    = system.n_unknowns();
-  const unsigned int n_b  = system.bone.n_unknowns();
-  const unsigned int n_i  = system.implant.n_unknowns();
   const auto         move = [&](const Eigen::VectorXd &dv) {
-    system.bone.correct(dv.head(n_b));
-    system.implant.correct(dv.segment(n_b, n_i));
+    system.correct_bodies(dv);
     for (const auto &[component, number] : system.configuration.chuck_unknowns)
       system.chuck.correct(component, dv[number]);
   };

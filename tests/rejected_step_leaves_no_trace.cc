@@ -79,7 +79,7 @@ public:
     result.chuck_forces  = system.chuck_forces();
     result.dissipation   = system.interface.work().dissipation;
     result.adhesive_work = system.interface.work().adhesive;
-    result.energy        = system.bone.energy() + system.implant.energy();
+    result.energy        = system.bulk_energy();
     return result;
   }
 

@@ -2,7 +2,7 @@
 // curved cells too, and where it varies linearly within the cells of a block
 // (which tells whether every corner gets its own value). Zero in a rigid body.
 
-#include <debond/bulk/vertex_stress.h>
+#include <debond/bulk/body.h>
 
 #include <cmath>
 #include <iostream>
@@ -31,11 +31,11 @@ deviation(const BodyParameters &parameters,
           const Displacement   &u,
           const Gradient       &H)
 {
-  const Body      body(parameters, side);
-  Eigen::VectorXd v(3 * body.mesh().n_nodes());
-  for (unsigned int node = 0; node < body.mesh().n_nodes(); ++node)
-    v.segment<3>(3 * node) = u(body.mesh().reference_position(node));
-  const std::vector<Eigen::Matrix3d> stress = vertex_stress(body, v);
+  const auto      body = make_body(parameters, side);
+  Eigen::VectorXd v(3 * body->mesh().n_nodes());
+  for (unsigned int node = 0; node < body->mesh().n_nodes(); ++node)
+    v.segment<3>(3 * node) = u(body->mesh().reference_position(node));
+  const std::vector<Eigen::Matrix3d> stress = body->vertex_stress(v);
 
   const NeoHookean material =
     NeoHookean::from_young(parameters.young_modulus, parameters.poisson_ratio);
@@ -43,7 +43,7 @@ deviation(const BodyParameters &parameters,
   for (unsigned int vertex = 0; vertex < stress.size(); ++vertex)
     {
       const Eigen::Matrix3d gradient =
-        H(body.mesh().reference_position(vertex));
+        H(body->mesh().reference_position(vertex));
       double h[3][3], sigma[3][3];
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int j = 0; j < 3; ++j)
@@ -130,10 +130,10 @@ main()
 
   BodyParameters parameters = block();
   parameters.material       = Material::rigid;
-  const Body body(parameters, Side::bone);
-  double     sum = 0;
+  const auto body           = make_body(parameters, Side::bone);
+  double     sum            = 0;
   for (const Eigen::Matrix3d &stress :
-       vertex_stress(body, Eigen::VectorXd::Zero(3 * body.mesh().n_nodes())))
+       body->vertex_stress(Eigen::VectorXd::Zero(3 * body->mesh().n_nodes())))
     sum += stress.norm();
   report("stress of a rigid body", sum, 1e-300);
 

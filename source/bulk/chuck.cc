@@ -122,14 +122,17 @@ namespace Debond
   Chuck::Chuck(const ChuckParameters &parameters,
                const Vector3d        &centre,
                const double           radius)
-    : parameters(parameters)
-    , C(centre)
+    : C(centre)
   {
     for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
       {
         const auto &component = parameters.component[k];
         value_functions.push_back(component.value_over_time(radius));
-        if (!is_prescribed(k))
+        stiffness[k]  = component.stiffness;
+        loaded[k]     = component.loaded;
+        compliant[k]  = stiffness[k] > 0.;
+        prescribed[k] = !loaded[k] && !compliant[k];
+        if (!prescribed[k])
           unknown_components.push_back(k);
       }
     update_frame();
@@ -143,7 +146,7 @@ namespace Debond
     Vector6 result;
     for (unsigned int k = 0; k < 6; ++k)
       {
-        const bool is_angle = is_rotation(k) && !parameters.component[k].loaded;
+        const bool is_angle = is_rotation(k) && !loaded[k];
         try
           {
             result[k] =
@@ -169,38 +172,11 @@ namespace Debond
 
 
 
-  Chuck::Vector6
-  Chuck::machine_position() const
-  {
-    Vector6 result = q;
-    for (unsigned int k = 0; k < 6; ++k)
-      if (parameters.component[k].stiffness > 0.)
-        result[k] = target[k];
-    return result;
-  }
-
-
-
-  double
-  Chuck::machine_energy() const
-  {
-    double sum = 0.;
-    for (unsigned int k = 0; k < 6; ++k)
-      if (parameters.component[k].stiffness > 0.)
-        sum += 0.5 * parameters.component[k].stiffness *
-               std::pow(target[k] - q[k], 2);
-    return sum;
-  }
-
-
-
   void
   Chuck::prescribe(const double time)
   {
     target = values(time);
-    for (unsigned int k = 0; k < 6; ++k)
-      if (is_prescribed(k))
-        q[k] = target[k];
+    q      = prescribed.select(target, q);
     update_frame();
   }
 
@@ -209,10 +185,8 @@ namespace Debond
   void
   Chuck::place(const double time)
   {
-    target = values(time);
-    for (unsigned int k = 0; k < 6; ++k)
-      if (!parameters.component[k].loaded)
-        q[k] = target[k];
+    target   = values(time);
+    q        = loaded.select(q, target);
     accepted = AcceptedState<Vector6>(q);
     update_frame();
   }
@@ -231,30 +205,8 @@ namespace Debond
   void
   Chuck::relax_machine()
   {
-    for (const unsigned int k : unknown_components)
-      if (parameters.component[k].stiffness > 0.)
-        q[k] = target[k];
+    q = compliant.select(target, q);
     update_frame();
-  }
-
-
-
-  bool
-  Chuck::has_compliant_machine() const
-  {
-    return std::any_of(parameters.component.begin(),
-                       parameters.component.end(),
-                       [](const ChuckComponentParameters &component) {
-                         return component.stiffness > 0.;
-                       });
-  }
-
-
-
-  void
-  Chuck::commit(const double time)
-  {
-    accepted.commit(q, time);
   }
 
 
@@ -273,8 +225,7 @@ namespace Debond
   {
     q = accepted.value;
     if (extrapolate)
-      for (const unsigned int k : unknown_components)
-        q[k] = accepted.extrapolated(time)[k];
+      q = prescribed.select(q, accepted.extrapolated(time));
     update_frame();
   }
 
@@ -345,24 +296,5 @@ namespace Debond
       return Vector3d::Zero();
     const Vector3d r = x - centre();
     return db[k - 3][l - 3].cross(r) + axis(k).cross(axis(l).cross(r));
-  }
-
-
-
-  double
-  Chuck::machine_load(const unsigned int k) const
-  {
-    return parameters.component[k].loaded ?
-             target[k] :
-             parameters.component[k].stiffness * (target[k] - q[k]);
-  }
-
-
-
-  double
-  Chuck::machine_stiffness(const unsigned int k) const
-  {
-    return parameters.component[k].loaded ? 0. :
-                                            -parameters.component[k].stiffness;
   }
 } // namespace Debond

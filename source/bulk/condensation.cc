@@ -380,41 +380,37 @@ namespace Debond
 
 
 
-  Eigen::VectorXd
-  Condensation::forward(const Eigen::VectorXd &r)
+  // With P K P^T = L L^T the rows i of L y = P r give y_i = L_ii^-1 (P r)_i,
+  // and what those above the condensed rows leave is
+  //   r_c - L_ci y_i = r_c - K_ci K_ii^-1 r_i.
+  Condensation::Condensed
+  Condensation::forward(const Eigen::VectorXd &r) const
   {
     if (n_total == 0)
-      return r;
+      return {r, r};
     Eigen::VectorXd x(n_total);
     for (unsigned int k = 0; k < n_total; ++k)
       x[k] = r[permutation[k]];
     eliminate_interior(x);
-    forward_part = x.head(n_total - n_c);
-    return x.tail(n_c);
+    return {x.tail(n_c), x.head(n_total - n_c)};
   }
 
 
 
+  // L_ii^T x_i = y_i - L_ci^T x_c
   Eigen::VectorXd
-  Condensation::backward(const Eigen::VectorXd &x_c)
+  Condensation::backward(const Eigen::VectorXd &x_c,
+                         const Eigen::VectorXd &interior) const
   {
     if (n_total == 0)
       return x_c;
-    Eigen::VectorXd permuted(n_total);
-    permuted << forward_part, x_c;
+    Eigen::VectorXd permuted       = Eigen::VectorXd::Zero(n_total);
+    permuted.head(interior.size()) = interior;
+    permuted.tail(n_c)             = x_c;
     recover_interior(permuted);
     Eigen::VectorXd x(n_total);
     for (unsigned int k = 0; k < n_total; ++k)
       x[permutation[k]] = permuted[k];
     return x;
-  }
-
-
-
-  Eigen::VectorXd
-  Condensation::extend(const Eigen::VectorXd &x_c)
-  {
-    forward_part.setZero(n_total - n_c);
-    return backward(x_c);
   }
 } // namespace Debond

@@ -9,114 +9,12 @@
 
 namespace Debond
 {
-  namespace
-  {
-    // Values and derivatives of the four bilinear functions on [-1,1]^2 in
-    // lexicographic order.
-    void
-    bilinear(const double xi,
-             const double eta,
-             double (&L)[4],
-             double (&L_xi)[4],
-             double (&L_eta)[4])
-    {
-      for (unsigned int a = 0; a < 4; ++a)
-        {
-          const double s = (a % 2 == 0 ? -1. : 1.), t = (a / 2 == 0 ? -1. : 1.);
-          L[a]     = 0.25 * (1. + s * xi) * (1. + t * eta);
-          L_xi[a]  = 0.25 * s * (1. + t * eta);
-          L_eta[a] = 0.25 * t * (1. + s * xi);
-        }
-    }
-
-
-
-    // Values and derivatives with respect to (xi, eta, zeta).
-    void
-    reference_shape(const BodyMesh               &mesh,
-                    const BodyMesh::Cell         &cell,
-                    const Eigen::Vector3d        &point,
-                    std::vector<double>          &N,
-                    std::vector<Eigen::Vector3d> &dN)
-    {
-      double L[4], L_xi[4], L_eta[4];
-      bilinear(point[0], point[1], L, L_xi, L_eta);
-      const double near = 0.5 * (1. - point[2]), far = 0.5 * (1. + point[2]);
-      N.clear();
-      dN.clear();
-      if (cell.enriched)
-        {
-          const auto bounds =
-            mesh.surface().element_bounds(cell.surface_element);
-          const Eigen::Vector2d half = 0.5 * (bounds[1] - bounds[0]);
-          const Eigen::Vector2d parameter =
-            bounds[0] +
-            half.cwiseProduct(point.head<2>() + Eigen::Vector2d::Ones());
-          SurfaceBasis basis;
-          mesh.surface().evaluate_in_element(cell.surface_element,
-                                             parameter,
-                                             basis,
-                                             false);
-          for (unsigned int a = 0; a < basis.size; ++a)
-            {
-              N.push_back(near * basis.N[a]);
-              dN.emplace_back(near * basis.N_1[a] * half[0],
-                              near * basis.N_2[a] * half[1],
-                              -0.5 * basis.N[a]);
-            }
-          for (unsigned int a = 0; a < 4; ++a)
-            {
-              N.push_back(far * L[a]);
-              dN.emplace_back(far * L_xi[a], far * L_eta[a], 0.5 * L[a]);
-            }
-        }
-      else
-        for (unsigned int v = 0; v < 8; ++v)
-          {
-            const unsigned int a = v % 4;
-            const double       z = (v < 4 ? near : far);
-            N.push_back(z * L[a]);
-            dN.emplace_back(z * L_xi[a],
-                            z * L_eta[a],
-                            (v < 4 ? -0.5 : 0.5) * L[a]);
-          }
-    }
-  } // namespace
-
-
-
-  CellShape
-  shape_functions(const BodyMesh        &mesh,
-                  const BodyMesh::Cell  &cell,
-                  const Eigen::Vector3d &point)
-  {
-    CellShape                    shape;
-    std::vector<Eigen::Vector3d> dN;
-    reference_shape(mesh, cell, point, shape.N, dN);
-
-    shape.X           = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d J = Eigen::Matrix3d::Zero(); // dX / d(xi, eta, zeta)
-    for (unsigned int a = 0; a < dN.size(); ++a)
-      {
-        const Eigen::Vector3d &X_a = mesh.reference_position(cell.nodes[a]);
-        shape.X += shape.N[a] * X_a;
-        J += X_a * dN[a].transpose();
-      }
-    // On top of the bone zeta points downwards: the determinant is negative
-    // there, which changes nothing but its sign.
-    shape.determinant               = std::abs(J.determinant());
-    const Eigen::Matrix3d J_inverse = J.inverse();
-    for (const auto &derivative : dN)
-      shape.gradient.push_back(J_inverse.transpose() * derivative);
-    return shape;
-  }
-
-
-
+  // Gradients with respect to the reference position X of the isoparametric
+  // map X(xi) = sum_a N_a X_a: with J = dX/dxi they are J^-T dN_a/dxi, and a
+  // Gauss point stands for det J of the volume.
   EnrichedCells::EnrichedCells(const BodyMesh &mesh, const NeoHookean &material)
     : bulk_material(material)
   {
-    const double gauss = 1. / std::sqrt(3.);
     for (const auto &cell : mesh.cells())
       {
         const unsigned int n = cell.nodes.size();
@@ -128,17 +26,17 @@ namespace Debond
         gradient_list.resize(offset + 3 * n_q * n);
         for (unsigned int q = 0; q < n_q; ++q)
           {
-            const CellShape shape =
-              shape_functions(mesh,
-                              cell,
-                              gauss * Eigen::Vector3d(q & 1 ? 1 : -1,
-                                                      q & 2 ? 1 : -1,
-                                                      q & 4 ? 1 : -1));
-            JxW.push_back(shape.determinant); // all Gauss weights are 1
+            const auto dN =
+              shape_functions(mesh, cell, gauss_point(q)).derivative;
+            Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
+            for (unsigned int a = 0; a < n; ++a)
+              J += mesh.reference_position(cell.nodes[a]) * dN[a].transpose();
+            JxW.push_back(J.determinant());
+            const Eigen::Matrix3d J_inverse = J.inverse();
             for (unsigned int a = 0; a < n; ++a)
               for (unsigned int d = 0; d < 3; ++d)
                 gradient_list[offset + (3 * a + d) * n_q + q] =
-                  shape.gradient[a][d];
+                  J_inverse.col(d).dot(dN[a]);
           }
       }
   }

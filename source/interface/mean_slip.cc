@@ -1,3 +1,4 @@
+#include <debond/geometry/surface_geometry.h>
 #include <debond/interface/mean_slip.h>
 
 namespace Debond

@@ -314,16 +314,15 @@ namespace Debond
     row.torque_Nmm = coupled_system.chuck_forces()[ChuckComponent::rotation_z];
     row.force_N =
       0. - reaction[ChuckComponent::translation_z]; // no negative zero
-    row.pressure_MPa      = row.force_N / interface.implant_area();
-    row.phi_mean          = summary.phi_mean;
-    row.share_stick       = summary.share_stick;
-    row.share_slip        = summary.share_slip;
-    row.share_open        = summary.share_open;
-    row.newton_iterations = iterations;
-    row.energy_defect     = state_checks.energy().defect();
-    row.work_Nmm          = state_checks.energy().work();
-    row.energy_bulk_Nmm =
-      coupled_system.bone.energy() + coupled_system.implant.energy();
+    row.pressure_MPa         = row.force_N / interface.implant_area();
+    row.phi_mean             = summary.phi_mean;
+    row.share_stick          = summary.share_stick;
+    row.share_slip           = summary.share_slip;
+    row.share_open           = summary.share_open;
+    row.newton_iterations    = iterations;
+    row.energy_defect        = state_checks.energy().defect();
+    row.work_Nmm             = state_checks.energy().work();
+    row.energy_bulk_Nmm      = coupled_system.bulk_energy();
     row.energy_interface_Nmm = summary.energy;
     row.dissipation_Nmm      = interface.work().dissipation;
     row.adhesive_work_Nmm    = interface.work().adhesive;

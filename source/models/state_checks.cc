@@ -26,7 +26,7 @@ namespace Debond
     last_reaction_defect                 = reaction_defect;
     energy_balance.add(system.chuck_forces(),
                        system.chuck.position(),
-                       system.bone.energy() + system.implant.energy(),
+                       system.bulk_energy(),
                        summary.energy,
                        system.interface.work().dissipation);
     const std::string where = "step " + std::to_string(step) + ": ";
@@ -143,8 +143,8 @@ namespace Debond
     ReleasedEnergy::State   now;
     now.forces   = system.chuck_forces();
     now.position = system.chuck.machine_position();
-    now.stored   = system.chuck.machine_energy() + system.bone.energy() +
-                 system.implant.energy() + summary.energy;
+    now.stored =
+      system.chuck.machine_energy() + system.bulk_energy() + summary.energy;
     now.spent                  = interface.work().friction;
     now.bound                  = interface.work().friction_bound;
     const double      released = released_energy.add(now);

@@ -12,8 +12,8 @@
 namespace Debond
 {
   FieldOutput::FieldOutput(const ResultDirectory  &directory,
-                           Body                   &bone,
-                           Body                   &implant,
+                           const Body             &bone,
+                           const Body             &implant,
                            const ContactInterface &interface,
                            const Chuck            &chuck)
     : directory(directory)

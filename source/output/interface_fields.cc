@@ -1,5 +1,7 @@
 #include <debond/bulk/body.h>
+#include <debond/bulk/cell_shape.h>
 #include <debond/bulk/chuck.h>
+#include <debond/geometry/surface_geometry.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/output/interface_fields.h>
 #include <debond/output/vtu_patches.h>
@@ -78,7 +80,7 @@ namespace Debond
                           (xi[d] - x[first[d]]) / (x[second[d]] - x[first[d]]);
           }
         Stencil result;
-        result.weight = bilinear(share[0], share[1]);
+        result.weight = bilinear(2. * share[0] - 1., 2. * share[1] - 1.);
         for (unsigned int a = 0; a < 4; ++a)
           result.point[a] = index(a % 2 == 0 ? first[0] : second[0],
                                   a / 2 == 0 ? first[1] : second[1]);
@@ -239,7 +241,7 @@ namespace Debond
           for (unsigned int i = 0; i <= n; ++i)
             {
               const Eigen::Vector2d xi =
-                between(bounds, double(i) / n, double(j) / n);
+                parameters_at(bounds, 2. * i / n - 1., 2. * j / n - 1.);
               surface.evaluate_in_element(element, xi, basis, false);
               contract(basis, surface.control_points(), false, position);
               contract(basis, u, false, displacement);

@@ -11,8 +11,8 @@
 namespace Debond
 {
   BodyPair::BodyPair(const ModelParameters &parameters)
-    : bone(parameters.bone, Side::bone)
-    , implant(parameters.implant, Side::implant)
+    : bone(make_body(parameters.bone, Side::bone))
+    , implant(make_body(parameters.implant, Side::implant))
   {}
 
 
@@ -22,8 +22,8 @@ namespace Debond
                                dealii::TimerOutput      *timer)
     : both_bodies(bodies ? std::move(bodies) :
                            std::make_shared<BodyPair>(parameters))
-    , bone(both_bodies->bone)
-    , implant(both_bodies->implant)
+    , bone(*both_bodies->bone)
+    , implant(*both_bodies->implant)
     , chuck(parameters.chuck,
             Eigen::Vector3d(0, 0, parameters.implant.thickness()),
             parameters.implant.characteristic_radius())
@@ -183,9 +183,9 @@ namespace Debond
           if (numbers[3 * A + c] >= 0)
             dv[numbers[3 * A + c]] = back[c];
       }
-    Eigen::VectorXd at_rest; // a Neo-Hookean body's interior follows from this
-    implant.residual(ControlNet::Zero(3, reference.cols()), at_rest);
-    implant.correct(dv);
+    // the interior follows as if nothing else acted
+    implant.correct(dv,
+                    implant.residual(ControlNet::Zero(3, reference.cols())));
   }
 
 
@@ -252,20 +252,18 @@ namespace Debond
     unsigned int       first = 0;
     for (const Side side : both_sides)
       {
-        Body &body = (side == Side::bone ? bone : implant);
+        const Body     &body = (side == Side::bone ? bone : implant);
+        Body::Residual &part = bulk_residual[side];
         // Q^T turns the forces into the body's frame
-        Eigen::VectorXd condensed;
-        const auto      part =
-          body.residual(configuration.side[side].frame.transpose() *
-                          interface.force(side),
-                        condensed);
+        part = body.residual(configuration.side[side].frame.transpose() *
+                             interface.force(side));
         if (!part.valid)
           {
             result.why = std::string("a cell of the ") + name_of(side) +
                          " is turned inside out";
             return result;
           }
-        residual.segment(first, body.n_unknowns()) = condensed;
+        residual.segment(first, body.n_unknowns()) = part.condensed;
         norm_squared += part.norm_squared;
         interior_squared += part.interior_squared;
         first += body.n_unknowns();
@@ -352,11 +350,19 @@ namespace Debond
                  ChuckParameters::names[component] + " meets no resistance";
         }
     const TimedSection t(timer, "bulk");
-    const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
-    bone.correct(-correction.head(n_b));
-    implant.correct(-correction.segment(n_b, n_i));
+    correct_bodies(-correction);
     correct_chuck(-1.);
     return std::nullopt;
+  }
+
+
+
+  void
+  CoupledSystem::correct_bodies(const Eigen::VectorXd &dv)
+  {
+    const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
+    bone.correct(dv.head(n_b), bulk_residual[Side::bone]);
+    implant.correct(dv.segment(n_b, n_i), bulk_residual[Side::implant]);
   }
 
 
@@ -461,7 +467,7 @@ namespace Debond
 
 
   double
-  CoupledSystem::reaction_defect()
+  CoupledSystem::reaction_defect() const
   {
     if (!implant.deformable())
       return 0.;
@@ -476,12 +482,12 @@ namespace Debond
         const Eigen::Vector3d f =
           chuck.rotation().transpose() * interface.force(Side::implant).col(A);
         Eigen::Vector3d arm = reference.col(A) - C;
-        if (implant.material() == Material::neo_hookean)
+        if (implant.has_current_lever_arms())
           arm += v.col(A);
         contact.head<3>() += f;
         contact.tail<3>() += arm.cross(f);
       }
-    Chuck::Vector6 support    = implant.support_reaction(C);
+    Chuck::Vector6 support    = support_reaction(Side::implant, C);
     Chuck::Vector6 difference = contact - support;
     for (Chuck::Vector6 *resultant : {&contact, &support, &difference})
       resultant->tail<3>() /= R;

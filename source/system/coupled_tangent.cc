@@ -83,9 +83,20 @@ namespace Debond
   {
     const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
     Eigen::VectorXd    y = interface_product(x);
-    y.head(n_b) += bone.condensed_product(x.head(n_b));
-    y.segment(n_b, n_i) += implant.condensed_product(x.segment(n_b, n_i));
+    if (bone.bulk() != nullptr)
+      y.head(n_b) += bone.bulk()->product(x.head(n_b));
+    if (implant.bulk() != nullptr)
+      y.segment(n_b, n_i) += implant.bulk()->product(x.segment(n_b, n_i));
     return y;
+  }
+
+
+
+  bool
+  CoupledTangent::can_be_assembled() const
+  {
+    return (!bone.deformable() || bone.bulk()->is_dense()) &&
+           (!implant.deformable() || implant.bulk()->is_dense());
   }
 
 
@@ -103,9 +114,11 @@ namespace Debond
   CoupledTangent::solve_bulk(const Eigen::VectorXd &b) const
   {
     const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
-    Eigen::VectorXd    x(size());
-    x << bone.condensed_solve(b.head(n_b)),
-      implant.condensed_solve(b.segment(n_b, n_i));
+    Eigen::VectorXd    x = b;
+    if (bone.bulk() != nullptr)
+      x.head(n_b) = bone.bulk()->solve(b.head(n_b));
+    if (implant.bulk() != nullptr)
+      x.segment(n_b, n_i) = implant.bulk()->solve(b.segment(n_b, n_i));
     return x;
   }
 
@@ -117,9 +130,9 @@ namespace Debond
     const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
     matrix.setZero(size(), size());
     if (n_b > 0)
-      matrix.topLeftCorner(n_b, n_b) = bone.condensed_stiffness();
+      matrix.topLeftCorner(n_b, n_b) = bone.bulk()->dense_stiffness();
     if (n_i > 0)
-      matrix.block(n_b, n_b, n_i, n_i) = implant.condensed_stiffness();
+      matrix.block(n_b, n_b, n_i, n_i) = implant.bulk()->dense_stiffness();
     interface.add_tangent(configuration, matrix);
     Eigen::VectorXd unit = Eigen::VectorXd::Zero(size()), column(size());
     for (const auto &[k, number] : configuration.chuck_unknowns)

@@ -6,6 +6,7 @@
 #include <deal.II/lac/vector.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace Debond
@@ -84,7 +85,9 @@ namespace Debond
         return A.product(lu.solve(y));
       }};
     const unsigned int max_iterations =
-      with_bulk ? max_bulk_iterations : affordable_iterations(b.size());
+      !A.can_be_assembled() ? b.size() :
+      with_bulk             ? max_bulk_iterations :
+                              affordable_iterations(b.size());
     dealii::SolverControl           control(max_iterations,
                                   relative_tolerance * b.norm(),
                                   false,
@@ -127,6 +130,8 @@ namespace Debond
                                     lu.rows() == b.size();
     if (can_iterate && iterate(A, b, relative_tolerance, x))
       return x;
+    if (!A.can_be_assembled())
+      return Eigen::VectorXd::Constant(b.size(), std::nan(""));
     return factorise_and_solve(A, b);
   }
 } // namespace Debond

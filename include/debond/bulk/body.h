@@ -1,13 +1,8 @@
 #ifndef debond_bulk_body_h
 #define debond_bulk_body_h
 
-#include <debond/bulk/body_mesh.h>
-#include <debond/bulk/condensation.h>
-#include <debond/bulk/enriched_cells.h>
+#include <debond/bulk/bulk.h>
 #include <debond/support/accepted_state.h>
-
-#include <deal.II/lac/sparse_matrix.h>
-#include <deal.II/lac/sparsity_pattern.h>
 
 #include <memory>
 #include <vector>
@@ -15,13 +10,9 @@
 namespace Debond
 {
   /**
-   * A body in its own frame: what the interface sees of it is a deformable
-   * contact surface and the force it answers with.
-   *
-   * `rigid` has no unknowns. `linear` condenses its bulk once onto the control
-   * points that contact can reach. `neo_hookean` uses the same condensed matrix
-   * as an approximate inverse of its bulk and true internal forces, so that the
-   * iteration of the whole program converges to the exact nonlinear solution.
+   * A body in its own frame, x = Q (X + v) + c: what the interface and the
+   * coupled system see of it is a contact surface, and how the body resists its
+   * displacement.
    *
    * The displacement v is the *trial* state; commit() and rollback() are the
    * only ways to and from the accepted one.
@@ -29,7 +20,7 @@ namespace Debond
   class Body
   {
   public:
-    Body(const BodyParameters &parameters, Side side);
+    virtual ~Body() = default;
 
     const BodyMesh &
     mesh() const
@@ -41,91 +32,82 @@ namespace Debond
     {
       return body_mesh.surface();
     }
-    Material
-    material() const
+    /** How it resists; null: not at all to forces, and completely to moving, as
+     *  a rigid body does, which has no unknowns. */
+    const Bulk *
+    bulk() const
     {
-      return body_mesh.parameters().material;
+      return own_bulk.get();
     }
     bool
     deformable() const
     {
-      return material() != Material::rigid;
-    }
-    const EnrichedCells *
-    cells() const
-    {
-      return bulk.get();
+      return own_bulk != nullptr;
     }
 
-    /** @name Contact unknowns */
+    /** @name What it brings into the coupled system */
     //@{
-    /** Makes the given control points (by index) contact unknowns and condenses
-     *  everything else, at the accepted state. Does nothing if that has been
-     *  done with the same ones and the body is still at rest. */
+    /** Makes the given control points (by index) contact unknowns. Does nothing
+     *  if that has been done with the same ones and the body is still at rest.
+     *  Throws InputError if the body's stiffness is not positive definite. */
     void
-    set_contact_control_points(const std::vector<bool> &is_contact);
+    set_contact_control_points(const std::vector<bool> &contact);
     const std::vector<bool> &
     contact_control_points() const
     {
       return is_contact;
     }
-    /** Number of contact unknowns. */
+    /** Number of unknowns: those of the contact surface, and what a bulk does
+     *  not condense. */
     unsigned int
     n_unknowns() const
     {
-      return contact_unknowns.size();
+      return unknown_dofs.size();
     }
-    /** For 3 (control point) + component: the number of the contact unknown, or
-     *  -1 if the component is fixed or its control point is not in contact. */
+    /** For 3 (control point) + component: the number of the unknown, or -1 if
+     *  the component is fixed or its control point is not in contact. */
     const std::vector<int> &
     unknown_of() const
     {
       return unknown_numbers;
     }
-    /** Stiffness S condensed on the contact unknowns [N/mm]; formed at every
-     *  call. */
-    Eigen::MatrixXd
-    condensed_stiffness() const
-    {
-      return condensation.schur_complement();
-    }
-    /** S x [N] for a displacement x [mm], and its inverse. */
-    Eigen::VectorXd
-    condensed_product(const Eigen::VectorXd &x) const
-    {
-      return condensation.schur_product(x);
-    }
-    Eigen::VectorXd
-    condensed_solve(const Eigen::VectorXd &b) const
-    {
-      return condensation.schur_solve(b);
-    }
     //@}
 
     /** @name Residual and correction */
     //@{
-    struct Residual
+    /** Internal forces plus contact forces in a trial state; for a Newton
+     *  correction of that state, and for what is known of it besides. */
+    struct Residual : Bulk::Residual
     {
-      bool   valid = true; ///< false if a cell is turned inside out
-      double norm_squared =
-        0; ///< of the whole residual, interior included [N^2]
-      double interior_squared = 0; ///< of its interior part [N^2]
+      bool            valid  = true;  ///< false if a cell is turned inside out
+      double          energy = 0;     ///< strain energy [N mm]
+      Eigen::VectorXd internal_force; ///< of a Neo-Hookean body
     };
-    /** Residual under the nodal contact forces @p contact_force (3 x control
-     *  points, in the body's frame, [N]), condensed on the contact unknowns:
-     *  r_c - K_ci K_ii^-1 r_i. Keeps what correct() needs. */
-    Residual
-    residual(const ControlNet &contact_force, Eigen::VectorXd &condensed);
-    /** Moves the contact unknowns by @p dv and the interior with them. */
+    /** Of the trial state under the nodal contact forces @p contact_force
+     *  (3 x control points, in the body's frame, [N]). */
+    virtual Residual
+    residual(const ControlNet &contact_force) const = 0;
+    /** Moves the unknowns by @p dv, and the interior by what equilibrium asks
+     *  for according to the @p residual of the trial state. */
     void
-    correct(const Eigen::VectorXd &dv);
+    correct(const Eigen::VectorXd &dv, const Residual &residual)
+    {
+      uncorrected = v;
+      move(dv, residual);
+    }
     /** Takes back all of the last correction but @p fraction of it. */
     void
-    shorten_correction(double fraction);
-    /** Forms the tangent at the trial state anew and condenses it. Returns
-     *  false if it is not positive definite; the old one is then kept. */
-    bool
-    refactor();
+    shorten_correction(const double fraction)
+    {
+      v = uncorrected + fraction * (v - uncorrected);
+    }
+    /** Forms the tangent at the trial state anew. Returns false if it is not
+     *  positive definite; the old one is then kept. */
+    virtual bool
+    refactor()
+    {
+      return true;
+    }
     //@}
 
     /** @name State */
@@ -151,90 +133,112 @@ namespace Debond
     void
     complete_surface();
     void
-    rollback();
+    rollback()
+    {
+      v = accepted.value;
+    }
     /** Starts a step from the accepted state, extrapolated linearly to @p time
      *  if @p extrapolate and two states are known. */
     void
-    predict(double time, bool extrapolate);
+    predict(const double time, const bool extrapolate)
+    {
+      v = extrapolate ? accepted.extrapolated(time) : accepted.value;
+    }
     //@}
 
-    /** Strain energy of the trial state [N mm]. */
-    double
-    energy() const;
-    /** What the supports exert on the body in its frame: force [N] and moment
-     *  about @p centre [N mm]. Lever arms are the current ones for a
-     *  Neo-Hookean body, those of the reference configuration for a linear one,
-     *  which balances moments only with them. Zero for a rigid body. */
+    /** @name What is reported */
+    //@{
+    /** Whether moments balance with the lever arms X + v, or, in a linear body,
+     *  with those of the reference configuration. */
+    virtual bool
+    has_current_lever_arms() const = 0;
+    /** What the supports exert on the body in its frame, by the @p residual of
+     *  the trial state: force [N] and moment about @p centre [N mm]. */
     Eigen::Matrix<double, 6, 1>
-    support_reaction(const Eigen::Vector3d &centre);
+    support_reaction(const Eigen::Vector3d &centre,
+                     const Residual        &residual) const;
     /** Trial displacement of all nodes, tied vertices and, for a linear body,
-     *  the interior included: for output. */
+     *  the interior included. */
     Eigen::VectorXd
-    full_displacement()
+    full_displacement() const
     {
       return full_displacement(v);
     }
+    /** Cauchy stress at the mesh vertices, see Bulk. @p v: of all nodes. */
+    virtual std::vector<Eigen::Matrix3d>
+    vertex_stress(const Eigen::VectorXd &v) const = 0;
+    //@}
 
     /** See serialization.h. */
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      std::vector<bool>               contact      = is_contact;
-      Eigen::VectorXd                 condensed_at = state_of_condensation;
-      archive &contact &condensed_at &accepted;
+      std::vector<bool>        contact = is_contact;
+      Eigen::VectorXd          state   = linearised_at;
+      archive &contact &state &accepted;
       if (Archive::is_loading::value)
-        restore(contact, condensed_at);
-      archive &surface_is_stale &strain_energy;
+        restore(contact, state);
+      archive &surface_is_stale;
     }
 
-  private:
-    Eigen::VectorXd
-    contact_values(const Eigen::VectorXd &state) const;
-    Eigen::VectorXd
-    full_displacement(const Eigen::VectorXd &state);
-    SymmetricSparseMatrix
-    assemble_free_tangent();
-    bool
-    condense();
-    void
-    number_contact_unknowns(const std::vector<bool> &contact);
-    bool
-    condense_at(const Eigen::VectorXd &state);
-    void
-    restore(const std::vector<bool> &contact,
-            const Eigen::VectorXd   &condensed_at);
-    void
-    compute_reaction_operator();
+  protected:
+    Body(const BodyParameters &parameters, Side side, bool has_bulk);
 
-    BodyMesh                       body_mesh;
-    std::unique_ptr<EnrichedCells> bulk; ///< none for a rigid body
+    virtual void
+    move(const Eigen::VectorXd &dv, const Residual &residual) = 0;
+    virtual Eigen::VectorXd
+    full_displacement(const Eigen::VectorXd &state) const;
+    /** Force and moment of the supports about the origin. */
+    virtual Eigen::Matrix<double, 6, 1>
+    reaction_about_origin(const Residual &residual) const = 0;
+    /** Whether a commit() may leave control points behind. */
+    virtual bool
+    surface_is_condensed() const
+    {
+      return false;
+    }
+    /** Gives the bulk its tangent at @p state, whatever the trial state is.
+     *  False if it is not positive definite. */
+    virtual bool
+    linearise(const Eigen::VectorXd &state);
+    /** Where to linearise with new contact unknowns. */
+    virtual Eigen::VectorXd
+    linearisation_point() const
+    {
+      return Eigen::VectorXd::Zero(v.size());
+    }
+    /** Rigid modes m (columns: three translations, three rotations about the
+     *  origin) of the points that @p state has moved, at the supports only:
+     *  forces R there have the resultants m . R. */
+    Eigen::MatrixXd
+    support_modes(const Eigen::VectorXd &state) const;
 
-    dealii::SparsityPattern      sparsity;
-    dealii::SparseMatrix<double> tangent;
-
-    std::vector<int> free_number; ///< per degree of freedom, -1: fixed or tied
-    std::vector<unsigned int> free_dofs;
-    std::vector<bool>         is_contact;
-    std::vector<int>          unknown_numbers;
-    std::vector<int>          contact_unknowns; ///< free numbers, in order
-    /** Linear bodies: some of the contact surface's control points are no
-     *  contact unknowns. */
-    bool surface_is_condensed = false;
-    /** Those control points did not follow at the last commit(). */
-    bool         surface_is_stale = false;
-    Condensation condensation;
-    /** The displacement whose tangent is condensed; empty: none yet. */
-    Eigen::VectorXd state_of_condensation;
-
+    const BodyMesh                 body_mesh;
+    const std::unique_ptr<Bulk>    own_bulk;
     Eigen::VectorXd                v; ///< trial displacement, 3 n_nodes [mm]
-    Eigen::VectorXd                uncorrected; ///< v before the last correct()
     AcceptedState<Eigen::VectorXd> accepted;
+    std::vector<unsigned int>      unknown_dofs; ///< 3 node + component
+    std::vector<int>               unknown_numbers;
 
-    Eigen::VectorXd internal_force; ///< at the trial state
-    double          strain_energy = 0;
-    /** Linear bodies: supports' resultants about the origin per unit of v_c. */
-    Eigen::Matrix<double, 6, Eigen::Dynamic> reaction_operator;
+  private:
+    void
+    number_unknowns(const std::vector<bool> &contact);
+    /** Goes on from a checkpoint; the accepted state has been read. */
+    void
+    restore(const std::vector<bool> &contact, const Eigen::VectorXd &state);
+
+    std::vector<bool> is_contact;
+    /** The displacement whose tangent the bulk uses; empty: none yet. */
+    Eigen::VectorXd linearised_at;
+    Eigen::VectorXd uncorrected; ///< v before the last correct()
+    /** Control points did not follow at the last commit(). */
+    bool surface_is_stale = false;
   };
+
+  /** The body that the scene asks for: the place where a material gets its
+   *  class. */
+  std::unique_ptr<Body>
+  make_body(const BodyParameters &parameters, Side side);
 } // namespace Debond
 #endif

@@ -125,8 +125,7 @@ namespace Debond
     bool
     is_prescribed(const unsigned int k) const
     {
-      return !parameters.component[k].loaded &&
-             parameters.component[k].stiffness == 0.;
+      return prescribed[k];
     }
 
     const Vector6 &
@@ -137,10 +136,16 @@ namespace Debond
     /** Position of the machine: the scene's values where the machine is
      *  compliant, else that of the chuck. */
     Vector6
-    machine_position() const;
+    machine_position() const
+    {
+      return compliant.select(target, q);
+    }
     /** Energy stored in a compliant machine [N mm]. */
     double
-    machine_energy() const;
+    machine_energy() const
+    {
+      return 0.5 * stiffness.dot((target - q).cwiseAbs2());
+    }
     void
     correct(unsigned int component, double dq);
     /** Moves components with a compliant machine to where its springs are
@@ -148,9 +153,15 @@ namespace Debond
     void
     relax_machine();
     bool
-    has_compliant_machine() const;
+    has_compliant_machine() const
+    {
+      return compliant.any();
+    }
     void
-    commit(double time);
+    commit(const double time)
+    {
+      accepted.commit(q, time);
+    }
     void
     rollback();
     /** Starts from the accepted state; unknown components are extrapolated
@@ -205,17 +216,22 @@ namespace Debond
      *  position [N, N mm]: the load, or stiffness times the lag behind the
      *  prescribed value. Only for unknown components. */
     double
-    machine_load(unsigned int k) const;
+    machine_load(const unsigned int k) const
+    {
+      return loaded[k] ? target[k] : stiffness[k] * (target[k] - q[k]);
+    }
     /** d machine_load / d value of the scene. */
     double
     machine_load_per_value(const unsigned int k) const
     {
-      return parameters.component[k].loaded ? 1. :
-                                              parameters.component[k].stiffness;
+      return loaded[k] ? 1. : stiffness[k];
     }
     /** d machine_load / dq_k. */
     double
-    machine_stiffness(unsigned int k) const;
+    machine_stiffness(const unsigned int k) const
+    {
+      return loaded[k] ? 0. : -stiffness[k];
+    }
 
     /** See serialization.h. */
     template <class Archive>
@@ -231,10 +247,12 @@ namespace Debond
     void
     update_frame();
 
-    const ChuckParameters     parameters;
     const Eigen::Vector3d     C;
     std::vector<TimeFunction> value_functions;
     std::vector<unsigned int> unknown_components;
+    Vector6                   stiffness; ///< of the machine, 0: rigid
+    Eigen::Array<bool, ChuckParameters::n_components, 1> loaded, compliant,
+      prescribed; ///< neither loaded nor compliant
 
     Vector6                q = Vector6::Zero(); ///< trial position
     AcceptedState<Vector6> accepted{q};

@@ -60,17 +60,21 @@ namespace Debond
     Eigen::VectorXd
     schur_solve(const Eigen::VectorXd &b) const;
 
-    /** Forward half: returns r_c - K_ci K_ii^-1 r_i for a vector r over all
-     *  unknowns and keeps what backward() needs. */
-    Eigen::VectorXd
-    forward(const Eigen::VectorXd &r);
+    /** What is left of a vector r over all unknowns. */
+    struct Condensed
+    {
+      Eigen::VectorXd condensed; ///< r_c - K_ci K_ii^-1 r_i
+      /** L_ii^-1 (P r)_i, which backward() goes on from; empty: r_i = 0. */
+      Eigen::VectorXd interior;
+    };
+    /** Forward half of a solve. */
+    Condensed
+    forward(const Eigen::VectorXd &r) const;
     /** Backward half: given x_c, returns x over all unknowns with
-     *  x_i = K_ii^-1 (r_i - K_ic x_c), r the vector of the last forward(). */
+     *  x_i = K_ii^-1 (r_i - K_ic x_c), r_i by the @p interior of forward().
+     * With an empty one it is the equilibrium shape that belongs to x_c. */
     Eigen::VectorXd
-    backward(const Eigen::VectorXd &x_c);
-    /** The same with r_i = 0: the equilibrium shape that belongs to x_c. */
-    Eigen::VectorXd
-    extend(const Eigen::VectorXd &x_c);
+    backward(const Eigen::VectorXd &x_c, const Eigen::VectorXd &interior) const;
 
   private:
     struct Cholmod;
@@ -86,9 +90,8 @@ namespace Debond
     recover_interior(Eigen::VectorXd &x) const;
 
     unsigned int     n_total = 0, n_c = 0;
-    std::vector<int> permutation;  ///< new -> old
-    Eigen::MatrixXd  L_cc;         ///< lower triangular
-    Eigen::VectorXd  forward_part; ///< L_ii^-1 (P r)_i of the last forward()
+    std::vector<int> permutation; ///< new -> old
+    Eigen::MatrixXd  L_cc;        ///< lower triangular
   };
 } // namespace Debond
 #endif

@@ -1,7 +1,7 @@
 #ifndef debond_bulk_enriched_cells_h
 #define debond_bulk_enriched_cells_h
 
-#include <debond/bulk/body_mesh.h>
+#include <debond/bulk/cell_shape.h>
 #include <debond/bulk/neo_hookean.h>
 
 #include <Eigen/Core>
@@ -11,27 +11,6 @@
 namespace Debond
 {
   /**
-   * Shape functions of one cell at a point of the reference cell [-1,1]^3:
-   * 8 trilinear ones, or those of an enriched cell (theory: Corbett & Sauer),
-   *
-   *   x = (1-zeta)/2 sum_A N_A(xi,eta) x_A + (1+zeta)/2 sum_a L_a(xi,eta) x_a,
-   *
-   * zeta = -1 on the contact face. Gradients are with respect to the reference
-   * position X [1/mm]; @p determinant is |dX/d(xi,eta,zeta)| [mm^3].
-   */
-  struct CellShape
-  {
-    std::vector<double>          N;
-    std::vector<Eigen::Vector3d> gradient;
-    double                       determinant = 0;
-    Eigen::Vector3d              X; ///< reference position [mm]
-  };
-  CellShape
-  shape_functions(const BodyMesh        &mesh,
-                  const BodyMesh::Cell  &cell,
-                  const Eigen::Vector3d &point);
-
-  /**
    * The element kernel of the bulk: 2x2x2 Gauss points, reference gradients
    * stored once, all eight points of a cell side by side so that the compiler
    * vectorises over them.
@@ -39,8 +18,7 @@ namespace Debond
   class EnrichedCells
   {
   public:
-    static constexpr unsigned int n_q       = 8;
-    static constexpr unsigned int max_nodes = SurfaceBasis::max_size + 4;
+    static constexpr unsigned int n_q = n_corners;
 
     EnrichedCells(const BodyMesh &mesh, const NeoHookean &material);
 

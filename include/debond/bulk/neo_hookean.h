@@ -113,5 +113,9 @@ namespace Debond
     void
     linear_stress(const double (&H)[3][3], double (&sigma)[3][3]) const;
   };
+
+  /** Cauchy stress of one of these laws. */
+  using StressLaw = void (NeoHookean::*)(const double (&H)[3][3],
+                                         double (&sigma)[3][3]) const;
 } // namespace Debond
 #endif

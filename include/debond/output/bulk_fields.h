@@ -12,6 +12,6 @@ namespace Debond
   /** The text of a VTU file with the fields of both bodies, bone and implant,
    *  in the trial state; class FieldOutput says which. */
   std::string
-  bulk_vtu(const std::array<Body *, 2> &bodies, const Chuck &chuck);
+  bulk_vtu(const std::array<const Body *, 2> &bodies, const Chuck &chuck);
 } // namespace Debond
 #endif

@@ -28,7 +28,7 @@ namespace Debond
    *  - displacement [mm]; displacement_in_frame, v in the body's own frame
    * [mm];
    *  - von_Mises_MPa and stress_MPa, the Cauchy stress in space as a tensor
-   * (see vertex_stress(); zero in a rigid body);
+   * (see Bulk::vertex_stress(); zero in a rigid body);
    *  - body: 0 bone, 1 implant.
    *
    * Arrays of the interface (the slave surface):
@@ -52,8 +52,8 @@ namespace Debond
   public:
     /** Keeps references to everything. */
     FieldOutput(const ResultDirectory  &directory,
-                Body                   &bone,
-                Body                   &implant,
+                const Body             &bone,
+                const Body             &implant,
                 const ContactInterface &interface,
                 const Chuck            &chuck);
 
@@ -94,13 +94,13 @@ namespace Debond
     void
     write_series(const Series &series) const;
 
-    const ResultDirectory      &directory;
-    const std::array<Body *, 2> bodies; ///< bone, implant
-    const ContactInterface     &interface;
-    const Chuck                &chuck;
-    Series                      bulk_series{"bulk", {}};
-    Series                      interface_series{"interface", {}};
-    std::size_t                 n_on_disk = 0; ///< files of each series
+    const ResultDirectory            &directory;
+    const std::array<const Body *, 2> bodies; ///< bone, implant
+    const ContactInterface           &interface;
+    const Chuck                      &chuck;
+    Series                            bulk_series{"bulk", {}};
+    Series                            interface_series{"interface", {}};
+    std::size_t                       n_on_disk = 0; ///< files of each series
   };
 } // namespace Debond
 #endif

@@ -28,7 +28,7 @@ namespace Debond
    * each a regular grid of points) and the names of the fields.
    */
   template <int dim>
-  class PatchSet : public dealii::DataOutInterface<dim, 3>
+  class PatchSet
   {
   public:
     PatchSet(const std::vector<std::pair<std::string, FieldSize>> &fields)
@@ -85,47 +85,27 @@ namespace Debond
 
     /** The text of a VTU file. */
     std::string
-    vtu()
+    vtu() const
     {
       dealii::DataOutBase::VtkFlags flags;
       flags.print_date_and_time = false;
       flags.compression_level   = flags.best_speed;
-      this->set_flags(flags);
       std::ostringstream text;
-      this->write_vtu(text);
+      dealii::DataOutBase::write_vtu(patches, names, ranges, flags, text);
       return text.str();
     }
 
-  protected:
-    const std::vector<dealii::DataOutBase::Patch<dim, 3>> &
-    get_patches() const override
-    {
-      return patches;
-    }
-
-    std::vector<std::string>
-    get_dataset_names() const override
-    {
-      return names;
-    }
-
+  private:
     using Range = std::tuple<
       unsigned int,
       unsigned int,
       std::string,
       dealii::DataComponentInterpretation::DataComponentInterpretation>;
 
-    std::vector<Range>
-    get_nonscalar_data_ranges() const override
-    {
-      return ranges;
-    }
-
-  private:
     std::vector<dealii::DataOutBase::Patch<dim, 3>> patches;
     std::vector<std::string>                        names;
-    std::vector<Range>                              ranges;
-    unsigned int                                    next_point = 0;
+    std::vector<Range> ranges; ///< vectors, tensors
+    unsigned int       next_point = 0;
   };
 
   /** Appends the components of a vector or, row by row, a matrix. */
@@ -147,15 +127,5 @@ namespace Debond
            unsigned int        pieces,
            unsigned int        least,
            unsigned int        most);
-
-  /** Parameters between the @p bounds of an element, exact at both:
-   * neighbouring patches must agree on their border. @p s and @p t from 0 to 1.
-   */
-  Eigen::Vector2d
-  between(const std::array<Eigen::Vector2d, 2> &bounds, double s, double t);
-
-  /** The four bilinear functions on [0,1]^2, lexicographic. */
-  std::array<double, 4>
-  bilinear(double s, double t);
 } // namespace Debond
 #endif

@@ -25,7 +25,7 @@ namespace Debond
   {
     explicit BodyPair(const ModelParameters &parameters);
 
-    Body bone, implant;
+    std::unique_ptr<Body> bone, implant;
     /** Seconds that a study has spent on them for all variants that use them.
      */
     double seconds_shared = 0;
@@ -177,11 +177,30 @@ namespace Debond
      *  space, from the contact forces [N, N mm]. */
     Chuck::Vector6
     chuck_resultant() const;
+    /** Strain energy of both bodies in the state of the last evaluate() [N mm].
+     */
+    double
+    bulk_energy() const
+    {
+      return bulk_residual[Side::bone].energy +
+             bulk_residual[Side::implant].energy;
+    }
+    /** What the supports exert on a body in that state, see Body. */
+    Chuck::Vector6
+    support_reaction(const Side side, const Eigen::Vector3d &centre) const
+    {
+      return (side == Side::bone ? bone : implant)
+        .support_reaction(centre, bulk_residual[side]);
+    }
+    /** Moves the unknowns of both bodies by @p dv, their part of a vector of
+     *  all unknowns, from that state. */
+    void
+    correct_bodies(const Eigen::VectorXd &dv);
     /** |contact resultant - reaction of the supports| of the implant relative
      *  to the larger of the two, moments divided by R: 0 for a rigid implant.
      */
     double
-    reaction_defect();
+    reaction_defect() const;
 
     Body            &bone, &implant;
     Chuck            chuck;
@@ -203,6 +222,8 @@ namespace Debond
     {
       archive &bone &implant &chuck &interface;
       archive &path.old_slip &trial_time;
+      for (Body::Residual &residual : bulk_residual)
+        archive &residual.energy;
       if (Archive::is_loading::value)
         {
           update_configuration();
@@ -236,10 +257,12 @@ namespace Debond
     unsigned int               unknowns    = 0;
     double                     force_floor = 0; ///< [N]
     Eigen::VectorXd            residual, last_correction;
-    DenseSolver                solver;
-    double                     trial_time = 0;
-    PathEquation               path;
-    const CoupledTangent       matrix;
+    /** Of each body in the last evaluate(). */
+    std::array<Body::Residual, 2> bulk_residual;
+    DenseSolver                   solver;
+    double                        trial_time = 0;
+    PathEquation                  path;
+    const CoupledTangent          matrix;
   };
 } // namespace Debond
 #endif

@@ -28,6 +28,8 @@ namespace Debond
     Eigen::VectorXd
     interface_product(const Eigen::VectorXd &x) const override;
     bool
+    can_be_assembled() const override;
+    bool
     bulk_is_regular() const override;
     Eigen::VectorXd
     solve_bulk(const Eigen::VectorXd &b) const override;

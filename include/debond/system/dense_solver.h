@@ -24,6 +24,12 @@ namespace Debond
     /** B^-1 b. */
     virtual Eigen::VectorXd
     solve_bulk(const Eigen::VectorXd &b) const = 0;
+    /** Whether A can be written: a part of it may exist as products only. */
+    virtual bool
+    can_be_assembled() const
+    {
+      return true;
+    }
     /** Writes A. */
     virtual void
     assemble(Eigen::MatrixXd &A) const = 0;
@@ -43,7 +49,8 @@ namespace Debond
   class DenseSolver
   {
   public:
-    /** Returns x with |b - A x| <= relative_tolerance |b|. */
+    /** Returns x with |b - A x| <= relative_tolerance |b|, or what is not
+     * finite if there is none. */
     Eigen::VectorXd
     solve(const SplitMatrix     &A,
           const Eigen::VectorXd &b,

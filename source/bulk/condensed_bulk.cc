@@ -1,0 +1,248 @@
+#include <debond/bulk/bulk.h>
+#include <debond/bulk/condensation.h>
+#include <debond/bulk/enriched_cells.h>
+
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace Debond
+{
+  namespace
+  {
+    /**
+     * NURBS-enriched hexahedra whose stiffness is factorised by sparse Cholesky
+     * and condensed on the degrees of freedom that contact can reach.
+     */
+    class CondensedBulk : public Bulk
+    {
+    public:
+      // Vertices of the contact face follow the control points and belong to no
+      // cell. Cells couple all their degrees of freedom with each other; the
+      // lower triangle is stored, column by column.
+      CondensedBulk(const BodyMesh &mesh, const NeoHookean &material)
+        : mesh(mesh)
+        , cells(mesh, material)
+        , free_number(3 * mesh.n_nodes(), -1)
+      {
+        for (unsigned int dof = 0; dof < free_number.size(); ++dof)
+          if (!mesh.is_tied(dof / 3) && !mesh.is_fixed(dof / 3, dof % 3))
+            {
+              free_number[dof] = free_dofs.size();
+              free_dofs.push_back(dof);
+            }
+        dealii::DynamicSparsityPattern pattern(free_dofs.size());
+        for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
+          {
+            std::vector<dealii::types::global_dof_index> numbers;
+            for (const int number : free_numbers(cell))
+              if (number >= 0)
+                numbers.push_back(number);
+            std::sort(numbers.begin(), numbers.end());
+            for (auto i = numbers.begin(); i != numbers.end(); ++i)
+              pattern.add_entries(*i, i, numbers.end(), true);
+          }
+        tangent.n = free_dofs.size();
+        tangent.column_start.push_back(0);
+        tangent.row.reserve(pattern.n_nonzero_elements());
+        for (int column = 0; column < tangent.n; ++column)
+          {
+            for (unsigned int k = 0; k < pattern.row_length(column); ++k)
+              tangent.row.push_back(pattern.column_number(column, k));
+            tangent.column_start.push_back(tangent.row.size());
+          }
+      }
+
+      std::vector<unsigned int>
+      set_contact(const std::vector<bool> &control_points) override
+      {
+        std::vector<unsigned int> dofs;
+        contact.clear();
+        for (unsigned int A = 0; A < control_points.size(); ++A)
+          for (unsigned int c = 0; c < 3; ++c)
+            {
+              const unsigned int dof = 3 * mesh.control_point_node(A) + c;
+              if (control_points[A] && free_number[dof] >= 0)
+                {
+                  dofs.push_back(dof);
+                  contact.push_back(free_number[dof]);
+                }
+            }
+        return dofs;
+      }
+
+      bool
+      linearise(const Eigen::VectorXd &v) override
+      {
+        tangent.value.assign(tangent.row.size(), 0.);
+        Eigen::MatrixXd K;
+        for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
+          {
+            const auto numbers = free_numbers(cell);
+            cells.tangent(cell, v, K);
+            for (unsigned int j = 0; j < numbers.size(); ++j)
+              if (numbers[j] >= 0)
+                {
+                  const auto start = tangent.row.begin();
+                  const auto begin = start + tangent.column_start[numbers[j]];
+                  const auto end = start + tangent.column_start[numbers[j] + 1];
+                  for (unsigned int i = 0; i < numbers.size(); ++i)
+                    if (numbers[i] >= numbers[j])
+                      tangent.value[std::lower_bound(begin, end, numbers[i]) -
+                                    start] += K(i, j);
+                }
+          }
+        Condensation attempt;
+        if (!attempt.factorise(tangent, contact))
+          return false;
+        condensation = std::move(attempt);
+        return true;
+      }
+
+      Eigen::VectorXd
+      product(const Eigen::VectorXd &x) const override
+      {
+        return condensation.schur_product(x);
+      }
+      Eigen::VectorXd
+      solve(const Eigen::VectorXd &b) const override
+      {
+        return condensation.schur_solve(b);
+      }
+      bool
+      is_dense() const override
+      {
+        return true;
+      }
+      Eigen::MatrixXd
+      dense_stiffness() const override
+      {
+        return condensation.schur_complement();
+      }
+
+      Bulk::Residual
+      condense(const Eigen::VectorXd &r) const override
+      {
+        Eigen::VectorXd free(free_dofs.size());
+        for (unsigned int i = 0; i < free_dofs.size(); ++i)
+          free[i] = r[free_dofs[i]];
+        Residual result;
+        result.norm_squared = result.interior_squared = free.squaredNorm();
+        for (const int k : contact)
+          result.interior_squared -= free[k] * free[k];
+        auto parts       = condensation.forward(free);
+        result.condensed = std::move(parts.condensed);
+        result.interior  = std::move(parts.interior);
+        return result;
+      }
+
+      // backward() solves K_ii x_i = r_i - K_ic x_c; with x = -dv this is what
+      // a correction is to fulfil.
+      Eigen::VectorXd
+      correction(const Eigen::VectorXd &dv_c, const Residual &r) const override
+      {
+        const Eigen::VectorXd x  = condensation.backward(-dv_c, r.interior);
+        Eigen::VectorXd       dv = Eigen::VectorXd::Zero(free_number.size());
+        for (unsigned int i = 0; i < free_dofs.size(); ++i)
+          dv[free_dofs[i]] = -x[i];
+        return dv;
+      }
+
+      bool
+      internal_forces(const Eigen::VectorXd &v,
+                      Eigen::VectorXd       &force,
+                      double                &energy) const override
+      {
+        return cells.internal_forces(v, force, energy);
+      }
+
+      Eigen::MatrixXd
+      product_at_rest(const Eigen::MatrixXd &x) const override
+      {
+        const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(x.rows());
+        Eigen::MatrixXd       y = Eigen::MatrixXd::Zero(x.rows(), x.cols()), K;
+        for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
+          {
+            const unsigned int n = cells.n_nodes(cell);
+            Eigen::MatrixXd    x_cell(3 * n, x.cols());
+            for (unsigned int a = 0; a < n; ++a)
+              x_cell.middleRows<3>(3 * a) =
+                x.middleRows<3>(3 * cells.nodes(cell)[a]);
+            if (x_cell.isZero(0.))
+              continue;
+            cells.tangent(cell, at_rest, K);
+            const Eigen::MatrixXd y_cell = K * x_cell;
+            for (unsigned int a = 0; a < n; ++a)
+              y.middleRows<3>(3 * cells.nodes(cell)[a]) +=
+                y_cell.middleRows<3>(3 * a);
+          }
+        return y;
+      }
+
+      std::vector<Eigen::Matrix3d>
+      vertex_stress(const Eigen::VectorXd &v,
+                    const StressLaw        law) const override
+      {
+        std::vector<Eigen::Matrix3d> stress(mesh.n_vertices(),
+                                            Eigen::Matrix3d::Zero());
+        std::vector<unsigned int>    n_cells(mesh.n_vertices(), 0);
+        for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
+          {
+            double H[EnrichedCells::n_q][3][3];
+            cells.displacement_gradients(cell, v, H);
+            std::array<Eigen::Matrix3d, EnrichedCells::n_q> at_points;
+            for (unsigned int q = 0; q < EnrichedCells::n_q; ++q)
+              {
+                double sigma[3][3];
+                (cells.material().*law)(H[q], sigma);
+                at_points[q] = Eigen::Map<Eigen::Matrix3d>(&sigma[0][0]);
+              }
+            for (unsigned int a = 0; a < n_corners; ++a)
+              {
+                const unsigned int vertex = mesh.cells()[cell].vertices[a];
+                const auto         weight = extrapolation_weights(a);
+                for (unsigned int q = 0; q < EnrichedCells::n_q; ++q)
+                  stress[vertex] += weight[q] * at_points[q];
+                ++n_cells[vertex];
+              }
+          }
+        for (unsigned int vertex = 0; vertex < mesh.n_vertices(); ++vertex)
+          stress[vertex] /= n_cells[vertex];
+        return stress;
+      }
+
+    private:
+      /** Numbers of a cell's degrees of freedom among the free ones, -1: fixed.
+       */
+      std::vector<int>
+      free_numbers(const unsigned int cell) const
+      {
+        std::vector<int> numbers;
+        for (unsigned int a = 0; a < cells.n_nodes(cell); ++a)
+          for (unsigned int c = 0; c < 3; ++c)
+            numbers.push_back(free_number[3 * cells.nodes(cell)[a] + c]);
+        return numbers;
+      }
+
+      const BodyMesh           &mesh;
+      const EnrichedCells       cells;
+      std::vector<unsigned int> free_dofs;
+      std::vector<int>          free_number; ///< -1: fixed, or follows others
+      std::vector<int>          contact;     ///< free numbers of the unknowns
+      SymmetricSparseMatrix     tangent;
+      Condensation              condensation;
+    };
+  } // namespace
+
+
+
+  std::unique_ptr<Bulk>
+  make_bulk(const BodyMesh &mesh)
+  {
+    return std::make_unique<CondensedBulk>(
+      mesh,
+      NeoHookean::from_young(mesh.parameters().young_modulus,
+                             mesh.parameters().poisson_ratio));
+  }
+} // namespace Debond

@@ -1,6 +1,8 @@
 // A chuck that is loaded instead of moved, a compliant machine, and the balance
 // of all six reactions.
 
+#include <debond/bulk/side.h>
+
 #include <Eigen/Geometry>
 
 #include "driven_scene.h"
@@ -96,9 +98,9 @@ check_reactions(const std::vector<std::string> &overrides)
     return moved;
   };
   const Vector6 bone =
-    system.support_reaction(Side::bone, Eigen::Vector3d::Zero());
-  Vector6 implant =
-    system.support_reaction(Side::implant, system.chuck.reference_centre());
+    system.support_reaction(Debond::Side::bone, Eigen::Vector3d::Zero());
+  Vector6 implant     = system.support_reaction(Debond::Side::implant,
+                                            system.chuck.reference_centre());
   implant.head<3>()   = (system.chuck.rotation() * implant.head<3>()).eval();
   implant.tail<3>()   = (system.chuck.rotation() * implant.tail<3>()).eval();
   implant             = move(implant, system.chuck.centre());

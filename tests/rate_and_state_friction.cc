@@ -6,6 +6,7 @@
 //
 // with k that of the spring and of eps_t in series.
 
+#include <debond/geometry/surface_geometry.h>
 #include <debond/interface/contact_point.h>
 
 #include <array>

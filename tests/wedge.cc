@@ -5,6 +5,7 @@
 // quadrature points of the wedge; the height of the wedge from the balance of
 // the vertical force.
 
+#include <debond/geometry/surface_geometry.h>
 #include <debond/interface/bond_friction.h>
 #include <debond/interface/contact_point.h>
 

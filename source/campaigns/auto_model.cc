@@ -60,45 +60,10 @@ namespace Debond
 
 
 
-    /** The text of a rung's parameters.prm. */
-    std::string
-    parameters_of(const Scene &rung)
-    {
-      std::vector<std::string> set{
-        "Model=" + std::string(rung.model == ModelKind::foundation ?
-                                 "foundation" :
-                                 "finite elements"),
-        "Output/Console=quiet",
-        "Output/Directory=" + rung.output.directory,
-        "Load steps/Adaptive=true",
-        "Load steps/Tolerance=" + to_text(rung.load_steps.tolerance, 17)};
-      for (const Side side : both_sides)
-        {
-          const BodyParameters &body =
-            side == Side::bone ? rung.bone : rung.implant;
-          const std::string name  = side == Side::bone ? "Bone/" : "Implant/";
-          std::string       cells = std::to_string(body.cells[1]) + ", " +
-                              std::to_string(body.cells[2]);
-          if (!body.is_round())
-            cells = std::to_string(body.cells[0]) + ", " + cells;
-          set.insert(set.end(),
-                     {name + "Cells=" + cells,
-                      name + "Material=" + name_of(body.material)});
-        }
-      if (rung.model == ModelKind::foundation)
-        for (const char *const entry :
-             {"Pressure", "Normal stiffness", "Torsional stiffness"})
-          set.push_back(std::string("Closed form/") + entry + "=0");
-      return Scene::from_entries(with_overrides(rung.entries, set), rung.name)
-        .completed_parameters;
-    }
-
-
-
     void
     run_rung(const ModelChoice &choice, Rung &rung)
     {
-      rung.scene.completed_parameters = parameters_of(rung.scene);
+      rung.scene.complete();
       if (rung.is_foundation())
         {
           const dealii::Timer      clock;

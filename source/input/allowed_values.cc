@@ -124,9 +124,11 @@ namespace Debond
     });
     if (special == text.end())
       return "";
-    return "there is a special character in it behind '" +
-           shortened(std::string(text.begin(), special)) +
-           "', perhaps a typographic minus, quote or blank";
+    const std::string before = shortened({text.begin(), special});
+    return "there is a special character " +
+           (before.empty() ? "at its beginning" :
+                             "in it behind '" + before + "'") +
+           ", perhaps a typographic minus, quote or blank";
   }
 
 
@@ -263,7 +265,8 @@ namespace Debond
         for (const std::string &item : items)
           if (!read_number(item, number))
             return text.find(';') != std::string::npos ||
-                       consists_of(item, "0123456789+-.eE \t") ?
+                       (!item.empty() &&
+                        consists_of(item, "0123456789+-.eE \t")) ?
                      "values are separated by commas" :
                      why_no_number(item);
           else if (!each.match(item))
@@ -338,6 +341,7 @@ namespace Debond
         [](const std::string &text) -> std::optional<std::string> {
         if (!text.empty() && text[0] != '~' && text[0] != '$' &&
             text.find_first_of("\"'`\\") == std::string::npos &&
+            text.find("\xE2\x80") == std::string::npos && // typographic ones
             std::filesystem::path(text).lexically_normal() != "/")
           return std::nullopt;
         return "it is taken as it is: without quotes and backslashes, without "
@@ -356,8 +360,8 @@ namespace Debond
         return text == value ? std::nullopt : std::make_optional("");
       };
       return {test,
-              (value.empty() ? "nothing" : value) +
-                " (others are not in this version)"};
+              (value.empty() ? "no value" : value) +
+                " (nothing else in this version)"};
     }
   } // namespace Allowed
 } // namespace Debond

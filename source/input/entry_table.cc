@@ -70,11 +70,14 @@ namespace Debond
     });
     if (row == rows.end())
       {
+        const std::string special =
+          remark_on_special_character(entry.full_name());
         const std::string likely = likely_name(entry);
-        refuse("there is no such entry" +
-               (likely.empty() ?
-                  " (debond --print-parameters lists all entries)" :
-                  "; did you mean " + likely + "?"));
+        refuse(
+          "there is no such entry" +
+          (!special.empty() ? "; " + special :
+           likely.empty()   ? " (debond --print-parameters lists all entries)" :
+                              "; did you mean " + likely + "?"));
       }
     if (entry.value.find("{{") != std::string::npos)
       refuse("several values make a study: expected one value here");

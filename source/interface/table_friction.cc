@@ -134,9 +134,11 @@ namespace Debond
 
 
     [[noreturn]] void
-    refuse_table(const std::string &where, const std::string &why)
+    refuse_table(const std::string &filename, const std::string &why)
     {
-      throw InputError(where + ": " + why);
+      throw EntryError(std::string("Interface / ") + table_entry,
+                       why,
+                       filename);
     }
 
 
@@ -148,25 +150,26 @@ namespace Debond
     {
       const std::string place = std::string("Interface / ") + table_entry;
       if (filename.empty())
-        refuse_table(place,
+        refuse_table(filename,
                      "Friction law = table needs the name of a CSV file");
       std::vector<double>       slip, phi;
       std::vector<unsigned int> lines;
       for (const std::vector<double> &row :
            read_csv_columns(filename, place, {"slip_mm", "phi"}, false, &lines))
         {
-          const std::string where =
-            filename + ":" + std::to_string(lines[slip.size()]);
+          const std::string line =
+            "line " + std::to_string(lines[slip.size()]) + ": ";
           if (slip.empty() ? row[0] != 0. : !(row[0] > slip.back()))
-            refuse_table(where,
-                         "slip_mm = " + to_text(row[0]) +
+            refuse_table(filename,
+                         line + "slip_mm = " + to_text(row[0]) +
                            ": expected distances that begin with 0 and ascend");
           if (!(row[1] >= 0. && row[1] <= 1.))
-            refuse_table(where,
-                         "phi = " + to_text(row[1]) + ": expected 0 to 1");
+            refuse_table(filename,
+                         line + "phi = " + to_text(row[1]) +
+                           ": expected 0 to 1");
           if (!phi.empty() && row[1] > phi.back())
-            refuse_table(where,
-                         "phi = " + to_text(row[1]) + " is more than " +
+            refuse_table(filename,
+                         line + "phi = " + to_text(row[1]) + " is more than " +
                            to_text(phi.back()) +
                            " in the row before: a bond does not heal");
           slip.push_back(row[0]);

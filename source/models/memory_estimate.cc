@@ -180,13 +180,14 @@ namespace Debond
         "Interface / Quadrature points" :
       parts.bone > parts.implant ? "Bone / Cells" :
                                    "Implant / Cells";
-    throw NotEnoughMemory(
-      entry + ": this scene needs some " + in_words(needed) +
-      " of memory, and " + in_words(available) +
-      " are available: lower this first (of the memory, "
-      "Bone / Cells take " +
-      in_words(1e-6 * parts.bone) + ", Implant / Cells " +
-      in_words(1e-6 * parts.implant) + ", Interface / Quadrature points " +
-      in_words(1e-6 * parts.points) + ")");
+    throw NotEnoughMemory(entry,
+                          "this scene needs some " + in_words(needed) +
+                            " of memory, and " + in_words(available) +
+                            " are available: lower this first (of the memory, "
+                            "Bone / Cells take " +
+                            in_words(1e-6 * parts.bone) + ", Implant / Cells " +
+                            in_words(1e-6 * parts.implant) +
+                            ", Interface / Quadrature points " +
+                            in_words(1e-6 * parts.points) + ")");
   }
 } // namespace Debond

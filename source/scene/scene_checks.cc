@@ -47,9 +47,10 @@ namespace Debond
             {
               const double value = function(time);
               if (std::abs(value) > largest)
-                throw InputError("it is " + to_text(value) +
-                                 " at t = " + to_text(time) +
-                                 ": expected at most " + to_text(largest));
+                throw InputError(
+                  "it is " + to_text(value) + " at t = " + to_text(time) +
+                  ": expected at most " + to_text(largest) +
+                  (component.loaded ? " N or N mm" : " mm or degrees"));
               varies = varies || value != first_value;
             }
           return varies || (component.loaded && first_value != 0);

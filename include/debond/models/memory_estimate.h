@@ -13,10 +13,10 @@ namespace Debond
   extern const char *const out_of_memory;
 
   /** A scene whose bodies do not fit into the memory that there is. */
-  class NotEnoughMemory : public InputError
+  class NotEnoughMemory : public EntryError
   {
   public:
-    using InputError::InputError;
+    using EntryError::EntryError;
   };
 
   /**
@@ -28,7 +28,7 @@ namespace Debond
   double
   estimated_memory_MB(const Scene &scene);
 
-  /** Throws NotEnoughMemory, whose message begins with the name of the entry
+  /** Throws NotEnoughMemory, which names the entry
    *  that needs most, if the estimate is more than what is available. */
   void
   require_memory(const Scene &scene);

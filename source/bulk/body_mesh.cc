@@ -1,6 +1,12 @@
 #include <debond/bulk/body_mesh.h>
 
-#include <algorithm>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/tria.h>
+#include <deal.II/lac/affine_constraints.h>
+
 #include <cmath>
 
 namespace Debond
@@ -28,37 +34,30 @@ namespace Debond
 
 
 
+  struct BodyMesh::Grid
+  {
+    dealii::Triangulation<3>          triangulation;
+    dealii::FESystem<3>               fe{dealii::FE_Q<3>(1), 3};
+    dealii::DoFHandler<3>             dof_handler{triangulation};
+    dealii::AffineConstraints<double> constraints;
+  };
+
+
+
+  BodyMesh::~BodyMesh() = default;
+
+
+
   BodyMesh::BodyMesh(const BodyParameters &parameters, const Side side)
     : body_parameters(parameters)
     , body_side(side)
     , contact_surface(make_contact_surface(parameters))
+    , grid(std::make_unique<Grid>())
   {
-    place_nodes();
+    make_grid();
+    number_nodes();
     collect_cells();
-    support_nodes();
-  }
-
-
-
-  template <typename Work>
-  void
-  BodyMesh::for_each_vertex(const Work &work) const
-  {
-    const auto  &n      = body_parameters.cells;
-    unsigned int number = 0;
-    for (unsigned int k = 0; k <= n[2]; ++k)
-      for (unsigned int j = 0; j <= n[1]; ++j)
-        for (unsigned int i = 0; i <= n[0]; ++i)
-          work(number++, i, j, flipped(k));
-  }
-
-
-
-  Eigen::Vector2d
-  BodyMesh::knots_at(const unsigned int i, const unsigned int j) const
-  {
-    return {contact_surface.knots(0).breakpoints()[i],
-            contact_surface.knots(1).breakpoints()[j]};
+    make_constraints();
   }
 
 
@@ -76,20 +75,51 @@ namespace Debond
 
 
 
-  // Vertices stand in the plane where the knots of the contact surface are,
-  // along z by layers.
+  // The cells form a lattice. The triangulation is first made with lattice
+  // indices as coordinates; then each vertex moves to its place: in the plane
+  // where the knots of the contact surface are, along z by layers.
   void
-  BodyMesh::place_nodes()
+  BodyMesh::make_grid()
   {
+    const auto &n = body_parameters.cells;
+    dealii::GridGenerator::subdivided_hyper_rectangle(grid->triangulation,
+                                                      {n[0], n[1], n[2]},
+                                                      dealii::Point<3>(),
+                                                      dealii::Point<3>(n[0],
+                                                                       n[1],
+                                                                       n[2]));
+    grid->dof_handler.distribute_dofs(grid->fe);
+
+    lattice.resize(grid->dof_handler.n_dofs() / 3);
+    for (const auto &cell : grid->dof_handler.active_cell_iterators())
+      for (const unsigned int v : cell->vertex_indices())
+        {
+          const dealii::Point<3> p = cell->vertex(v);
+          auto &index              = lattice[cell->vertex_dof_index(v, 0) / 3];
+          for (unsigned int d = 0; d < 3; ++d)
+            index[d] = std::lround(p[d]);
+          // count layers from the contact face, which is the bone's top
+          if (body_side == Side::bone)
+            index[2] = n[2] - index[2];
+        }
+  }
+
+
+
+  void
+  BodyMesh::number_nodes()
+  {
+    const auto &breaks_1 = contact_surface.knots(0).breakpoints();
+    const auto &breaks_2 = contact_surface.knots(1).breakpoints();
     reference_positions.resize(n_nodes());
-    for_each_vertex([&](const unsigned int node,
-                        const unsigned int i,
-                        const unsigned int j,
-                        const unsigned int layer) {
-      Eigen::Vector3d &X = reference_positions[node];
-      X                  = contact_surface.point(knots_at(i, j));
-      X[2]               = layer_height(layer, X[2]);
-    });
+    for (unsigned int node = 0; node < n_vertices(); ++node)
+      {
+        const auto &index = lattice[node];
+        reference_positions[node] =
+          contact_surface.point({breaks_1[index[0]], breaks_2[index[1]]});
+        reference_positions[node][2] =
+          layer_height(index[2], reference_positions[node][2]);
+      }
     for (unsigned int A = 0; A < contact_surface.n_control_points(); ++A)
       reference_positions[control_point_node(A)] =
         contact_surface.control_points().col(A);
@@ -100,75 +130,103 @@ namespace Debond
   void
   BodyMesh::collect_cells()
   {
-    const auto        &n = body_parameters.cells;
+    const unsigned int n_1 = body_parameters.cells[0];
     const unsigned int n_functions =
       (contact_surface.degree() + 1) * (contact_surface.degree() + 1);
-    for (unsigned int k = 0; k < n[2]; ++k)
-      for (unsigned int j = 0; j < n[1]; ++j)
-        for (unsigned int i = 0; i < n[0]; ++i)
+    for (const auto &cell : grid->dof_handler.active_cell_iterators())
+      {
+        Cell                        info;
+        unsigned int                lowest_layer = -1;
+        std::array<unsigned int, 2> corner{
+          {static_cast<unsigned int>(-1), static_cast<unsigned int>(-1)}};
+        for (const unsigned int v : cell->vertex_indices())
           {
-            Cell cell;
-            for (unsigned int a = 0; a < 8; ++a)
-              cell.vertices[a] =
-                vertex({{i + (a & 1), j + (a >> 1 & 1), k + (a >> 2)}});
-            const bool on_top = (body_side == Side::bone);
-            cell.enriched     = (k == (on_top ? n[2] - 1 : 0));
-            // the face opposite to the contact face, or both
-            const unsigned int first = cell.enriched && !on_top ? 4 : 0;
-            const unsigned int end   = cell.enriched && on_top ? 4 : 8;
-            if (cell.enriched)
-              {
-                cell.surface_element = i + n[0] * j;
-                const auto control_points =
-                  contact_surface.element_control_points(cell.surface_element);
-                for (unsigned int a = 0; a < n_functions; ++a)
-                  cell.nodes.push_back(control_point_node(control_points[a]));
-              }
-            cell.nodes.insert(cell.nodes.end(),
-                              cell.vertices.begin() + first,
-                              cell.vertices.begin() + end);
-            bulk_cells.push_back(cell);
+            for (unsigned int c = 0; c < 3; ++c)
+              AssertThrow(cell->vertex_dof_index(v, c) ==
+                            3 * (cell->vertex_dof_index(v, 0) / 3) + c,
+                          dealii::ExcInternalError());
+            info.vertices[v]  = cell->vertex_dof_index(v, 0) / 3;
+            const auto &index = lattice[info.vertices[v]];
+            lowest_layer      = std::min(lowest_layer, index[2]);
+            for (unsigned int d = 0; d < 2; ++d)
+              corner[d] = std::min(corner[d], index[d]);
           }
+        info.enriched = (lowest_layer == 0);
+        if (info.enriched)
+          {
+            info.surface_element = corner[0] + n_1 * corner[1];
+            const auto control_points =
+              contact_surface.element_control_points(info.surface_element);
+            for (unsigned int a = 0; a < n_functions; ++a)
+              info.nodes.push_back(control_point_node(control_points[a]));
+            for (const unsigned int vertex : info.vertices)
+              if (lattice[vertex][2] == 1)
+                info.nodes.push_back(vertex);
+          }
+        else
+          info.nodes.assign(info.vertices.begin(), info.vertices.end());
+        bulk_cells.push_back(info);
+      }
   }
 
 
 
   void
-  BodyMesh::support_nodes()
+  BodyMesh::make_constraints()
   {
     const auto &n    = body_parameters.cells;
     const auto  n_cp = contact_surface.n_control_points_per_direction();
     fixed.assign(3 * n_nodes(), false);
     tied.assign(n_nodes(), false);
-    // the bone's sides slide along themselves
+
     const auto fix_sides = [&](const unsigned int                node,
                                const std::array<unsigned int, 2> index,
                                const std::array<unsigned int, 2> last) {
-      for (unsigned int d = 0; d < 2; ++d)
-        if (body_side == Side::bone && (index[d] == 0 || index[d] == last[d]))
-          fixed[3 * node + d] = true;
+      if (body_side == Side::bone)
+        for (unsigned int d = 0; d < 2; ++d)
+          if (index[d] == 0 || index[d] == last[d])
+            fixed[3 * node + d] = true;
     };
-    for_each_vertex([&](const unsigned int node,
-                        const unsigned int i,
-                        const unsigned int j,
-                        const unsigned int layer) {
-      tied[node] = (layer == 0);
-      if (tied[node])
-        {
-          followers.emplace_back(node, SurfaceBasis());
-          contact_surface.evaluate(knots_at(i, j),
-                                   followers.back().second,
-                                   false);
-        }
-      else if (layer == n[2])
-        std::fill_n(fixed.begin() + 3 * node, 3, true);
-      else
-        fix_sides(node, {{i, j}}, {{n[0], n[1]}});
-    });
+
+    for (unsigned int node = 0; node < n_vertices(); ++node)
+      {
+        const auto &index = lattice[node];
+        tied[node]        = (index[2] == 0);
+        if (index[2] == n[2])
+          for (unsigned int c = 0; c < 3; ++c)
+            fixed[3 * node + c] = true;
+        else if (!tied[node])
+          fix_sides(node, {{index[0], index[1]}}, {{n[0], n[1]}});
+      }
     for (unsigned int A = 0; A < contact_surface.n_control_points(); ++A)
       fix_sides(control_point_node(A),
                 {{A % n_cp[0], A / n_cp[0]}},
                 {{n_cp[0] - 1, n_cp[1] - 1}});
+
+    SurfaceBasis basis;
+    for (unsigned int node = 0; node < n_nodes(); ++node)
+      {
+        if (tied[node])
+          contact_surface.evaluate(
+            {contact_surface.knots(0).breakpoints()[lattice[node][0]],
+             contact_surface.knots(1).breakpoints()[lattice[node][1]]},
+            basis,
+            false);
+        for (unsigned int c = 0; c < 3; ++c)
+          if (tied[node])
+            {
+              grid->constraints.add_line(3 * node + c);
+              for (unsigned int a = 0; a < basis.size; ++a)
+                if (basis.N[a] != 0.)
+                  grid->constraints.add_entry(
+                    3 * node + c,
+                    3 * control_point_node(basis.control_point[a]) + c,
+                    basis.N[a]);
+            }
+          else if (is_fixed(node, c))
+            grid->constraints.add_line(3 * node + c);
+      }
+    grid->constraints.close();
   }
 
 
@@ -176,13 +234,12 @@ namespace Debond
   void
   BodyMesh::distribute(Eigen::VectorXd &v) const
   {
-    for (const auto &[node, basis] : followers)
+    for (const auto &line : grid->constraints.get_lines())
       {
-        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-        for (unsigned int a = 0; a < basis.size; ++a)
-          sum += basis.N[a] *
-                 v.segment<3>(3 * control_point_node(basis.control_point[a]));
-        v.segment<3>(3 * node) = sum;
+        double value = 0.;
+        for (const auto &[dof, weight] : line.entries)
+          value += weight * v[dof];
+        v[line.index] = value;
       }
   }
 
@@ -201,6 +258,9 @@ namespace Debond
   unsigned int
   BodyMesh::n_unknowns() const
   {
-    return 3 * (n_nodes() - followers.size());
+    unsigned int n_tied = 0;
+    for (const bool is_tied : tied)
+      n_tied += is_tied;
+    return 3 * (n_nodes() - n_tied);
   }
 } // namespace Debond

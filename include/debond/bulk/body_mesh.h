@@ -6,7 +6,7 @@
 #include <debond/geometry/nurbs_surface.h>
 
 #include <array>
-#include <utility>
+#include <memory>
 #include <vector>
 
 namespace Debond
@@ -20,13 +20,13 @@ namespace Debond
   /**
    * Mesh, numbering and boundary conditions of one body.
    *
-   * The cells form a lattice of trilinear hexahedra. Degrees of freedom are
-   * numbered node by node, three to a node: first the vertices, x fastest and
-   * from bottom to top, then the control points of the contact
+   * The bulk is a deal.II triangulation with FESystem(FE_Q(1), 3). Degrees of
+   * freedom are numbered node by node, three to a node: first the vertices (as
+   * the DoFHandler numbers them), then the control points of the contact
    * surface. In the layer of cells that touches the contact surface the contact
    * face is interpolated by the NURBS surface (Corbett & Sauer 2014, 2015), so
-   * the vertices on it are no unknowns: they are tied to the control points,
-   * v_vertex = sum_A N_A(vertex) v_A.
+   * the vertices on it are no unknowns: constraints tie them to the control
+   * points, v_vertex = sum_A N_A(vertex) v_A.
    *
    * With the contact surface `bilinear` the surface is of degree 1, has one
    * control point at each surface vertex, and everything else stays the same.
@@ -38,6 +38,7 @@ namespace Debond
      *  face on top; the implant is held at its top, contact face at the bottom.
      *  Both contact faces lie in z = 0; that of a cap touches it. */
     BodyMesh(const BodyParameters &parameters, Side side);
+    ~BodyMesh();
 
     const BodyParameters &
     parameters() const
@@ -64,8 +65,7 @@ namespace Debond
     unsigned int
     n_vertices() const
     {
-      return (body_parameters.cells[0] + 1) * (body_parameters.cells[1] + 1) *
-             (body_parameters.cells[2] + 1);
+      return lattice.size();
     }
     unsigned int
     n_nodes() const
@@ -126,48 +126,31 @@ namespace Debond
     }
 
   private:
-    using Lattice = std::array<unsigned int, 3>;
-    /** Number of the vertex at a place of the lattice. */
-    unsigned int
-    vertex(const Lattice &place) const
-    {
-      const auto &n = body_parameters.cells;
-      return place[0] + (n[0] + 1) * (place[1] + (n[1] + 1) * place[2]);
-    }
-    /** Calls work(vertex number, i, j, layer) for all vertices; layers count
-     *  from the contact face. */
-    template <typename Work>
     void
-    for_each_vertex(const Work &work) const;
-    /** Layer of the lattice, counted from the bottom, that is the given one
-     *  from the contact face, and the other way round. */
-    unsigned int
-    flipped(const unsigned int layer) const
-    {
-      return body_side == Side::bone ? body_parameters.cells[2] - layer : layer;
-    }
-    /** Parameters of the contact surface where the knot lines i and j cross. */
-    Eigen::Vector2d
-    knots_at(unsigned int i, unsigned int j) const;
+    make_grid();
     void
-    place_nodes();
+    number_nodes();
     void
     collect_cells();
     void
-    support_nodes();
+    make_constraints();
     double
     layer_height(unsigned int layer, double height_of_face) const;
 
     const BodyParameters body_parameters;
     const Side           body_side;
+    const NurbsSurface   contact_surface;
 
-    const NurbsSurface contact_surface;
+    /** deal.II's objects: triangulation, element, numbering, constraints. */
+    struct Grid;
+    std::unique_ptr<Grid> grid;
 
-    std::vector<Eigen::Vector3d> reference_positions;
-    std::vector<bool>            fixed, tied;
-    /** Tied vertices and the functions of the control points at them. */
-    std::vector<std::pair<unsigned int, SurfaceBasis>> followers;
-    std::vector<Cell>                                  bulk_cells;
+    /** Lattice index (i, j, layer from the contact face) of each vertex node.
+     */
+    std::vector<std::array<unsigned int, 3>> lattice;
+    std::vector<Eigen::Vector3d>             reference_positions;
+    std::vector<bool>                        fixed, tied;
+    std::vector<Cell>                        bulk_cells;
   };
 } // namespace Debond
 #endif

@@ -7,6 +7,28 @@
 
 namespace Debond
 {
+  namespace
+  {
+    void
+    declare_references(OutputParameters &parameters, EntryTable &table)
+    {
+      table.add("Reference curve",
+                parameters.reference_curve,
+                Allowed::optional_text("the name of a CSV file"),
+                "CSV file with the columns angle_deg,torque_Nmm to compare the "
+                "torque curve with; empty: none.");
+      table.add("Reference profiles",
+                parameters.reference_profiles,
+                Allowed::optional_text("the name of a CSV file"),
+                "CSV file with the columns angle_deg, x_mm, y_mm, area_mm2, "
+                "pressure_MPa and slip_mm, as profiles.csv of another run, to "
+                "compare local values with at those of its angles that Profile "
+                "angles has; empty: none.");
+    }
+  } // namespace
+
+
+
   void
   OutputParameters::declare(EntryTable &table)
   {
@@ -23,18 +45,7 @@ namespace Debond
               Allowed::whole_number(0, std::numeric_limits<int>::max()),
               "Planned steps between VTU files, counted from the beginning of "
               "each phase, whose end is always written; 0: no VTU files.");
-    table.add("Reference curve",
-              reference_curve,
-              Allowed::optional_text("the name of a CSV file"),
-              "CSV file with the columns angle_deg,torque_Nmm to compare the "
-              "torque curve with; empty: none.");
-    table.add("Reference profiles",
-              reference_profiles,
-              Allowed::optional_text("the name of a CSV file"),
-              "CSV file with the columns angle_deg, x_mm, y_mm, area_mm2, "
-              "pressure_MPa and slip_mm, as profiles.csv of another run, to "
-              "compare local values with at those of its angles that Profile "
-              "angles has; empty: none.");
+    declare_references(*this, table);
     table.add("Full sliding angle",
               full_sliding_angle,
               Allowed::number_from(0, "deg"),

@@ -9,6 +9,71 @@
 
 namespace Debond
 {
+  namespace
+  {
+    void
+    declare_path(LoadSteppingParameters &parameters, EntryTable &table)
+    {
+      table.add(
+        "Path following",
+        parameters.follow_path,
+        Allowed::choice("none | slip"),
+        "`none': the program goes through the planned steps of the time, "
+        "and jumps where the path of equilibrium snaps back. `slip': it "
+        "follows that path by prescribing the mean sliding distance, "
+        "while the time, and with it everything the chuck prescribes, is "
+        "found and may fall; each accepted step is a row. While "
+        "everything sticks planned steps are taken.");
+      table.add("Largest slip step",
+                parameters.largest_slip_step,
+                Allowed::number_from(0, "mm"),
+                "With Path following: largest step of the sliding distance, "
+                "averaged over the contact face [mm]. 0: a twentieth of the "
+                "distance over which friction falls, 2 a_s b_s, or of a_s if "
+                "that is less.");
+      table.add("Path ends at slip",
+                parameters.path_ends_at_slip,
+                Allowed::number_from(0, "mm"),
+                "With Path following: the run ends when the mean sliding "
+                "distance reaches this [mm], if not at the last time. 0: the "
+                "radius of the implant. A moment larger than the interface can "
+                "carry has no last time: the implant would turn for ever.");
+    }
+
+
+
+    void
+    declare_iteration(LoadSteppingParameters &parameters, EntryTable &table)
+    {
+      table.add(
+        "Smallest step fraction",
+        parameters.smallest_step_fraction,
+        Allowed::number_between(1e-15, 1, ""),
+        "Smallest step as a fraction of a planned step; if a smaller one "
+        "were needed the run stops with an error.");
+      table.add("Residual tolerance",
+                parameters.residual_tolerance,
+                Allowed::number_between(1e-14, 0.1, ""),
+                "A step has converged when the residual is below this fraction "
+                "of the contact force.");
+      table.add(
+        "Predictor",
+        parameters.predictor,
+        Allowed::choice("extrapolate | stick first | rigid | none"),
+        "What the first iteration of a step starts from. `extrapolate': the "
+        "straight line through the last two states where there is one in this "
+        "phase; else, and if that fails, as `stick first'. The others are there "
+        "to be compared with, and a step that fails with them is halved at once. "
+        "`stick first': the last state with the chuck moved, so that the implant "
+        "goes along as it is; closed points stick in the first iteration. "
+        "`rigid': the same, but every point sticks or slides as it must from the "
+        "first iteration on. `none': the implant's deformable contact face stays "
+        "where it is in space.");
+    }
+  } // namespace
+
+
+
   void
   LoadSteppingParameters::declare(EntryTable &table)
   {
@@ -47,52 +112,8 @@ namespace Debond
               "Model = auto the largest difference, relative to the largest "
               "torque, from the curve of the scene's bodies on a converged "
               "mesh. Else not used.");
-    table.add("Path following",
-              follow_path,
-              Allowed::choice("none | slip"),
-              "`none': the program goes through the planned steps of the time, "
-              "and jumps where the path of equilibrium snaps back. `slip': it "
-              "follows that path by prescribing the mean sliding distance, "
-              "while the time, and with it everything the chuck prescribes, is "
-              "found and may fall; each accepted step is a row. While "
-              "everything sticks planned steps are taken.");
-    table.add("Largest slip step",
-              largest_slip_step,
-              Allowed::number_from(0, "mm"),
-              "With Path following: largest step of the sliding distance, "
-              "averaged over the contact face [mm]. 0: a twentieth of the "
-              "distance over which friction falls, 2 a_s b_s, or of a_s if "
-              "that is less.");
-    table.add("Path ends at slip",
-              path_ends_at_slip,
-              Allowed::number_from(0, "mm"),
-              "With Path following: the run ends when the mean sliding "
-              "distance reaches this [mm], if not at the last time. 0: the "
-              "radius of the implant. A moment larger than the interface can "
-              "carry has no last time: the implant would turn for ever.");
-    table.add("Smallest step fraction",
-              smallest_step_fraction,
-              Allowed::number_between(1e-15, 1, ""),
-              "Smallest step as a fraction of a planned step; if a smaller one "
-              "were needed the run stops with an error.");
-    table.add("Residual tolerance",
-              residual_tolerance,
-              Allowed::number_between(1e-14, 0.1, ""),
-              "A step has converged when the residual is below this fraction "
-              "of the contact force.");
-    table.add(
-      "Predictor",
-      predictor,
-      Allowed::choice("extrapolate | stick first | rigid | none"),
-      "What the first iteration of a step starts from. `extrapolate': the "
-      "straight line through the last two states where there is one in this "
-      "phase; else, and if that fails, as `stick first'. The others are there "
-      "to be compared with, and a step that fails with them is halved at once. "
-      "`stick first': the last state with the chuck moved, so that the implant "
-      "goes along as it is; closed points stick in the first iteration. "
-      "`rigid': the same, but every point sticks or slides as it must from the "
-      "first iteration on. `none': the implant's deformable contact face stays "
-      "where it is in space.");
+    declare_path(*this, table);
+    declare_iteration(*this, table);
     table.leave_subsection();
   }
 

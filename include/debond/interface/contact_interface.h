@@ -152,7 +152,7 @@ namespace Debond
     std::string
     describe_failure() const;
 
-    /** See serialization.h.. */
+    /** See serialization.h. */
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int)

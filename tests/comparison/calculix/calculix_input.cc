@@ -7,6 +7,7 @@
 #include <debond/scene/scene.h>
 #include <debond/support/input_error.h>
 #include <debond/support/runtime.h>
+#include <debond/support/written_files.h>
 #include <debond/system/load_stepping.h>
 
 #include <array>

@@ -136,10 +136,8 @@ namespace Debond
 
     // the limit changes with the sliding distance, y - y_n = (x - y_n) - (x -
     // y), and with the pressure
-    const double along_slip =
-      sense * (coefficient.dmu * pressure +
-               (pressure > 0. ? friction.viscous : 0.));
-    Numbers dlimit = (along_slip * forward).transpose() * (dtrial - dgap);
+    Numbers dlimit =
+      (sense * resistance_slope() * forward).transpose() * (dtrial - dgap);
     if (pressure > 0.)
       dlimit -= coefficient.mu * normal_response.stiffness * dg_n;
     Vectors dt_t = tau * dlimit;
@@ -233,9 +231,14 @@ namespace Debond
     Vector2d               xi             = start;
     evaluate(xi, result.basis);
     // |h|/|a| is a distance: it cannot be smaller than the rounding of
-    // positions, which are of the size of the surface
-    const double round_off =
+    // positions, which are of the size of the surface, and of the sliding
+    // distance found from them, which moves the traction
+    const double rounding =
       1e-16 * (x.norm() + geometry.a1.norm() + geometry.a2.norm());
+    const auto round_off = [&] {
+      return rounding * (1. + std::abs(equations->resistance_slope()) /
+                                law.tangential_penalty);
+    };
     unsigned int pushes = 0;
     for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
       {
@@ -244,7 +247,7 @@ namespace Debond
           -equations->along_surface().h.inverse() * equations->h;
         if (!step.allFinite())
           return SlipOutcome::not_found;
-        if (step.cwiseAbs().maxCoeff() < 1e-15 || error <= round_off)
+        if (step.cwiseAbs().maxCoeff() < 1e-15 || error <= round_off())
           break;
         const Vector2d target = (xi + step).cwiseMax(0.).cwiseMin(1.);
         if (target != xi + step && ++pushes > 5)
@@ -253,7 +256,7 @@ namespace Debond
         if (!search_along(target - xi, error, xi, result.basis))
           break;
       }
-    if (distance_error() > 100. * round_off)
+    if (distance_error() > 100. * round_off())
       return SlipOutcome::not_found;
     result.state.xi = xi;
     return SlipOutcome::solved;

@@ -74,7 +74,7 @@ namespace Debond
                                const SurfaceGeometry &geometry,
                                const double           outward_sign)
     : slip(geometry.y - y_old)
-    , distance(slip.norm())
+    , distance(slip.norm()) // the last term of the sum in Eq. (32)
     , law(law)
     , geometry(geometry)
     , friction(friction)
@@ -382,7 +382,8 @@ namespace Debond
     result.energy =
       e.normal_response.energy +
       0.5 * e.tangential_traction.squaredNorm() / law.tangential_penalty;
-    // the history at the end of the step, Eq. (32), should it be accepted
+    // g_s = g_s^n + |y - y_n|, Eq. (32), and what else the law remembers; it is
+    // the history of the point once the step is accepted
     if (!friction.frictionless)
       {
         result.state.slip = friction.start.slip + e.distance;

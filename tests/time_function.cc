@@ -1,6 +1,6 @@
 // Expressions in t know pi and R; those without a value are refused.
 
-#include <debond/input/time_function.h>
+#include <debond/input/expression_parser.h>
 #include <debond/support/input_error.h>
 
 #include <iostream>

@@ -1,6 +1,7 @@
 #include <debond/input/allowed_values.h>
 #include <debond/input/expression_parser.h>
 #include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
 
 #include <deal.II/base/mu_parser_internal.h>
 #include <deal.II/base/numbers.h>
@@ -11,6 +12,7 @@
 #include <muParser.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <regex>
@@ -163,5 +165,23 @@ namespace Debond
       std::copy(values.begin(), values.end(), shared->values.begin());
       return shared->parser.Eval();
     };
+  }
+
+
+
+  TimeFunction::TimeFunction(const std::string &expression, const double radius)
+    : function([parsed = read_expression("t", expression, radius)](
+                 const double t) { return parsed({t}); })
+  {}
+
+
+
+  double
+  TimeFunction::operator()(const double t) const
+  {
+    const double value = function(t);
+    if (!std::isfinite(value))
+      throw InputError("it has no finite value at t = " + to_text(t));
+    return value;
   }
 } // namespace Debond

@@ -1,5 +1,5 @@
 #include <debond/input/entry_table.h>
-#include <debond/input/time_function.h>
+#include <debond/input/expression_parser.h>
 #include <debond/interface/bonding_pattern.h>
 #include <debond/scene/scene.h>
 #include <debond/support/number_text.h>

@@ -1,7 +1,6 @@
 // Fuzz target: expressions in time and in place, read and evaluated.
 
 #include <debond/input/expression_parser.h>
-#include <debond/input/time_function.h>
 
 #include "fuzz_target.h"
 

@@ -1,7 +1,7 @@
 #ifndef debond_bulk_chuck_h
 #define debond_bulk_chuck_h
 
-#include <debond/input/time_function.h>
+#include <debond/input/expression_parser.h>
 #include <debond/support/accepted_state.h>
 
 #include <Eigen/Core>

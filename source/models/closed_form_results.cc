@@ -124,7 +124,7 @@ namespace Debond
                                      row.angle_deg * M_PI / 180.);
         });
       }
-    TorqueCurveWriter(directory, rows).finish();
+    write_file(directory.file("torque.csv"), torque_table(rows));
     console.warn("profile", profiles.finish());
     warn_of_jumps(solution, console);
 

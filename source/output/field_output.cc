@@ -1,7 +1,5 @@
 #include <debond/interface/contact_interface.h>
-#include <debond/output/bulk_fields.h>
 #include <debond/output/field_output.h>
-#include <debond/output/interface_fields.h>
 #include <debond/output/result_files.h>
 
 #include <deal.II/base/utilities.h>

@@ -3,7 +3,7 @@
 #include <debond/bulk/chuck.h>
 #include <debond/geometry/surface_geometry.h>
 #include <debond/interface/contact_interface.h>
-#include <debond/output/interface_fields.h>
+#include <debond/output/field_output.h>
 #include <debond/output/vtu_patches.h>
 
 #include <algorithm>
@@ -30,21 +30,21 @@ namespace Debond
               points[d == 0 ? index(i, 0) : index(0, i)].xi[d]);
       }
 
-      /** Numbers of four points and their weights, and of the nearest point. */
+      /** Four points and their weights, and the nearest point. */
       struct Stencil
       {
-        std::array<unsigned int, 4> point;
-        std::array<double, 4>       weight;
-        unsigned int                nearest;
+        std::array<const SlavePoint *, 4> point;
+        std::array<double, 4>             weight;
+        const SlavePoint                 *nearest;
       };
 
       /** For fields that are continuous over the whole patch. */
       Stencil
       across_elements(const Eigen::Vector2d &xi) const
       {
-        const std::array<std::size_t, 2> ends{
-          {coordinates[0].size(), coordinates[1].size()}};
-        return stencil(xi, {{0, 0}}, ends);
+        return stencil(xi,
+                       {{0, 0}},
+                       {{coordinates[0].size(), coordinates[1].size()}});
       }
 
       /** For fields that may jump at its borders: points of @p element only. */
@@ -82,10 +82,10 @@ namespace Debond
         Stencil result;
         result.weight = bilinear(2. * share[0] - 1., 2. * share[1] - 1.);
         for (unsigned int a = 0; a < 4; ++a)
-          result.point[a] = index(a % 2 == 0 ? first[0] : second[0],
-                                  a / 2 == 0 ? first[1] : second[1]);
-        result.nearest = index(share[0] < 0.5 ? first[0] : second[0],
-                               share[1] < 0.5 ? first[1] : second[1]);
+          result.point[a] = &points[index(a % 2 == 0 ? first[0] : second[0],
+                                          a / 2 == 0 ? first[1] : second[1])];
+        result.nearest = &points[index(share[0] < 0.5 ? first[0] : second[0],
+                                       share[1] < 0.5 ? first[1] : second[1])];
         return result;
       }
 
@@ -105,29 +105,20 @@ namespace Debond
 
 
 
-    /** Gap of a point that faces the master, 0 of one that does not: the
-     *  distance to the nearest border is no gap. An open point with a negative
-     *  gap is beyond the border, too. */
-    double
-    gap_to_partner(const ContactPointResult &result)
-    {
-      const bool is_open = (result.state.status == PointStatus::open);
-      return is_open && (!result.state.has_partner || result.normal_gap < 0.) ?
-               0. :
-               result.normal_gap;
-    }
-
-
-
-    /** Fields of a quadrature point that are continuous over the patch, one
-     *  after the other. */
-    std::vector<double>
+    /** Pressure, traction on the slave, gap and sliding distance of a point,
+     *  which are continuous over the patch. A point that does not face the
+     *  master has no gap: the distance to the nearest border is none. An open
+     *  point with a negative gap is beyond the border, too. */
+    Eigen::Matrix<double, 6, 1>
     continuous_values(const SlavePoint &point)
     {
-      std::vector<double> values{point.trial.pressure};
-      append_values(values, -point.trial.tangential_traction);
-      values.push_back(gap_to_partner(point.trial));
-      values.push_back(point.trial.state.slip);
+      const ContactPointResult &trial = point.trial;
+      const bool                is_beyond =
+        trial.state.status == PointStatus::open &&
+        (!trial.state.has_partner || trial.normal_gap < 0.);
+      Eigen::Matrix<double, 6, 1> values;
+      values << trial.pressure, -trial.tangential_traction,
+        is_beyond ? 0. : trial.normal_gap, trial.state.slip;
       return values;
     }
 
@@ -137,56 +128,49 @@ namespace Debond
      *  the implant: the others of a bone have never slid and would heal its
      *  bond at the rim. */
     FrictionState
-    state_under_implant(const ContactInterface        &interface,
-                        const QuadratureGrid::Stencil &stencil)
+    state_under_implant(const QuadratureGrid::Stencil &stencil)
     {
       FrictionState state;
       double        weight = 0.;
       for (unsigned int a = 0; a < 4; ++a)
-        if (interface.get_points()[stencil.point[a]].faces_implant)
+        if (stencil.point[a]->faces_implant)
           weight += stencil.weight[a];
       for (unsigned int a = 0; a < 4; ++a)
-        {
-          const auto &point = interface.get_points()[stencil.point[a]];
-          if (!point.faces_implant)
-            continue;
-          const double part = stencil.weight[a] / weight;
-          state.slip += part * point.trial.state.slip;
-          for (unsigned int i = 0; i < state.internal.size(); ++i)
-            state.internal[i] += part * point.trial.state.internal[i];
-        }
+        if (stencil.point[a]->faces_implant)
+          {
+            const auto  &own  = stencil.point[a]->trial.state;
+            const double part = stencil.weight[a] / weight;
+            state.slip += part * own.slip;
+            for (unsigned int i = 0; i < state.internal.size(); ++i)
+              state.internal[i] += part * own.internal[i];
+          }
       return state;
     }
 
 
 
     /**
-     * phi_0, phi and mu at a point of @p element. Patterns jump from element to
+     * phi_0, phi and mu at a point of an element. Patterns jump from element to
      * element, so phi_0 is that of the element's own points; phi and mu follow
      * from it and the sliding distance, which does not jump, by the friction
      * law: they are as sharp as the pattern where it jumps, smooth elsewhere.
      */
     std::array<double, 3>
-    bonding_values(const ContactInterface &interface,
-                   const QuadratureGrid   &grid,
-                   const unsigned int      element,
-                   const Eigen::Vector2d  &xi)
+    bonding_values(const FrictionLaw             &law,
+                   const QuadratureGrid::Stencil &across_elements,
+                   const QuadratureGrid::Stencil &own)
     {
-      const QuadratureGrid::Stencil own   = grid.within(element, xi);
-      double                        phi_0 = 0.;
-      FrictionState                 state =
-        state_under_implant(interface, grid.across_elements(xi));
-      state.phi_0 = 0.; // without bonds that opening broke
+      double        phi_0 = 0.;
+      FrictionState state = state_under_implant(across_elements);
+      state.phi_0         = 0.; // without bonds that opening broke
       for (unsigned int a = 0; a < 4; ++a)
         {
-          const auto  &point = interface.get_points()[own.point[a]];
-          const double part  = own.weight[a] * point.phi_0;
+          const double part = own.weight[a] * own.point[a]->phi_0;
           phi_0 += part;
-          if (!point.trial.state.broken)
+          if (!own.point[a]->trial.state.broken)
             state.phi_0 += part;
         }
-      const FrictionCoefficient friction =
-        interface.get_parameters().friction->reported(state);
+      const FrictionCoefficient friction = law.reported(state);
       return {{phi_0, friction.phi, friction.mu}};
     }
 
@@ -212,54 +196,47 @@ namespace Debond
                 const ContactInterface &interface,
                 const Chuck            &chuck)
   {
-    PatchSet<2> output({{"pressure_MPa", FieldSize::scalar},
-                        {"traction_MPa", FieldSize::vector},
-                        {"gap_mm", FieldSize::scalar},
-                        {"slip_mm", FieldSize::scalar},
-                        {"phi_0", FieldSize::scalar},
-                        {"phi", FieldSize::scalar},
-                        {"mu", FieldSize::scalar},
-                        {"state", FieldSize::scalar},
-                        {"displacement", FieldSize::vector}});
+    PatchSet<2> output({{"pressure_MPa", 1},
+                        {"traction_MPa", 3},
+                        {"gap_mm", 1},
+                        {"slip_mm", 1},
+                        {"phi_0", 1},
+                        {"phi", 1},
+                        {"mu", 1},
+                        {"state", 1},
+                        {"displacement", 3}});
 
     const NurbsSurface  &surface = slave.surface();
+    const FrictionLaw   &law     = *interface.get_parameters().friction;
     const ControlNet     u       = control_point_displacement(slave, chuck);
     const QuadratureGrid grid(interface, surface);
-    std::vector<std::vector<double>> at_points;
-    for (const auto &point : interface.get_points())
-      at_points.push_back(continuous_values(point));
-
-    const unsigned int  n = n_pieces(surface, 96, 4, 16);
-    SurfaceBasis        basis;
-    SurfaceGeometry     position, displacement;
-    std::vector<double> values;
+    SurfaceBasis         basis;
+    SurfaceGeometry      position, displacement;
     for (unsigned int element = 0; element < surface.n_elements(); ++element)
-      {
-        const auto bounds = surface.element_bounds(element);
-        output.add_patch(n);
-        for (unsigned int j = 0; j <= n; ++j)
-          for (unsigned int i = 0; i <= n; ++i)
-            {
-              const Eigen::Vector2d xi =
-                parameters_at(bounds, 2. * i / n - 1., 2. * j / n - 1.);
-              surface.evaluate_in_element(element, xi, basis, false);
-              contract(basis, surface.control_points(), false, position);
-              contract(basis, u, false, displacement);
+      output.add_patch(
+        n_pieces(surface, 96, 4, 16),
+        [&](const Eigen::Vector2d &point, std::vector<double> &values) {
+          const Eigen::Vector2d xi =
+            parameters_at(surface.element_bounds(element), point[0], point[1]);
+          surface.evaluate_in_element(element, xi, basis, false);
+          contract(basis, surface.control_points(), false, position);
+          contract(basis, u, false, displacement);
 
-              const QuadratureGrid::Stencil stencil = grid.across_elements(xi);
-              values.assign(at_points[0].size(), 0.);
-              for (unsigned int a = 0; a < 4; ++a)
-                for (unsigned int f = 0; f < values.size(); ++f)
-                  values[f] +=
-                    stencil.weight[a] * at_points[stencil.point[a]][f];
-              const auto bonding = bonding_values(interface, grid, element, xi);
-              values.insert(values.end(), bonding.begin(), bonding.end());
-              values.push_back(static_cast<double>(
-                interface.get_points()[stencil.nearest].trial.state.status));
-              append_values(values, displacement.y);
-              output.add_point(position.y, values);
-            }
-      }
+          const auto                  stencil = grid.across_elements(xi);
+          Eigen::Matrix<double, 6, 1> continuous =
+            Eigen::Matrix<double, 6, 1>::Zero();
+          for (unsigned int a = 0; a < 4; ++a)
+            continuous +=
+              stencil.weight[a] * continuous_values(*stencil.point[a]);
+          append_values(values, continuous);
+          for (const double value :
+               bonding_values(law, stencil, grid.within(element, xi)))
+            values.push_back(value);
+          values.push_back(
+            static_cast<double>(stencil.nearest->trial.state.status));
+          append_values(values, displacement.y);
+          return position.y;
+        });
     return output.vtu();
   }
 } // namespace Debond

@@ -138,13 +138,4 @@ namespace Debond
     return measures;
   }
 
-
-
-  std::vector<std::pair<std::string, double>>
-  error_measures(const ProfileMeasures &measures)
-  {
-    return {{"pressure_difference_rms", measures.pressure_difference},
-            {"slip_difference_rms", measures.slip_difference},
-            {"reference_angles_used", measures.angles_used}};
-  }
 } // namespace Debond

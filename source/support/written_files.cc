@@ -1,7 +1,9 @@
+#include <debond/support/input_error.h>
 #include <debond/support/run_error.h>
 #include <debond/support/written_files.h>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -9,6 +11,10 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <map>
+#include <mutex>
+#include <sstream>
 #include <utility>
 
 namespace Debond
@@ -26,29 +32,6 @@ namespace Debond
       throw WriteError("cannot write '" + filename +
                        "': " + std::strerror(errno));
     }
-
-
-
-    /** Closes a file at the end of its scope, if not before. */
-    struct OpenFile
-    {
-      OpenFile(const std::string &filename, const int flags)
-        : descriptor(open(filename.c_str(), flags | O_CLOEXEC, 0666))
-      {}
-      ~OpenFile()
-      {
-        if (descriptor >= 0)
-          close(descriptor);
-      }
-      /** False if that fails, which may be how a network's file system says
-       * that the disk is full. */
-      bool
-      is_closed()
-      {
-        return close(std::exchange(descriptor, -1)) == 0;
-      }
-      int descriptor;
-    };
 
 
 
@@ -88,6 +71,22 @@ namespace Debond
 
 
 
+  std::optional<std::string>
+  read_whole_file(const std::string &filename)
+  {
+    std::ifstream file(filename, std::ios::binary);
+    if (!file && errno == ENOENT)
+      return std::nullopt;
+    if (!file)
+      throw InputError("cannot read '" + filename +
+                       "': " + std::strerror(errno));
+    std::ostringstream bytes;
+    bytes << file.rdbuf();
+    return bytes.str();
+  }
+
+
+
   void
   write_file(const std::string &filename,
              const std::string &text,
@@ -99,7 +98,7 @@ namespace Debond
     {
       OpenFile file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
       written = file.descriptor >= 0 && write_all(file.descriptor, text) &&
-                (!on_disk || fsync(file.descriptor) == 0) && file.is_closed();
+                (!on_disk || fsync(file.descriptor) == 0) && file.close();
     }
     if (!written || std::rename(temporary.c_str(), filename.c_str()) != 0)
       {
@@ -134,21 +133,35 @@ namespace Debond
 
 
 
-  GrowingFile::GrowingFile(const std::string &filename, const std::string &text)
-    : filename(filename)
+  OpenFile::OpenFile(const std::string &filename, const int flags)
+    : descriptor(open(filename.c_str(), flags | O_CLOEXEC, 0666))
+  {}
+
+
+
+  OpenFile::~OpenFile()
   {
-    write_file(filename, text);
-    descriptor = open(filename.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-    if (descriptor < 0)
-      fail(filename);
+    if (descriptor >= 0)
+      ::close(descriptor);
   }
 
 
 
-  GrowingFile::~GrowingFile()
+  bool
+  OpenFile::close()
   {
-    if (descriptor >= 0)
-      close(descriptor);
+    return ::close(std::exchange(descriptor, -1)) == 0;
+  }
+
+
+
+  GrowingFile::GrowingFile(const std::string &filename, const std::string &text)
+    : filename(filename)
+  {
+    write_file(filename, text);
+    file.emplace(filename, O_WRONLY | O_APPEND);
+    if (file->descriptor < 0)
+      fail(filename);
   }
 
 
@@ -156,7 +169,7 @@ namespace Debond
   void
   GrowingFile::finish()
   {
-    if (close(std::exchange(descriptor, -1)) != 0)
+    if (!file->close())
       fail(filename);
   }
 
@@ -166,13 +179,47 @@ namespace Debond
   GrowingFile::append(const std::string &text)
   {
     struct stat before;
-    if (fstat(descriptor, &before) == 0 && write_all(descriptor, text))
+    if (fstat(file->descriptor, &before) == 0 &&
+        write_all(file->descriptor, text))
       return;
     const int reason = errno;
     // no part of a text may stay; if this fails as well, it does
-    const int ignored = ftruncate(descriptor, before.st_size);
+    const int ignored = ftruncate(file->descriptor, before.st_size);
     static_cast<void>(ignored);
     errno = reason;
     fail(filename);
   }
+
+
+
+  DirectoryLock
+  lock_directory(const std::string &directory)
+  {
+    // two descriptors of one process would exclude each other
+    static std::mutex mutex;
+    static std::map<std::pair<dev_t, ino_t>, std::weak_ptr<const OpenFile>>
+                                      locks;
+    const std::lock_guard<std::mutex> guard(mutex);
+
+    const auto lock =
+      std::make_shared<const OpenFile>(directory, O_RDONLY | O_DIRECTORY);
+    struct stat identity;
+    if (fstat(lock->descriptor, &identity) != 0)
+      return nullptr;
+    auto &known = locks[{identity.st_dev, identity.st_ino}];
+    if (auto own = known.lock())
+      return own;
+    int result = 0;
+    do
+      result = flock(lock->descriptor, LOCK_EX | LOCK_NB);
+    while (result != 0 && errno == EINTR);
+    if (result != 0 && errno == EWOULDBLOCK)
+      throw InputError("another run of debond is at work in " + directory +
+                       ": wait for it, or choose another Output / Directory");
+    if (result != 0)
+      return nullptr;
+    known = lock;
+    return lock;
+  }
+
 } // namespace Debond

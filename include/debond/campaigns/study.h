@@ -60,7 +60,7 @@ namespace Debond
     std::string
     describe(unsigned int variant) const;
     /** Returns what keeps others out of the directory of the study. */
-    std::shared_ptr<const DirectoryLock>
+    DirectoryLock
     prepare(bool force);
     void
     report(unsigned int variant, std::ostream &out) const;

@@ -37,16 +37,8 @@ namespace Debond
     {
       return warning_texts;
     }
-    std::ostream &
-    stream()
-    {
-      return out;
-    }
-    bool
-    quiet() const
-    {
-      return kind == ConsoleKind::quiet;
-    }
+
+    const bool quiet; ///< warnings only
 
     /** See serialization.h. */
     template <class Archive>
@@ -59,10 +51,7 @@ namespace Debond
   private:
     void
     erase_progress();
-    void
-    show_progress(unsigned int step, unsigned int n_steps);
 
-    const ConsoleKind        kind;
     std::ostream            &out;
     const bool               on_terminal;
     bool                     progress_shown = false, columns_named = false;

@@ -102,5 +102,18 @@ namespace Debond
     Series                            interface_series{"interface", {}};
     std::size_t                       n_on_disk = 0; ///< files of each series
   };
+
+  /** The text of a VTU file with the fields of both bodies, bone and implant,
+   *  in the trial state; class FieldOutput says which. */
+  std::string
+  bulk_vtu(const std::array<const Body *, 2> &bodies, const Chuck &chuck);
+
+  /** The text of a VTU file with the fields of the interface in the trial state
+   *  on the surface of the body @p slave; class FieldOutput says which, and how
+   *  they are interpolated. */
+  std::string
+  interface_vtu(const Body             &slave,
+                const ContactInterface &interface,
+                const Chuck            &chuck);
 } // namespace Debond
 #endif

@@ -4,9 +4,6 @@
 #include <debond/scene/reference_data.h>
 
 #include <limits>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace Debond
 {
@@ -36,10 +33,5 @@ namespace Debond
    */
   ProfileMeasures
   compare_profiles(const Profiles &profiles, const Profiles &reference);
-
-  /** The members of summary.json that hold these measures:
-   *  pressure_difference_rms, slip_difference_rms, reference_angles_used. */
-  std::vector<std::pair<std::string, double>>
-  error_measures(const ProfileMeasures &measures);
 } // namespace Debond
 #endif

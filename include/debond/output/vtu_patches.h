@@ -4,9 +4,9 @@
 #include <debond/geometry/nurbs_surface.h>
 
 #include <deal.II/base/data_out_base.h>
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
-#include <array>
 #include <sstream>
 #include <string>
 #include <tuple>
@@ -15,13 +15,16 @@
 
 namespace Debond
 {
-  /** Number of values of a field at a point. */
-  enum class FieldSize
+  /** Appends the components of a vector or, row by row, a matrix. */
+  template <typename Derived>
+  void
+  append_values(std::vector<double>              &values,
+                const Eigen::MatrixBase<Derived> &matrix)
   {
-    scalar = 1,
-    vector = 3,
-    tensor = 9
-  };
+    for (unsigned int i = 0; i < matrix.rows(); ++i)
+      for (unsigned int j = 0; j < matrix.cols(); ++j)
+        values.push_back(matrix(i, j));
+  }
 
   /**
    * What deal.II's writers ask for: patches (cells or pieces of a surface,
@@ -31,56 +34,51 @@ namespace Debond
   class PatchSet
   {
   public:
-    PatchSet(const std::vector<std::pair<std::string, FieldSize>> &fields)
+    /** Names of the fields, and how many values each has: 1, a vector's 3, a
+     *  tensor's 9. */
+    PatchSet(const std::vector<std::pair<std::string, unsigned int>> &fields)
     {
       using namespace dealii::DataComponentInterpretation;
-      for (const auto &[name, size] : fields)
+      for (const auto &[name, n_values] : fields)
         {
-          const auto n_values = static_cast<unsigned int>(size);
-          if (size != FieldSize::scalar)
+          if (n_values > 1)
             ranges.emplace_back(names.size(),
                                 names.size() + n_values - 1,
                                 name,
-                                size == FieldSize::vector ?
-                                  component_is_part_of_vector :
-                                  component_is_part_of_tensor);
+                                n_values == 3 ? component_is_part_of_vector :
+                                                component_is_part_of_tensor);
           names.insert(names.end(), n_values, name);
         }
     }
 
-    /** A new patch with room for all values, to be filled point by point. */
+    /** Adds a patch of @p n pieces in each direction. draw(point, values) is
+     *  called for their corners, of [-1, 1]^dim: it appends the values of all
+     *  fields to an empty list and returns the position. */
+    template <typename Draw>
     void
-    add_patch(const unsigned int n_subdivisions)
+    add_patch(const unsigned int n, const Draw &draw)
     {
-      patches.emplace_back();
-      auto &patch                = patches.back();
-      patch.n_subdivisions       = n_subdivisions;
+      auto &patch                = patches.emplace_back();
+      patch.n_subdivisions       = n;
       patch.patch_index          = patches.size() - 1;
       patch.reference_cell       = dealii::ReferenceCells::get_hypercube<dim>();
       patch.points_are_available = true;
-      std::fill(patch.neighbors.begin(),
-                patch.neighbors.end(),
-                dealii::DataOutBase::Patch<dim, 3>::no_neighbor);
-      unsigned int n_points = 1;
-      for (unsigned int d = 0; d < dim; ++d)
-        n_points *= n_subdivisions + 1;
+      const auto n_points        = dealii::Utilities::fixed_power<dim>(n + 1);
       patch.data.reinit(names.size() + 3, n_points);
-      next_point = 0;
-    }
-
-    /** The next point of the last patch, first coordinate fastest; the
-     *  @p values of all fields one after the other. */
-    void
-    add_point(const Eigen::Vector3d     &position,
-              const std::vector<double> &values)
-    {
-      AssertDimension(values.size(), names.size());
-      auto &data = patches.back().data;
-      for (unsigned int i = 0; i < values.size(); ++i)
-        data(i, next_point) = values[i];
-      for (unsigned int d = 0; d < 3; ++d)
-        data(names.size() + d, next_point) = position[d];
-      ++next_point;
+      std::vector<double> values;
+      for (unsigned int p = 0; p < n_points; ++p)
+        {
+          // the first coordinate is the fastest
+          Eigen::Matrix<double, dim, 1> point;
+          for (unsigned int d = 0, rest = p; d < dim; ++d, rest /= n + 1)
+            point[d] = 2. * (rest % (n + 1)) / n - 1.;
+          values.clear();
+          const Eigen::Vector3d position = draw(point, values);
+          AssertDimension(values.size(), names.size());
+          append_values(values, position);
+          for (unsigned int i = 0; i < values.size(); ++i)
+            patch.data(i, p) = values[i];
+        }
     }
 
     /** The text of a VTU file. */
@@ -105,27 +103,20 @@ namespace Debond
     std::vector<dealii::DataOutBase::Patch<dim, 3>> patches;
     std::vector<std::string>                        names;
     std::vector<Range> ranges; ///< vectors, tensors
-    unsigned int       next_point = 0;
   };
-
-  /** Appends the components of a vector or, row by row, a matrix. */
-  template <typename Derived>
-  void
-  append_values(std::vector<double>              &values,
-                const Eigen::MatrixBase<Derived> &matrix)
-  {
-    for (unsigned int i = 0; i < matrix.rows(); ++i)
-      for (unsigned int j = 0; j < matrix.cols(); ++j)
-        values.push_back(matrix(i, j));
-  }
 
   /** Into how many pieces a cell or element is cut in each direction, so that
    *  a patch has about @p pieces of them: the fewer elements a disk has, the
    *  more pieces it takes to look round. */
-  unsigned int
+  inline unsigned int
   n_pieces(const NurbsSurface &surface,
-           unsigned int        pieces,
-           unsigned int        least,
-           unsigned int        most);
+           const unsigned int  pieces,
+           const unsigned int  least,
+           const unsigned int  most)
+  {
+    const auto         n      = surface.n_elements_per_direction();
+    const unsigned int fewest = std::min(n[0], n[1]);
+    return std::clamp((pieces + fewest - 1) / fewest, least, most);
+  }
 } // namespace Debond
 #endif

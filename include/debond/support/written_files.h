@@ -1,10 +1,17 @@
 #ifndef debond_support_written_files_h
 #define debond_support_written_files_h
 
+#include <memory>
+#include <optional>
 #include <string>
 
 namespace Debond
 {
+  /** What is in a file; nothing if there is no such file. Throws InputError if
+   *  it cannot be read. */
+  std::optional<std::string>
+  read_whole_file(const std::string &filename);
+
   /** on_disk: a loss of power does not undo it either. */
   enum class Durability
   {
@@ -30,16 +37,30 @@ namespace Debond
   void
   put_on_disk(const std::string &filename);
 
+  /** What open() gives. It is closed with the object, if not before. */
+  class OpenFile
+  {
+  public:
+    OpenFile(const std::string &filename, int flags);
+    ~OpenFile();
+    OpenFile(const OpenFile &) = delete;
+    OpenFile &
+    operator=(const OpenFile &) = delete;
+
+    /** False if that fails, which may be how a network's file system says that
+     *  the disk is full. */
+    bool
+    close();
+
+    int descriptor; ///< -1: it could not be opened
+  };
+
   /** A file that grows by whole texts. */
   class GrowingFile
   {
   public:
     /** Begins the file anew with this text. Throws WriteError. */
     GrowingFile(const std::string &filename, const std::string &text);
-    ~GrowingFile();
-    GrowingFile(const GrowingFile &) = delete;
-    GrowingFile &
-    operator=(const GrowingFile &) = delete;
 
     /** Appends all of @p text, which is then with the system, or nothing:
      *  throws WriteError. */
@@ -52,8 +73,19 @@ namespace Debond
     finish();
 
   private:
-    const std::string filename;
-    int               descriptor = -1;
+    const std::string       filename;
+    std::optional<OpenFile> file;
   };
+
+  /** Keeps other processes out of a directory of results as long as it lives.
+   *  Children of the process inherit it, programs that it starts do not; it
+   *  ends with the last of them, however they end. */
+  using DirectoryLock = std::shared_ptr<const OpenFile>;
+
+  /** The lock of this process on @p directory: one that it has already, or a
+   *  new one. None where there is no such directory or the file system knows
+   *  no locks. Throws InputError if another process has it. */
+  DirectoryLock
+  lock_directory(const std::string &directory);
 } // namespace Debond
 #endif

@@ -7,11 +7,10 @@
 #include <debond/output/console.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
-#include <debond/support/run_error.h>
-
-#include <nlohmann/json.hpp>
 
 #include <deal.II/base/timer.h>
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -262,14 +262,6 @@ namespace Debond
 
 
     AllowedValues
-    yes_or_no()
-    {
-      return choice("false | true");
-    }
-
-
-
-    AllowedValues
     text(const std::string &what)
     {
       return {[](const std::string &text) { return !text.empty(); },

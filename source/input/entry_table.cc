@@ -49,21 +49,6 @@ namespace Debond
 
 
   void
-  EntryTable::reserve(const std::string &name,
-                      const std::string &value,
-                      const std::string &documentation)
-  {
-    add(
-      name,
-      value,
-      [](const std::string &) {},
-      Allowed::reserved(value),
-      documentation);
-  }
-
-
-
-  void
   EntryTable::set(const SceneEntry &entry)
   {
     const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row &r) {
@@ -86,7 +71,8 @@ namespace Debond
     if (!refusal.empty())
       entry.refuse(refusal);
     row->entry.value = entry.value;
-    row->set(entry.value);
+    if (row->set)
+      row->set(entry.value);
   }
 
 

@@ -9,11 +9,6 @@
 
 namespace Debond
 {
-  const std::array<const char *, 2> CheckpointFiles::names{
-    {"checkpoint-1", "checkpoint-2"}};
-
-
-
   namespace
   {
     const std::string first_line = "debond checkpoint\n";
@@ -88,10 +83,8 @@ namespace Debond
 
 
   CheckpointFiles::CheckpointFiles(const ResultDirectory &directory)
-  {
-    for (unsigned int i = 0; i < 2; ++i)
-      files[i] = directory.file(names[i]);
-  }
+    : files{{directory.file("checkpoint-1"), directory.file("checkpoint-2")}}
+  {}
 
 
 

@@ -167,7 +167,7 @@ namespace Debond
         "it; empty: none.");
       table.add("Friction law curve",
                 output.friction_law_curve,
-                Allowed::yes_or_no(),
+                Allowed::choice("false | true"),
                 "Write phi and mu over the sliding distance g_s into "
                 "friction_law.csv.");
       table.add(
@@ -213,9 +213,11 @@ namespace Debond
               "until the error of the torque curve is estimated to be within "
               "Load steps / Tolerance, and answers with the cheapest model "
               "that is; the program chooses the steps.");
-    table.reserve("Task",
-                  "simulate",
-                  "What to do with the model: run it once.");
+    table.add("Task",
+              "simulate",
+              nullptr,
+              Allowed::reserved("simulate"),
+              "What to do with the model: run it once.");
     bone.declare_bone(table);
     implant.declare_implant(table);
     interface.declare(table);

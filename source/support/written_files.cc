@@ -1,5 +1,4 @@
 #include <debond/support/input_error.h>
-#include <debond/support/run_error.h>
 #include <debond/support/written_files.h>
 
 #include <fcntl.h>

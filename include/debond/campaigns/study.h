@@ -2,7 +2,7 @@
 #define debond_campaigns_study_h
 
 #include <debond/campaigns/variant.h>
-#include <debond/support/run_error.h>
+#include <debond/support/input_error.h>
 
 #include <deal.II/base/timer.h>
 

@@ -61,13 +61,9 @@ namespace Debond
          unsigned int         min_count,
          unsigned int         max_count);
 
-    /** One of the choices "a | b | c". */
+    /** One of the choices "a | b | c", for a bool "false | true". */
     AllowedValues
     choice(const std::string &choices);
-
-    /** `true` or `false`. */
-    AllowedValues
-    yes_or_no();
 
     /** Text that is not empty; @p what says what it is. */
     AllowedValues

@@ -51,19 +51,13 @@ namespace Debond
         const AllowedValues &allowed,
         const std::string   &documentation);
 
-    /** A row whose text is interpreted by @p set. */
+    /** A row whose text is interpreted by @p set, or means nothing yet. */
     void
     add(const std::string                              &name,
         const std::string                              &value,
         const std::function<void(const std::string &)> &set,
         const AllowedValues                            &allowed,
         const std::string                              &documentation);
-
-    /** An entry that can only have this value yet. */
-    void
-    reserve(const std::string &name,
-            const std::string &value,
-            const std::string &documentation);
 
     /** Sets an entry, and the member that belongs to it. Throws EntryError if
      *  it is unknown or its value not allowed. */

@@ -1,7 +1,7 @@
 #ifndef debond_output_torque_curve_h
 #define debond_output_torque_curve_h
 
-#include <debond/output/profile_comparison.h>
+#include <debond/output/profile_output.h>
 
 #include <nlohmann/json_fwd.hpp>
 

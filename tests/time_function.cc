@@ -12,7 +12,7 @@ namespace
   {
     try
       {
-        const Debond::TimeFunction function(expression, 2.5);
+        const auto function = Debond::read_time_function(expression, 2.5);
         std::cout << expression << " at " << t << ": " << function(t) << '\n';
       }
     catch (const Debond::InputError &error)

@@ -169,19 +169,23 @@ namespace Debond
 
 
 
-  TimeFunction::TimeFunction(const std::string &expression, const double radius)
-    : function([parsed = read_expression("t", expression, radius)](
-                 const double t) { return parsed({t}); })
-  {}
-
-
-
-  double
-  TimeFunction::operator()(const double t) const
+  TimeFunction
+  with_finite_values(const TimeFunction &function)
   {
-    const double value = function(t);
-    if (!std::isfinite(value))
-      throw InputError("it has no finite value at t = " + to_text(t));
-    return value;
+    return [function](const double t) {
+      const double value = function(t);
+      if (!std::isfinite(value))
+        throw InputError("it has no finite value at t = " + to_text(t));
+      return value;
+    };
+  }
+
+
+
+  TimeFunction
+  read_time_function(const std::string &expression, const double radius)
+  {
+    const Expression in_t = read_expression("t", expression, radius);
+    return with_finite_values([in_t](const double t) { return in_t({t}); });
   }
 } // namespace Debond

@@ -11,7 +11,6 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace Debond
@@ -68,16 +67,19 @@ namespace Debond
     for (const SlavePoint &point : interface.get_points())
       if (point.faces_implant)
         {
-          const auto coefficient = interface.friction(point);
-          points.push_back({point.X[0],
-                            point.X[1],
-                            point.trial.pressure,
-                            point.trial.tangential_traction.norm(),
-                            point.trial.state.slip,
-                            coefficient.phi,
-                            coefficient.mu,
-                            point.trial.state.status,
-                            point.JxW});
+          const auto &X           = point.X;
+          const auto &trial       = point.trial;
+          const auto  coefficient = interface.friction(point);
+          points.push_back({{X[0],
+                             X[1],
+                             std::hypot(X[0], X[1]),
+                             trial.pressure,
+                             trial.tangential_traction.norm(),
+                             trial.state.slip,
+                             coefficient.phi,
+                             coefficient.mu,
+                             double(trial.state.status),
+                             point.JxW}});
         }
     return points;
   }
@@ -99,18 +101,12 @@ namespace Debond
       return;
     angles_to_come.erase(angles_to_come.begin(), first_to_come);
     has_points = true;
-    for (const InterfacePoint &p : points())
-      table += csv_line({angle_deg,
-                         p.x,
-                         p.y,
-                         std::hypot(p.x, p.y),
-                         p.pressure,
-                         p.traction,
-                         p.slip,
-                         p.phi,
-                         p.mu,
-                         double(p.status),
-                         p.area});
+    for (const InterfacePoint &point : points())
+      {
+        std::vector<double> columns{angle_deg};
+        columns.insert(columns.end(), point.begin(), point.end());
+        table += csv_line(columns);
+      }
   }
 
 
@@ -161,7 +157,7 @@ namespace Debond
       }
 
       /** {pressure, slip} at a position. */
-      std::array<double, 2>
+      Eigen::Array2d
       at(const ProfilePoint &point) const
       {
         namespace bgi                    = boost::geometry::index;
@@ -193,7 +189,7 @@ namespace Debond
             b.row(i) << weight * neighbour.pressure, weight * neighbour.slip;
           }
         const Eigen::MatrixXd c = A.colPivHouseholderQr().solve(b);
-        return {{c(0, 0), c(0, 1)}};
+        return c.row(0).transpose();
       }
 
     private:
@@ -215,28 +211,21 @@ namespace Debond
 
     /** Mean square of the differences over the square of the reference's mean,
      *  of {pressure, slip}, at one angle. */
-    std::array<double, 2>
+    Eigen::Array2d
     relative_mean_square(const std::vector<ProfilePoint> &points,
                          const LocalFields               &reference)
     {
-      double                area = 0;
-      std::array<double, 2> sum{}, sum_of_squares{};
+      double         area = 0;
+      Eigen::Array2d sum(0, 0), sum_of_squares(0, 0);
       for (const ProfilePoint &point : points)
         {
-          const std::array<double, 2> expected = reference.at(point);
-          const std::array<double, 2> actual{{point.pressure, point.slip}};
+          const Eigen::Array2d expected = reference.at(point);
+          const Eigen::Array2d actual(point.pressure, point.slip);
           area += point.area;
-          for (unsigned int k = 0; k < 2; ++k)
-            {
-              sum[k] += point.area * expected[k];
-              sum_of_squares[k] +=
-                point.area * std::pow(actual[k] - expected[k], 2);
-            }
+          sum += point.area * expected;
+          sum_of_squares += point.area * (actual - expected).square();
         }
-      std::array<double, 2> result;
-      for (unsigned int k = 0; k < 2; ++k)
-        result[k] = sum_of_squares[k] / area / std::pow(sum[k] / area, 2);
-      return result;
+      return sum_of_squares / area / (sum / area).square();
     }
   } // namespace
 
@@ -245,18 +234,15 @@ namespace Debond
   ProfileMeasures
   compare_profiles(const Profiles &profiles, const Profiles &reference)
   {
-    ProfileMeasures       measures;
-    std::array<double, 2> sum{};
+    ProfileMeasures measures;
+    Eigen::Array2d  sum(0, 0);
     for (const auto &[angle_deg, expected] : reference)
       for (const auto &[own_angle_deg, points] : profiles)
         // angles go from degrees to radians and back
         if (std::abs(own_angle_deg - angle_deg) <=
             1e-9 * std::max(1., std::abs(angle_deg)))
           {
-            const auto square =
-              relative_mean_square(points, LocalFields(expected));
-            for (unsigned int k = 0; k < 2; ++k)
-              sum[k] += square[k];
+            sum += relative_mean_square(points, LocalFields(expected));
             ++measures.angles_used;
           }
     if (measures.angles_used > 0)

@@ -34,37 +34,19 @@ namespace Debond
 
 
 
-    /** False if not all of it can be written; errno says why. */
+    /** Whether what was written into a file or, with O_DIRECTORY in @p flags,
+     *  the names in a directory could be put on the disk; else errno says why
+     *  not. */
     bool
-    write_all(const int descriptor, const std::string &text)
+    is_on_disk(const std::string &filename, const int flags)
     {
-      const char *next = text.data();
-      for (std::size_t left = text.size(); left > 0;)
-        {
-          const ssize_t written = write(descriptor, next, left);
-          if (written < 0 && errno != EINTR)
-            return false;
-          if (written > 0)
-            {
-              next += written;
-              left -= written;
-            }
-        }
-      return true;
-    }
-
-
-
-    void
-    put_directory_on_disk(const std::string &filename)
-    {
-      const auto     parent = std::filesystem::path(filename).parent_path();
-      const OpenFile directory(parent.empty() ? "." : parent.string(),
-                               O_RDONLY | O_DIRECTORY);
-      // some file systems cannot do that with a directory
-      if (directory.descriptor < 0 || (fsync(directory.descriptor) != 0 &&
-                                       errno != EINVAL && errno != ENOTSUP))
-        fail(filename);
+      const int descriptor = open(filename.c_str(), flags | O_CLOEXEC);
+      if (descriptor < 0)
+        return false;
+      const int reason = fsync(descriptor) == 0 ? 0 : errno;
+      close(descriptor);
+      errno = reason;
+      return reason == 0;
     }
   } // namespace
 
@@ -93,21 +75,24 @@ namespace Debond
   {
     const std::string temporary = filename + partial;
     const bool        on_disk   = durability == Durability::on_disk;
-    bool              written   = false;
-    {
-      OpenFile file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
-      written = file.descriptor >= 0 && write_all(file.descriptor, text) &&
-                (!on_disk || fsync(file.descriptor) == 0) && file.close();
-    }
-    if (!written || std::rename(temporary.c_str(), filename.c_str()) != 0)
+    std::ofstream     file(temporary, std::ios::binary);
+    file << text;
+    file.close();
+    if (!file || (on_disk && !is_on_disk(temporary, O_RDONLY)) ||
+        std::rename(temporary.c_str(), filename.c_str()) != 0)
       {
         const int reason = errno;
         unlink(temporary.c_str()); // what there is of it is of no use
         errno = reason;
         fail(filename);
       }
-    if (on_disk)
-      put_directory_on_disk(filename);
+    const auto parent = std::filesystem::path(filename).parent_path();
+    // some file systems cannot do that with a directory
+    if (on_disk &&
+        !is_on_disk(parent.empty() ? "." : parent.string(),
+                    O_RDONLY | O_DIRECTORY) &&
+        errno != EINVAL && errno != ENOTSUP)
+      fail(filename);
   }
 
 
@@ -125,31 +110,8 @@ namespace Debond
   void
   put_on_disk(const std::string &filename)
   {
-    const OpenFile file(filename, O_RDONLY);
-    if (file.descriptor < 0 || fsync(file.descriptor) != 0)
+    if (!is_on_disk(filename, O_RDONLY))
       fail(filename);
-  }
-
-
-
-  OpenFile::OpenFile(const std::string &filename, const int flags)
-    : descriptor(open(filename.c_str(), flags | O_CLOEXEC, 0666))
-  {}
-
-
-
-  OpenFile::~OpenFile()
-  {
-    if (descriptor >= 0)
-      ::close(descriptor);
-  }
-
-
-
-  bool
-  OpenFile::close()
-  {
-    return ::close(std::exchange(descriptor, -1)) == 0;
   }
 
 
@@ -158,17 +120,9 @@ namespace Debond
     : filename(filename)
   {
     write_file(filename, text);
-    file.emplace(filename, O_WRONLY | O_APPEND);
-    if (file->descriptor < 0)
-      fail(filename);
-  }
-
-
-
-  void
-  GrowingFile::finish()
-  {
-    if (!file->close())
+    file.rdbuf()->pubsetbuf(nullptr, 0); // nothing is kept back
+    file.open(filename, std::ios::binary | std::ios::app);
+    if (!file)
       fail(filename);
   }
 
@@ -177,16 +131,25 @@ namespace Debond
   void
   GrowingFile::append(const std::string &text)
   {
-    struct stat before;
-    if (fstat(file->descriptor, &before) == 0 &&
-        write_all(file->descriptor, text))
+    std::error_code ignored;
+    const auto      before = std::filesystem::file_size(filename, ignored);
+    if (file << text)
       return;
     const int reason = errno;
     // no part of a text may stay; if this fails as well, it does
-    const int ignored = ftruncate(file->descriptor, before.st_size);
-    static_cast<void>(ignored);
+    std::filesystem::resize_file(filename, before, ignored);
     errno = reason;
     fail(filename);
+  }
+
+
+
+  void
+  GrowingFile::finish()
+  {
+    file.close();
+    if (!file)
+      fail(filename);
   }
 
 
@@ -195,22 +158,27 @@ namespace Debond
   lock_directory(const std::string &directory)
   {
     // two descriptors of one process would exclude each other
-    static std::mutex mutex;
-    static std::map<std::pair<dev_t, ino_t>, std::weak_ptr<const OpenFile>>
-                                      locks;
+    static std::mutex                                                  mutex;
+    static std::map<std::pair<dev_t, ino_t>, std::weak_ptr<const int>> locks;
     const std::lock_guard<std::mutex> guard(mutex);
 
-    const auto lock =
-      std::make_shared<const OpenFile>(directory, O_RDONLY | O_DIRECTORY);
-    struct stat identity;
-    if (fstat(lock->descriptor, &identity) != 0)
+    const int descriptor =
+      open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0)
+      return nullptr;
+    const DirectoryLock lock(new int(descriptor), [](const int *const locked) {
+      close(*locked);
+      delete locked;
+    });
+    struct stat         identity;
+    if (fstat(descriptor, &identity) != 0)
       return nullptr;
     auto &known = locks[{identity.st_dev, identity.st_ino}];
     if (auto own = known.lock())
       return own;
     int result = 0;
     do
-      result = flock(lock->descriptor, LOCK_EX | LOCK_NB);
+      result = flock(descriptor, LOCK_EX | LOCK_NB);
     while (result != 0 && errno == EINTR);
     if (result != 0 && errno == EWOULDBLOCK)
       throw InputError("another run of debond is at work in " + directory +

@@ -58,7 +58,8 @@ namespace Debond
     TimeFunction
     value_over_time(double radius) const
     {
-      return function ? TimeFunction(function) : TimeFunction(value, radius);
+      return function ? with_finite_values(function) :
+                        read_time_function(value, radius);
     }
   };
 

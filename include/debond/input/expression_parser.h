@@ -24,25 +24,16 @@ namespace Debond
                   const std::string &expression,
                   double             radius);
 
-  /** A function of time: an expression in `t`, see read_expression(), or any
-   *  function. */
-  class TimeFunction
-  {
-  public:
-    /** @p radius is the value of `R` [mm]. Throws InputError with the
-     *  expression and the parser's own words if the expression is invalid. */
-    TimeFunction(const std::string &expression, double radius);
-    explicit TimeFunction(const std::function<double(double)> &function)
-      : function(function)
-    {}
+  /** A function of time. */
+  using TimeFunction = std::function<double(double)>;
 
-    /** The value at time @p t, in the unit that the expression is written in.
-     *  Throws InputError if it is not finite. */
-    double
-    operator()(double t) const;
+  /** The same function; throws InputError where it has no finite value. */
+  TimeFunction
+  with_finite_values(const TimeFunction &function);
 
-  private:
-    std::function<double(double)> function;
-  };
+  /** That of an expression in `t`, see read_expression(), with finite values.
+   */
+  TimeFunction
+  read_time_function(const std::string &expression, double radius);
 } // namespace Debond
 #endif

@@ -1,9 +1,9 @@
 #ifndef debond_output_profile_output_h
 #define debond_output_profile_output_h
 
-#include <debond/interface/contact_point_state.h>
 #include <debond/scene/reference_data.h>
 
+#include <array>
 #include <functional>
 #include <limits>
 #include <string>
@@ -15,18 +15,12 @@ namespace Debond
   class ResultDirectory;
   struct Scene;
 
-  /** A point of the interface in profiles.csv. */
-  struct InterfacePoint
-  {
-    double      x = 0, y = 0; ///< reference position [mm]
-    double      pressure = 0; ///< [MPa]
-    double      traction = 0; ///< magnitude of the tangential one [MPa]
-    double      slip     = 0; ///< accumulated sliding distance g_s [mm]
-    double      phi      = 0; ///< bonding state
-    double      mu       = 0; ///< friction coefficient
-    PointStatus status   = PointStatus::open;
-    double      area     = 0; ///< that the point stands for [mm^2]
-  };
+  /** A point of the interface in profiles.csv, by the columns behind the angle:
+   *  reference position x, y and distance r from the axis [mm], pressure and
+   *  magnitude of the tangential traction [MPa], accumulated sliding distance
+   *  g_s [mm], bonding state phi, friction coefficient mu, PointStatus, area
+   *  that the point stands for [mm^2]. */
+  using InterfacePoint = std::array<double, 10>;
 
   /** Those of the slave points that face the implant, in the trial state. */
   std::vector<InterfacePoint>

@@ -1,6 +1,7 @@
 #ifndef debond_support_written_files_h
 #define debond_support_written_files_h
 
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,24 +38,6 @@ namespace Debond
   void
   put_on_disk(const std::string &filename);
 
-  /** What open() gives. It is closed with the object, if not before. */
-  class OpenFile
-  {
-  public:
-    OpenFile(const std::string &filename, int flags);
-    ~OpenFile();
-    OpenFile(const OpenFile &) = delete;
-    OpenFile &
-    operator=(const OpenFile &) = delete;
-
-    /** False if that fails, which may be how a network's file system says that
-     *  the disk is full. */
-    bool
-    close();
-
-    int descriptor; ///< -1: it could not be opened
-  };
-
   /** A file that grows by whole texts. */
   class GrowingFile
   {
@@ -73,14 +56,14 @@ namespace Debond
     finish();
 
   private:
-    const std::string       filename;
-    std::optional<OpenFile> file;
+    const std::string filename;
+    std::ofstream     file;
   };
 
   /** Keeps other processes out of a directory of results as long as it lives.
    *  Children of the process inherit it, programs that it starts do not; it
    *  ends with the last of them, however they end. */
-  using DirectoryLock = std::shared_ptr<const OpenFile>;
+  using DirectoryLock = std::shared_ptr<const int>;
 
   /** The lock of this process on @p directory: one that it has already, or a
    *  new one. None where there is no such directory or the file system knows

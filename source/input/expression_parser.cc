@@ -109,13 +109,6 @@ namespace Debond
       return expression;
     }
 
-
-
-    struct ParserOfVariables
-    {
-      mu::Parser          parser;
-      std::vector<double> values; ///< of the variables
-    };
   } // namespace
 
 
@@ -135,11 +128,12 @@ namespace Debond
 
     std::vector<std::string> names =
       dealii::Utilities::split_string_list(variables);
-    const auto  shared = std::make_shared<ParserOfVariables>();
-    mu::Parser &parser = shared->parser;
-    shared->values.resize(names.size());
+    const auto shared = std::make_shared<mu::Parser>();
+    const auto variables_at =
+      std::make_shared<std::vector<double>>(names.size());
+    mu::Parser &parser = *shared;
     for (std::size_t i = 0; i < names.size(); ++i)
-      parser.DefineVar(names[i], &shared->values[i]);
+      parser.DefineVar(names[i], &(*variables_at)[i]);
     parser.DefineConst("pi", dealii::numbers::PI);
     parser.DefineConst("R", radius);
     define_functions(parser);
@@ -161,9 +155,9 @@ namespace Debond
     if (parser.GetNumResults() > 1)
       refuse("decimals are written with a point");
 
-    return [shared](const std::initializer_list<double> &values) {
-      std::copy(values.begin(), values.end(), shared->values.begin());
-      return shared->parser.Eval();
+    return [shared, variables_at](const std::initializer_list<double> &values) {
+      std::copy(values.begin(), values.end(), variables_at->begin());
+      return shared->Eval();
     };
   }
 

@@ -138,7 +138,7 @@ namespace Debond
     summary.steps               = rows.size() - 1;
     summary.converged           = true;
     summary.reason              = "all planned steps are done";
-    summary.warnings            = console.warnings();
+    summary.warnings            = console.warnings;
     summary.wall_seconds        = clock.wall_time();
     summary.seconds             = {{"before steps", seconds_before_steps},
                                    {"stepping",

@@ -192,7 +192,7 @@ namespace Debond
         text << "Going on after step " << last.step << ", time " << last.time
              << ", angle " << last.angle_deg << " deg";
         console.headline(text.str());
-        console.go_on_after(last.step);
+        console.first_step = last.step;
         stop_if_interrupted();
       }
     seconds_before_steps = wall_clock.wall_time();
@@ -346,7 +346,7 @@ namespace Debond
                    warning_about_reference(summary.measures, settings));
     summary.converged = converged;
     summary.reason    = reason;
-    summary.warnings  = console.warnings();
+    summary.warnings  = console.warnings;
 
     nlohmann::ordered_json json = summary;
     add_facts(simulation, json);

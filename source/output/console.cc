@@ -82,14 +82,6 @@ namespace Debond
 
 
   void
-  Console::go_on_after(const unsigned int step)
-  {
-    first_step = step;
-  }
-
-
-
-  void
   Console::warn(const std::string &key, const std::string &text)
   {
     if (text.empty() ||
@@ -97,7 +89,7 @@ namespace Debond
           warning_keys.end())
       return;
     warning_keys.push_back(key);
-    warning_texts.push_back(text);
+    warnings.push_back(text);
     erase_progress();
     out << "warning: " << text << std::endl;
   }

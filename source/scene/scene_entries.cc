@@ -61,7 +61,9 @@ namespace Debond
 
 
     void
-    declare_automatic(AutoParameters &automatic, EntryTable &table)
+    declare_campaigns(AutoParameters  &automatic,
+                      StudyParameters &study,
+                      EntryTable      &table)
     {
       table.enter_subsection("Auto");
       table.add(
@@ -72,13 +74,6 @@ namespace Debond
         "are refined. The memory needed goes with it: 1 GB for 105 000, "
         "some 3 GB for 250 000.");
       table.leave_subsection();
-    }
-
-
-
-    void
-    declare_study(StudyParameters &study, EntryTable &table)
-    {
       table.enter_subsection("Study");
       table.add(
         "Reference variant",
@@ -136,8 +131,7 @@ namespace Debond
         Allowed::directory(),
         "Directory for the results, relative to the working directory; "
         "created if missing. One that holds results of another scene is "
-        "refused without --force. The name is taken as it is: no quotes, "
-        "and no ~ or $ at its beginning.");
+        "refused without --force.");
       table.add(
         "Fields every",
         output.fields_every,
@@ -154,17 +148,15 @@ namespace Debond
       table.add("Observed bonding",
                 output.observed_bonding,
                 Allowed::number_between(0, 1, ""),
-                "Mean phi_0 that w_adh refers to, Eq. (21), where it was "
-                "observed and differs from that of the scene; 0: that of the "
-                "scene.");
+                "Observed mean phi_0 that w_adh refers to, Eq. (21); 0: that "
+                "of the scene.");
       table.add(
         "Profile angles",
         output.profile_angles,
         Allowed::list(Allowed::number_above(0, "deg"), 0, 0),
-        "Angles [deg] at which pressure, traction, sliding distance and "
-        "friction coefficient of all points of the interface are written "
-        "into profiles.csv, each at the first planned step that reaches "
-        "it; empty: none.");
+        "Angles [deg] at which local values of all points of the interface "
+        "are written into profiles.csv, each at the first planned step that "
+        "reaches it; empty: none.");
       table.add("Friction law curve",
                 output.friction_law_curve,
                 Allowed::choice("false | true"),
@@ -174,11 +166,10 @@ namespace Debond
         "Checkpoint every",
         output.checkpoint_every,
         Allowed::whole_number(0, std::numeric_limits<int>::max()),
-        "Planned steps between checkpoints, from which `debond --resume "
-        "DIR' goes on with results that are the same to the last bit; "
-        "where rows are accepted steps, number of rows. 0: only when "
-        "SIGINT, SIGTERM or SIGHUP interrupts the run. For Model = "
-        "finite elements.");
+        "Planned steps (where rows are accepted steps: rows) between "
+        "checkpoints, from which `debond --resume DIR' goes on. 0: only when "
+        "SIGINT, SIGTERM or SIGHUP interrupts the run. For Model = finite "
+        "elements.");
       table.add("Console",
                 output.console,
                 Allowed::choice("steps | quiet"),
@@ -224,8 +215,7 @@ namespace Debond
     chuck.declare(table);
     load_steps.declare(table);
     declare_closed_form(closed_form, table);
-    declare_automatic(automatic, table);
-    declare_study(study, table);
+    declare_campaigns(automatic, study, table);
     declare_output(output, table);
   }
 } // namespace Debond

@@ -56,7 +56,7 @@ namespace Debond
   read_whole_file(const std::string &filename)
   {
     std::ifstream file(filename, std::ios::binary);
-    if (!file && errno == ENOENT)
+    if (!file && (errno == ENOENT || errno == ENOTDIR))
       return std::nullopt;
     if (!file)
       throw InputError("cannot read '" + filename +

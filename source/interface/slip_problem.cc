@@ -74,7 +74,7 @@ namespace Debond
                                const SurfaceGeometry &geometry,
                                const double           outward_sign)
     : slip(geometry.y - y_old)
-    , distance(slip.norm())
+    , distance(slip.norm()) // the last term of the sum in Eq. (32)
     , law(law)
     , geometry(geometry)
     , friction(friction)
@@ -135,13 +135,17 @@ namespace Debond
     forward =
       distance > 1e-14 * trial_gap.norm() ? Vector3d(slip / distance) : tau;
     // A point cannot slide against what pulls it. Where Newton's method looks
-    // there, mu goes on along its tangent: the distance alone would have a
-    // second solution there, where friction rises with the speed.
+    // there, mu goes on along its tangent, but never rises: the distance alone
+    // would have a second solution there where friction rises with the speed, a
+    // rise one where it falls steeply.
     const bool backwards = !direction_is_given && slip.dot(tau) < 0.;
     sense                = backwards ? -1. : 1.;
     coefficient          = friction.after(backwards ? 0. : distance);
     if (backwards)
-      coefficient.mu -= coefficient.dmu * distance;
+      {
+        coefficient.dmu = std::max(0., coefficient.dmu);
+        coefficient.mu -= coefficient.dmu * distance;
+      }
     // the viscous part resists as fast as the point moves, and it pulls where
     // a trial moves backwards
     const double resistance =
@@ -382,7 +386,8 @@ namespace Debond
     result.energy =
       e.normal_response.energy +
       0.5 * e.tangential_traction.squaredNorm() / law.tangential_penalty;
-    // the history at the end of the step, Eq. (32), should it be accepted
+    // g_s = g_s^n + |y - y_n|, Eq. (32), and what else the law remembers; it is
+    // the history of the point once the step is accepted
     if (!friction.frictionless)
       {
         result.state.slip = friction.start.slip + e.distance;

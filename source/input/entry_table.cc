@@ -1,11 +1,8 @@
 #include <debond/input/entry_table.h>
 
-#include <deal.II/base/utilities.h>
-
 #include <boost/algorithm/string/compare.hpp>
 
 #include <algorithm>
-#include <iomanip>
 #include <numeric>
 #include <sstream>
 
@@ -15,6 +12,7 @@ namespace Debond
   EntryTable::enter_subsection(const std::string &name)
   {
     path.push_back(name);
+    prm.enter_subsection(name);
   }
 
 
@@ -23,6 +21,7 @@ namespace Debond
   EntryTable::leave_subsection()
   {
     path.pop_back();
+    prm.leave_subsection();
   }
 
 
@@ -38,12 +37,13 @@ namespace Debond
     const std::string refusal = allowed.refusal(value);
     if (!refusal.empty())
       entry.refuse(refusal);
-    const auto last =
-      std::find_if(rows.rbegin(), rows.rend(), [this](const Row &row) {
-        return row.entry.subsections == path;
-      });
-    rows.insert(last == rows.rend() ? rows.end() : last.base(),
-                {entry, set, allowed, documentation});
+    rows.push_back({entry, allowed});
+    prm.declare_entry(name,
+                      value,
+                      dealii::Patterns::Anything(),
+                      documentation + "\nAllowed: " + allowed.description);
+    if (set)
+      prm.add_action(name, set);
   }
 
 
@@ -70,9 +70,11 @@ namespace Debond
     const std::string refusal = row->allowed.refusal(entry.value);
     if (!refusal.empty())
       entry.refuse(refusal);
-    row->entry.value = entry.value;
-    if (row->set)
-      row->set(entry.value);
+    for (const std::string &subsection : entry.subsections)
+      prm.enter_subsection(subsection);
+    prm.set(entry.name, entry.value);
+    for (std::size_t i = 0; i < entry.subsections.size(); ++i)
+      prm.leave_subsection();
   }
 
 
@@ -98,19 +100,6 @@ namespace Debond
             }
         }
       return row.back();
-    }
-
-
-
-    /** Writes @p text as comment lines of at most 80 characters. */
-    void
-    print_comment(const std::string &text,
-                  const std::string &indent,
-                  std::ostream      &out)
-    {
-      for (const std::string &line : dealii::Utilities::break_text_into_lines(
-             text, 78 - static_cast<int>(indent.size())))
-        out << indent << "# " << line << '\n';
     }
   } // namespace
 
@@ -150,55 +139,19 @@ namespace Debond
   EntryTable::text() const
   {
     std::ostringstream out;
-    print(out, false);
+    prm.print_parameters(out,
+                         dealii::ParameterHandler::ShortPRM |
+                           dealii::ParameterHandler::KeepDeclarationOrder);
     return out.str();
   }
 
 
 
   void
-  EntryTable::print(std::ostream &out, const bool documented) const
+  EntryTable::print(std::ostream &out) const
   {
-    const std::string        between_entries = documented ? "\n" : "";
-    std::vector<std::string> open;
-    std::string              separator; // before all but the first in a block
-    const auto               close = [&] {
-      open.pop_back();
-      out << std::string(2 * open.size(), ' ') << "end\n";
-      separator = between_entries;
-    };
-
-    for (const auto &[entry, set, allowed, documentation] : rows)
-      {
-        const std::vector<std::string> &path = entry.subsections;
-        while (open.size() > path.size() ||
-               !std::equal(open.begin(), open.end(), path.begin()))
-          close();
-        for (; open.size() < path.size(); separator.clear())
-          {
-            out << separator << std::string(2 * open.size(), ' ')
-                << "subsection " << path[open.size()] << '\n';
-            open.push_back(path[open.size()]);
-          }
-        const std::string indent(2 * open.size(), ' ');
-        std::size_t width = 0; // the values of a subsection stand in a column
-        if (documented)
-          {
-            out << separator;
-            print_comment(documentation, indent, out);
-            print_comment("Allowed: " + allowed.description, indent, out);
-          }
-        else
-          for (const Row &row : rows)
-            if (row.entry.subsections == path)
-              width = std::max(width, row.entry.name.size());
-        out << indent << "set " << std::left << std::setw(width) << entry.name
-            << " ="
-            << (entry.value.empty() && documented ? "" : " " + entry.value)
-            << '\n';
-        separator = between_entries;
-      }
-    while (!open.empty())
-      close();
+    prm.print_parameters(out,
+                         dealii::ParameterHandler::PRM |
+                           dealii::ParameterHandler::KeepDeclarationOrder);
   }
 } // namespace Debond

@@ -5,6 +5,8 @@
 #include <debond/input/scene_file.h>
 #include <debond/support/number_text.h>
 
+#include <deal.II/base/parameter_handler.h>
+
 #include <algorithm>
 #include <functional>
 #include <ostream>
@@ -68,17 +70,15 @@ namespace Debond
     std::string
     text() const;
 
-    /** The same; @p documented: with what the entries mean and allow. */
+    /** The same with what the entries mean and allow. */
     void
-    print(std::ostream &out, bool documented = true) const;
+    print(std::ostream &out) const;
 
   private:
     struct Row
     {
-      SceneEntry                               entry;
-      std::function<void(const std::string &)> set;
-      AllowedValues                            allowed;
-      std::string                              documentation;
+      SceneEntry    entry; ///< its place and name
+      AllowedValues allowed;
     };
 
     /** What an unknown entry may have been meant to be, or nothing. */
@@ -86,7 +86,8 @@ namespace Debond
     likely_name(const SceneEntry &entry) const;
 
     std::vector<std::string> path; ///< the subsections that are open
-    std::vector<Row>         rows; ///< those of a subsection before its own
+    std::vector<Row>         rows;
+    dealii::ParameterHandler prm; ///< values, and what they mean
   };
 
 

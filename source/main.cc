@@ -23,6 +23,8 @@
 #include <utility>
 #include <vector>
 
+using namespace Debond;
+
 namespace
 {
   const char *const help_text =
@@ -62,6 +64,11 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
 
+  const char *const version_text =
+    "debond " DEBOND_VERSION " (deal.II " DEAL_II_PACKAGE_VERSION ")\n";
+
+
+
   struct Arguments
   {
     std::string              scene_file;
@@ -78,7 +85,7 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
   [[noreturn]] void
   refuse_usage(const std::string &message)
   {
-    throw Debond::InputError("debond: " + message + " (see debond --help)");
+    throw InputError("debond: " + message + " (see debond --help)");
   }
 
 
@@ -97,7 +104,7 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
   Arguments
-  read_words(const std::vector<std::string> &words)
+  read_arguments(const std::vector<std::string> &words)
   {
     Arguments                           arguments;
     const std::map<std::string, bool *> flags{{"--help", &arguments.help},
@@ -107,6 +114,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
                                               {"--print-parameters",
                                                &arguments.print_parameters},
                                               {"--force", &arguments.force}};
+    const std::map<std::string, unsigned int *> numbers{
+      {"--jobs", &arguments.n_jobs}, {"--threads", &arguments.n_threads}};
     for (auto word = words.begin(); word != words.end(); ++word)
       {
         const std::string option = *word;
@@ -118,14 +127,12 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
         };
         if (flags.count(option) > 0)
           *flags.at(option) = true;
+        else if (numbers.count(option) > 0)
+          *numbers.at(option) = read_number(option, value(""));
         else if (option == "--set")
           arguments.overrides.push_back(value("ENTRY=VALUE"));
         else if (option == "--resume")
           arguments.directory_to_resume = value("the directory of a run");
-        else if (option == "--jobs")
-          arguments.n_jobs = read_number(option, value(""));
-        else if (option == "--threads")
-          arguments.n_threads = read_number(option, value(""));
         else if (option.size() > 1 && option[0] == '-')
           refuse_usage("unknown option '" + option + "'");
         else if (!arguments.scene_file.empty())
@@ -134,16 +141,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
         else
           arguments.scene_file = option;
       }
-    return arguments;
-  }
 
-
-
-  Arguments
-  read_arguments(const std::vector<std::string> &words)
-  {
-    const Arguments arguments = read_words(words);
-    const bool      resumes   = !arguments.directory_to_resume.empty();
+    const bool resumes = !arguments.directory_to_resume.empty();
     if (resumes && (arguments.check || arguments.print_parameters ||
                     arguments.force || arguments.n_jobs > 0))
       refuse_usage("--resume goes with SCENE.prm, --set and --threads only");
@@ -167,17 +166,16 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
   void
-  run_study(const std::vector<Debond::SceneEntry> &entries,
-            const Arguments                       &arguments)
+  run_study(const std::vector<SceneEntry> &entries, const Arguments &arguments)
   {
-    Debond::Study study(entries, arguments.scene_file);
+    Study study(entries, arguments.scene_file);
     if (arguments.check)
       return study.check(std::cout);
     const unsigned int n_jobs = or_processors(arguments.n_jobs);
-    Debond::set_number_of_threads(arguments.n_threads > 0 ?
-                                    arguments.n_threads :
-                                    std::max(1U, or_processors(0) / n_jobs));
-    Debond::catch_interruptions();
+    set_number_of_threads(arguments.n_threads > 0 ?
+                            arguments.n_threads :
+                            std::max(1U, or_processors(0) / n_jobs));
+    catch_interruptions();
     study.run(n_jobs, arguments.force, std::cout);
   }
 
@@ -186,9 +184,9 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
   void
   resume(const Arguments &arguments)
   {
-    const auto run = Debond::find_interrupted_run(arguments.directory_to_resume,
-                                                  arguments.scene_file,
-                                                  arguments.overrides);
+    const auto run = find_interrupted_run(arguments.directory_to_resume,
+                                          arguments.scene_file,
+                                          arguments.overrides);
     if (!run)
       {
         std::cout << "The run in " << arguments.directory_to_resume
@@ -197,9 +195,9 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
       }
     for (const std::string &remark : run->remarks)
       std::cout << "warning: " << remark << ", the other checkpoint is used\n";
-    Debond::set_number_of_threads(or_processors(arguments.n_threads));
-    Debond::catch_interruptions();
-    Debond::DebondingProblem(run->scene).resume(run->checkpoint);
+    set_number_of_threads(or_processors(arguments.n_threads));
+    catch_interruptions();
+    DebondingProblem(run->scene).run(&run->checkpoint);
   }
 
 
@@ -207,65 +205,62 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
   void
   act(const Arguments &arguments)
   {
-    if (arguments.help)
+    if (arguments.help || arguments.version)
       {
-        std::cout << help_text;
-        return;
-      }
-    if (arguments.version)
-      {
-        std::cout << "debond " << DEBOND_VERSION << " (deal.II "
-                  << DEAL_II_PACKAGE_VERSION << ")\n";
+        std::cout << (arguments.help ? help_text : version_text);
         return;
       }
     if (!arguments.directory_to_resume.empty())
       return resume(arguments);
     if (arguments.scene_file.empty())
-      return Debond::print_parameters(std::cout);
+      return print_parameters(std::cout);
 
-    const std::vector<Debond::SceneEntry> entries =
-      Debond::with_overrides(Debond::read_scene_file(arguments.scene_file),
-                             arguments.overrides);
-    if (Debond::is_study(entries) && !arguments.print_parameters)
+    const std::vector<SceneEntry> entries =
+      with_overrides(read_scene_file(arguments.scene_file),
+                     arguments.overrides);
+    if (is_study(entries) && !arguments.print_parameters)
       return run_study(entries, arguments);
 
-    Debond::Scene scene =
-      Debond::Scene::from_entries(entries, arguments.scene_file);
+    Scene scene = Scene::from_entries(entries, arguments.scene_file);
     if (arguments.print_parameters)
-      return Debond::print_parameters(std::cout, &scene);
+      return print_parameters(std::cout, &scene);
 
-    Debond::set_number_of_threads(or_processors(arguments.n_threads));
-    for (const auto &[is_set, name] :
-         {std::make_pair(scene.study.repetitions > 1, "Repetitions"),
-          std::make_pair(scene.study.factors_at_once > 0,
-                         "Factors varied at once")})
-      if (is_set)
-        throw scene.with_place(Debond::EntryError(
-          std::string("Study / ") + name,
-          "this is for studies, and no entry of this scene holds several "
-          "values, {{a|b}}"));
+    set_number_of_threads(or_processors(arguments.n_threads));
+    if (scene.study.repetitions > 1 || scene.study.factors_at_once > 0)
+      throw scene.with_place(EntryError(
+        scene.study.repetitions > 1 ? "Study / Repetitions" :
+                                      "Study / Factors varied at once",
+        "this is for studies, and no entry of this scene holds several "
+        "values, {{a|b}}"));
     scene.output.overwrite_other_results = arguments.force;
     if (arguments.check)
-      return Debond::check_scene(scene, std::cout);
+      return check_scene(scene, std::cout);
     // the closed forms are done before they could be asked to stop
-    if (scene.model == Debond::ModelKind::finite_elements ||
-        scene.model == Debond::ModelKind::automatic)
-      Debond::catch_interruptions();
-    Debond::run_scene(scene);
+    if (scene.model == ModelKind::finite_elements ||
+        scene.model == ModelKind::automatic)
+      catch_interruptions();
+    run_scene(scene);
   }
 
 
 
-  /** deal.II's account of an error in one line. */
+  /** What is said of an error; deal.II's account of one in one line. */
   std::string
-  one_line(const dealii::ExceptionBase &error)
+  message_of(const std::exception &error, const bool is_internal)
   {
-    std::stringstream text;
-    error.print_info(text);
-    std::string line = error.get_exc_name(), word;
-    while (text >> word)
-      line += " " + word;
-    return line;
+    if (dynamic_cast<const std::bad_alloc *>(&error) != nullptr)
+      return std::string("debond: ") + out_of_memory;
+    std::string line = error.what(), word;
+    if (const auto *const of_library =
+          dynamic_cast<const dealii::ExceptionBase *>(&error))
+      {
+        std::stringstream text;
+        of_library->print_info(text);
+        line = of_library->get_exc_name();
+        while (text >> word)
+          line += " " + word;
+      }
+    return (is_internal ? "debond: internal error: " : "") + line;
   }
 } // namespace
 
@@ -274,39 +269,23 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 int
 main(int argc, char *argv[])
 {
-  const auto end_with = [](const int code, const std::string &message) {
-    std::cerr << message << std::endl;
-    return code;
-  };
-  Debond::set_up_libraries();
+  set_up_libraries();
   try
     {
       act(read_arguments({argv + 1, argv + argc}));
       return 0;
     }
-  catch (const Debond::InputError &error)
-    {
-      return end_with(1, error.what());
-    }
-  catch (const Debond::Interrupted &error)
-    {
-      return end_with(128 + error.signal, error.what());
-    }
-  catch (const Debond::RunError &error)
-    {
-      return end_with(2, error.what());
-    }
-  catch (const dealii::ExceptionBase &error)
-    {
-      return end_with(3, "debond: internal error: " + one_line(error));
-    }
-  catch (const std::bad_alloc &)
-    {
-      return end_with(2, std::string("debond: ") + Debond::out_of_memory);
-    }
   catch (const std::exception &error)
     {
-      return end_with(3,
-                      std::string("debond: internal error: ") + error.what());
+      const auto *const interrupted = dynamic_cast<const Interrupted *>(&error);
+      const bool        fails_to_run =
+        dynamic_cast<const RunError *>(&error) != nullptr ||
+        dynamic_cast<const std::bad_alloc *>(&error) != nullptr;
+      const int code = dynamic_cast<const InputError *>(&error) != nullptr ? 1 :
+                       interrupted != nullptr ? 128 + interrupted->signal :
+                       fails_to_run           ? 2 :
+                                                3;
+      std::cerr << message_of(error, code == 3) << std::endl;
+      return code;
     }
 }

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace Debond
 {
@@ -24,38 +23,29 @@ namespace Debond
 
 
 
+    /** What the scene and its bonding, as the interface has it, warn of. */
     std::vector<Warning>
-    warnings_of(const Scene &scene)
+    warnings_of(const Scene &scene, const ContactInterface &interface)
     {
       std::vector<Warning> warnings;
       for (const auto &[body, name] :
            {std::make_pair(&scene.bone, "Bone"),
             std::make_pair(&scene.implant, "Implant")})
-        if (body->material != Material::rigid && body->poisson_ratio > 0.45)
+        if (!body->is_rigid() && body->poisson_ratio > 0.45)
           warnings.push_back(
             {std::string("locking of ") + name,
-             std::string(name) +
-               " / Poisson ratio = " + to_text(body->poisson_ratio) +
-               ": trilinear cells lock as it approaches 0.5, so that the body "
-               "is too stiff: compare with finer Cells"});
+             Text() << name
+                    << " / Poisson ratio = " << to_text(body->poisson_ratio)
+                    << ": trilinear cells lock as it approaches 0.5, so that "
+                       "the body is too stiff: compare with finer Cells"});
       if (scene.load_steps.adaptive && scene.interface.viscosity > 0.)
         warnings.push_back(
           {"viscosity",
            "Load steps / Tolerance does not cover the error in time of "
            "Interface / Viscosity, which is of first order in the step: "
            "compare with smaller Steps"});
-      return warnings;
-    }
-
-
-
-    /** Of the initial bonding as the interface has it. */
-    std::vector<Warning>
-    warnings_of(const ContactInterface &interface)
-    {
-      std::vector<Warning> warnings;
-      const auto          &report = interface.bonding().report();
-      const double         seen   = interface.mean_seen_bonding();
+      const auto  &report = interface.bonding().report();
+      const double seen   = interface.mean_seen_bonding();
       if (!report.remark.empty())
         warnings.push_back({"picture", report.remark});
       if (std::abs(seen - report.mean) > 0.01 * report.mean)
@@ -84,9 +74,7 @@ namespace Debond
     , state_checks(this->scene)
   {
     coupled_system.start(solver.time());
-    for (const auto &found :
-         {warnings_of(scene), warnings_of(coupled_system.interface)})
-      all_warnings.insert(all_warnings.end(), found.begin(), found.end());
+    all_warnings = warnings_of(scene, coupled_system.interface);
   }
 
 
@@ -159,7 +147,7 @@ namespace Debond
   Simulation::solve_first_row()
   {
     const StepResult result = solver.solve_first();
-    spent.newton_iterations += result.iterations;
+    so_far.newton_iterations += result.iterations;
     refuse_jump(result);
     if (!result.is_acceptable())
       throw RunError("The state at the first time, " +
@@ -188,7 +176,7 @@ namespace Debond
         const Step       step   = step_control.next();
         const StepResult result = solver.solve(step);
         iterations += result.iterations;
-        spent.newton_iterations += result.iterations;
+        so_far.newton_iterations += result.iterations;
         refuse_jump(result);
         if (!result.is_acceptable())
           {
@@ -228,10 +216,8 @@ namespace Debond
   {
     if (!result.hopeless)
       return;
-    std::ostringstream message;
-    message << "Step " << all_rows.size() << ", after time " << solver.time()
-            << ": " << result.why;
-    throw RunError(message.str());
+    throw RunError(Text() << "Step " << all_rows.size() << ", after time "
+                          << solver.time() << ": " << result.why);
   }
 
 
@@ -239,8 +225,8 @@ namespace Debond
   void
   Simulation::give_up(const Step &step, const StepResult &result) const
   {
-    const Chuck       &chuck = coupled_system.chuck;
-    std::ostringstream message;
+    const Chuck &chuck = coupled_system.chuck;
+    Text         message;
     message << "Step " << all_rows.size();
     if (scene.load_steps.rows_are_planned())
       message << " of " << LoadStepping(scene.load_steps).n_steps();
@@ -253,7 +239,7 @@ namespace Debond
       message << ". A prescribed load may be more than the interface can "
                  "carry; prescribing the displacement or angle instead, or "
                  "Load steps / Path following = slip, follows the fall";
-    throw RunError(message.str());
+    throw RunError(message);
   }
 
 
@@ -263,17 +249,16 @@ namespace Debond
   void
   Simulation::accept(const StepResult &result)
   {
-    const unsigned int row             = all_rows.size();
-    const double       from            = solver.time();
-    const double       to              = coupled_system.time();
-    const double       reaction_defect = coupled_system.reaction_defect();
+    const unsigned int row  = all_rows.size();
+    const double       from = solver.time(), to = coupled_system.time();
+    reaction_defect = coupled_system.reaction_defect();
     if (row > 0)
       {
-        ++spent.steps;
-        spent.shortest_step =
-          std::fmin(spent.shortest_step, std::abs(to - from));
+        ++so_far.steps;
+        so_far.shortest_step =
+          std::fmin(so_far.shortest_step, std::abs(to - from));
         if (scene.has_friction() && scene.has_friction_after(from))
-          state_checks.add_way(row, coupled_system.chuck, from, to);
+          state_checks.add_motion(row, coupled_system.chuck, from, to);
       }
     solver.commit();
     state_checks.add(row, coupled_system, result.interface, reaction_defect);
@@ -327,7 +312,7 @@ namespace Debond
     row.dissipation_Nmm      = interface.work().dissipation;
     row.adhesive_work_Nmm    = interface.work().adhesive;
     row.energy_defect_bound  = state_checks.energy().defect_bound();
-    row.reaction_defect      = state_checks.reaction_defect();
+    row.reaction_defect      = reaction_defect;
     row.viscous_work_Nmm     = interface.work().viscous;
     row.warnings             = state_checks.take_violations();
     row.machine_angle_deg =

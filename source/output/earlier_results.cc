@@ -9,7 +9,7 @@ namespace Debond
   namespace
   {
     bool
-    is_rung(const std::filesystem::path &path)
+    is_level(const std::filesystem::path &path)
     {
       static const std::regex name("rung-[0-9]+");
       return std::regex_match(path.filename().string(), name) &&
@@ -26,7 +26,7 @@ namespace Debond
         "(summary|repetition-[0-9]+)\\.json|checkpoint-[12]|"
         "(torque|auto|bonding|profiles|friction_law)\\.csv|"
         "(bulk|interface)(-[0-9]+\\.vtu|\\.pvd)");
-      return std::regex_match(path.filename().string(), name) || is_rung(path);
+      return std::regex_match(path.filename().string(), name) || is_level(path);
     }
 
 
@@ -55,8 +55,8 @@ namespace Debond
 
 
   void
-  remove_rungs(const std::string &directory)
+  remove_levels(const std::string &directory)
   {
-    remove_those(directory, is_rung);
+    remove_those(directory, is_level);
   }
 } // namespace Debond

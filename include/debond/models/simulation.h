@@ -112,7 +112,7 @@ namespace Debond
     const Effort &
     effort() const
     {
-      return spent;
+      return so_far;
     }
 
     /** See serialization.h. Between rows; a simulation that is loaded is one of
@@ -122,7 +122,7 @@ namespace Debond
     serialize(Archive &archive, const unsigned int)
     {
       archive &coupled_system &solver &state_checks &all_rows &all_warnings;
-      archive &spent.steps &spent.newton_iterations &spent.shortest_step;
+      archive &so_far.steps &so_far.newton_iterations &so_far.shortest_step;
       std::visit([&archive](auto &chosen) { archive &chosen; }, steps);
     }
 
@@ -159,7 +159,8 @@ namespace Debond
     StateChecks            state_checks;
     std::vector<TorqueRow> all_rows;
     std::vector<Warning>   all_warnings;
-    Effort                 spent;
+    Effort                 so_far;
+    double                 reaction_defect = 0; ///< of the last accepted state
   };
 } // namespace Debond
 #endif

@@ -40,7 +40,7 @@ namespace Debond
   {
   public:
     /** To be raised when the state of any class has other members. */
-    static constexpr unsigned int format = 2;
+    static constexpr unsigned int format = 3;
 
     explicit CheckpointFiles(const ResultDirectory &directory);
 

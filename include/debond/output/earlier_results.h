@@ -14,6 +14,6 @@ namespace Debond
   /** The same for the directories rung-NUMBER of Model = auto only; what else
    *  has such a name is not ours. */
   void
-  remove_rungs(const std::string &directory);
+  remove_levels(const std::string &directory);
 } // namespace Debond
 #endif

@@ -1,5 +1,5 @@
-#ifndef debond_campaigns_model_ladder_h
-#define debond_campaigns_model_ladder_h
+#ifndef debond_campaigns_model_hierarchy_h
+#define debond_campaigns_model_hierarchy_h
 
 #include <debond/output/torque_curve.h>
 #include <debond/scene/scene.h>
@@ -7,6 +7,7 @@
 #include <array>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Debond
@@ -22,8 +23,9 @@ namespace Debond
   std::string
   in_words(const std::array<unsigned int, 3> &cells);
 
-  /** One model of a scene, and what came out of it. */
-  struct Rung
+  /** A level of the hierarchy: one model of a scene, and what came out of it.
+   */
+  struct ModelLevel
   {
     static constexpr double undefined =
       std::numeric_limits<double>::quiet_NaN();
@@ -36,7 +38,7 @@ namespace Debond
     std::string            why_not; ///< it is not done
     std::vector<TorqueRow> rows;
     double                 seconds = 0;
-    double difference = undefined; ///< largest, from the best rung, over T_max
+    double difference = undefined; ///< largest, from the best level, over T_max
     double estimate   = undefined; ///< of the error, over T_max
 
     bool
@@ -62,41 +64,25 @@ namespace Debond
    * half, a quarter ... of it as long as all numbers of cells are even and the
    * mesh keeps 15 cells across the bone, 3 across the implant and 2 layers.
    */
-  class ModelLadder
+  class ModelHierarchy
   {
   public:
     /** @p step_tolerance is that of the adaptive steps of all models. */
-    ModelLadder(const Scene &scene, double step_tolerance);
+    ModelHierarchy(const Scene &scene, double step_tolerance);
 
-    /** Materials from the poorest, two rigid bodies, to the scene's own. */
-    const std::vector<Materials> &
-    materials() const
-    {
-      return all_materials;
-    }
-
-    /** The richest that are not Neo-Hookean. */
-    Materials
-    linear_materials() const
-    {
-      return limited_to(Material::linear);
-    }
-
-    /** Finite elements. @p number: its results go to DIR/rung-NUMBER. */
-    Rung
-    finite_elements(unsigned int     number,
-                    const Materials &materials,
-                    unsigned int     mesh) const;
+    /** Finite elements. */
+    ModelLevel
+    finite_elements(const Materials &materials, unsigned int mesh) const;
 
     /** The closed form with the linear solution on mesh 0. */
-    Rung
-    foundation(unsigned int number) const;
+    ModelLevel
+    foundation() const;
 
     /** The scene with half the cells of mesh 0, rounded up, for the linear
-     *  solution only. @p ratio of cell sizes: the smallest of all directions.
-     */
-    Scene
-    below_coarsest(double &ratio) const;
+     *  solution only, and the ratio of the sizes of cells: the smallest of all
+     *  directions. */
+    std::pair<Scene, double>
+    below_coarsest() const;
 
     /** Why this mesh is more than a computer can be asked for; empty if it is
      *  not. */
@@ -104,14 +90,15 @@ namespace Debond
     limit(const Materials &materials, unsigned int mesh) const;
 
   private:
-    /** Materials of the scene, none of them richer than @p limit. */
-    Materials
-    limited_to(Material limit) const;
-
     const Scene                                scene;
     const double                               step_tolerance;
-    std::vector<Materials>                     all_materials;
     std::array<std::array<unsigned int, 3>, 2> coarsest;
+
+  public:
+    /** From the poorest, two rigid bodies, to the scene's own; the richest that
+     *  are not Neo-Hookean. */
+    std::vector<Materials> materials;
+    Materials              linear_materials;
   };
 } // namespace Debond
 #endif

@@ -23,10 +23,18 @@
 #include <utility>
 #include <vector>
 
+// The program: words of the command line become a scene, and the scene is run.
+// All that is known of implants, contact and friction is in the library; this
+// file decides which part of it is asked for, and turns what went wrong into an
+// exit code that scripts can count on.
 using namespace Debond;
 
 namespace
 {
+  // <h3>The command line</h3>
+  //
+  // What is said here is all that a user has to know to begin with; the entries
+  // of a scene explain themselves with --print-parameters.
   const char *const help_text =
     R"(usage: debond [OPTIONS] SCENE.prm
        debond --resume DIR [OPTIONS] [SCENE.prm]
@@ -69,6 +77,7 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
 
+  // What the words amount to. Nothing is decided yet.
   struct Arguments
   {
     std::string              scene_file;
@@ -82,6 +91,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
 
+  // A mistake on the command line is an InputError as one in a scene is: exit
+  // code 1, and nothing has been run or written.
   [[noreturn]] void
   refuse_usage(const std::string &message)
   {
@@ -90,6 +101,7 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
 
+  // Strictly: std::stoi alone would take "4x" for a number.
   unsigned int
   read_number(const std::string &option, const std::string &word)
   {
@@ -103,6 +115,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
 
+  // Options are few, so that tables of their names and a loop over the words
+  // read them. What has no dash in front is the scene file.
   Arguments
   read_arguments(const std::vector<std::string> &words)
   {
@@ -118,6 +132,7 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
       {"--jobs", &arguments.n_jobs}, {"--threads", &arguments.n_threads}};
     for (auto word = words.begin(); word != words.end(); ++word)
       {
+        // Some options take the next word as their value.
         const std::string option = *word;
         const auto        value  = [&](const std::string &what) {
           const std::string text = word + 1 == words.end() ? "" : *++word;
@@ -142,10 +157,13 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
           arguments.scene_file = option;
       }
 
+    // What makes no sense together is refused, not ignored. A run that goes on
+    // is what it was: its scene may not change, and so its checks are done.
     const bool resumes = !arguments.directory_to_resume.empty();
     if (resumes && (arguments.check || arguments.print_parameters ||
                     arguments.force || arguments.n_jobs > 0))
       refuse_usage("--resume goes with SCENE.prm, --set and --threads only");
+    // With --print-parameters alone the defaults are printed.
     const bool needs_no_scene =
       resumes || arguments.help || arguments.version ||
       (arguments.print_parameters && arguments.overrides.empty());
@@ -165,6 +183,11 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
 
+  // <h3>What can be run</h3>
+  //
+  // A study is a scene whose entries hold several values. Its variants run as
+  // processes of their own, several at a time. They share the processors: if
+  // nothing else is asked for each gets its part of the threads.
   void
   run_study(const std::vector<SceneEntry> &entries, const Arguments &arguments)
   {
@@ -175,12 +198,15 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     set_number_of_threads(arguments.n_threads > 0 ?
                             arguments.n_threads :
                             std::max(1U, or_processors(0) / n_jobs));
+    // From here on a signal only asks to stop. Variants that are done are kept.
     catch_interruptions();
     study.run(n_jobs, arguments.force, std::cout);
   }
 
 
 
+  // A run that was interrupted goes on from its last checkpoint, to the same
+  // files, to the last bit, as if it never had been.
   void
   resume(const Arguments &arguments)
   {
@@ -193,6 +219,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
                   << " is finished: there is nothing to go on with\n";
         return;
       }
+    // There are two checkpoints, written in turn. One may be damaged, if the
+    // power failed while it was written.
     for (const std::string &remark : run->remarks)
       std::cout << "warning: " << remark << ", the other checkpoint is used\n";
     set_number_of_threads(or_processors(arguments.n_threads));
@@ -202,6 +230,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
 
+  // From what needs least to what needs most: texts, a run that goes on, the
+  // scene's entries, a study, one scene.
   void
   act(const Arguments &arguments)
   {
@@ -215,16 +245,21 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     if (arguments.scene_file.empty())
       return print_parameters(std::cout);
 
+    // The file is read as a list of entries with their places, which --set may
+    // replace. Whether it is a study shows before any value is understood.
     const std::vector<SceneEntry> entries =
       with_overrides(read_scene_file(arguments.scene_file),
                      arguments.overrides);
     if (is_study(entries) && !arguments.print_parameters)
       return run_study(entries, arguments);
 
+    // Here text becomes a plain value, with all numbers in mm, N and MPa. What
+    // is not allowed, or makes no sense together, is refused with its place.
     Scene scene = Scene::from_entries(entries, arguments.scene_file);
     if (arguments.print_parameters)
       return print_parameters(std::cout, &scene);
 
+    // One scene has all threads. Results do not depend on their number.
     set_number_of_threads(or_processors(arguments.n_threads));
     if (scene.study.repetitions > 1 || scene.study.factors_at_once > 0)
       throw scene.with_place(EntryError(
@@ -233,9 +268,12 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
         "this is for studies, and no entry of this scene holds several "
         "values, {{a|b}}"));
     scene.output.overwrite_other_results = arguments.force;
+    // --check goes as far as building the meshes, so that it finds everything
+    // that a run would refuse.
     if (arguments.check)
       return check_scene(scene, std::cout);
-    // the closed forms are done before they could be asked to stop
+    // Closed forms are done before they could be asked to stop. Finite elements
+    // leave a checkpoint after the step at work.
     if (scene.model == ModelKind::finite_elements ||
         scene.model == ModelKind::automatic)
       catch_interruptions();
@@ -244,7 +282,11 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
 
-  /** What is said of an error; deal.II's account of one in one line. */
+  // <h3>What went wrong</h3>
+  //
+  // The library's own errors are worded where they are found and printed as
+  // they are. deal.II's go over several lines, of which programs that gather
+  // messages would only keep the first: they are joined.
   std::string
   message_of(const std::exception &error, const bool is_internal)
   {
@@ -266,6 +308,9 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
 
+// Four kinds of ends can be told apart by scripts: what the user can mend (1),
+// what the load or the machine did not allow (2), what is a mistake of this
+// program (3), and a signal (128 and its number, as shells count).
 int
 main(int argc, char *argv[])
 {

@@ -1,4 +1,4 @@
-#include <debond/campaigns/model_hierarchy.h>
+#include <debond/campaigns/model_choice.h>
 #include <debond/support/number_text.h>
 
 #include <algorithm>

@@ -29,30 +29,21 @@ namespace Debond
 {
   namespace
   {
-    /** Where the bodies are when the interface is set up. */
-    std::string
-    first_placement(const Scene &scene)
-    {
-      Chuck chuck(scene.chuck,
-                  Eigen::Vector3d(0, 0, scene.implant.thickness()),
-                  scene.implant.characteristic_radius());
-      chuck.place(scene.load_steps.times.front());
-      std::string text;
-      for (const double q : chuck.position())
-        text += to_text(q, 17) + " ";
-      return text;
-    }
-
-
-
-    /** What scenes agree in if they can share bodies; empty if the scene shares
+    /** What scenes agree in if they can share bodies: what the bodies are, and
+     *  where they are when the interface is set up. Empty if the scene shares
      *  them with none. */
     std::string
     common_part(const Scene &scene)
     {
       if (scene.model != ModelKind::finite_elements)
         return "";
-      std::string text = first_placement(scene);
+      std::string text;
+      Chuck       chuck(scene.chuck,
+                  Eigen::Vector3d(0, 0, scene.implant.thickness()),
+                  scene.implant.characteristic_radius());
+      chuck.place(scene.load_steps.times.front());
+      for (const double q : chuck.position())
+        text += to_text(q, 17) + " ";
       for (const SceneEntry &entry :
            read_scene_text(scene.completed_parameters, scene.name))
         {
@@ -69,40 +60,29 @@ namespace Debond
 
 
     /** The bodies of a scene, condensed on what contact reaches at first; none
-     *  if that is impossible. */
+     *  if that is impossible. In a thread of its own that has ended: what TBB
+     *  keeps for a thread, here that there is but one, would stay with this one
+     *  and go on in the processes that it starts. */
     std::shared_ptr<BodyPair>
     condensed_bodies(Scene scene)
     {
-      scene.interface.bonding = {}; // that is not the bodies'
-      try
-        {
-          require_memory(scene);
-          dealii::Timer clock;
-          CoupledSystem system(scene);
-          system.start(scene.load_steps.times.front());
-          system.bodies()->seconds_shared = clock.wall_time();
-          return system.bodies();
-        }
-      catch (const std::exception &)
-        {
-          return nullptr; // the variants will meet it again, and say so
-        }
-    }
-
-
-
-    /** The same in a thread of its own that has ended: what TBB keeps for a
-     *  thread, here that there is but one, would stay with this one and go on
-     *  in the processes that it starts. */
-    std::shared_ptr<BodyPair>
-    condensed_bodies_in_one_thread(const Scene &scene)
-    {
+      scene.interface.bonding      = {}; // that is not the bodies'
       const unsigned int n_threads = dealii::MultithreadInfo::n_threads();
       set_number_of_threads(1);
       std::shared_ptr<BodyPair> bodies;
       std::thread([&] {
         set_number_of_threads(1);
-        bodies = condensed_bodies(scene);
+        try
+          {
+            require_memory(scene);
+            dealii::Timer clock;
+            CoupledSystem system(scene);
+            system.start(scene.load_steps.times.front());
+            system.bodies()->seconds_shared = clock.wall_time();
+            bodies                          = system.bodies();
+          }
+        catch (const std::exception &)
+          {} // the variants will meet it again, and say so
       }).join();
       set_number_of_threads(n_threads);
       return bodies;
@@ -132,7 +112,7 @@ namespace Debond
       {
         bodies.reset(); // before there are others
         if (first.may_share && waiting.count(group) >= std::max(2U, n_jobs))
-          bodies = condensed_bodies_in_one_thread(*first.scene);
+          bodies = condensed_bodies(*first.scene);
         last_group = group;
       }
     waiting.erase(waiting.begin());

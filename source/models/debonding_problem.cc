@@ -118,7 +118,6 @@ namespace Debond
             checkpoints.remove();
             remove_file(directory.file("summary.json"));
           }
-        simulation.signals.next_row.connect([this] { stop_if_interrupted(); });
         simulation.signals.row.connect(
           [this](const TorqueRow &row) { write(row); });
         simulation.signals.warning.connect([this](const Warning &warning) {

@@ -4,91 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace Debond
 {
-  StateChecks::StateChecks(const ModelParameters &parameters)
-    : parameters(parameters)
-    , way(parameters.chuck)
-  {}
-
-
-
-  void
-  StateChecks::note(const std::string &check,
-                    const unsigned int step,
-                    const std::string &text)
-  {
-    found.push_back({check, "step " + std::to_string(step) + ": " + text});
-    violated.insert(check);
-  }
-
-
-
-  // What slides does so by less than it should.
-  void
-  StateChecks::add_motion(const unsigned int step,
-                          const Chuck       &chuck,
-                          const double       from,
-                          const double       to)
-  {
-    way.add(chuck, from, to);
-    if (way.missed_share() > ChuckWay::largest_missed_share)
-      note("way",
-           step,
-           "steps go straight from state to state, and have missed " +
-             way.describe() +
-             " so far: what turns back or goes along a curve needs shorter "
-             "steps, or Load steps / Times where it turns");
-  }
-
-
-
-  void
-  StateChecks::add(const unsigned int      step,
-                   const CoupledSystem    &system,
-                   const InterfaceSummary &summary,
-                   const double            reaction_defect)
-  {
-    const bool           is_first        = !energy_balance.has_state();
-    const Chuck::Vector6 forces_before   = energy_balance.forces();
-    const Chuck::Vector6 position_before = energy_balance.position();
-    energy_balance.add(system.chuck_forces(),
-                       system.chuck.position(),
-                       system.bulk_energy(),
-                       summary.energy,
-                       system.interface.work().dissipation);
-    // the explicit law does not dissipate what InterfaceWork::friction says
-    if (!parameters.interface.explicit_friction)
-      check_for_jump(step, forces_before, system, summary);
-    check_interface(step, system, summary);
-
-    // Planned turns are divided; jumps and loaded chucks turn as far as they
-    // like.
-    const double turn =
-      (system.chuck.position() - position_before).tail<3>().norm();
-    if (!is_first && turn > 1.001 * largest_turn && parameters.has_friction())
-      note("turn",
-           step,
-           Text() << "the implant turned by " << turn * 180. / M_PI
-                  << " degrees in one step: sliding points are pulled along "
-                     "the chords of their paths, and friction is too small by "
-                     "1 - cos of half the angle, "
-                  << 1. - std::cos(0.5 * turn) << " of itself");
-    if (reaction_defect >
-        std::max(1e-6, 100. * parameters.load_steps.residual_tolerance))
-      note("reaction",
-           step,
-           Text() << "contact forces and the reaction of the implant's top "
-                     "differ by "
-                  << reaction_defect << " of the larger");
-    check_energy_balance(step, system.interface.work().step_dissipation);
-  }
-
-
-
   namespace
   {
+    /** Takes the name of a check that was not passed, and what to say of it. */
+    using Note = std::function<void(const std::string &, const std::string &)>;
+
+
+
     /** What happened to the force that changed most, moments being forces at
      *  the distance @p R. */
     std::string
@@ -118,106 +44,191 @@ namespace Debond
                "between";
       return "Load steps / Path following = slip follows the path between";
     }
+
+
+
+    // Whether the state just accepted is on another branch of equilibrium.
+    // There may be one only if anything but the interface stores energy; what
+    // that does is judged point by point
+    // (InterfaceSummary::steepest_softening).
+    void
+    check_for_jump(const ModelParameters  &parameters,
+                   const CoupledSystem    &system,
+                   const InterfaceSummary &summary,
+                   const Chuck::Vector6   &forces_before,
+                   ReleasedEnergy         &released_energy,
+                   const Note             &note)
+    {
+      const Chuck         &chuck    = system.chuck;
+      const InterfaceWork &work     = system.interface.work();
+      const Chuck::Vector6 forces   = system.chuck_forces();
+      const double         released = released_energy.add(
+        {forces,
+                 chuck.machine_position(),
+                 chuck.machine_energy() + system.bulk_energy() + summary.energy,
+                 work.friction,
+                 work.friction_bound});
+      const std::string change =
+        describe_change(forces_before, forces, system.R);
+      if (released > 0.)
+        note("jump",
+             Text() << "in one step " << change << ", and " << released
+                    << " N mm of stored energy were released without "
+                       "equilibrium: the load cannot be followed there, the "
+                       "state jumped to another branch. "
+                    << advice(parameters));
+      else if (released_energy.may_hide_a_jump() &&
+               (!parameters.bone.is_rigid() || !parameters.implant.is_rigid() ||
+                chuck.has_compliant_machine()))
+        note("steep fall",
+             "in one step " + change +
+               ": too much to tell a jump from a steep fall; smaller steps do");
+    }
+
+
+
+    void
+    check_interface(const ModelParameters  &parameters,
+                    const CoupledSystem    &system,
+                    const InterfaceSummary &summary,
+                    const Note             &note)
+    {
+      const ContactInterface &interface = system.interface;
+      if (summary.bonded_opened > 0)
+        note(
+          "opening",
+          Text() << "bonded points open (" << summary.bonded_opened
+                 << "): the law has no strength in tension, so that pulling "
+                    "costs nothing"
+                 << (parameters.interface.opening_breaks_bond ?
+                       "" :
+                       ", and points that close again are bonded as before"));
+      // Beyond that a point may find no partner, or the wrong one [mm].
+      const double too_deep =
+        std::min({0.1 * parameters.bone.thickness(),
+                  0.1 * parameters.implant.thickness(),
+                  std::sqrt(interface.implant_area() /
+                            system.implant.surface().n_elements())});
+      if (summary.max_penetration > too_deep)
+        note("penetration",
+             Text() << "the bodies penetrate each other by "
+                    << summary.max_penetration << " mm, more than " << too_deep
+                    << " mm, a tenth of the thinner one or a whole surface "
+                       "element: lengths are mm, is the push-in right?");
+      if (interface.n_unprojected() > 0)
+        note("projection",
+             Text() << "for " << interface.n_unprojected()
+                    << " open points no closest point of the other surface was "
+                       "found: they stay open");
+    }
+
+
+
+    void
+    check_energy_balance(const EnergyBalance &energy_balance,
+                         const double         step_dissipation,
+                         const Note          &note)
+    {
+      if (energy_balance.dissipates_too_much())
+        note(
+          "dissipation",
+          "more energy is dissipated than was put in: the steps are too large "
+          "for the energy balance to be trusted");
+      if (energy_balance.is_given_back(step_dissipation))
+        note("dissipation falls",
+             "sliding gives energy back: points slide along their traction "
+             "instead of against it");
+      if (energy_balance.is_out_of_balance())
+        note(
+          "energy balance",
+          Text() << "of the chuck's work, " << energy_balance.defect()
+                 << " of its largest value is neither stored nor dissipated; "
+                    "the size of the steps accounts for "
+                 << energy_balance.defect_bound());
+    }
   } // namespace
 
 
 
-  // Whether the state just accepted is on another branch of equilibrium. There
-  // may be one only if anything but the interface stores energy; what that does
-  // is judged point by point (InterfaceSummary::steepest_softening).
+  StateChecks::StateChecks(const ModelParameters &parameters)
+    : parameters(parameters)
+    , way(parameters.chuck)
+  {}
+
+
+
   void
-  StateChecks::check_for_jump(const unsigned int      step,
-                              const Chuck::Vector6   &forces_before,
-                              const CoupledSystem    &system,
-                              const InterfaceSummary &summary)
+  StateChecks::note(const unsigned int step,
+                    const std::string &check,
+                    const std::string &text)
   {
-    const Chuck         &chuck    = system.chuck;
-    const InterfaceWork &work     = system.interface.work();
-    const Chuck::Vector6 forces   = system.chuck_forces();
-    const double         released = released_energy.add(
-      {forces,
-               chuck.machine_position(),
-               chuck.machine_energy() + system.bulk_energy() + summary.energy,
-               work.friction,
-               work.friction_bound});
-    const std::string change = describe_change(forces_before, forces, system.R);
-    if (released > 0.)
-      note("jump",
-           step,
-           Text() << "in one step " << change << ", and " << released
-                  << " N mm of stored energy were released without "
-                     "equilibrium: the load cannot be followed there, the "
-                     "state jumped to another branch. "
-                  << advice(parameters));
-    else if (released_energy.may_hide_a_jump() &&
-             (!parameters.bone.is_rigid() || !parameters.implant.is_rigid() ||
-              chuck.has_compliant_machine()))
-      note("steep fall",
-           step,
-           "in one step " + change +
-             ": too much to tell a jump from a steep fall; smaller steps do");
+    found.push_back({check, "step " + std::to_string(step) + ": " + text});
+    violated.insert(check);
+  }
+
+
+
+  // What slides does so by less than it should.
+  void
+  StateChecks::add_motion(const unsigned int step,
+                          const Chuck       &chuck,
+                          const double       from,
+                          const double       to)
+  {
+    way.add(chuck, from, to);
+    if (way.missed_share() > ChuckWay::largest_missed_share)
+      note(step,
+           "way",
+           "steps go straight from state to state, and have missed " +
+             way.describe() +
+             " so far: what turns back or goes along a curve needs shorter "
+             "steps, or Load steps / Times where it turns");
   }
 
 
 
   void
-  StateChecks::check_interface(const unsigned int      step,
-                               const CoupledSystem    &system,
-                               const InterfaceSummary &summary)
+  StateChecks::add(const unsigned int      step,
+                   const CoupledSystem    &system,
+                   const InterfaceSummary &summary,
+                   const double            reaction_defect)
   {
-    const ContactInterface &interface = system.interface;
-    if (summary.bonded_opened > 0)
-      note("opening",
-           step,
-           Text() << "bonded points open (" << summary.bonded_opened
-                  << "): the law has no strength in tension, so that pulling "
-                     "costs nothing"
-                  << (parameters.interface.opening_breaks_bond ?
-                        "" :
-                        ", and points that close again are bonded as before"));
-    // Beyond that a point may find no partner, or the wrong one [mm].
-    const double too_deep =
-      std::min({0.1 * parameters.bone.thickness(),
-                0.1 * parameters.implant.thickness(),
-                std::sqrt(interface.implant_area() /
-                          system.implant.surface().n_elements())});
-    if (summary.max_penetration > too_deep)
-      note("penetration",
-           step,
-           Text() << "the bodies penetrate each other by "
-                  << summary.max_penetration << " mm, more than " << too_deep
-                  << " mm, a tenth of the thinner one or a whole surface "
-                     "element: lengths are mm, is the push-in right?");
-    if (interface.n_unprojected() > 0)
-      note("projection",
-           step,
-           Text() << "for " << interface.n_unprojected()
-                  << " open points no closest point of the other surface was "
-                     "found: they stay open");
-  }
+    const Note note = [&](const std::string &check, const std::string &text) {
+      this->note(step, check, text);
+    };
+    const bool           is_first        = !energy_balance.has_state();
+    const Chuck::Vector6 forces_before   = energy_balance.forces();
+    const Chuck::Vector6 position_before = energy_balance.position();
+    energy_balance.add(system.chuck_forces(),
+                       system.chuck.position(),
+                       system.bulk_energy(),
+                       summary.energy,
+                       system.interface.work().dissipation);
+    // the explicit law does not dissipate what InterfaceWork::friction says
+    if (!parameters.interface.explicit_friction)
+      check_for_jump(
+        parameters, system, summary, forces_before, released_energy, note);
+    check_interface(parameters, system, summary, note);
 
-
-
-  void
-  StateChecks::check_energy_balance(const unsigned int step,
-                                    const double       step_dissipation)
-  {
-    if (energy_balance.dissipates_too_much())
-      note("dissipation",
-           step,
-           "more energy is dissipated than was put in: the steps are too large "
-           "for the energy balance to be trusted");
-    if (energy_balance.is_given_back(step_dissipation))
-      note("dissipation falls",
-           step,
-           "sliding gives energy back: points slide along their traction "
-           "instead of against it");
-    if (energy_balance.is_out_of_balance())
-      note("energy balance",
-           step,
-           Text() << "of the chuck's work, " << energy_balance.defect()
-                  << " of its largest value is neither stored nor dissipated; "
-                     "the size of the steps accounts for "
-                  << energy_balance.defect_bound());
+    // Planned turns are divided; jumps and loaded chucks turn as far as they
+    // like.
+    const double turn =
+      (system.chuck.position() - position_before).tail<3>().norm();
+    if (!is_first && turn > 1.001 * largest_turn && parameters.has_friction())
+      note("turn",
+           Text() << "the implant turned by " << turn * 180. / M_PI
+                  << " degrees in one step: sliding points are pulled along "
+                     "the chords of their paths, and friction is too small by "
+                     "1 - cos of half the angle, "
+                  << 1. - std::cos(0.5 * turn) << " of itself");
+    if (reaction_defect >
+        std::max(1e-6, 100. * parameters.load_steps.residual_tolerance))
+      note("reaction",
+           Text() << "contact forces and the reaction of the implant's top "
+                     "differ by "
+                  << reaction_defect << " of the larger");
+    check_energy_balance(energy_balance,
+                         system.interface.work().step_dissipation,
+                         note);
   }
 } // namespace Debond

@@ -1,14 +1,109 @@
 #ifndef debond_campaigns_model_choice_h
 #define debond_campaigns_model_choice_h
 
-#include <debond/campaigns/model_hierarchy.h>
+#include <debond/output/torque_curve.h>
+#include <debond/scene/scene.h>
 
+#include <array>
 #include <functional>
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Debond
 {
+  /** The materials of bone and implant. */
+  using Materials = std::array<Material, 2>;
+
+  /** "rigid", "linear" or "neo-hookean". */
+  std::string
+  name_of(Material material);
+
+  /** "15 x 15 x 2". */
+  std::string
+  in_words(const std::array<unsigned int, 3> &cells);
+
+  /** A level of the hierarchy: one model of a scene, and what came out of it.
+   */
+  struct ModelLevel
+  {
+    static constexpr double undefined =
+      std::numeric_limits<double>::quiet_NaN();
+
+    Materials    materials; ///< of bone and implant
+    unsigned int mesh = 0;  ///< doublings of the coarsest mesh
+    Scene        scene;
+
+    bool                   done = false;
+    std::string            why_not; ///< it is not done
+    std::vector<TorqueRow> rows;
+    double                 seconds = 0;
+    double difference = undefined; ///< largest, from the best level, over T_max
+    double estimate   = undefined; ///< of the error, over T_max
+
+    bool
+    is_foundation() const
+    {
+      return scene.model == ModelKind::foundation;
+    }
+    /** "foundation" or the richer of both materials. */
+    std::string
+    model() const;
+    /** "linear, 15 x 15 x 2 and 3 x 3 x 2 cells". */
+    std::string
+    description() const;
+    /** Unknowns of both bodies; none of those that are rigid. */
+    double
+    unknowns() const;
+  };
+
+  /**
+   * The models that `Model = auto` may choose among: the scenes that they are.
+   * Meshes are numbered from 0, the coarsest; each has twice the cells of the
+   * one before in every direction. The coarsest is that of the scene, or a
+   * half, a quarter ... of it as long as all numbers of cells are even and the
+   * mesh keeps 15 cells across the bone, 3 across the implant and 2 layers.
+   */
+  class ModelHierarchy
+  {
+  public:
+    /** @p step_tolerance is that of the adaptive steps of all models. */
+    ModelHierarchy(const Scene &scene, double step_tolerance);
+
+    /** Finite elements. */
+    ModelLevel
+    finite_elements(const Materials &materials, unsigned int mesh) const;
+
+    /** The closed form with the linear solution on mesh 0. */
+    ModelLevel
+    foundation() const;
+
+    /** The scene with half the cells of mesh 0, rounded up, for the linear
+     *  solution only, and the ratio of the sizes of cells: the smallest of all
+     *  directions. */
+    std::pair<Scene, double>
+    below_coarsest() const;
+
+    /** Why this mesh is more than a computer can be asked for; empty if it is
+     *  not. */
+    std::string
+    limit(const Materials &materials, unsigned int mesh) const;
+
+  private:
+    const Scene                                scene;
+    const double                               step_tolerance;
+    std::array<std::array<unsigned int, 3>, 2> coarsest;
+
+  public:
+    /** From the poorest, two rigid bodies, to the scene's own; the richest that
+     *  are not Neo-Hookean. */
+    std::vector<Materials> materials;
+    Materials              linear_materials;
+  };
+
+
+
   /** Largest |T - T_reference| relative to the largest |T_reference|: the
    *  `difference_max` of summary.json, at the rows of both curves. Only angles
    *  that both have and that are beyond zero in the sense of the rotation, and

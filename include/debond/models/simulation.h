@@ -28,6 +28,11 @@ namespace Debond
    *     simulation.run();
    *     for (const TorqueRow &row : simulation.rows()) ...
    *
+   * Each state solves, in the control points of both contact surfaces and the
+   * loaded components of the chuck, the equations of CoupledSystem: contact and
+   * friction of the paper, Eqs. (11) to (13) and (23) to (36), between two
+   * bodies that are rigid, linear or Neo-Hookean, Eq. (1).
+   *
    * It knows no directory, console, clock, signal or file; what does looks on.
    * The checks that make a state trustworthy belong to it: that the residual
    * meets the tolerance and the law had one solution, else a step is not
@@ -50,8 +55,6 @@ namespace Debond
      */
     struct Signals
     {
-      /** A row is to be solved for, after those that there are. */
-      boost::signals2::signal<void()> next_row;
       /** The newest row; the system is in its state. */
       boost::signals2::signal<void(const TorqueRow &)> row;
       /** A check was not passed for the first time, see warnings(). */
@@ -64,7 +67,9 @@ namespace Debond
      *  the scene has no finite value. */
     void
     run();
-    /** Solves for one more row; the first is the state at the first time. */
+    /** Solves for one more row; the first is the state at the first time. For
+     *  programs that want to look at every state themselves. Throws as run()
+     *  does. */
     void
     advance();
     bool
@@ -84,11 +89,13 @@ namespace Debond
     {
       return coupled_system;
     }
+    /** Works, energies and jumps so far. */
     const StateChecks &
     checks() const
     {
       return state_checks;
     }
+    /** Where in the load history the simulation is, and why it ends. */
     const StepControl &
     control() const
     {
@@ -131,6 +138,9 @@ namespace Debond
   private:
     using Steps = std::variant<PlannedSteps, AdaptiveStepping, PathFollowing>;
 
+    // A step in order: solve_row() asks the control of steps which one to
+    // try and has the solver look for the state at its end, accept() makes it
+    // history, add_row() says what came of it.
     static Steps
     choose_steps(const Scene &scene);
     void
@@ -152,6 +162,7 @@ namespace Debond
     void
     warn(const Warning &warning);
 
+    // In this order, because each refers to those before.
     CoupledSystem          coupled_system;
     StepSolver             solver;
     Steps                  steps;

@@ -87,18 +87,7 @@ namespace Debond
 
   private:
     void
-    note(const std::string &check, unsigned int step, const std::string &text);
-    void
-    check_for_jump(unsigned int            step,
-                   const Chuck::Vector6   &forces_before,
-                   const CoupledSystem    &system,
-                   const InterfaceSummary &summary);
-    void
-    check_interface(unsigned int            step,
-                    const CoupledSystem    &system,
-                    const InterfaceSummary &summary);
-    void
-    check_energy_balance(unsigned int step, double step_dissipation);
+    note(unsigned int step, const std::string &check, const std::string &text);
 
     const ModelParameters &parameters;
     EnergyBalance          energy_balance;

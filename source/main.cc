@@ -72,6 +72,7 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
 
+  // Results belong to a version of this program and of deal.II: both are said.
   const char *const version_text =
     "debond " DEBOND_VERSION " (deal.II " DEAL_II_PACKAGE_VERSION ")\n";
 
@@ -81,8 +82,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
   struct Arguments
   {
     std::string              scene_file;
-    std::string              directory_to_resume;
-    std::vector<std::string> overrides;
+    std::string              directory_to_resume; ///< empty: a run begins anew
+    std::vector<std::string> overrides; ///< "Subsection/Entry=value", in order
     bool force = false, check = false, print_parameters = false, help = false,
          version           = false;
     unsigned int n_jobs    = 0; ///< 0: as many as processors
@@ -140,6 +141,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
             refuse_usage(option + " needs " + what);
           return text;
         };
+        // An option that is not known is refused: a mistyped --force must not
+        // become the name of a scene.
         if (flags.count(option) > 0)
           *flags.at(option) = true;
         else if (numbers.count(option) > 0)
@@ -174,7 +177,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
 
-  /** @p n, or the number of processors if that is 0. */
+  // What is not asked for is what the machine has.
+  // hardware_concurrency() is 0 where the system does not tell.
   unsigned int
   or_processors(const unsigned int n)
   {
@@ -191,6 +195,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
   void
   run_study(const std::vector<SceneEntry> &entries, const Arguments &arguments)
   {
+    // All variants are read before the first one runs, so that a mistake in the
+    // last of them shows at once.
     Study study(entries, arguments.scene_file);
     if (arguments.check)
       return study.check(std::cout);
@@ -210,6 +216,9 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
   void
   resume(const Arguments &arguments)
   {
+    // The directory says what was run, and how far. If a scene is given it must
+    // be the same one, but for what changes no result (the title, the console):
+    // else the rows before and after would not be of one curve.
     const auto run = find_interrupted_run(arguments.directory_to_resume,
                                           arguments.scene_file,
                                           arguments.overrides);
@@ -235,6 +244,7 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
   void
   act(const Arguments &arguments)
   {
+    // What needs no scene.
     if (arguments.help || arguments.version)
       {
         std::cout << (arguments.help ? help_text : version_text);
@@ -250,6 +260,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     const std::vector<SceneEntry> entries =
       with_overrides(read_scene_file(arguments.scene_file),
                      arguments.overrides);
+    // A study's entries hold {{a|b}}: each of its variants is a scene, they
+    // themselves are none.
     if (is_study(entries) && !arguments.print_parameters)
       return run_study(entries, arguments);
 
@@ -259,14 +271,18 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     if (arguments.print_parameters)
       return print_parameters(std::cout, &scene);
 
-    // One scene has all threads. Results do not depend on their number.
+    // One scene has all threads; how many there are changes no result.
     set_number_of_threads(or_processors(arguments.n_threads));
+    // Entries that would have no effect are refused, so that nobody takes one
+    // run for the median of several.
     if (scene.study.repetitions > 1 || scene.study.factors_at_once > 0)
       throw scene.with_place(EntryError(
         scene.study.repetitions > 1 ? "Study / Repetitions" :
                                       "Study / Factors varied at once",
         "this is for studies, and no entry of this scene holds several "
         "values, {{a|b}}"));
+    // A directory that holds results of another scene is left alone, unless the
+    // user says otherwise.
     scene.output.overwrite_other_results = arguments.force;
     // --check goes as far as building the meshes, so that it finds everything
     // that a run would refuse.
@@ -277,6 +293,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     if (scene.model == ModelKind::finite_elements ||
         scene.model == ModelKind::automatic)
       catch_interruptions();
+    // Finite elements, a closed form, or the cheapest of them that will do, as
+    // the entry `Model` says.
     run_scene(scene);
   }
 
@@ -314,6 +332,7 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 int
 main(int argc, char *argv[])
 {
+  // One thread to begin with; deal.II's errors as exceptions, not aborts.
   set_up_libraries();
   try
     {
@@ -322,6 +341,8 @@ main(int argc, char *argv[])
     }
   catch (const std::exception &error)
     {
+      // What a signal has ended is as it should be, and can go on. A run that
+      // failed leaves the rows before, and summary.json says why.
       const auto *const interrupted = dynamic_cast<const Interrupted *>(&error);
       const bool        fails_to_run =
         dynamic_cast<const RunError *>(&error) != nullptr ||

@@ -6,6 +6,7 @@
 #include <debond/campaigns/run_scene.h>
 #include <debond/models/closed_forms.h>
 #include <debond/models/foundation.h>
+#include <debond/output/result_files.h>
 #include <debond/support/input_error.h>
 
 #include <nlohmann/json.hpp>

@@ -59,25 +59,6 @@ namespace Debond
                            why);
       return simulation.rows().back();
     }
-
-
-
-    /** Traction about the axis at each point [MPa], with the sign that a
-     *  positive rotation gives the implant's. */
-    std::vector<double>
-    traction_about_axis(const ContactInterface &interface)
-    {
-      const double sign = interface.slave_side() == Side::implant ? 1. : -1.;
-      std::vector<double> tractions;
-      for (const SlavePoint &point : interface.get_points())
-        {
-          const Eigen::Vector3d &X = point.X, &t = point.accepted_traction;
-          const double           r = std::hypot(X[0], X[1]);
-          tractions.push_back(r > 0. ? sign * (X[0] * t[1] - X[1] * t[0]) / r :
-                                       0.);
-        }
-      return tractions;
-    }
   } // namespace
 
 
@@ -89,25 +70,36 @@ namespace Debond
     const double            depth = 1e-6 * R, angle = 1e-6;
     Simulation              simulation(sticking_scene(scene, depth, angle));
     const ContactInterface &interface = simulation.system().interface;
+    const auto             &points    = interface.get_points();
+    // [MPa], with the sign that a positive rotation gives the implant's
+    const double sign = interface.slave_side() == Side::implant ? 1. : -1.;
+    const auto   traction_about_axis = [sign](const SlavePoint &point) {
+      const Eigen::Vector3d &X = point.X, &t = point.accepted_traction;
+      const double           r = std::hypot(X[0], X[1]);
+      return r > 0. ? sign * (X[0] * t[1] - X[1] * t[0]) / r : 0.;
+    };
     simulation.advance(); // at rest
 
+    // pressed: what this gives in tangential direction is not the rotation's
     FoundationStiffness stiffness;
     stiffness.normal = next_row(simulation).pressure_MPa / depth;
-    for (const SlavePoint &point : interface.get_points())
+    for (const SlavePoint &point : points)
       stiffness.points.push_back(
         {std::hypot(point.X[0], point.X[1]),
          point.faces_implant ? point.JxW : 0.,
          point.phi_0,
          point.accepted_pressure / (stiffness.normal * depth),
-         0.});
-    const std::vector<double> pressed = traction_about_axis(interface);
+         traction_about_axis(point)});
 
+    // and turned
     stiffness.torsional =
       next_row(simulation).torque_Nmm / (0.5 * M_PI * std::pow(R, 4) * angle);
-    const std::vector<double> turned = traction_about_axis(interface);
-    for (std::size_t i = 0; i < turned.size(); ++i)
-      stiffness.points[i].stiffness =
-        (turned[i] - pressed[i]) / (stiffness.points[i].radius * angle);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      {
+        FoundationStiffness::Point &point = stiffness.points[i];
+        point.stiffness = (traction_about_axis(points[i]) - point.stiffness) /
+                          (point.radius * angle);
+      }
     return stiffness;
   }
 

@@ -60,6 +60,7 @@ namespace Debond
       // quadrature points are the bone's, they see it where they happen to lie.
       const auto  &report = interface.bonding().report();
       const double seen   = interface.mean_seen_bonding();
+      // What it was read from, a picture for instance, may need a remark, too.
       if (!report.remark.empty())
         warnings.push_back({"picture", report.remark});
       if (std::abs(seen - report.mean) > 0.01 * report.mean)
@@ -84,6 +85,7 @@ namespace Debond
                          std::shared_ptr<BodyPair> bodies,
                          dealii::TimerOutput      *timer)
     : scene(scene)
+    // bodies that a study has condensed already are taken over, not built again
     , coupled_system(build(this->scene, std::move(bodies), timer))
     , solver(this->scene, coupled_system)
     , steps(choose_steps(scene))
@@ -131,6 +133,7 @@ namespace Debond
   void
   Simulation::run()
   {
+    // a simulation that was loaded from a checkpoint has rows, and goes on
     while (all_rows.empty() || !is_finished())
       advance();
     judge_whole_run();
@@ -177,9 +180,12 @@ namespace Debond
   void
   Simulation::solve_first_row()
   {
+    // Bodies that only touch, under a load, have no stiffness against it yet:
+    // the solver lets points stick in its first iteration.
     const StepResult result = solver.solve_first();
     so_far.newton_iterations += result.iterations;
-    refuse_jump(result);
+    if (result.hopeless)
+      give_up({}, result);
     if (!result.is_acceptable())
       throw RunError("The state at the first time, " +
                      std::to_string(solver.time()) +
@@ -208,18 +214,19 @@ namespace Debond
     unsigned int iterations = 0;
     while (true)
       {
+        // A time to go to, or, along a path of equilibrium, a growth of the
+        // mean sliding distance, for which the solver finds the time.
         const Step       step   = step_control.next();
         const StepResult result = solver.solve(step);
         // what failed has cost iterations, too
         iterations += result.iterations;
         so_far.newton_iterations += result.iterations;
-        refuse_jump(result);
         // No state within reach, or one where the law has more than one
         // solution: the step is made smaller, down to the smallest that the
         // scene allows. The solver has taken the trial back already.
         if (!result.is_acceptable())
           {
-            if (!step_control.reject(step))
+            if (result.hopeless || !step_control.reject(step))
               give_up(step, result);
           }
         // There is a state. The control may still refuse it, because the curve
@@ -260,18 +267,8 @@ namespace Debond
   // Eqs. (29) and (30). Where |d mu/d g_s| p > eps_t its right-hand side falls
   // with g_s, and the traction has to jump: there are several solutions, and
   // which one Newton's method finds means nothing. Smaller steps do not change
-  // that, so the run ends and says what does.
-  void
-  Simulation::refuse_jump(const StepResult &result) const
-  {
-    if (!result.hopeless)
-      return;
-    throw RunError(Text() << "Step " << all_rows.size() << ", after time "
-                          << solver.time() << ": " << result.why);
-  }
-
-
-
+  // that, so it is hopeless.
+  //
   // Otherwise the smallest step has failed. The message says where, and, if a
   // load is prescribed that the interface may not be able to carry, how to
   // follow the fall beyond the largest one.
@@ -281,6 +278,10 @@ namespace Debond
     const Chuck &chuck = coupled_system.chuck;
     Text         message;
     message << "Step " << all_rows.size();
+    if (result.hopeless)
+      throw RunError(message << ", after time " << solver.time() << ": "
+                             << result.why);
+    // along a path, and with adaptive steps, the number of rows is not known
     if (scene.load_steps.rows_are_planned())
       message << " of " << LoadStepping(scene.load_steps).n_steps();
     message << " failed at time "
@@ -314,6 +315,7 @@ namespace Debond
     reaction_defect = coupled_system.reaction_defect();
     if (row > 0)
       {
+        // the first state is no step, and has no duration
         ++so_far.steps;
         so_far.shortest_step =
           std::fmin(so_far.shortest_step, std::abs(to - from));
@@ -362,6 +364,7 @@ namespace Debond
     const Chuck::Vector6   &q         = chuck.position();
     const Chuck::Vector6    reaction  = coupled_system.chuck_resultant();
 
+    // Angles are in radians inside, and in degrees in files.
     TorqueRow row;
     row.step       = all_rows.size();
     row.time       = solver.time();
@@ -370,7 +373,9 @@ namespace Debond
     row.force_N =
       0. - reaction[ChuckComponent::translation_z]; // no negative zero
     // The mean pressure refers to the area of the undeformed contact face.
-    row.pressure_MPa      = row.force_N / interface.implant_area();
+    row.pressure_MPa = row.force_N / interface.implant_area();
+    // Sums over the quadrature points, by area: the mean bonding state of Eq.
+    // (13), and how much sticks, slides and is open.
     row.phi_mean          = summary.phi_mean;
     row.share_stick       = summary.share_stick;
     row.share_slip        = summary.share_slip;
@@ -383,17 +388,20 @@ namespace Debond
     row.work_Nmm             = state_checks.energy().work();
     row.energy_bulk_Nmm      = coupled_system.bulk_energy();
     row.energy_interface_Nmm = summary.energy;
-    row.dissipation_Nmm      = interface.work().dissipation;
-    row.adhesive_work_Nmm    = interface.work().adhesive;
-    row.energy_defect_bound  = state_checks.energy().defect_bound();
-    row.reaction_defect      = reaction_defect;
-    row.viscous_work_Nmm     = interface.work().viscous;
-    row.warnings             = state_checks.take_violations();
+    // The part of D above mu_b p is what the bond has cost; the W_adh of Eq.
+    // (20) is read off the curve instead.
+    row.dissipation_Nmm     = interface.work().dissipation;
+    row.adhesive_work_Nmm   = interface.work().adhesive;
+    row.energy_defect_bound = state_checks.energy().defect_bound();
+    row.reaction_defect     = reaction_defect;
+    row.viscous_work_Nmm    = interface.work().viscous;
+    row.warnings            = state_checks.take_violations();
     // With a compliant machine the scene prescribes the angle of the machine,
     // ahead of the chuck's by T / k.
     row.machine_angle_deg =
       chuck.machine_position()[ChuckComponent::rotation_z] * 180. / M_PI;
     row.released_energy_Nmm = state_checks.released().total();
+    // Force and moment about the chuck's centre C + u, and where it is.
     for (unsigned int k = 0; k < 6; ++k)
       {
         row.chuck_reaction[k] = reaction[k];

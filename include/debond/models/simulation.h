@@ -153,8 +153,6 @@ namespace Debond
     accept(const StepResult &result);
     void
     add_row(const InterfaceSummary &summary, unsigned int iterations);
-    void
-    refuse_jump(const StepResult &result) const;
     [[noreturn]] void
     give_up(const Step &step, const StepResult &result) const;
     void

@@ -158,6 +158,21 @@ namespace Debond
 
 
 
+  namespace
+  {
+    std::string
+    outcome_of(const Variant &variant)
+    {
+      if (!variant.done)
+        return "failed: " + variant.failure;
+      return "T_max " + to_text(number_in(variant.summary, "T_max_Nmm"), 4) +
+             " N mm, " +
+             to_text(number_in(variant.summary, "wall_seconds"), 4) + " s";
+    }
+  } // namespace
+
+
+
   void
   Study::run_variants(const unsigned int n_jobs, std::ostream &out)
   {
@@ -203,14 +218,7 @@ namespace Debond
             continue;
           }
         out << ++n_ended << '/' << variants.size() << ' ' << describe(variant)
-            << ": ";
-        if (variant.done)
-          out << "T_max " << to_text(number_in(variant.summary, "T_max_Nmm"), 4)
-              << " N mm, "
-              << to_text(number_in(variant.summary, "wall_seconds"), 4) << " s"
-              << std::endl;
-        else
-          out << "failed: " << variant.failure << std::endl;
+            << ": " << outcome_of(variant) << std::endl;
 
         // The table of a large study takes a while: most of the time is not to
         // go into it.

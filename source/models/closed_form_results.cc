@@ -149,6 +149,29 @@ namespace Debond
         out << "  so Viscosity makes it unique in steps shorter than "
             << interface.viscosity / missing << " of time\n";
     }
+
+
+
+    // Of rigid bodies on an interface with the compliance of all three in
+    // series.
+    void
+    print_torque(const TorsionModel::Disk &disk,
+                 const double              last_angle,
+                 std::ostream             &out)
+    {
+      if (!RigidBodiesTorsion::has_unique_solution(disk))
+        {
+          out << "  no closed form of the torque: with the bodies in series "
+                 "the law softens too fast, and the torque may jump\n";
+          return;
+        }
+      const RigidBodiesTorsion form(disk);
+      double                   T_max = 0.;
+      for (unsigned int i = 1; i <= 1000; ++i)
+        T_max = std::max(T_max, std::abs(form.torque(last_angle * i / 1000)));
+      out << "  largest torque " << T_max << " N mm, at the end "
+          << form.torque(last_angle) << " N mm\n";
+    }
   } // namespace
 
 
@@ -207,18 +230,6 @@ namespace Debond
     disk.phi_0    = scene.interface.bonding.initial_bonding *
                  scene.interface.bonding.bonded_fraction;
     disk.friction = scene.interface.friction;
-    if (!RigidBodiesTorsion::has_unique_solution(disk))
-      {
-        out
-          << "  no closed form of the torque: with the bodies in series the law "
-             "softens too fast, and the torque may jump\n";
-        return;
-      }
-    const RigidBodiesTorsion form(disk);
-    double                   T_max = 0.;
-    for (unsigned int i = 1; i <= 1000; ++i)
-      T_max = std::max(T_max, std::abs(form.torque(last[twist] * i / 1000)));
-    out << "  largest torque " << T_max << " N mm, at the end "
-        << form.torque(last[twist]) << " N mm\n";
+    print_torque(disk, last[twist], out);
   }
 } // namespace Debond

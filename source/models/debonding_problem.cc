@@ -177,6 +177,8 @@ namespace Debond
             row.step % output.checkpoint_every == 0 &&
             !simulation.is_finished())
           save();
+        if (!simulation.is_finished())
+          stop_if_interrupted();
       }
 
       void
@@ -255,10 +257,7 @@ namespace Debond
         const CoupledSystem &system = simulation.system();
         const BodyMesh      &bone   = system.bone.mesh(),
                        &implant     = system.implant.mesh();
-        RunSummary summary;
-        summary.steps             = simulation.effort().steps;
-        summary.smallest_step     = simulation.effort().shortest_step;
-        summary.newton_iterations = simulation.effort().newton_iterations;
+        RunSummary summary          = simulation.effort();
         summary.dofs =
           bone.n_dofs_as_published() + implant.n_dofs_as_published();
         summary.unknowns           = bone.n_unknowns() + implant.n_unknowns();
@@ -359,15 +358,15 @@ namespace Debond
     catch (const std::exception &error)
       {
         const auto *const mistake = dynamic_cast<const InputError *>(&error);
-        const InputError  why =
-          mistake ? scene.with_place(*mistake) : InputError(error.what());
+        const std::string why =
+          mistake ? scene.with_place(*mistake).what() : error.what();
         if (run)
           {
             all_rows = run->simulation.rows();
-            run->finish_after(why.what());
+            run->finish_after(why);
           }
         if (mistake)
-          throw why;
+          throw InputError(why);
         throw;
       }
     all_rows = run->simulation.rows();

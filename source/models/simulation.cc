@@ -317,8 +317,8 @@ namespace Debond
       {
         // the first state is no step, and has no duration
         ++so_far.steps;
-        so_far.shortest_step =
-          std::fmin(so_far.shortest_step, std::abs(to - from));
+        so_far.smallest_step =
+          std::fmin(so_far.smallest_step, std::abs(to - from));
         // Steps know their ends only. A chuck that turns back within a step, or
         // goes along a curve, slides less than the scene says.
         if (scene.has_friction() && scene.has_friction_after(from))

@@ -13,7 +13,6 @@
 
 #include <boost/signals2/signal.hpp>
 
-#include <limits>
 #include <memory>
 #include <variant>
 #include <vector>
@@ -109,14 +108,9 @@ namespace Debond
       return all_warnings;
     }
 
-    struct Effort
-    {
-      unsigned int steps             = 0; ///< accepted, sub-steps included
-      unsigned int newton_iterations = 0; ///< also of attempts that failed
-      /** Time of the shortest accepted step. */
-      double shortest_step = std::numeric_limits<double>::quiet_NaN();
-    };
-    const Effort &
+    /** What summary.json is to tell of the steps: `steps`, `smallest_step`,
+     *  `newton_iterations`, also of attempts that failed. */
+    const RunSummary &
     effort() const
     {
       return so_far;
@@ -129,7 +123,7 @@ namespace Debond
     serialize(Archive &archive, const unsigned int)
     {
       archive &coupled_system &solver &state_checks &all_rows &all_warnings;
-      archive &so_far.steps &so_far.newton_iterations &so_far.shortest_step;
+      archive &so_far.steps &so_far.newton_iterations &so_far.smallest_step;
       std::visit([&archive](auto &chosen) { archive &chosen; }, steps);
     }
 
@@ -168,7 +162,7 @@ namespace Debond
     StateChecks            state_checks;
     std::vector<TorqueRow> all_rows;
     std::vector<Warning>   all_warnings;
-    Effort                 so_far;
+    RunSummary             so_far;
     double                 reaction_defect = 0; ///< of the last accepted state
   };
 } // namespace Debond

@@ -22,8 +22,18 @@
 #include <utility>
 #include <vector>
 
+// The program: words of the command line become a scene, and the scene is run.
+// All that is known of implants, contact and friction is in the library; this
+// file decides which part of it is asked for, and turns what went wrong into an
+// exit code that scripts can count on.
+using namespace Debond;
+
 namespace
 {
+  // <h3>The command line</h3>
+  //
+  // What is said here is all that a user has to know to begin with; the entries
+  // of a scene explain themselves with --print-parameters.
   const char *const help_text =
     R"(usage: debond [OPTIONS] SCENE.prm
        debond --resume DIR [OPTIONS] [SCENE.prm]
@@ -61,11 +71,18 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
 
+  // Results belong to a version of this program and of deal.II: both are said.
+  const char *const version_text =
+    "debond " DEBOND_VERSION " (deal.II " DEAL_II_PACKAGE_VERSION ")\n";
+
+
+
+  // What the words amount to. Nothing is decided yet.
   struct Arguments
   {
     std::string              scene_file;
-    std::string              directory_to_resume;
-    std::vector<std::string> overrides;
+    std::string              directory_to_resume; ///< empty: a run begins anew
+    std::vector<std::string> overrides; ///< "Subsection/Entry=value", in order
     bool force = false, check = false, print_parameters = false, help = false,
          version           = false;
     unsigned int n_jobs    = 0; ///< 0: as many as processors
@@ -74,14 +91,17 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
 
+  // A mistake on the command line is an InputError as one in a scene is: exit
+  // code 1, and nothing has been run or written.
   [[noreturn]] void
   refuse_usage(const std::string &message)
   {
-    throw Debond::InputError("debond: " + message + " (see debond --help)");
+    throw InputError("debond: " + message + " (see debond --help)");
   }
 
 
 
+  // Strictly: std::stoi alone would take "4x" for a number.
   unsigned int
   read_number(const std::string &option, const std::string &word)
   {
@@ -95,8 +115,10 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
 
+  // Options are few, so that tables of their names and a loop over the words
+  // read them. What has no dash in front is the scene file.
   Arguments
-  read_words(const std::vector<std::string> &words)
+  read_arguments(const std::vector<std::string> &words)
   {
     Arguments                           arguments;
     const std::map<std::string, bool *> flags{{"--help", &arguments.help},
@@ -106,8 +128,11 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
                                               {"--print-parameters",
                                                &arguments.print_parameters},
                                               {"--force", &arguments.force}};
+    const std::map<std::string, unsigned int *> numbers{
+      {"--jobs", &arguments.n_jobs}, {"--threads", &arguments.n_threads}};
     for (auto word = words.begin(); word != words.end(); ++word)
       {
+        // Some options take the next word as their value.
         const std::string option = *word;
         const auto        value  = [&](const std::string &what) {
           const std::string text = word + 1 == words.end() ? "" : *++word;
@@ -115,16 +140,16 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
             refuse_usage(option + " needs " + what);
           return text;
         };
+        // An option that is not known is refused: a mistyped --force must not
+        // become the name of a scene.
         if (flags.count(option) > 0)
           *flags.at(option) = true;
+        else if (numbers.count(option) > 0)
+          *numbers.at(option) = read_number(option, value(""));
         else if (option == "--set")
           arguments.overrides.push_back(value("ENTRY=VALUE"));
         else if (option == "--resume")
           arguments.directory_to_resume = value("the directory of a run");
-        else if (option == "--jobs")
-          arguments.n_jobs = read_number(option, value(""));
-        else if (option == "--threads")
-          arguments.n_threads = read_number(option, value(""));
         else if (option.size() > 1 && option[0] == '-')
           refuse_usage("unknown option '" + option + "'");
         else if (!arguments.scene_file.empty())
@@ -133,19 +158,14 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
         else
           arguments.scene_file = option;
       }
-    return arguments;
-  }
 
-
-
-  Arguments
-  read_arguments(const std::vector<std::string> &words)
-  {
-    const Arguments arguments = read_words(words);
-    const bool      resumes   = !arguments.directory_to_resume.empty();
+    // What makes no sense together is refused, not ignored. A run that goes on
+    // is what it was: its scene may not change, and so its checks are done.
+    const bool resumes = !arguments.directory_to_resume.empty();
     if (resumes && (arguments.check || arguments.print_parameters ||
                     arguments.force || arguments.n_jobs > 0))
       refuse_usage("--resume goes with SCENE.prm, --set and --threads only");
+    // With --print-parameters alone the defaults are printed.
     const bool needs_no_scene =
       resumes || arguments.help || arguments.version ||
       (arguments.print_parameters && arguments.overrides.empty());
@@ -156,7 +176,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
 
-  /** @p n, or the number of processors if that is 0. */
+  // What is not asked for is what the machine has.
+  // hardware_concurrency() is 0 where the system does not tell.
   unsigned int
   or_processors(const unsigned int n)
   {
@@ -165,147 +186,171 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
 
+  // <h3>What can be run</h3>
+  //
+  // A study is a scene whose entries hold several values. Its variants run as
+  // processes of their own, several at a time. They share the processors: if
+  // nothing else is asked for each gets its part of the threads.
   void
-  run_study(const std::vector<Debond::SceneEntry> &entries,
-            const Arguments                       &arguments)
+  run_study(const std::vector<SceneEntry> &entries, const Arguments &arguments)
   {
-    Debond::Study study(entries, arguments.scene_file);
+    // All variants are read before the first one runs, so that a mistake in the
+    // last of them shows at once.
+    Study study(entries, arguments.scene_file);
     if (arguments.check)
       return study.check(std::cout);
     const unsigned int n_jobs = or_processors(arguments.n_jobs);
-    Debond::set_number_of_threads(arguments.n_threads > 0 ?
-                                    arguments.n_threads :
-                                    std::max(1U, or_processors(0) / n_jobs));
-    Debond::catch_interruptions();
+    set_number_of_threads(arguments.n_threads > 0 ?
+                            arguments.n_threads :
+                            std::max(1U, or_processors(0) / n_jobs));
+    // From here on a signal only asks to stop. Variants that are done are kept.
+    catch_interruptions();
     study.run(n_jobs, arguments.force, std::cout);
   }
 
 
 
+  // A run that was interrupted goes on from its last checkpoint, to the same
+  // files, to the last bit, as if it never had been.
   void
   resume(const Arguments &arguments)
   {
-    const auto run = Debond::find_interrupted_run(arguments.directory_to_resume,
-                                                  arguments.scene_file,
-                                                  arguments.overrides);
+    // The directory says what was run, and how far. If a scene is given it must
+    // be the same one, but for what changes no result (the title, the console):
+    // else the rows before and after would not be of one curve.
+    const auto run = find_interrupted_run(arguments.directory_to_resume,
+                                          arguments.scene_file,
+                                          arguments.overrides);
     if (!run)
       {
         std::cout << "The run in " << arguments.directory_to_resume
                   << " is finished: there is nothing to go on with\n";
         return;
       }
+    // There are two checkpoints, written in turn. One may be damaged, if the
+    // power failed while it was written.
     for (const std::string &remark : run->remarks)
       std::cout << "warning: " << remark << ", the other checkpoint is used\n";
-    Debond::set_number_of_threads(or_processors(arguments.n_threads));
-    Debond::catch_interruptions();
-    Debond::DebondingProblem(run->scene).resume(run->checkpoint);
+    set_number_of_threads(or_processors(arguments.n_threads));
+    catch_interruptions();
+    DebondingProblem(run->scene).run(&run->checkpoint);
   }
 
 
 
+  // From what needs least to what needs most: texts, a run that goes on, the
+  // scene's entries, a study, one scene.
   void
   act(const Arguments &arguments)
   {
-    if (arguments.help)
+    // What needs no scene.
+    if (arguments.help || arguments.version)
       {
-        std::cout << help_text;
-        return;
-      }
-    if (arguments.version)
-      {
-        std::cout << "debond " << DEBOND_VERSION << " (deal.II "
-                  << DEAL_II_PACKAGE_VERSION << ")\n";
+        std::cout << (arguments.help ? help_text : version_text);
         return;
       }
     if (!arguments.directory_to_resume.empty())
       return resume(arguments);
     if (arguments.scene_file.empty())
-      return Debond::print_parameters(std::cout);
+      return print_parameters(std::cout);
 
-    const std::vector<Debond::SceneEntry> entries =
-      Debond::with_overrides(Debond::read_scene_file(arguments.scene_file),
-                             arguments.overrides);
-    if (Debond::is_study(entries) && !arguments.print_parameters)
+    // The file is read as a list of entries with their places, which --set may
+    // replace. Whether it is a study shows before any value is understood.
+    const std::vector<SceneEntry> entries =
+      with_overrides(read_scene_file(arguments.scene_file),
+                     arguments.overrides);
+    // A study's entries hold {{a|b}}: each of its variants is a scene, they
+    // themselves are none.
+    if (is_study(entries) && !arguments.print_parameters)
       return run_study(entries, arguments);
 
-    Debond::Scene scene =
-      Debond::Scene::from_entries(entries, arguments.scene_file);
+    // Here text becomes a plain value, with all numbers in mm, N and MPa. What
+    // is not allowed, or makes no sense together, is refused with its place.
+    Scene scene = Scene::from_entries(entries, arguments.scene_file);
     if (arguments.print_parameters)
-      return Debond::print_parameters(std::cout, &scene);
+      return print_parameters(std::cout, &scene);
 
-    Debond::set_number_of_threads(or_processors(arguments.n_threads));
-    for (const auto &[is_set, name] :
-         {std::make_pair(scene.study.repetitions > 1, "Repetitions"),
-          std::make_pair(scene.study.factors_at_once > 0,
-                         "Factors varied at once")})
-      if (is_set)
-        throw scene.with_place(Debond::EntryError(
-          std::string("Study / ") + name,
-          "this is for studies, and no entry of this scene holds several "
-          "values, {{a|b}}"));
+    // One scene has all threads; how many there are changes no result.
+    set_number_of_threads(or_processors(arguments.n_threads));
+    // Entries that would have no effect are refused, so that nobody takes one
+    // run for the median of several.
+    if (scene.study.repetitions > 1 || scene.study.factors_at_once > 0)
+      throw scene.with_place(EntryError(
+        scene.study.repetitions > 1 ? "Study / Repetitions" :
+                                      "Study / Factors varied at once",
+        "this is for studies, and no entry of this scene holds several "
+        "values, {{a|b}}"));
+    // A directory that holds results of another scene is left alone, unless the
+    // user says otherwise.
     scene.output.overwrite_other_results = arguments.force;
+    // --check goes as far as building the meshes, so that it finds everything
+    // that a run would refuse.
     if (arguments.check)
-      return Debond::check_scene(scene, std::cout);
-    // the closed forms are done before they could be asked to stop
-    if (scene.model == Debond::ModelKind::finite_elements ||
-        scene.model == Debond::ModelKind::automatic)
-      Debond::catch_interruptions();
-    Debond::run_scene(scene);
+      return check_scene(scene, std::cout);
+    // Closed forms are done before they could be asked to stop. Finite elements
+    // leave a checkpoint after the step at work.
+    if (scene.model == ModelKind::finite_elements ||
+        scene.model == ModelKind::automatic)
+      catch_interruptions();
+    // Finite elements, a closed form, or the cheapest of them that will do, as
+    // the entry `Model` says.
+    run_scene(scene);
   }
 
 
 
-  /** deal.II's account of an error in one line. */
+  // <h3>What went wrong</h3>
+  //
+  // The library's own errors are worded where they are found and printed as
+  // they are. deal.II's go over several lines, of which programs that gather
+  // messages would only keep the first: they are joined.
   std::string
-  one_line(const dealii::ExceptionBase &error)
+  message_of(const std::exception &error, const bool is_internal)
   {
-    std::stringstream text;
-    error.print_info(text);
-    std::string line = error.get_exc_name(), word;
-    while (text >> word)
-      line += " " + word;
-    return line;
+    if (dynamic_cast<const std::bad_alloc *>(&error) != nullptr)
+      return std::string("debond: ") + out_of_memory;
+    std::string line = error.what(), word;
+    if (const auto *const of_library =
+          dynamic_cast<const dealii::ExceptionBase *>(&error))
+      {
+        std::stringstream text;
+        of_library->print_info(text);
+        line = of_library->get_exc_name();
+        while (text >> word)
+          line += " " + word;
+      }
+    return (is_internal ? "debond: internal error: " : "") + line;
   }
 } // namespace
 
 
 
+// Four kinds of ends can be told apart by scripts: what the user can mend (1),
+// what the load or the machine did not allow (2), what is a mistake of this
+// program (3), and a signal (128 and its number, as shells count).
 int
 main(int argc, char *argv[])
 {
-  const auto end_with = [](const int code, const std::string &message) {
-    std::cerr << message << std::endl;
-    return code;
-  };
-  Debond::set_up_libraries();
+  // One thread to begin with; deal.II's errors as exceptions, not aborts.
+  set_up_libraries();
   try
     {
       act(read_arguments({argv + 1, argv + argc}));
       return 0;
     }
-  catch (const Debond::InputError &error)
-    {
-      return end_with(1, error.what());
-    }
-  catch (const Debond::Interrupted &error)
-    {
-      return end_with(128 + error.signal, error.what());
-    }
-  catch (const Debond::RunError &error)
-    {
-      return end_with(2, error.what());
-    }
-  catch (const dealii::ExceptionBase &error)
-    {
-      return end_with(3, "debond: internal error: " + one_line(error));
-    }
-  catch (const std::bad_alloc &)
-    {
-      return end_with(2, std::string("debond: ") + Debond::out_of_memory);
-    }
   catch (const std::exception &error)
     {
-      return end_with(3,
-                      std::string("debond: internal error: ") + error.what());
+      // What a signal has ended is as it should be, and can go on. A run that
+      // failed leaves the rows before, and summary.json says why.
+      const auto *const interrupted = dynamic_cast<const Interrupted *>(&error);
+      const bool        fails_to_run =
+        dynamic_cast<const RunError *>(&error) != nullptr ||
+        dynamic_cast<const std::bad_alloc *>(&error) != nullptr;
+      const int code = dynamic_cast<const InputError *>(&error) != nullptr ? 1 :
+                       interrupted != nullptr ? 128 + interrupted->signal :
+                       fails_to_run           ? 2 :
+                                                3;
+      std::cerr << message_of(error, code == 3) << std::endl;
+      return code;
     }
 }

@@ -5,8 +5,8 @@
 #include <debond/campaigns/model_choice.h>
 #include <debond/campaigns/run_scene.h>
 #include <debond/models/closed_forms.h>
-#include <debond/models/curve_error.h>
-#include <debond/models/foundation_error.h>
+#include <debond/models/foundation.h>
+#include <debond/output/result_files.h>
 #include <debond/support/input_error.h>
 
 #include <nlohmann/json.hpp>
@@ -160,7 +160,7 @@ summary(const std::string &name)
 RigidBodiesTorsion
 rigid_bodies(const double pressure)
 {
-  RigidBodiesTorsion::Parameters parameters;
+  TorsionModel::Disk parameters;
   parameters.radius    = 2.5;
   parameters.pressure  = pressure;
   parameters.stiffness = 585.;
@@ -169,7 +169,7 @@ rigid_bodies(const double pressure)
 
 
 
-// A run begins anew without the rungs of the one before and leaves the rest.
+// A run begins anew without the levels of the one before and leaves the rest.
 void
 test_other_results_stay()
 {
@@ -184,9 +184,9 @@ test_other_results_stay()
   Scene scene                          = Scene::from_text(scene_text, rigid);
   scene.output.overwrite_other_results = true;
   run_scene(scene);
-  report("a rung of an earlier run is gone",
+  report("a level of an earlier run is gone",
          !std::filesystem::exists("results/auto/rung-7"));
-  report("what only has the name of a rung stays",
+  report("what only has the name of a level stays",
          std::filesystem::exists("results/auto/rung-8") &&
            std::filesystem::exists("results/auto/rung-notes"));
 }
@@ -236,7 +236,7 @@ test_tolerance_not_reached()
            contents_of("results/auto/rung-5/torque.csv"));
   report("its fields are there",
          std::filesystem::exists("results/auto/interface.pvd"));
-  report("and those of no other rung",
+  report("and those of no other level",
          !std::filesystem::exists("results/auto/rung-3/interface.pvd"));
 
   std::istringstream table(contents_of("results/auto/auto.csv"));

@@ -252,7 +252,7 @@ test_scenes()
     files.write(checkpoint);
     print_error<InputError>("The state of another build", [&] {
       const auto run = find_interrupted_run(directory, "", {});
-      DebondingProblem(run->scene).resume(run->checkpoint);
+      DebondingProblem(run->scene).run(&run->checkpoint);
     });
   }
   for (const std::string &slot : slots)

@@ -289,7 +289,7 @@ check_interface(const std::string &vtu)
                  }),
          1e-6);
 
-  RigidBodiesTorsion::Parameters parameters;
+  TorsionModel::Disk parameters;
   parameters.radius    = 2.5;
   parameters.pressure  = 585 * depth;
   parameters.stiffness = 585;
@@ -315,7 +315,7 @@ check_interface(const std::string &vtu)
                                                    s * x[1] - c * x[0],
                                                    0);
                    return (vector_at(traction, i) -
-                           exact.traction(r, angle) * direction / r)
+                           exact.point(r, angle).traction * direction / r)
                      .norm();
                  }),
          0.1);

@@ -79,7 +79,7 @@ run_in_process(const Scene       &scene,
             DebondingProblem(scene).run();
           else if (const auto run =
                      find_interrupted_run(scene.output.directory, "", {}))
-            DebondingProblem(run->scene).resume(run->checkpoint);
+            DebondingProblem(run->scene).run(&run->checkpoint);
           else
             code = 2;
         }

@@ -76,7 +76,7 @@ start(const std::string &place)
     {
       const Scene scene = scene_in(place);
       if (const auto checkpoint = find_checkpoint(scene))
-        DebondingProblem(scene).resume(*checkpoint);
+        DebondingProblem(scene).run(&*checkpoint);
       else
         DebondingProblem(scene).run();
     }

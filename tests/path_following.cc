@@ -54,7 +54,7 @@ check_rigid_bodies()
       set Path following = slip
     end)");
 
-  Debond::RigidBodiesTorsion::Parameters parameters;
+  Debond::TorsionModel::Disk parameters;
   parameters.radius    = 2.5;
   parameters.pressure  = 2.6;
   parameters.stiffness = 585;
@@ -83,10 +83,10 @@ check_rigid_bodies()
   report("  machine's angle at the chuck's angle [deg]", angle, 5e-3);
   report("  largest machine angle before it snaps back, relative",
          std::abs(
-           highest * degree / machine.limit_points().at(0).machine_angle - 1.),
+           highest * degree / machine.limit_points.at(0).machine_angle - 1.),
          2e-3);
   report("  smallest machine angle after that, relative",
-         std::abs(lowest * degree / machine.limit_points().at(1).machine_angle -
+         std::abs(lowest * degree / machine.limit_points.at(1).machine_angle -
                   1.),
          2e-3);
   report("  the last time is met", rows.back().time == 2.);

@@ -146,7 +146,7 @@ void
 test()
 {
   run_scene("profiles", scene_text);
-  RigidBodiesTorsion::Parameters parameters;
+  TorsionModel::Disk parameters;
   parameters.radius    = 2.5;
   parameters.pressure  = 2.6;
   parameters.stiffness = 585;

@@ -69,7 +69,7 @@ run(const std::string &material, const std::vector<std::string> &bonding)
 Curve
 closed_form(const double phi_0)
 {
-  Debond::RigidBodiesTorsion::Parameters parameters;
+  Debond::TorsionModel::Disk parameters;
   parameters.radius    = 2.5;
   parameters.pressure  = 585 * 0.0049;
   parameters.stiffness = 585;

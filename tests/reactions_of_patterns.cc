@@ -46,7 +46,7 @@ end
 Eigen::Vector2d
 lateral_force(const double theta)
 {
-  Debond::RigidBodiesTorsion::Parameters parameters;
+  Debond::TorsionModel::Disk parameters;
   parameters.radius    = 2.5;
   parameters.pressure  = 585 * 0.0049;
   parameters.stiffness = 585;
@@ -60,7 +60,7 @@ lateral_force(const double theta)
     {
       const double r        = 2.5 * quadrature.point(q)[0];
       const auto   traction = [&](const Debond::RigidBodiesTorsion &half) {
-        const double t = half.traction(r, theta);
+        const double t = half.point(r, theta).traction;
         // of points that stick the gap is a chord
         const double inwards =
           half.slip(r, theta) > 0. ? std::min(1., t / (585 * r)) : theta / 2;

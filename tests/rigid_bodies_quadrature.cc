@@ -31,10 +31,10 @@ end
 
 const std::vector<double> angles_deg{0.05, 0.1, 0.2, 0.6, 1, 1.5, 2, 10};
 
-Debond::RigidBodiesTorsion::Parameters
+Debond::TorsionModel::Disk
 paper()
 {
-  Debond::RigidBodiesTorsion::Parameters parameters;
+  Debond::TorsionModel::Disk parameters;
   parameters.radius    = 2.5;
   parameters.pressure  = 2.6;
   parameters.stiffness = 585;
@@ -168,8 +168,8 @@ check_traction()
   double by_closed_form = 0, by_towed = 0;
   look_at_points(5, [&](const double r, const double theta, const double t) {
     grow(by_closed_form,
-         std::abs(t -
-                  closed_form.traction(r, theta) / closed_form.disk.pressure));
+         std::abs(t - closed_form.point(r, theta).traction /
+                        closed_form.disk.pressure));
   });
   report("traction over pressure differs from the closed form",
          by_closed_form,

@@ -20,7 +20,7 @@ constexpr double degree = M_PI / 180.;
 RigidBodiesTorsion
 brittle_bond()
 {
-  RigidBodiesTorsion::Parameters parameters;
+  TorsionModel::Disk parameters;
   parameters.radius    = 2.5;
   parameters.pressure  = 2.6;
   parameters.stiffness = 585;
@@ -39,7 +39,7 @@ main()
 
   // an independent computation: a table of int d^2 t(d) dd with 400 000
   // intervals, theta in steps of 1e-4 degrees
-  const auto &limits = machine.limit_points();
+  const auto &limits = machine.limit_points;
   report("a maximum and a minimum",
          limits.size() == 2 && limits[0].is_maximum && !limits[1].is_maximum);
   report("their machine angles [deg]",
@@ -54,8 +54,8 @@ main()
          std::max(std::abs(limits[0].torque / 48.6423 - 1.),
                   std::abs(limits[1].torque / 39.0485 - 1.)),
          1e-3);
-  const auto &jump = machine.jumps().at(0);
-  report("one jump", machine.jumps().size() == 1);
+  const auto &jump = machine.jumps.at(0);
+  report("one jump", machine.jumps.size() == 1);
   report("where it ends [deg]",
          std::abs(jump.angle_after / degree - 0.4459),
          2e-4);
@@ -98,6 +98,6 @@ main()
   for (const double stiffness : {8700., 9100.})
     report(
       "snaps back at " + std::to_string(int(stiffness)) + " N mm/rad",
-      CompliantMachineTorsion(bodies, stiffness, 2. * degree).jumps().empty() ==
+      CompliantMachineTorsion(bodies, stiffness, 2. * degree).jumps.empty() ==
         (stiffness > 8901.6));
 }

@@ -68,7 +68,7 @@ check_convergence()
                std::abs(table->friction_strength({0.8}, g_s) -
                         exact->friction_strength({0.8}, g_s)));
         }
-      RigidBodiesTorsion::Parameters parameters;
+      TorsionModel::Disk parameters;
       parameters.radius    = 2.5;
       parameters.pressure  = 2.6;
       parameters.stiffness = 585;

@@ -204,14 +204,14 @@ check_order(const double viscosity)
 void
 check_limit()
 {
-  RigidBodiesTorsion::Parameters parameters;
+  TorsionModel::Disk parameters;
   parameters.radius    = R;
   parameters.pressure  = p;
   parameters.stiffness = eps;
   parameters.friction  = brittle();
   const RigidBodiesTorsion      bodies(parameters);
   const CompliantMachineTorsion machine(bodies, k, turning);
-  const double released = machine.jumps().at(0).released_energy;
+  const double released = machine.jumps.at(0).released_energy;
   const auto   over     = [&](const double viscosity) {
     return Rings(viscosity).integrate({0., 1.}).second / released;
   };

@@ -211,7 +211,7 @@ namespace Debond
                          "disk and along the axis");
       // nine control points over one face: 2 x 2 Gauss points do not see all
       // their motions, and the stiffness is singular
-      if (body.material != Material::rigid &&
+      if (!body.is_rigid() &&
           body.contact_surface == SurfaceKind::nurbs &&
           std::min(body.cells[0], body.cells[1]) < 2)
         throw EntryError(section + " / Cells",

@@ -43,31 +43,48 @@ namespace Debond
 
   TorqueBand::TorqueBand(const std::vector<ReferenceCurve> &curves)
   {
+    // differences of angles below this are rounding errors [deg]
+    const auto tolerance_of = [](const ReferenceCurve &curve) {
+      const auto [lowest, highest] =
+        std::minmax_element(curve.begin(), curve.end());
+      return curve.empty() ?
+               0. :
+               1e-9 * std::max(1., highest->first - lowest->first);
+    };
     std::vector<ReferenceCurve> ascending;
     ReferenceCurve              longest;
     for (const ReferenceCurve &curve : curves)
       {
-        ReferenceCurve one_way = without_repeated_angles(curve);
-        if (one_way.size() < 2)
+        // of rows that share an angle the last one
+        ReferenceCurve turning;
+        const double   tolerance = tolerance_of(curve);
+        for (const auto &row : curve)
+          if (!turning.empty() &&
+              std::abs(row.first - turning.back().first) <= tolerance)
+            turning.back().second = row.second;
+          else
+            turning.push_back(row);
+        if (turning.size() < 2)
           continue; // nothing turns
-        const bool rises = std::is_sorted(one_way.begin(), one_way.end());
-        if (!rises && !std::is_sorted(one_way.rbegin(), one_way.rend()))
+        const bool rises = std::is_sorted(turning.begin(), turning.end());
+        if (!rises && !std::is_sorted(turning.rbegin(), turning.rend()))
           {
             ++left_out;
             continue;
           }
-        if (one_way.size() > longest.size())
-          longest = one_way;
+        if (turning.size() > longest.size())
+          longest = turning;
         if (!rises)
-          std::reverse(one_way.begin(), one_way.end());
-        ascending.push_back(std::move(one_way));
+          std::reverse(turning.begin(), turning.end());
+        ascending.push_back(std::move(turning));
       }
-    for (const auto &row : longest)
+    const double tolerance = tolerance_of(longest);
+    for (const auto &[angle, torque] : longest)
       {
         std::vector<double> torques;
         for (const ReferenceCurve &curve : ascending)
-          torques.push_back(torque_at(curve, row.first, tolerance_of(longest)));
-        rows.push_back({row.first, sample_statistics(std::move(torques))});
+          torques.push_back(torque_at(curve, angle, tolerance));
+        rows.push_back({angle, sample_statistics(std::move(torques))});
       }
   }
 
@@ -118,9 +135,10 @@ namespace Debond
     /** Members that agree in their values. */
     struct Group
     {
-      Fields                              values;
-      std::vector<const EnsembleMember *> converged;
-      unsigned int                        n_failed = 0;
+      Fields                                      values;
+      std::vector<ReferenceCurve>                 curves;
+      std::vector<const nlohmann::ordered_json *> summaries;
+      unsigned int                                n_failed = 0;
     };
 
 
@@ -136,43 +154,17 @@ namespace Debond
           const auto [known, is_new] =
             number_of.emplace(member.values, groups.size());
           if (is_new)
-            groups.push_back({member.values, {}, 0});
-          if (member.converged)
-            groups[known->second].converged.push_back(&member);
-          else
-            ++groups[known->second].n_failed;
+            groups.push_back({member.values, {}, {}, 0});
+          Group &group = groups[known->second];
+          if (!member.converged)
+            {
+              ++group.n_failed;
+              continue;
+            }
+          group.curves.push_back(member.curve);
+          group.summaries.push_back(&member.summary);
         }
       return groups;
-    }
-
-
-
-    TorqueBand
-    band_of(const Group &group)
-    {
-      std::vector<ReferenceCurve> curves;
-      for (const EnsembleMember *const member : group.converged)
-        curves.push_back(member->curve);
-      return TorqueBand(curves);
-    }
-
-
-
-    std::string
-    summary_of(const Group &group)
-    {
-      Fields fields = group.values;
-      fields.push_back(std::to_string(group.converged.size()));
-      fields.push_back(std::to_string(group.n_failed));
-      for (const Quantity &quantity : quantities)
-        {
-          std::vector<double> numbers;
-          for (const EnsembleMember *const member : group.converged)
-            numbers.push_back(
-              number(member->summary, quantity.name + quantity.unit));
-          add_statistics(sample_statistics(std::move(numbers)), fields);
-        }
-      return csv_line(fields);
     }
   } // namespace
 
@@ -192,20 +184,32 @@ namespace Debond
 
     for (const Group &group : groups_of(members))
       {
-        summary += summary_of(group);
-        const TorqueBand band = band_of(group);
+        const std::size_t n = group.curves.size();
+        of_summary          = group.values;
+        of_summary.push_back(std::to_string(n));
+        of_summary.push_back(std::to_string(group.n_failed));
+        for (const Quantity &quantity : quantities)
+          {
+            std::vector<double> numbers;
+            for (const auto *const one : group.summaries)
+              numbers.push_back(number_in(*one, quantity.name + quantity.unit));
+            add_statistics(sample_statistics(std::move(numbers)), of_summary);
+          }
+        summary += csv_line(of_summary);
+
+        const TorqueBand band(group.curves);
         for (const TorqueBand::Row &row : band.rows)
           {
-            Fields fields = group.values;
-            fields.push_back(to_text(row.angle_deg));
-            fields.push_back(std::to_string(row.torque.n));
-            add_statistics(row.torque, fields);
-            curves += csv_line(fields);
+            of_curves = group.values;
+            of_curves.push_back(to_text(row.angle_deg));
+            of_curves.push_back(std::to_string(row.torque.n));
+            add_statistics(row.torque, of_curves);
+            curves += csv_line(of_curves);
           }
         if (band.left_out == 0)
           continue;
-        notes += "ensemble.csv leaves out " + std::to_string(band.left_out) +
-                 " of " + std::to_string(group.converged.size()) + " members";
+        notes += Text() << "ensemble.csv leaves out " << band.left_out << " of "
+                        << n << " members";
         for (std::size_t i = 0; i < entries.size(); ++i)
           notes +=
             (i == 0 ? " of " : "; ") + entries[i] + " = " + group.values[i];

@@ -1,6 +1,6 @@
 #include <debond/campaigns/model_choice.h>
-#include <debond/models/curve_error.h>
-#include <debond/models/foundation_error.h>
+#include <debond/models/closed_form_solution.h>
+#include <debond/models/debonding_problem.h>
 #include <debond/models/memory_estimate.h>
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
@@ -14,6 +14,47 @@
 
 namespace Debond
 {
+  double
+  largest_difference(const std::vector<TorqueRow> &rows,
+                     const std::vector<TorqueRow> &reference)
+  {
+    // two polygons differ most at a corner of one of them
+    const auto measures = [](const std::vector<TorqueRow> &rows,
+                             const std::vector<TorqueRow> &others) {
+      CurveSettings settings;
+      for (const TorqueRow &row : others)
+        settings.reference.emplace_back(row.angle_deg, row.torque_Nmm);
+      return measure_torque_curve(rows, settings);
+    };
+    const CurveMeasures there = measures(rows, reference);
+    const CurveMeasures back  = measures(reference, rows);
+    const double        difference_back =
+      back.difference_max * there.T_max_Nmm / back.T_max_Nmm;
+    return std::isnan(difference_back) ?
+             difference_back :
+             std::max(difference_back, there.difference_max);
+  }
+
+
+
+  double
+  discretisation_error(const std::vector<double> &differences)
+  {
+    constexpr double reserve = 1.25, lowest_order = 0.5, highest_order = 2.;
+    const double     last = differences.back();
+    if (last == 0.)
+      return 0.;
+    double order = 1.;
+    if (differences.size() > 1)
+      order = std::min(std::log2(differences[differences.size() - 2] / last),
+                       highest_order);
+    if (!(order >= lowest_order))
+      return ModelLevel::undefined;
+    return reserve * last / (std::exp2(order) - 1.);
+  }
+
+
+
   std::string
   percent(const double ratio)
   {
@@ -116,9 +157,9 @@ namespace Debond
 
   ModelChoice::ModelChoice(const Scene &scene)
     : tolerance(scene.load_steps.tolerance)
-    , ladder(scene, share_of_steps * tolerance)
+    , hierarchy(scene, share_of_steps * tolerance)
     , step_error(reserve_of_steps * share_of_steps * tolerance)
-    , refined(ladder.materials().back())
+    , refined(hierarchy.materials.back())
   {
     refuse_what_has_no_curve(scene);
   }
@@ -126,19 +167,18 @@ namespace Debond
 
 
   void
-  ModelChoice::climb(const std::function<void(Rung &)>       &run,
-                     const std::function<void(const Rung &)> &report)
+  ModelChoice::climb(const std::function<void(const ModelLevel &)> &report)
   {
-    const auto run_and_report = [&](Rung rung) {
-      try_rung(std::move(rung), run);
+    const auto run_and_report = [&](ModelLevel level) {
+      try_level(std::move(level));
       report(tried.back());
     };
-    run_and_report(ladder.foundation(1));
-    for (const Materials &materials : ladder.materials())
+    run_and_report(hierarchy.foundation());
+    for (const Materials &materials : hierarchy.materials)
       if (sufficient() == nullptr)
-        run_and_report(ladder.finite_elements(tried.size() + 1, materials, 0));
+        run_and_report(hierarchy.finite_elements(materials, 0));
     if (linearisation_error() <= share_of_linearisation * tolerance)
-      refined = ladder.linear_materials();
+      refined = hierarchy.linear_materials;
     unsigned int mesh = 0;
     while (sufficient() == nullptr && why_no_further.empty())
       {
@@ -146,10 +186,10 @@ namespace Debond
           ++mesh;
         why_no_further = mesh == 0 ?
                            "the scene's own bodies could not be solved for" :
-                           ladder.limit(refined, mesh);
+                           hierarchy.limit(refined, mesh);
         if (!why_no_further.empty())
           return;
-        run_and_report(ladder.finite_elements(tried.size() + 1, refined, mesh));
+        run_and_report(hierarchy.finite_elements(refined, mesh));
         if (!tried.back().done)
           why_no_further = "the next mesh " + tried.back().why_not;
       }
@@ -157,20 +197,50 @@ namespace Debond
 
 
 
+  // The foundation has an estimate of its own; the others are compared.
   void
-  ModelChoice::try_rung(Rung rung, const std::function<void(Rung &)> &run)
+  ModelChoice::run(ModelLevel &level) const
+  {
+    level.scene.complete();
+    if (!level.is_foundation())
+      {
+        DebondingProblem problem(level.scene);
+        problem.run();
+        level.rows = problem.rows();
+        return;
+      }
+    const dealii::Timer      clock;
+    const ClosedFormSolution solution(level.scene);
+    write_results(solution, clock);
+    level.rows                  = solution.rows;
+    const auto [coarser, ratio] = hierarchy.below_coarsest();
+    if (ratio >= smallest_cell_ratio) // else it is nothing to compare with
+      level.estimate =
+        step_error + foundation_error(level.scene,
+                                      level.rows,
+                                      solution.linear_solution,
+                                      foundation_stiffness(coarser),
+                                      ratio);
+  }
+
+
+
+  void
+  ModelChoice::try_level(ModelLevel level)
   {
     const dealii::Timer timer;
+    const std::string   number = std::to_string(tried.size() + 1);
+    level.scene.output.directory += "/rung-" + number;
     try
       {
-        run(rung);
-        rung.done = true;
+        run(level);
+        level.done = true;
       }
     catch (const Interrupted &interruption)
       {
         throw Interrupted(interruption.signal,
                           "interrupted by " + signal_name(interruption.signal) +
-                            " in rung " + std::to_string(tried.size() + 1) +
+                            " in level " + number +
                             ": Model = auto keeps no checkpoints");
       }
     catch (const WriteError &)
@@ -179,47 +249,30 @@ namespace Debond
       }
     catch (const InputError &error)
       {
-        // of other mistakes of the scene every rung would complain
-        if (!rung.is_foundation() &&
+        // of other mistakes of the scene every level would complain
+        if (!level.is_foundation() &&
             dynamic_cast<const NotEnoughMemory *>(&error) == nullptr)
           throw;
-        rung.why_not = std::string("refused: ") + error.what();
+        level.why_not = std::string("refused: ") + error.what();
       }
     catch (const std::exception &error)
       {
-        rung.why_not = std::string("failed: ") + error.what();
+        level.why_not = std::string("failed: ") + error.what();
       }
-    rung.seconds = timer.wall_time();
-    tried.push_back(std::move(rung));
+    level.seconds = timer.wall_time();
+    tried.push_back(std::move(level));
     estimate_errors();
   }
 
 
 
-  double
-  ModelChoice::foundation_estimate(const Rung                &foundation,
-                                   const FoundationStiffness &stiffness) const
-  {
-    double      ratio   = 0.; // of the sizes of cells
-    const Scene coarser = ladder.below_coarsest(ratio);
-    if (ratio < smallest_cell_ratio)
-      return Rung::undefined; // nothing to compare the mesh with
-    return step_error + foundation_error(foundation.scene,
-                                         foundation.rows,
-                                         stiffness,
-                                         foundation_stiffness(coarser),
-                                         ratio);
-  }
-
-
-
-  const Rung *
+  const ModelLevel *
   ModelChoice::find(const Materials &materials, const unsigned int mesh) const
   {
-    for (const Rung &rung : tried)
-      if (rung.done && !rung.is_foundation() && rung.materials == materials &&
-          rung.mesh == mesh)
-        return &rung;
+    for (const ModelLevel &level : tried)
+      if (level.done && !level.is_foundation() &&
+          level.materials == materials && level.mesh == mesh)
+        return &level;
     return nullptr;
   }
 
@@ -227,26 +280,26 @@ namespace Debond
 
   // The finest mesh of the materials that are refined; if these could not be
   // solved for, the richest model that could.
-  const Rung *
+  const ModelLevel *
   ModelChoice::best() const
   {
-    const bool  is_solved = find(refined, 0) != nullptr;
-    const Rung *best      = nullptr;
-    for (const Rung &rung : tried)
-      if (rung.done &&
-          (!is_solved || (rung.materials == refined && !rung.is_foundation())))
-        best = &rung;
+    const bool        is_solved = find(refined, 0) != nullptr;
+    const ModelLevel *best      = nullptr;
+    for (const ModelLevel &level : tried)
+      if (level.done && (!is_solved || (level.materials == refined &&
+                                        !level.is_foundation())))
+        best = &level;
     return best;
   }
 
 
 
-  const Rung *
+  const ModelLevel *
   ModelChoice::sufficient() const
   {
-    for (const Rung &rung : tried)
-      if (is_sufficient(rung))
-        return &rung;
+    for (const ModelLevel &level : tried)
+      if (is_sufficient(level))
+        return &level;
     return nullptr;
   }
 
@@ -255,12 +308,12 @@ namespace Debond
   double
   ModelChoice::linearisation_error() const
   {
-    if (ladder.linear_materials() == ladder.materials().back())
+    if (hierarchy.linear_materials == hierarchy.materials.back())
       return 0.;
-    const Rung *const linear = find(ladder.linear_materials(), 0);
-    const Rung *const exact  = find(ladder.materials().back(), 0);
+    const ModelLevel *const linear = find(hierarchy.linear_materials, 0);
+    const ModelLevel *const exact  = find(hierarchy.materials.back(), 0);
     return linear == nullptr || exact == nullptr ?
-             Rung::undefined :
+             ModelLevel::undefined :
              reserve_of_linearisation *
                largest_difference(linear->rows, exact->rows);
   }
@@ -278,24 +331,26 @@ namespace Debond
                                                find(refined, mesh)->rows));
     if (differences.empty())
       return;
-    const Rung  *finest = best();
-    const double error =
+    const ModelLevel *finest = best();
+    const double      error =
       discretisation_error(differences) + step_error +
-      (refined == ladder.materials().back() ? 0. : linearisation_error());
-    for (Rung &rung : tried)
-      if (rung.done)
+      (refined == hierarchy.materials.back() ? 0. : linearisation_error());
+    for (ModelLevel &level : tried)
+      if (level.done)
         {
-          rung.difference =
-            &rung == finest ? 0. : largest_difference(rung.rows, finest->rows);
+          level.difference = &level == finest ?
+                               0. :
+                               largest_difference(level.rows, finest->rows);
           // the largest torque may itself be less by the error
-          rung.estimate = error < 1. ? rung.difference / (1. - error) + error :
-                                       Rung::undefined;
+          level.estimate = error < 1. ?
+                             level.difference / (1. - error) + error :
+                             ModelLevel::undefined;
         }
   }
 
 
 
-  const Rung *
+  const ModelLevel *
   ModelChoice::answer() const
   {
     return sufficient() != nullptr ? sufficient() : best();
@@ -306,7 +361,7 @@ namespace Debond
   std::string
   ModelChoice::reason() const
   {
-    const Rung *const answer = this->answer();
+    const ModelLevel *const answer = this->answer();
     if (is_sufficient(*answer))
       return "the estimated error is within the tolerance";
     std::string estimate;

@@ -1,38 +1,24 @@
 #include <debond/campaigns/ensemble.h>
 #include <debond/campaigns/run_scene.h>
 #include <debond/campaigns/study.h>
-#include <debond/campaigns/variant_process.h>
 #include <debond/campaigns/variant_queue.h>
 #include <debond/input/csv_table.h>
 #include <debond/input/parameter_loop.h>
-#include <debond/output/torque_curve.h>
 #include <debond/support/written_files.h>
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
 #include <debond/support/number_text.h>
 
+#include <deal.II/base/timer.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <ostream>
 #include <sstream>
 
 namespace Debond
 {
-  namespace
-  {
-    std::string
-    variant_name(const unsigned int variant)
-    {
-      char name[32];
-      std::snprintf(name, sizeof(name), "variant-%03u", variant + 1);
-      return name;
-    }
-  } // namespace
-
-
-
   Study::Study(const std::vector<SceneEntry> &entries, const std::string &name)
   {
     for (const SceneEntry &entry : varied_entries(entries))
@@ -47,10 +33,9 @@ namespace Debond
       }
     const Scene first =
       Scene::from_entries(study_variants(entries)[0].entries, name);
-    directory = first.output.directory;
-    reference = first.study.reference_variant;
-    std::vector<StudyVariant> combinations =
-      study_variants(entries, first.study.factors_at_once);
+    directory         = first.output.directory;
+    reference         = first.study.reference_variant;
+    auto combinations = study_variants(entries, first.study.factors_at_once);
     if (reference > combinations.size())
       throw first.with_place(EntryError("Study / Reference variant",
                                         "this study has " +
@@ -58,20 +43,24 @@ namespace Debond
                                           " variants"));
     for (StudyVariant &combination : combinations)
       {
+        char variant_name[32];
+        std::snprintf(variant_name,
+                      sizeof(variant_name),
+                      "variant-%03zu",
+                      variants.size() + 1);
         // what only the study uses must not make another scene of a variant
-        Variant next;
+        const auto own = with_overrides(std::move(combination.entries),
+                                        {"Study/Reference variant=0",
+                                         "Study/Factors varied at once=0",
+                                         "Study/Repetitions=1",
+                                         "Output/Console=quiet",
+                                         "Output/Directory=" + directory + "/" +
+                                           variant_name});
+        Variant    next;
+        next.name          = variant_name;
         next.values        = combination.values;
         next.n_repetitions = first.study.repetitions;
-        next.scene =
-          Scene::from_entries(with_overrides(std::move(combination.entries),
-                                             {"Study/Reference variant=0",
-                                              "Study/Factors varied at once=0",
-                                              "Study/Repetitions=1",
-                                              "Output/Console=quiet",
-                                              "Output/Directory=" + directory +
-                                                "/" +
-                                                variant_name(variants.size())}),
-                              name);
+        next.scene         = Scene::from_entries(own, name);
         variants.push_back(std::move(next));
       }
   }
@@ -79,13 +68,22 @@ namespace Debond
 
 
   std::string
-  Study::describe(const unsigned int variant) const
+  Study::describe(const Variant &variant) const
   {
-    std::string text = variant_name(variant) + ":";
+    std::string text = variant.name + ":";
     for (unsigned int i = 0; i < varied.size(); ++i)
-      text +=
-        (i == 0 ? " " : "; ") + varied[i] + " = " + variants[variant].values[i];
+      text += (i == 0 ? " " : "; ") + varied[i] + " = " + variant.values[i];
     return text;
+  }
+
+
+
+  unsigned int
+  Study::n_done() const
+  {
+    return std::count_if(variants.begin(),
+                         variants.end(),
+                         [](const Variant &variant) { return variant.done; });
   }
 
 
@@ -94,16 +92,14 @@ namespace Debond
   Study::check(std::ostream &out)
   {
     out << variants.size() << " variants\n";
-    for (unsigned int i = 0; i < variants.size(); ++i)
+    for (Variant &variant : variants)
       {
-        variants[i].look_up();
-        out << describe(i) << (variants[i].done ? " (done already)" : "")
+        variant.look_up();
+        out << describe(variant) << (variant.done ? " (done already)" : "")
             << '\n';
-        if (variants[i].scene.model != ModelKind::finite_elements)
-          {
-            std::ostringstream none; // only refuses what it cannot do
-            check_scene(variants[i].scene, none);
-          }
+        std::ostringstream none; // only refuses what it cannot do
+        if (variant.scene.model != ModelKind::finite_elements)
+          check_scene(variant.scene, none);
       }
   }
 
@@ -143,118 +139,96 @@ namespace Debond
 
 
   void
-  Study::stop()
+  Study::run(const unsigned int n_jobs, const bool force, std::ostream &out)
   {
+    const auto lock = prepare(force);
+    out << variants.size() << " variants in " << directory;
+    if (n_done() > 0)
+      out << ", " << n_done() << " of them done already";
+    out << std::endl;
+    run_variants(n_jobs, out);
     write_table();
-    const auto n_done = std::count_if(variants.begin(),
-                                      variants.end(),
-                                      [](const Variant &v) { return v.done; });
-    throw Interrupted(interrupting_signal(),
-                      "interrupted by " + signal_name(interrupting_signal()) +
-                        ": " + std::to_string(n_done) + " of " +
-                        std::to_string(variants.size()) +
-                        " variants are done; the same study without --force "
-                        "goes on with the others");
+    write_ensemble(out);
+    out << "Results are in " << directory << "/study.csv" << std::endl;
+    if (n_done() < variants.size())
+      throw RunError(Text() << variants.size() - n_done() << " of "
+                            << variants.size() << " variants failed: "
+                            << directory << "/study.csv says why");
   }
 
 
 
-  void
-  Study::run(const unsigned int n_jobs, const bool force, std::ostream &out)
+  namespace
   {
-    const auto lock   = prepare(force);
-    const auto n_done = std::count_if(variants.begin(),
-                                      variants.end(),
-                                      [](const Variant &v) { return v.done; });
-    out << variants.size() << " variants in " << directory;
-    if (n_done > 0)
-      out << ", " << n_done << " of them done already";
-    out << std::endl;
+    std::string
+    outcome_of(const Variant &variant)
+    {
+      if (!variant.done)
+        return "failed: " + variant.failure;
+      return "T_max " + to_text(number_in(variant.summary, "T_max_Nmm"), 4) +
+             " N mm, " +
+             to_text(number_in(variant.summary, "wall_seconds"), 4) + " s";
+    }
+  } // namespace
 
-    VariantProcesses running;
-    VariantQueue     waiting(n_jobs);
+
+
+  void
+  Study::run_variants(const unsigned int n_jobs, std::ostream &out)
+  {
+    VariantQueue                waiting(n_jobs);
+    std::vector<VariantProcess> running;
+    unsigned int                n_ended = n_done();
     for (unsigned int i = 0; i < variants.size(); ++i)
       if (!variants[i].done)
         waiting.add(i, variants[i].scene, variants[i].n_repetitions == 1);
-    auto n_ended = n_done;
+    dealii::Timer since_table;
+    double        time_between_tables = 2; // [s]
     while (true)
       {
         while (!waiting.empty() && running.size() < n_jobs)
           {
-            const auto next = waiting.next();
-            running.start(next.variant,
-                          variants[next.variant].scene,
-                          next.bodies);
+            const auto [number, bodies] = waiting.next();
+            running.push_back(
+              start_process(number, variants[number].scene, bodies));
           }
-        if (running.size() == 0)
-          break;
+        if (running.empty())
+          return;
 
-        const auto ended = running.wait_for_one();
-        if (!ended)
+        const auto ended = wait_for_one(running);
+        if (ended == running.end())
           {
-            running.stop();
-            stop();
+            stop(running);
+            write_table();
+            throw Interrupted(interrupting_signal(),
+                              Text()
+                                << "interrupted by "
+                                << signal_name(interrupting_signal()) << ": "
+                                << n_done() << " of " << variants.size()
+                                << " variants are done; the same study "
+                                   "without --force goes on with the others");
           }
-        Variant &variant = variants[ended->variant];
-        variant.end_run(ended->failure);
-        if (variant.wants_another_run())
+        const unsigned int number  = ended->variant;
+        Variant           &variant = variants[number];
+        const std::string  why     = end_of(*ended);
+        running.erase(ended);
+        if (variant.end_run(why))
           {
-            running.start(ended->variant, variant.scene, nullptr);
+            running.push_back(start_process(number, variant.scene, nullptr));
             continue;
           }
-        out << ++n_ended << '/' << variants.size() << ' ';
-        report(ended->variant, out);
-        write_table_if_due();
+        out << ++n_ended << '/' << variants.size() << ' ' << describe(variant)
+            << ": " << outcome_of(variant) << std::endl;
+
+        // The table of a large study takes a while: most of the time is not to
+        // go into it.
+        if (since_table.wall_time() < time_between_tables)
+          continue;
+        const dealii::Timer clock;
+        write_table();
+        time_between_tables = std::max(2., 50. * clock.wall_time());
+        since_table.restart();
       }
-    write_table();
-    write_ensemble(out);
-    const auto n_failed =
-      std::count_if(variants.begin(), variants.end(), [](const Variant &v) {
-        return !v.done;
-      });
-    out << "Results are in " << directory << "/study.csv" << std::endl;
-    if (n_failed > 0)
-      throw RunError(std::to_string(n_failed) + " of " +
-                     std::to_string(variants.size()) +
-                     " variants failed: " + directory + "/study.csv says why");
-  }
-
-
-
-  void
-  Study::report(const unsigned int variant, std::ostream &out) const
-  {
-    out << describe(variant) << ": ";
-    if (!variants[variant].done)
-      out << "failed: " << variants[variant].failure << std::endl;
-    else
-      {
-        const auto &summary = variants[variant].summary;
-        out << "T_max " << to_text(number(summary, "T_max_Nmm"), 4) << " N mm, "
-            << to_text(number(summary, "wall_seconds"), 4) << " s" << std::endl;
-      }
-  }
-
-
-
-  StudyRow
-  Study::table_row(const unsigned int number) const
-  {
-    const Variant &variant = variants[number];
-    StudyRow       row{{"variant", std::to_string(number + 1)}};
-    for (unsigned int i = 0; i < varied.size(); ++i)
-      row.emplace_back(varied[i], variant.values[i]);
-
-    nlohmann::ordered_json summary = variant.summary;
-    if (!variant.done)
-      {
-        summary["converged"] = false;
-        summary["reason"] =
-          variant.failure.empty() ? "not run yet" : variant.failure;
-      }
-    for (const auto &member : summary.items())
-      row.emplace_back(member.key(), text_of(member.value()));
-    return row;
   }
 
 
@@ -262,46 +236,48 @@ namespace Debond
   void
   Study::write_table()
   {
-    if (reference > 0)
-      for (Variant &variant : variants)
-        variant.compare_with(variants[reference - 1]);
-    std::vector<StudyRow> rows;
-    for (unsigned int i = 0; i < variants.size(); ++i)
-      rows.push_back(table_row(i));
-
-    // finished variants first: they know all columns and their order
+    using Fields = std::vector<std::string>;
     std::map<std::string, std::size_t> column_of;
-    std::vector<std::string>           header;
+    Fields                             header;
+    std::vector<Fields>                rows(variants.size());
+    // finished variants first: they know all columns and their order
     for (const bool done : {true, false})
       for (unsigned int i = 0; i < variants.size(); ++i)
-        if (variants[i].done == done)
-          for (const auto &[name, value] : rows[i])
-            if (column_of.emplace(name, header.size()).second)
+        {
+          Variant &variant = variants[i];
+          if (variant.done != done)
+            continue;
+          if (reference > 0)
+            variant.compare_with(variants[reference - 1]);
+          const auto add = [&](const std::string &name,
+                               const std::string &value) {
+            const auto [column, is_new] =
+              column_of.emplace(name, header.size());
+            if (is_new)
               header.push_back(name);
+            rows[i].resize(std::max(rows[i].size(), column->second + 1), "nan");
+            rows[i][column->second] = value;
+          };
+          add("variant", std::to_string(i + 1));
+          for (unsigned int k = 0; k < varied.size(); ++k)
+            add(varied[k], variant.values[k]);
+          nlohmann::ordered_json summary = variant.summary;
+          if (!done)
+            {
+              summary["converged"] = false;
+              summary["reason"] =
+                variant.failure.empty() ? "not run yet" : variant.failure;
+            }
+          for (const auto &member : summary.items())
+            add(member.key(), text_of(member.value()));
+        }
     std::string text = csv_line(header);
-    for (const StudyRow &row : rows)
+    for (Fields &row : rows)
       {
-        std::vector<std::string> fields(header.size(), "nan");
-        for (const auto &[name, value] : row)
-          fields[column_of.at(name)] = value;
-        text += csv_line(fields);
+        row.resize(header.size(), "nan");
+        text += csv_line(row);
       }
     write_file(directory + "/study.csv", text);
-  }
-
-
-
-  // The table of a large study takes a while: most of the time is not to go
-  // into it.
-  void
-  Study::write_table_if_due()
-  {
-    if (since_table.wall_time() < time_between_tables)
-      return;
-    const dealii::Timer clock;
-    write_table();
-    time_between_tables = std::max(2., 50. * clock.wall_time());
-    since_table.restart();
   }
 
 

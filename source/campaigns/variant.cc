@@ -24,7 +24,7 @@ namespace Debond
 
 
   double
-  number(const nlohmann::ordered_json &summary, const std::string &name)
+  number_in(const nlohmann::ordered_json &summary, const std::string &name)
   {
     const auto found = summary.find(name);
     return found != summary.end() && found->is_number() ?
@@ -47,7 +47,7 @@ namespace Debond
           {
             std::vector<double> seconds;
             for (const auto &repetition : repetitions)
-              seconds.push_back(number(repetition, member.key()));
+              seconds.push_back(number_in(repetition, member.key()));
             member.value() = sample_statistics(std::move(seconds)).p50;
           }
     }
@@ -123,16 +123,6 @@ namespace Debond
 
 
   bool
-  Variant::wants_another_run() const
-  {
-    return n_repetitions > 1 && failure.empty() &&
-           summary.value("converged", false) &&
-           repetitions.size() < n_repetitions;
-  }
-
-
-
-  void
   Variant::end_run(const std::string &why_failed)
   {
     failure = why_failed;
@@ -144,6 +134,9 @@ namespace Debond
         std::filesystem::copy_options::overwrite_existing);
     look_up();
     done = done && failure.empty();
+    return n_repetitions > 1 && failure.empty() &&
+           summary.value("converged", false) &&
+           repetitions.size() < n_repetitions;
   }
 
 

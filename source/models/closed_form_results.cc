@@ -1,17 +1,16 @@
+#include <debond/bulk/chuck.h>
 #include <debond/interface/contact_point_state.h>
-#include <debond/models/closed_form_results.h>
-#include <debond/output/console.h>
-#include <debond/output/profile_output.h>
-#include <debond/output/result_files.h>
-#include <debond/support/runtime.h>
+#include <debond/models/closed_form_solution.h>
+#include <debond/models/run_report.h>
+#include <debond/support/number_text.h>
 
 #include <deal.II/base/timer.h>
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
-#include <iostream>
-#include <sstream>
+#include <ostream>
 
 namespace Debond
 {
@@ -43,66 +42,6 @@ namespace Debond
         }
       return points;
     }
-
-
-
-    void
-    warn_of_jumps(const ClosedFormSolution &solution, Console &console)
-    {
-      for (const auto &jump : solution.jumps())
-        {
-          std::ostringstream text;
-          text << "the bond snaps back: at the machine's angle of "
-               << jump.machine_angle * 180. / M_PI
-               << " deg the torque jumps from " << jump.torque_before << " to "
-               << jump.torque_after << " N mm, and " << jump.released_energy
-               << " N mm of stored energy are released without equilibrium";
-          console.warn("jump", text.str());
-        }
-    }
-
-
-
-    CurveSettings
-    curve_settings(const Scene &scene)
-    {
-      CurveSettings settings;
-      settings.contact_area_mm2 = M_PI * std::pow(scene.implant.radius, 2);
-      settings.mean_phi_0       = scene.output.observed_bonding > 0 ?
-                                    scene.output.observed_bonding :
-                                    scene.interface.bonding.initial_bonding *
-                                scene.interface.bonding.bonded_fraction;
-      settings.full_sliding_angle_deg = scene.output.full_sliding_angle;
-      if (scene.model == ModelKind::analytical &&
-          scene.output.full_sliding_angle == 0.)
-        settings.full_sliding_angle_deg = scene.closed_form.full_sliding;
-      settings.phase_times = scene.load_steps.times;
-      settings.reference   = read_reference_curve(scene.output.reference_curve);
-      return settings;
-    }
-
-
-
-    /** What only closed forms have in summary.json. */
-    void
-    add_closed_form(const ClosedFormSolution &solution,
-                    nlohmann::ordered_json   &json)
-    {
-      const auto or_nothing = [](const double stiffness) {
-        return stiffness > 0. ? stiffness : CurveMeasures::undefined;
-      };
-      json["normal_stiffness_MPa_per_mm"] =
-        or_nothing(solution.normal_stiffness);
-      json["torsional_stiffness_MPa_per_mm"] =
-        or_nothing(solution.torsional_stiffness);
-      if (solution.scene.chuck.component[ChuckComponent::rotation_z].stiffness >
-          0.)
-        {
-          json["jumps"] = solution.jumps().size();
-          json["released_energy_Nm"] =
-            1e-3 * solution.rows().back().released_energy_Nmm;
-        }
-    }
   } // namespace
 
 
@@ -113,48 +52,53 @@ namespace Debond
     const double          seconds_before_steps = clock.wall_time();
     const Scene          &scene                = solution.scene;
     const ResultDirectory directory(scene.output, scene.completed_parameters);
-    Console               console(scene.output.console, std::cout);
-    ProfileOutput         profiles(scene, directory);
-    if (!scene.title.empty())
-      console.headline(scene.title);
-    const std::vector<TorqueRow> &rows = solution.rows();
-    for (const TorqueRow &row : rows)
+    RunReport             report(scene, directory);
+    const unsigned int    n_steps = solution.rows.size() - 1;
+    report.begin({});
+    for (const TorqueRow &row : solution.rows)
+      report.add(row, n_steps, [&] {
+        return points_along_radius(*solution.model,
+                                   row.angle_deg * M_PI / 180.);
+      });
+    report.torque_curve->finish();
+    for (const auto &jump : solution.jumps)
+      report.console.warn(
+        "jump",
+        Text() << "the bond snaps back: at the machine's angle of "
+               << jump.machine_angle * 180. / M_PI
+               << " deg the torque jumps from " << jump.torque_before << " to "
+               << jump.torque_after << " N mm, and " << jump.released_energy
+               << " N mm of stored energy are released without equilibrium");
+
+    CurveSettings settings;
+    settings.contact_area_mm2 = M_PI * std::pow(scene.implant.radius, 2);
+    settings.mean_phi_0       = scene.interface.bonding.initial_bonding *
+                          scene.interface.bonding.bonded_fraction;
+    if (scene.model == ModelKind::analytical)
+      settings.full_sliding_angle_deg = scene.closed_form.full_sliding;
+    RunSummary summary;
+    summary.steps        = n_steps;
+    summary.converged    = true;
+    summary.reason       = "all planned steps are done";
+    summary.wall_seconds = clock.wall_time();
+    summary.seconds      = {{"before steps", seconds_before_steps},
+                            {"stepping",
+                             summary.wall_seconds - seconds_before_steps}};
+
+    const auto or_nothing = [](const double stiffness) {
+      return stiffness > 0. ? stiffness : CurveMeasures::undefined;
+    };
+    nlohmann::ordered_json facts{{"normal_stiffness_MPa_per_mm",
+                                  or_nothing(solution.normal_stiffness)},
+                                 {"torsional_stiffness_MPa_per_mm",
+                                  or_nothing(solution.torsional_stiffness)}};
+    if (scene.chuck.component[ChuckComponent::rotation_z].stiffness > 0.)
       {
-        console.row(row, rows.size() - 1);
-        profiles.write(row.angle_deg, [&] {
-          return points_along_radius(solution.model(),
-                                     row.angle_deg * M_PI / 180.);
-        });
+        facts["jumps"] = solution.jumps.size();
+        facts["released_energy_Nm"] =
+          1e-3 * solution.rows.back().released_energy_Nmm;
       }
-    write_file(directory.file("torque.csv"), torque_table(rows));
-    console.warn("profile", profiles.finish());
-    warn_of_jumps(solution, console);
-
-    const CurveSettings settings = curve_settings(scene);
-    RunSummary          summary;
-    summary.measures = measure_torque_curve(rows, settings);
-    console.warn("reference",
-                 warning_about_reference(summary.measures, settings));
-    summary.steps               = rows.size() - 1;
-    summary.converged           = true;
-    summary.reason              = "all planned steps are done";
-    summary.warnings            = console.warnings;
-    summary.wall_seconds        = clock.wall_time();
-    summary.seconds             = {{"before steps", seconds_before_steps},
-                                   {"stepping",
-                                    summary.wall_seconds - seconds_before_steps}};
-    summary.profile_measures    = profiles.measures();
-    summary.peak_memory_MB      = peak_memory_MB();
-    nlohmann::ordered_json json = summary;
-    add_closed_form(solution, json);
-    write_json(directory.file("summary.json"), json);
-
-    std::ostringstream text;
-    text << "Largest torque " << summary.measures.T_max_Nmm << " N mm at "
-         << summary.measures.theta_max_deg << " deg, at the end "
-         << summary.measures.T_inf_Nmm << " N mm. Results are in "
-         << directory.path();
-    console.headline(text.str());
+    report.finish(solution.rows, summary, settings, facts);
   }
 
 
@@ -162,17 +106,132 @@ namespace Debond
   void
   describe(const ClosedFormSolution &solution, std::ostream &out)
   {
-    out << "Model " << name_of_closed_form(solution.scene.model)
-        << ", pressure " << solution.model().disk.pressure << " MPa";
+    const ModelKind model = solution.scene.model;
+    out << "Model "
+        << (model == ModelKind::foundation ? "foundation" :
+            model == ModelKind::analytical ? "analytical" :
+                                             "mathieu")
+        << ", pressure " << solution.model->disk.pressure << " MPa";
     if (solution.normal_stiffness > 0.)
       out << ", normal stiffness " << solution.normal_stiffness << " MPa/mm";
     if (solution.torsional_stiffness > 0.)
       out << ", torsional stiffness " << solution.torsional_stiffness
           << " MPa/mm";
-    const std::vector<TorqueRow> &rows = solution.rows();
+    const TorqueRow &last = solution.rows.back();
     out << '\n'
-        << rows.size() - 1 << " planned steps from time " << rows.front().time
-        << " to " << rows.back().time << '\n'
-        << "at the end " << rows.back().torque_Nmm << " N mm\n";
+        << solution.rows.size() - 1 << " planned steps from time "
+        << solution.rows.front().time << " to " << last.time << '\n'
+        << "at the end " << last.torque_Nmm << " N mm\n";
+  }
+
+
+
+  namespace
+  {
+    // Whether the law has one solution at every point, with the mean pressure
+    // for that of a point.
+    void
+    print_uniqueness(const Scene &scene, const double p, std::ostream &out)
+    {
+      const InterfaceParameters &interface = scene.interface;
+      const double               eps_t     = interface.tangential_stiffness();
+      const double               slope =
+        interface.friction->steepest_fall({interface.bonding.initial_bonding});
+      const double missing = slope * p - eps_t;
+      if (slope == 0. || interface.explicit_friction)
+        return;
+      out << "  p / eps_t " << p / eps_t
+          << " mm; the friction law has one solution below " << 1. / slope
+          << " mm\n";
+      if (missing >= 0. && interface.viscosity == 0.)
+        out << "  so the run will be refused: Interface / Viscosity, a larger "
+               "Tangential penalty stiffness, "
+            << interface.friction->entries_against_fall() << " helps\n";
+      else if (missing >= 0.)
+        out << "  so Viscosity makes it unique in steps shorter than "
+            << interface.viscosity / missing << " of time\n";
+    }
+
+
+
+    // Of rigid bodies on an interface with the compliance of all three in
+    // series.
+    void
+    print_torque(const TorsionModel::Disk &disk,
+                 const double              last_angle,
+                 std::ostream             &out)
+    {
+      if (!RigidBodiesTorsion::has_unique_solution(disk))
+        {
+          out << "  no closed form of the torque: with the bodies in series "
+                 "the law softens too fast, and the torque may jump\n";
+          return;
+        }
+      const RigidBodiesTorsion form(disk);
+      double                   T_max = 0.;
+      for (unsigned int i = 1; i <= 1000; ++i)
+        T_max = std::max(T_max, std::abs(form.torque(last_angle * i / 1000)));
+      out << "  largest torque " << T_max << " N mm, at the end "
+          << form.torque(last_angle) << " N mm\n";
+    }
+  } // namespace
+
+
+
+  void
+  print_forecast(const Scene &scene, std::ostream &out)
+  {
+    const double          R             = scene.implant.radius;
+    const BodyParameters &bone          = scene.bone;
+    const BodyParameters &implant       = scene.implant;
+    const auto            shear_modulus = [](const BodyParameters &body) {
+      return body.young_modulus / (2. * (1. + body.poisson_ratio));
+    };
+    // Stiffness per area [MPa/mm] of the interface, a half space of bone whose
+    // surface a rigid punch presses or twists (Reissner-Sagoci), and the
+    // implant as a bar of its height.
+    const auto in_series = [&](const double of_interface,
+                               const double of_bone,
+                               const double of_implant) {
+      return 1. / (1. / of_interface + (bone.is_rigid() ? 0. : 1. / of_bone) +
+                   (implant.is_rigid() ? 0. : 1. / of_implant));
+    };
+    const double k_n =
+      in_series(scene.interface.law().normal->initial_stiffness(),
+                2. * bone.young_modulus /
+                  ((1. - std::pow(bone.poisson_ratio, 2)) * M_PI * R),
+                implant.young_modulus / implant.height);
+
+    TorsionModel::Disk disk;
+    disk.stiffness = in_series(scene.interface.tangential_stiffness(),
+                               32. * shear_modulus(bone) / (3. * M_PI * R),
+                               shear_modulus(implant) / implant.height);
+
+    constexpr auto push  = ChuckComponent::translation_z,
+                   twist = ChuckComponent::rotation_z;
+    const auto last      = Chuck(scene.chuck, Eigen::Vector3d::Zero(), R)
+                        .values(scene.load_steps.times.back());
+    const double p = std::max(0.,
+                              scene.chuck.component[push].loaded ?
+                                -last[push] / (M_PI * R * R) :
+                                -last[push] * k_n);
+    out
+      << "Closed forms predict (bodies as springs in series with the interface, "
+         "to some 5 %):\n"
+      << "  mean pressure at the end " << p << " MPa, force "
+      << p * M_PI * R * R << " N\n"
+      << "  torsional stiffness while everything sticks "
+      << 0.5 * M_PI * std::pow(R, 4) * disk.stiffness << " N mm/rad\n";
+    print_uniqueness(scene, p, out);
+    if (p <= 0. || scene.interface.friction->depends_on_rate() ||
+        scene.chuck.component[twist].loaded || last[twist] == 0.)
+      return;
+
+    disk.radius   = R;
+    disk.pressure = p;
+    disk.phi_0    = scene.interface.bonding.initial_bonding *
+                 scene.interface.bonding.bonded_fraction;
+    disk.friction = scene.interface.friction;
+    print_torque(disk, last[twist], out);
   }
 } // namespace Debond

@@ -6,19 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
 
 namespace Debond
 {
-  std::string
-  name_of_closed_form(const ModelKind model)
-  {
-    return model == ModelKind::foundation ? "foundation" :
-           model == ModelKind::analytical ? "analytical" :
-                                            "mathieu";
-  }
-
-
-
   namespace
   {
     constexpr double degree = M_PI / 180.;
@@ -27,27 +19,25 @@ namespace Debond
 
 
 
-    [[noreturn]] void
-    refuse(const Scene &scene, const std::string &entry, const std::string &why)
+    void
+    refuse_if(const bool         is_so,
+              const std::string &entry,
+              const std::string &why)
     {
-      throw EntryError(entry,
-                       why + " (Model = " + name_of_closed_form(scene.model) +
-                         "; Model = finite elements can do more)");
+      if (is_so)
+        throw EntryError(entry, why + " (Model = finite elements can do more)");
     }
+
+    /** "Chuck / Rotation z / Value" and the like. */
+    const auto entry_name = &ChuckParameters::entry_name;
 
 
 
     void
     check_scene_is_simple(const Scene &scene)
     {
-      const BondingParameters &bonding   = scene.interface.bonding;
-      const auto               refuse_if = [&](const bool         is_so,
-                                 const std::string &entry,
-                                 const std::string &why) {
-        if (is_so)
-          refuse(scene, entry, why);
-      };
-      const bool is_foundation = scene.model == ModelKind::foundation;
+      const BondingParameters &bonding = scene.interface.bonding;
+      const bool is_foundation         = scene.model == ModelKind::foundation;
       refuse_if(scene.implant.shape != BodyShape::coin,
                 "Implant / Shape",
                 "closed forms are for the flat disk of a coin");
@@ -71,312 +61,304 @@ namespace Debond
         {
           const ChuckComponentParameters &component = scene.chuck.component[k];
           refuse_if(component.loaded && k != push,
-                    ChuckParameters::entry_name(k, "Control"),
+                    entry_name(k, "Control"),
                     "closed forms take this motion as prescribed");
           refuse_if(component.stiffness != 0 && !(k == twist && is_foundation),
-                    ChuckParameters::entry_name(k, "Stiffness"),
+                    entry_name(k, "Stiffness"),
                     "closed forms have no compliant machine, but that the "
                     "foundation's Rotation z may be driven by one");
         }
+    }
+
+
+
+    struct Load
+    {
+      double time  = 0;
+      double push  = 0; ///< depth [mm] or force [N], positive downwards
+      double angle = 0; ///< [rad]
+    };
+
+    /** What the scene prescribes, at the ends of the rows. */
+    struct LoadHistory
+    {
+      const Scene      &scene;
+      const Chuck       chuck;
+      std::vector<Load> loads;
+
+      explicit LoadHistory(const Scene &scene)
+        : scene(scene)
+        , chuck(scene.chuck, Eigen::Vector3d::Zero(), scene.implant.radius)
+      {
+        const LoadStepping stepping(scene.load_steps);
+        for (unsigned int step = 0; step <= stepping.n_steps(); ++step)
+          loads.push_back(at(stepping.time(step)));
+        check();
+      }
+
+      Load
+      at(const double time) const
+      {
+        const Chuck::Vector6 q = chuck.values(time);
+        for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
+          refuse_if(k != push && k != twist && q[k] != 0.,
+                    entry_name(k, "Value"),
+                    "closed forms know Translation z and Rotation z only");
+        return {time, -q[push], q[twist]};
+      }
+
+      void
+      check() const
+      {
+        const Load &last = loads.back();
+        refuse_if(loads.front().angle != 0.,
+                  entry_name(twist, "Value"),
+                  "closed forms begin with an angle of zero");
+        double largest_push = 0.;
+        for (const Load &load : loads)
+          largest_push = std::max(largest_push, std::abs(load.push));
+        for (std::size_t i = 1; i < loads.size(); ++i)
+          {
+            const Load &begin = loads[i - 1], &end = loads[i];
+            refuse_if((end.angle - begin.angle) * (last.angle < 0. ? -1. : 1.) <
+                        0.,
+                      entry_name(twist, "Value"),
+                      "closed forms know no rotation that reverses");
+            if (end.angle == 0.)
+              continue;
+            refuse_if(std::abs(end.push - begin.push) > 1e-9 * largest_push,
+                      entry_name(push, "Value"),
+                      "closed forms know no push-in that changes while it "
+                      "turns");
+            refuse_if(!scene.has_friction_after(begin.time),
+                      "Interface / Friction starts at",
+                      "closed forms know no rotation without friction before "
+                      "one with friction");
+          }
+      }
+
+      // With adaptive steps: halves steps until the curve drawn as straight
+      // lines keeps the tolerance at the quarters of each of them.
+      void
+      refine(const std::function<double(const Load &)> &torque)
+      {
+        double T_max = 0.;
+        for (const Load &load : loads)
+          T_max = std::max(T_max, std::abs(torque(load)));
+        const double smallest = scene.load_steps.smallest_step_fraction *
+                                (loads.back().time - loads.front().time) /
+                                loads.size();
+        std::vector<Load> to_come(loads.rbegin(),
+                                  loads.rend() - 1); // next: last
+        loads.resize(1);
+        while (!to_come.empty())
+          {
+            const Load  &begin = loads.back(), &end = to_come.back();
+            const double duration = end.time - begin.time;
+            const double turned   = end.angle - begin.angle;
+            const double T_begin = torque(begin), T_end = torque(end);
+            double       error = 0.;
+            for (const double part : {0.25, 0.5, 0.75})
+              {
+                const Load   load = at(begin.time + part * duration);
+                const double share =
+                  turned == 0. ? 0. : (load.angle - begin.angle) / turned;
+                error = std::max(error,
+                                 std::abs(torque(load) - T_begin -
+                                          share * (T_end - T_begin)));
+              }
+            if (error > 0.5 * scene.load_steps.tolerance * T_max &&
+                duration > 2. * smallest)
+              to_come.push_back(at(0.5 * (begin.time + end.time)));
+            else
+              {
+                loads.push_back(end);
+                to_come.pop_back();
+              }
+          }
+        check();
+      }
+    };
+
+
+
+    /** Sets the stiffness of the foundation: that of the scene or, where the
+     *  model needs what the scene does not say, that of its bodies. */
+    void
+    find_stiffness(ClosedFormSolution &solution)
+    {
+      const Scene                &scene = solution.scene;
+      const ClosedFormParameters &given = scene.closed_form;
+      solution.normal_stiffness         = given.normal_stiffness;
+      solution.torsional_stiffness      = given.torsional_stiffness;
+      const bool needs_normal           = given.normal_stiffness == 0. &&
+                                given.pressure == 0. &&
+                                !scene.chuck.component[push].loaded;
+      const bool needs_torsional =
+        given.torsional_stiffness == 0. && scene.model == ModelKind::foundation;
+      if (!needs_normal && !needs_torsional)
+        return;
+      solution.linear_solution = foundation_stiffness(scene);
+      if (given.normal_stiffness == 0.)
+        solution.normal_stiffness = solution.linear_solution.normal;
+      if (given.torsional_stiffness == 0.)
+        solution.torsional_stiffness = solution.linear_solution.torsional;
+    }
+
+
+
+    /** @p final_push: that of the last row. */
+    double
+    pressure(const ClosedFormSolution &solution,
+             const Load               &load,
+             const double              final_push)
+    {
+      const Scene &scene = solution.scene;
+      const double given = scene.closed_form.pressure, R = scene.implant.radius;
+      if (given > 0.)
+        return final_push > 0. ? given * std::max(0., load.push) / final_push :
+                                 given;
+      return std::max(0.,
+                      scene.chuck.component[push].loaded ?
+                        load.push / (M_PI * R * R) :
+                        load.push * solution.normal_stiffness);
+    }
+
+
+
+    std::unique_ptr<TorsionModel>
+    make_model(const ClosedFormSolution &solution, const double final_pressure)
+    {
+      const Scene                &scene   = solution.scene;
+      const ClosedFormParameters &given   = scene.closed_form;
+      const BondingParameters    &bonding = scene.interface.bonding;
+      TorsionModel::Disk          disk;
+      disk.radius    = scene.implant.radius;
+      disk.pressure  = final_pressure;
+      disk.stiffness = solution.torsional_stiffness;
+      disk.phi_0     = bonding.initial_bonding;
+      disk.friction  = scene.interface.friction;
+      if (bonding.pattern == BondingPatternKind::disk)
+        disk.bonded_radius = disk.radius * std::sqrt(bonding.bonded_fraction);
+      refuse_if(!(disk.pressure > 0.),
+                entry_name(push, "Value"),
+                "closed forms need pressure while they turn");
+
+      if (scene.model == ModelKind::foundation)
+        {
+          refuse_if(!RigidBodiesTorsion::has_unique_solution(disk),
+                    "Interface / Sliding threshold",
+                    "the friction law softens faster than the foundation is "
+                    "stiff, so that the traction would jump");
+          return std::make_unique<RigidBodiesTorsion>(disk);
+        }
+      if (scene.model == ModelKind::mathieu)
+        return mathieu_torsion(disk,
+                               given.shear_modulus,
+                               1e-3 * given.adhesion_energy, // N/mm
+                               disk.pressure *
+                                 disk.friction->mu_without_bond());
+      if (given.full_sliding < given.linear_limit)
+        throw EntryError("Closed form / Linear limit angle",
+                         "it is more than Full sliding angle, " +
+                           to_text(given.full_sliding) + " deg");
+      return analytical_torsion(disk,
+                                given.linear_limit * degree,
+                                given.full_sliding * degree);
+    }
+
+
+
+    /** @p p: the pressure [MPa], @p angle: of the disk [rad], where the load's
+     *  is that of the machine. */
+    TorqueRow
+    make_row(const ClosedFormSolution &solution,
+             const Load               &load,
+             const double              p,
+             const double              angle)
+    {
+      const auto   state = solution.model->state(angle);
+      const double R     = solution.scene.implant.radius;
+      TorqueRow    row;
+      row.step              = solution.rows.size();
+      row.time              = load.time;
+      row.angle_deg         = angle / degree;
+      row.machine_angle_deg = load.angle / degree;
+      row.torque_Nmm        = state.torque;
+      row.force_N           = p * M_PI * R * R;
+      row.pressure_MPa      = p;
+      row.phi_mean          = state.phi_mean;
+      row.share_stick =
+        p > 0. ? std::pow(solution.model->stick_radius(angle) / R, 2) : 0.;
+      row.share_open            = p > 0. ? 0. : 1.;
+      row.share_slip            = 1. - row.share_stick - row.share_open;
+      row.energy_interface_Nmm  = state.stored_energy;
+      row.dissipation_Nmm       = state.dissipation;
+      row.adhesive_work_Nmm     = state.adhesive_work;
+      row.reaction_defect       = TorsionModel::undefined;
+      row.chuck_reaction        = {{0, 0, -row.force_N, 0, 0, state.torque}};
+      row.chuck_position[push]  = solution.scene.chuck.component[push].loaded ?
+                                    TorsionModel::undefined :
+                                    -load.push;
+      row.chuck_position[twist] = row.angle_deg;
+      for (const auto &jump : solution.jumps)
+        if (jump.machine_angle < std::abs(load.angle))
+          row.released_energy_Nmm += jump.released_energy;
+      return row;
     }
   } // namespace
 
 
 
-  ClosedFormSolution::ClosedFormSolution(const Scene &scene)
-    : scene(scene)
+  ClosedFormSolution::ClosedFormSolution(const Scene &given)
+    : scene(given)
   {
     check_scene_is_simple(scene);
-    const LoadStepping stepping(scene.load_steps);
-    for (unsigned int step = 0; step <= stepping.n_steps(); ++step)
-      loads.push_back(load_at(stepping.time(step)));
-    check_loads();
-    find_stiffness();
-    make_model();
-    if (scene.load_steps.adaptive)
-      refine_loads();
-    add_rows();
-  }
-
-
-
-  ClosedFormSolution::Load
-  ClosedFormSolution::load_at(const double time) const
-  {
-    const Chuck          chuck(scene.chuck,
-                      Eigen::Vector3d::Zero(),
-                      scene.implant.radius);
-    const Chuck::Vector6 q = chuck.values(time);
-    for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
-      if (k != push && k != twist && q[k] != 0.)
-        refuse(scene,
-               ChuckParameters::entry_name(k, "Value"),
-               "closed forms know Translation z and Rotation z only");
-    return {time, -q[push], q[twist]};
-  }
-
-
-
-  void
-  ClosedFormSolution::check_loads() const
-  {
-    const std::string pushed = ChuckParameters::entry_name(push, "Value"),
-                      turned = ChuckParameters::entry_name(twist, "Value");
-    if (loads.front().angle != 0.)
-      refuse(scene, turned, "closed forms begin with an angle of zero");
-    double largest_push = 0.;
-    for (const Load &load : loads)
-      largest_push = std::max(largest_push, std::abs(load.push));
-    const double last_without_friction =
-      scene.interface.friction_starts_at -
-      1e-9 * (loads.back().time - loads.front().time);
-    for (std::size_t i = 1; i < loads.size(); ++i)
-      {
-        const Load &begin = loads[i - 1], &end = loads[i];
-        if ((end.angle - begin.angle) * (loads.back().angle < 0. ? -1. : 1.) <
-            0.)
-          refuse(scene, turned, "closed forms know no rotation that reverses");
-        if (end.angle == 0.)
-          continue;
-        if (std::abs(end.push - begin.push) > 1e-9 * largest_push)
-          refuse(scene,
-                 pushed,
-                 "closed forms know no push-in that changes while it turns");
-        if (begin.time < last_without_friction)
-          refuse(scene,
-                 "Interface / Friction starts at",
-                 "closed forms know no rotation without friction before one "
-                 "with friction");
-      }
-  }
-
-
-
-  // With adaptive steps: halves steps until the curve drawn as straight lines
-  // keeps the tolerance at the quarters of each of them.
-  void
-  ClosedFormSolution::refine_loads()
-  {
-    const auto torque = [&](const Load &load) {
-      return torsion->torque(angle_of_disk(load));
+    LoadHistory history(scene);
+    find_stiffness(*this);
+    const Load   last          = history.loads.back();
+    const double largest_angle = std::abs(last.angle);
+    const auto   pressure_at   = [&](const Load &load) {
+      return pressure(*this, load, last.push);
     };
-    double T_max = 0.;
-    for (const Load &load : loads)
-      T_max = std::max(T_max, std::abs(torque(load)));
-    const double smallest = scene.load_steps.smallest_step_fraction *
-                            (loads.back().time - loads.front().time) /
-                            loads.size();
-    std::vector<Load> refined{loads.front()};
-    std::vector<Load> to_come(loads.rbegin(), loads.rend() - 1); // next: last
-    while (!to_come.empty())
-      {
-        const Load  &begin = refined.back(), &end = to_come.back();
-        const double duration = end.time - begin.time;
-        const double turned   = end.angle - begin.angle;
-        const double T_begin = torque(begin), T_end = torque(end);
-        double       error = 0.;
-        for (const double part : {0.25, 0.5, 0.75})
-          {
-            const Load   load = load_at(begin.time + part * duration);
-            const double share =
-              turned == 0. ? 0. : (load.angle - begin.angle) / turned;
-            error = std::max(error,
-                             std::abs(torque(load) - T_begin -
-                                      share * (T_end - T_begin)));
-          }
-        if (error > 0.5 * scene.load_steps.tolerance * T_max &&
-            duration > 2. * smallest)
-          to_come.push_back(load_at(0.5 * (begin.time + end.time)));
-        else
-          {
-            refined.push_back(end);
-            to_come.pop_back();
-          }
-      }
-    loads = refined;
-    check_loads();
-  }
+    model = make_model(*this, pressure_at(last));
 
-
-
-  void
-  ClosedFormSolution::find_stiffness()
-  {
-    const ClosedFormParameters &given = scene.closed_form;
-    normal_stiffness                  = given.normal_stiffness;
-    torsional_stiffness               = given.torsional_stiffness;
-    const bool needs_normal = normal_stiffness == 0. && given.pressure == 0. &&
-                              !scene.chuck.component[push].loaded;
-    const bool needs_torsional =
-      torsional_stiffness == 0. && scene.model == ModelKind::foundation;
-    if (!needs_normal && !needs_torsional)
-      return;
-    linear_solution = foundation_stiffness(scene);
-    if (normal_stiffness == 0.)
-      normal_stiffness = linear_solution.normal;
-    if (torsional_stiffness == 0.)
-      torsional_stiffness = linear_solution.torsional;
-  }
-
-
-
-  double
-  ClosedFormSolution::pressure(const Load &load) const
-  {
-    const double given = scene.closed_form.pressure, R = scene.implant.radius;
-    const double final_push = loads.back().push;
-    if (given > 0.)
-      return final_push > 0. ? given * std::max(0., load.push) / final_push :
-                               given;
-    return std::max(0.,
-                    scene.chuck.component[push].loaded ?
-                      load.push / (M_PI * R * R) :
-                      load.push * normal_stiffness);
-  }
-
-
-
-  void
-  ClosedFormSolution::make_model()
-  {
-    const ClosedFormParameters &given = scene.closed_form;
-    TorsionModel::Disk          disk;
-    disk.radius   = scene.implant.radius;
-    disk.pressure = pressure(loads.back());
-    disk.phi_0    = scene.interface.bonding.initial_bonding;
-    disk.friction = scene.interface.friction;
-    if (!(disk.pressure > 0.))
-      refuse(scene,
-             ChuckParameters::entry_name(push, "Value"),
-             "closed forms need pressure while they turn");
-
-    if (scene.model == ModelKind::foundation)
-      torsion = make_foundation(disk);
-    else if (scene.model == ModelKind::analytical)
-      {
-        if (given.full_sliding < given.linear_limit)
-          throw EntryError("Closed form / Linear limit angle",
-                           "it is more than Full sliding angle, " +
-                             to_text(given.full_sliding) + " deg");
-        torsion =
-          std::make_unique<AnalyticalTorsion>(disk,
-                                              given.linear_limit * degree,
-                                              given.full_sliding * degree);
-      }
-    else
-      torsion =
-        std::make_unique<MathieuTorsion>(disk,
-                                         given.shear_modulus,
-                                         1e-3 * given.adhesion_energy, // N/mm
-                                         disk.pressure *
-                                           disk.friction->mu_without_bond());
-  }
-
-
-
-  std::unique_ptr<TorsionModel>
-  ClosedFormSolution::make_foundation(const TorsionModel::Disk &disk)
-  {
-    const BondingParameters       &bonding = scene.interface.bonding;
-    RigidBodiesTorsion::Parameters parameters{disk, torsional_stiffness};
-    if (bonding.pattern == BondingPatternKind::disk)
-      parameters.bonded_radius =
-        disk.radius * std::sqrt(bonding.bonded_fraction);
-    if (!RigidBodiesTorsion::has_unique_solution(parameters))
-      refuse(scene,
-             "Interface / Sliding threshold",
-             "the friction law softens faster than the foundation is "
-             "stiff, so that the traction would jump");
-    auto         foundation = std::make_unique<RigidBodiesTorsion>(parameters);
-    const double stiffness  = scene.chuck.component[twist].stiffness;
-    if (stiffness > 0.)
-      machine =
-        std::make_unique<CompliantMachineTorsion>(*foundation,
-                                                  stiffness,
-                                                  std::abs(loads.back().angle));
-    return foundation;
-  }
-
-
-
-  double
-  ClosedFormSolution::angle_of_disk(const Load &load) const
-  {
-    if (!machine || load.angle == 0.)
-      return load.angle;
-    return std::copysign(machine->angle(std::abs(load.angle)), load.angle);
-  }
-
-
-
-  std::vector<CompliantMachineTorsion::Jump>
-  ClosedFormSolution::jumps() const
-  {
-    std::vector<CompliantMachineTorsion::Jump> done;
+    // A compliant machine turns further than the disk, and may jump.
+    std::optional<CompliantMachineTorsion> machine;
+    if (const double k = scene.chuck.component[twist].stiffness; k > 0.)
+      machine.emplace(*model, k, largest_angle);
     if (machine)
-      for (const auto &jump : machine->jumps())
-        if (jump.machine_angle < std::abs(loads.back().angle))
-          done.push_back(jump);
-    return done;
-  }
+      std::copy_if(machine->jumps.begin(),
+                   machine->jumps.end(),
+                   std::back_inserter(jumps),
+                   [&](const auto &jump) {
+                     return jump.machine_angle < largest_angle;
+                   });
+    const auto angle_of_disk = [&](const Load &load) {
+      return machine && load.angle != 0. ?
+               std::copysign(machine->angle(std::abs(load.angle)), load.angle) :
+               load.angle;
+    };
+    if (scene.load_steps.adaptive)
+      history.refine(
+        [&](const Load &load) { return model->torque(angle_of_disk(load)); });
 
-
-
-  TorqueRow
-  ClosedFormSolution::row(const unsigned int step) const
-  {
-    const Load  &load = loads[step];
-    const double p = pressure(load), angle = angle_of_disk(load);
-    const auto   state       = torsion->state(angle);
-    const double R           = scene.implant.radius;
-    const double stick_share = std::pow(torsion->stick_radius(angle) / R, 2);
-
-    TorqueRow row;
-    row.step                 = step;
-    row.time                 = load.time;
-    row.angle_deg            = angle / degree;
-    row.machine_angle_deg    = load.angle / degree;
-    row.torque_Nmm           = state.torque;
-    row.force_N              = p * M_PI * R * R;
-    row.pressure_MPa         = p;
-    row.phi_mean             = state.phi_mean;
-    row.share_stick          = p > 0. ? stick_share : 0.;
-    row.share_open           = p > 0. ? 0. : 1.;
-    row.share_slip           = 1. - row.share_stick - row.share_open;
-    row.energy_interface_Nmm = state.stored_energy;
-    row.dissipation_Nmm      = state.dissipation;
-    row.adhesive_work_Nmm    = state.adhesive_work;
-    row.reaction_defect      = TorsionModel::undefined;
-    row.chuck_reaction       = {{0, 0, -row.force_N, 0, 0, state.torque}};
-    row.chuck_position[push] =
-      scene.chuck.component[push].loaded ? TorsionModel::undefined : -load.push;
-    row.chuck_position[twist] = row.angle_deg;
-    for (const auto &jump : jumps())
-      if (jump.machine_angle < std::abs(load.angle))
-        row.released_energy_Nmm += jump.released_energy;
-    return row;
-  }
-
-
-
-  // The work is that of the torque alone: the model is about the rotation, and
-  // the push-in is not in it.
-  void
-  ClosedFormSolution::add_rows()
-  {
+    // The work is that of the torque alone: the model is about the rotation,
+    // and the push-in is not in it.
     EnergyBalance energy;
-    for (unsigned int step = 0; step < loads.size(); ++step)
+    for (const Load &load : history.loads)
       {
-        TorqueRow      next  = row(step);
-        Chuck::Vector6 force = Chuck::Vector6::Zero(), position = force;
-        force[twist]    = next.torque_Nmm;
-        position[twist] = angle_of_disk(loads[step]);
-        energy.add(
-          force, position, 0., next.energy_interface_Nmm, next.dissipation_Nmm);
-        next.work_Nmm            = energy.work();
-        next.energy_defect       = energy.defect();
-        next.energy_defect_bound = energy.defect_bound();
-        all_rows.push_back(next);
+        const double angle = angle_of_disk(load);
+        TorqueRow    row   = make_row(*this, load, pressure_at(load), angle);
+        energy.add(row.torque_Nmm * Chuck::Vector6::Unit(twist),
+                   angle * Chuck::Vector6::Unit(twist),
+                   0.,
+                   row.energy_interface_Nmm,
+                   row.dissipation_Nmm);
+        row.work_Nmm            = energy.work();
+        row.energy_defect       = energy.defect();
+        row.energy_defect_bound = energy.defect_bound();
+        rows.push_back(row);
       }
   }
 } // namespace Debond

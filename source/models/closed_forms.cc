@@ -63,25 +63,30 @@ namespace Debond
 
 
 
+  std::vector<double>
+  TorsionModel::kinks(double) const
+  {
+    return {};
+  }
+
+
+
   TorsionModel::Point
   TorsionModel::point_with(const bool   sticks,
                            const double r,
                            const double slip,
-                           const double theta,
-                           const double stiffness) const
+                           const double theta) const
   {
     const auto   law = friction(initial_bonding(r), slip);
     const double traction =
-      sticks ? stiffness * r * std::abs(theta) : law.mu * disk.pressure;
+      sticks ? disk.stiffness * r * std::abs(theta) : law.mu * disk.pressure;
     return {sticks, slip, std::copysign(traction, theta), law.phi, law.mu};
   }
 
 
 
   TorsionModel::State
-  TorsionModel::integrate(const double        theta,
-                          std::vector<double> kinks,
-                          const double        stiffness) const
+  TorsionModel::state(const double theta) const
   {
     const double R = disk.radius, p = disk.pressure;
     State        sum;
@@ -93,7 +98,7 @@ namespace Debond
       sum.phi_mean += here.phi * dA / (pi * R * R);
       if (here.traction != 0.) // else the stiffness may be zero, too
         sum.stored_energy +=
-          0.5 * here.traction * here.traction / stiffness * dA;
+          0.5 * here.traction * here.traction / disk.stiffness * dA;
       sum.adhesive_work +=
         p * disk.friction->adhesive_strength({phi_0}, here.slip) * dA;
       sum.dissipation +=
@@ -101,11 +106,12 @@ namespace Debond
     };
 
     // The fields are smooth between kinks, so that Gauss points do.
-    kinks.push_back(R);
-    std::sort(kinks.begin(), kinks.end());
+    std::vector<double> ends = kinks(theta);
+    ends.push_back(R);
+    std::sort(ends.begin(), ends.end());
     using Gauss  = boost::math::quadrature::gauss<double, 30>;
     double begin = 0.;
-    for (const double kink : kinks)
+    for (const double kink : ends)
       {
         const double end = std::min(R, kink);
         if (!(end > begin))
@@ -122,11 +128,10 @@ namespace Debond
 
 
 
-  RigidBodiesTorsion::RigidBodiesTorsion(const Parameters &parameters)
-    : TorsionModel(parameters)
-    , stiffness(parameters.stiffness)
+  RigidBodiesTorsion::RigidBodiesTorsion(const Disk &disk)
+    : TorsionModel(disk)
   {
-    AssertThrow(has_unique_solution(parameters),
+    AssertThrow(has_unique_solution(disk),
                 dealii::ExcMessage(
                   "The friction coefficient falls too fast for the tangential "
                   "stiffness of the interface: the traction would jump."));
@@ -135,11 +140,10 @@ namespace Debond
 
 
   bool
-  RigidBodiesTorsion::has_unique_solution(const Parameters &parameters)
+  RigidBodiesTorsion::has_unique_solution(const Disk &disk)
   {
-    return parameters.friction->steepest_fall({parameters.phi_0}) *
-             parameters.pressure <
-           parameters.stiffness;
+    return disk.friction->steepest_fall({disk.phi_0}) * disk.pressure <
+           disk.stiffness;
   }
 
 
@@ -147,7 +151,7 @@ namespace Debond
   double
   RigidBodiesTorsion::path(const double slip, const double phi_0) const
   {
-    return slip + friction(phi_0, slip).mu * disk.pressure / stiffness;
+    return slip + friction(phi_0, slip).mu * disk.pressure / disk.stiffness;
   }
 
 
@@ -176,7 +180,7 @@ namespace Debond
   RigidBodiesTorsion::point(const double r, const double theta) const
   {
     const double g_s = slip(r, theta);
-    return point_with(g_s == 0., r, g_s, theta, stiffness);
+    return point_with(g_s == 0., r, g_s, theta);
   }
 
 
@@ -195,8 +199,8 @@ namespace Debond
 
 
 
-  TorsionModel::State
-  RigidBodiesTorsion::state(const double theta) const
+  std::vector<double>
+  RigidBodiesTorsion::kinks(const double theta) const
   {
     std::vector<double> kinks{disk.bonded_radius};
     if (theta != 0.)
@@ -206,31 +210,30 @@ namespace Debond
           for (const double slip : disk.friction->kinks())
             kinks.push_back(path(slip, phi_0) / std::abs(theta));
         }
-    return integrate(theta, kinks, stiffness);
+    return kinks;
   }
 
 
 
-  CompliantMachineTorsion::CompliantMachineTorsion(
-    const RigidBodiesTorsion &bodies,
-    const double              stiffness,
-    const double              largest_angle)
+  CompliantMachineTorsion::CompliantMachineTorsion(const TorsionModel &bodies,
+                                                   const double stiffness,
+                                                   const double largest_angle)
     : bodies(bodies)
     , stiffness(stiffness)
     , largest_angle(largest_angle)
+    , limit_points(find_limit_points())
+    , jumps(find_jumps())
+  {}
+
+
+
+  std::vector<CompliantMachineTorsion::LimitPoint>
+  CompliantMachineTorsion::find_limit_points() const
   {
-    find_limit_points();
-    find_jumps();
-  }
-
-
-
-  void
-  CompliantMachineTorsion::find_limit_points()
-  {
-    constexpr unsigned int n    = 4000;
-    const double           step = largest_angle / n;
-    std::array<double, 3>  last{{0., 0., machine_angle(step)}};
+    std::vector<LimitPoint> limits;
+    constexpr unsigned int  n    = 4000;
+    const double            step = largest_angle / n;
+    std::array<double, 3>   last{{0., 0., machine_angle(step)}};
     for (unsigned int i = 2; i <= n; ++i)
       {
         last = {{last[1], last[2], machine_angle(i * step)}};
@@ -249,45 +252,43 @@ namespace Debond
                                 sign < 0.});
             }
       }
+    return limits;
   }
 
 
 
-  void
-  CompliantMachineTorsion::find_jumps()
+  std::vector<CompliantMachineTorsion::Jump>
+  CompliantMachineTorsion::find_jumps() const
   {
-    const auto stored_or_spent = [&](const double theta, const double at) {
+    const auto stored_or_dissipated = [&](const double theta, const double at) {
       const auto state = bodies.state(theta);
       return 0.5 * stiffness * std::pow(at - theta, 2) + state.stored_energy +
              state.dissipation;
     };
-    double reached = 0.; // the largest machine angle so far
-    for (std::size_t i = 0; i < limits.size(); ++i)
-      {
-        const LimitPoint &from = limits[i];
-        if (!from.is_maximum || from.machine_angle <= reached)
-          continue;
+    std::vector<Jump> found;
+    double            reached = 0.; // the largest machine angle so far
+    for (auto from = limit_points.begin(); from != limit_points.end(); ++from)
+      if (from->is_maximum && from->machine_angle > reached)
         // the next branch that rises and leads high enough
-        for (std::size_t j = i + 1; j < limits.size(); ++j)
+        for (auto to = from + 1; to != limit_points.end(); ++to)
           {
-            const bool   is_last = j + 1 == limits.size();
-            const double end = is_last ? largest_angle : limits[j + 1].angle;
-            if (limits[j].is_maximum || machine_angle(end) < from.machine_angle)
+            const double end =
+              to + 1 == limit_points.end() ? largest_angle : (to + 1)->angle;
+            const double at = from->machine_angle;
+            if (to->is_maximum || machine_angle(end) < at)
               continue;
-            const double to =
-              angle_between(limits[j].angle, end, from.machine_angle);
-            all_jumps.push_back(
-              {from.machine_angle,
-               from.angle,
-               to,
-               from.torque,
-               bodies.torque(to),
-               stored_or_spent(from.angle, from.machine_angle) -
-                 stored_or_spent(to, from.machine_angle)});
-            reached = from.machine_angle;
+            const double after = angle_between(to->angle, end, at);
+            found.push_back({at,
+                             from->angle,
+                             after,
+                             from->torque,
+                             bodies.torque(after),
+                             stored_or_dissipated(from->angle, at) -
+                               stored_or_dissipated(after, at)});
+            reached = at;
             break;
           }
-      }
+    return found;
   }
 
 
@@ -310,7 +311,7 @@ namespace Debond
   CompliantMachineTorsion::angle(const double machine_angle) const
   {
     double begin = 0.;
-    for (const Jump &jump : all_jumps)
+    for (const Jump &jump : jumps)
       {
         if (machine_angle <= jump.machine_angle)
           return angle_between(begin, jump.angle_before, machine_angle);
@@ -321,132 +322,155 @@ namespace Debond
 
 
 
-  AnalyticalTorsion::AnalyticalTorsion(const Disk  &disk,
-                                       const double linear_limit,
-                                       const double full_sliding)
-    : TorsionModel(disk)
-    , linear_limit(linear_limit)
-    , full_sliding(full_sliding)
-    , stiffness(friction(disk.phi_0, 0.).mu * disk.pressure /
-                (disk.radius * linear_limit))
+  namespace
   {
-    AssertThrow(linear_limit > 0. && full_sliding >= linear_limit,
-                dealii::ExcMessage("0 < theta_lin <= theta_max is expected."));
-  }
+    class AnalyticalTorsion : public TorsionModel
+    {
+    public:
+      using TorsionModel::TorsionModel;
 
+      double linear_limit = 0, full_sliding = 0; // [rad]
 
+      // Eq. (17)
+      double
+      stick_radius(const double theta) const override
+      {
+        return std::abs(theta) <= linear_limit ?
+                 disk.radius :
+                 disk.radius * linear_limit / std::abs(theta);
+      }
 
-  // Eq. (17)
-  double
-  AnalyticalTorsion::stick_radius(const double theta) const
-  {
-    return std::abs(theta) <= linear_limit ?
-             disk.radius :
-             disk.radius * linear_limit / std::abs(theta);
-  }
+      // Eq. (18)
+      Point
+      point(const double r, const double theta) const override
+      {
+        const bool sticks =
+          std::abs(theta) <= linear_limit || r < stick_radius(theta);
+        const double slip = sticks ? 0. : r * slip_per_radius(theta);
+        return point_with(sticks, r, slip, theta);
+      }
 
+    private:
+      std::vector<double>
+      kinks(const double theta) const override
+      {
+        std::vector<double> kinks{stick_radius(theta)};
+        for (const double slip : disk.friction->kinks())
+          kinks.push_back(slip / slip_per_radius(theta));
+        return kinks;
+      }
 
-
-  double
-  AnalyticalTorsion::slip_per_radius(const double theta) const
-  {
-    const double angle = std::abs(theta);
-    // the angle went from degrees to radians, as theta_max did
-    return angle < full_sliding * (1. - 1e-12) ?
-             0. :
-             angle - full_sliding + linear_limit;
-  }
-
-
-
-  // Eq. (18)
-  TorsionModel::Point
-  AnalyticalTorsion::point(const double r, const double theta) const
-  {
-    const bool sticks =
-      std::abs(theta) <= linear_limit || r < stick_radius(theta);
-    return point_with(
-      sticks, r, sticks ? 0. : r * slip_per_radius(theta), theta, stiffness);
-  }
-
-
-
-  TorsionModel::State
-  AnalyticalTorsion::state(const double theta) const
-  {
-    std::vector<double> kinks{stick_radius(theta)};
-    for (const double slip : disk.friction->kinks())
-      kinks.push_back(slip / slip_per_radius(theta));
-    return integrate(theta, kinks, stiffness);
-  }
-
-
-
-  double
-  MathieuTorsion::angle(const double c) const
-  {
-    return std::sqrt(pi * w_adh / (4. * c * G)) +
-           tau_0 / (2. * G) * std::acosh(std::max(1., disk.radius / c));
-  }
-
-
-
-  double
-  MathieuTorsion::stick_radius(const double theta) const
-  {
-    // a smaller crack belongs to a larger angle
-    const auto excess = [&](const double c) {
-      return std::abs(theta) - angle(c);
+      // g_s / r of sliding points, Eq. (49) [rad]
+      double
+      slip_per_radius(const double theta) const
+      {
+        const double angle = std::abs(theta);
+        // the angle went from degrees to radians, as theta_max did
+        return angle < full_sliding * (1. - 1e-12) ?
+                 0. :
+                 angle - full_sliding + linear_limit;
+      }
     };
-    if (excess(disk.radius) <= 0.)
-      return disk.radius; // the crack has not started
-    double inner = 0.5 * disk.radius;
-    while (excess(inner) > 0. && inner > 1e-300)
-      inner *= 0.5;
-    return excess(inner) > 0. ? 0. : // nothing sticks
-                                zero_of(excess, inner, 2. * inner);
+
+
+
+    class MathieuTorsion : public TorsionModel
+    {
+    public:
+      using TorsionModel::TorsionModel;
+
+      double G = 0, w_adh = 0, tau_0 = 0; // [MPa, N/mm, MPa]
+
+      // Radius of the crack: the inverse of Eq. (14).
+      double
+      stick_radius(const double theta) const override
+      {
+        // a smaller crack belongs to a larger angle
+        const auto excess = [&](const double c) {
+          return std::abs(theta) - std::sqrt(pi * w_adh / (4. * c * G)) -
+                 tau_0 / (2. * G) * std::acosh(std::max(1., disk.radius / c));
+        };
+        if (excess(disk.radius) <= 0.)
+          return disk.radius; // the crack has not started
+        double inner = 0.5 * disk.radius;
+        while (excess(inner) > 0. && inner > 1e-300)
+          inner *= 0.5;
+        return excess(inner) > 0. ? 0. : // nothing sticks
+                                    zero_of(excess, inner, 2. * inner);
+      }
+
+      // The traction is infinite at the crack tip.
+      Point
+      point(const double r, const double theta) const override
+      {
+        const double R = disk.radius, c = stick_radius(theta);
+        Point        here;
+        here.sticks = r <= c && c > 0.;
+        here.phi    = here.sticks ? 1. : 0.;
+        here.slip = here.mu = undefined;
+        if (!here.sticks)
+          here.traction = tau_0; // Eq. (15)
+        else if (c < R)          // Eq. (16)
+          here.traction =
+            2. / pi *
+            (std::sqrt(pi * G * w_adh / c) * r / std::sqrt(c * c - r * r) +
+             tau_0 *
+               std::asin(r / c * std::sqrt((R * R - c * c) / (R * R - r * r))));
+        else // Reissner and Sagoci
+          here.traction =
+            4. / pi * G * std::abs(theta) * r / std::sqrt(R * R - r * r);
+        here.traction = std::copysign(here.traction, theta);
+        return here;
+      }
+
+      // With Eq. (37) integrated in closed form.
+      State
+      state(const double theta) const override
+      {
+        const double R = disk.radius, c = stick_radius(theta), k = c / R;
+        const double torque =
+          c < R ? 8. / 3. * std::pow(c, 2.5) * std::sqrt(pi * G * w_adh) +
+                    4. / 3. * tau_0 * std::pow(R, 3) *
+                      (std::acos(k) + k * std::sqrt(1. - k * k)) :
+                  16. / 3. * G * std::pow(R, 3) * std::abs(theta);
+        return {std::copysign(torque, theta),
+                k * k,
+                undefined,
+                undefined,
+                w_adh * pi * (R * R - c * c)};
+      }
+    };
+  } // namespace
+
+
+
+  std::unique_ptr<TorsionModel>
+  analytical_torsion(const TorsionModel::Disk &disk,
+                     const double              linear_limit,
+                     const double              full_sliding)
+  {
+    // Eqs. (43) and (46): all of the disk sticks until theta_lin.
+    TorsionModel::Disk own = disk;
+    own.stiffness          = disk.friction->coefficient({disk.phi_0}, 0.).mu *
+                    disk.pressure / (disk.radius * linear_limit);
+    auto model          = std::make_unique<AnalyticalTorsion>(own);
+    model->linear_limit = linear_limit;
+    model->full_sliding = full_sliding;
+    return model;
   }
 
 
 
-  TorsionModel::Point
-  MathieuTorsion::point(const double r, const double theta) const
+  std::unique_ptr<TorsionModel>
+  mathieu_torsion(const TorsionModel::Disk &disk,
+                  const double              shear_modulus,
+                  const double              adhesion_energy,
+                  const double              friction_stress)
   {
-    const double R = disk.radius, c = stick_radius(theta);
-    Point        here;
-    here.sticks = r <= c && c > 0.;
-    here.phi    = here.sticks ? 1. : 0.;
-    here.slip = here.mu = undefined;
-    if (!here.sticks)
-      here.traction = tau_0; // Eq. (15)
-    else if (c < R)          // Eq. (16)
-      here.traction =
-        2. / pi *
-        (std::sqrt(pi * G * w_adh / c) * r / std::sqrt(c * c - r * r) +
-         tau_0 *
-           std::asin(r / c * std::sqrt((R * R - c * c) / (R * R - r * r))));
-    else // Reissner and Sagoci
-      here.traction =
-        4. / pi * G * std::abs(theta) * r / std::sqrt(R * R - r * r);
-    here.traction = std::copysign(here.traction, theta);
-    return here;
-  }
-
-
-
-  TorsionModel::State
-  MathieuTorsion::state(const double theta) const
-  {
-    const double R = disk.radius, c = stick_radius(theta), k = c / R;
-    const double torque =
-      c < R ? 8. / 3. * std::pow(c, 2.5) * std::sqrt(pi * G * w_adh) +
-                4. / 3. * tau_0 * std::pow(R, 3) *
-                  (std::acos(k) + k * std::sqrt(1. - k * k)) :
-              16. / 3. * G * std::pow(R, 3) * std::abs(theta);
-    return {std::copysign(torque, theta),
-            k * k,
-            undefined,
-            undefined,
-            w_adh * pi * (R * R - c * c)};
+    auto model   = std::make_unique<MathieuTorsion>(disk);
+    model->G     = shear_modulus;
+    model->w_adh = adhesion_energy;
+    model->tau_0 = friction_stress;
+    return model;
   }
 } // namespace Debond

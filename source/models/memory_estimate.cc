@@ -68,7 +68,7 @@ namespace Debond
       const double     per_cell = scene.output.fields_every > 0 ? 8000. : 3000.;
       const double     x = body.cells[0], y = body.cells[1], z = body.cells[2];
       n_condensed = 0.;
-      if (body.material == Material::rigid)
+      if (body.is_rigid())
         return per_cell * x * y * z;
 
       const double more = body.contact_surface == SurfaceKind::nurbs ? 2. : 1.;
@@ -133,23 +133,17 @@ namespace Debond
         points = 2. * sizeof(SlavePoint) * double(cells[0]) * cells[1] *
                  std::pow(scene.interface.quadrature_points, 2);
       }
+
+      double
+      total_MB() const
+      {
+        constexpr double program = 150e6; // with its libraries
+        return 1e-6 * (program + bone + implant + points);
+      }
     };
-  } // namespace
 
 
 
-  double
-  estimated_memory_MB(const Scene &scene)
-  {
-    constexpr double program = 150e6; // with its libraries
-    const Parts      parts(scene);
-    return 1e-6 * (program + parts.bone + parts.implant + parts.points);
-  }
-
-
-
-  namespace
-  {
     /** Two digits, without exponent. */
     std::string
     in_words(const double MB)
@@ -167,27 +161,31 @@ namespace Debond
 
 
 
+  double
+  estimated_memory_MB(const Scene &scene)
+  {
+    return Parts(scene).total_MB();
+  }
+
+
+
   void
   require_memory(const Scene &scene)
   {
-    const double needed    = estimated_memory_MB(scene);
+    const Parts  parts(scene);
     const double available = available_memory_MB();
-    if (needed <= available)
+    if (parts.total_MB() <= available)
       return;
-    const Parts       parts(scene);
-    const std::string entry =
+    throw NotEnoughMemory(
       parts.points > std::max(parts.bone, parts.implant) ?
         "Interface / Quadrature points" :
       parts.bone > parts.implant ? "Bone / Cells" :
-                                   "Implant / Cells";
-    throw NotEnoughMemory(entry,
-                          "this scene needs some " + in_words(needed) +
-                            " of memory, and " + in_words(available) +
-                            " are available: lower this first (of the memory, "
-                            "Bone / Cells take " +
-                            in_words(1e-6 * parts.bone) + ", Implant / Cells " +
-                            in_words(1e-6 * parts.implant) +
-                            ", Interface / Quadrature points " +
-                            in_words(1e-6 * parts.points) + ")");
+                                   "Implant / Cells",
+      "this scene needs some " + in_words(parts.total_MB()) +
+        " of memory, and " + in_words(available) +
+        " are available: lower this first (of the memory, Bone / Cells take " +
+        in_words(1e-6 * parts.bone) + ", Implant / Cells " +
+        in_words(1e-6 * parts.implant) + ", Interface / Quadrature points " +
+        in_words(1e-6 * parts.points) + ")");
   }
 } // namespace Debond

@@ -3,11 +3,13 @@
 #include <debond/output/result_files.h>
 #include <debond/support/input_error.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <set>
 #include <sstream>
 
@@ -15,6 +17,8 @@ namespace Debond
 {
   namespace
   {
+    namespace fs = std::filesystem;
+
     /** Entries that change nothing in the results. */
     const std::set<std::string> free_entries{"Title",
                                              "Output / Directory",
@@ -23,118 +27,86 @@ namespace Debond
 
 
 
-    /** The values of completed parameters by the names of the entries; and by
-     *  itself what they say of files (Scene::completed_parameters). */
-    std::map<std::string, std::string>
-    values_of(const std::string &completed_parameters)
-    {
-      std::map<std::string, std::string> values;
-      for (const SceneEntry &entry :
-           read_scene_text(completed_parameters, "checkpoint"))
-        if (free_entries.count(entry.full_name()) == 0)
-          values[entry.full_name()] = entry.value;
-      std::istringstream lines(completed_parameters);
-      for (std::string line; std::getline(lines, line);)
-        if (line.rfind("# ", 0) == 0 && line.rfind(": ") != line.npos)
-          {
-            const std::size_t colon           = line.rfind(": ");
-            values[line.substr(2, colon - 2)] = line.substr(colon + 2);
-          }
-      return values;
-    }
-
-
-
-    std::string
-    described(const std::map<std::string, std::string> &values,
-              const std::string                        &name)
-    {
-      const auto found = values.find(name);
-      return found == values.end() ? "not there" :
-             found->second.empty() ? "empty" :
-                                     found->second;
-    }
-
-
-
     /** "Interface / Viscosity is 0, the checkpoint's 1; ..."; empty if there
-     *  are no differences. */
+     *  are no differences between completed parameters. */
     std::string
     differences(const std::string &parameters, const std::string &earlier)
     {
-      const auto now = values_of(parameters), then = values_of(earlier);
-      std::set<std::string> names;
-      for (const auto &values : {now, then})
-        for (const auto &value : values)
-          names.insert(value.first);
+      // by the names of entries, and of what the parameters say of files by
+      // itself (Scene::completed_parameters)
+      std::map<std::string, std::array<std::string, 2>> values;
+      for (const unsigned int which : {0, 1})
+        {
+          const std::string &text = which == 0 ? parameters : earlier;
+          const auto         note = [&](const std::string &name,
+                                const std::string &value) {
+            auto &both = values
+                           .try_emplace(name,
+                                        std::array<std::string, 2>{
+                                          {"not there", "not there"}})
+                           .first->second;
+            both[which] = value.empty() ? "empty" : value;
+          };
+          for (const SceneEntry &entry : read_scene_text(text, "checkpoint"))
+            if (free_entries.count(entry.full_name()) == 0)
+              note(entry.full_name(), entry.value);
+          std::istringstream lines(text);
+          for (std::string line; std::getline(lines, line);)
+            if (const auto colon = line.rfind(": ");
+                line.rfind("# ", 0) == 0 && colon != line.npos)
+              note(line.substr(2, colon - 2), line.substr(colon + 2));
+        }
       std::string list;
-      for (const std::string &name : names)
-        if (described(now, name) != described(then, name))
-          list += (list.empty() ? "" : "; ") + name + " is " +
-                  described(now, name) + ", the checkpoint's " +
-                  described(then, name);
+      for (const auto &[name, value] : values)
+        if (value[0] != value[1])
+          list += (list.empty() ? "" : "; ") + name + " is " + value[0] +
+                  ", the checkpoint's " + value[1];
       return list;
     }
 
 
 
-    /** Refuses directories without a run that could have a checkpoint. */
-    void
-    check_directory(const std::string &directory, const std::string &option)
+    /** Why a directory holds no run that could have a checkpoint; empty if it
+     *  does. */
+    std::string
+    reason_against(const std::string &directory)
     {
-      namespace fs = std::filesystem;
       if (!fs::is_directory(directory))
-        throw InputError(option + ": there is no such directory");
+        return "there is no such directory";
       if (fs::exists(directory + "/study.csv") ||
           fs::exists(directory + "/variant-001"))
-        throw InputError(option +
-                         ": this is the directory of a study; run its scene "
-                         "again: variants that are done are kept, the others "
-                         "go on from their checkpoints or begin anew");
+        return "this is the directory of a study; run its scene again: "
+               "variants that are done are kept, the others go on from their "
+               "checkpoints or begin anew";
       if (!fs::exists(directory + "/parameters.prm"))
-        throw InputError(option +
-                         ": this directory holds no results of debond (there "
-                         "is no parameters.prm in it)");
+        return "this directory holds no results of debond (there is no "
+               "parameters.prm in it)";
+      if (Scene::from_file(directory + "/parameters.prm").model !=
+          ModelKind::finite_elements)
+        return "only Model = finite elements leaves checkpoints; run the scene "
+               "again";
+      return "";
     }
 
 
 
-    /** The results of the run that goes on stay where they are. */
-    void
-    refuse_other_directory(const std::vector<std::string> &overrides,
-                           const std::string              &directory,
-                           const std::string              &option)
+    /** The same of overrides: the results of the run that goes on stay where
+     *  they are. */
+    std::string
+    reason_against(const std::vector<std::string> &overrides,
+                   const std::string              &directory)
     {
-      namespace fs = std::filesystem;
       for (const std::string &text : overrides)
         {
           const SceneEntry entry = read_override(text);
           if (entry.full_name() == "Output / Directory" &&
               fs::weakly_canonical(ResultDirectory(entry.value).path()) !=
                 fs::weakly_canonical(directory))
-            throw InputError(option + ": --set '" + text +
-                             "' names another directory, but a run goes on in "
-                             "the directory of its results");
+            return "--set '" + text +
+                   "' names another directory, but a run goes on in the "
+                   "directory of its results";
         }
-    }
-
-
-
-    std::string
-    joined(const std::vector<std::string> &remarks)
-    {
-      std::string text;
-      for (const std::string &remark : remarks)
-        text += "; " + remark;
-      return text;
-    }
-
-
-
-    bool
-    is_finished(const std::string &directory)
-    {
-      return read_json(directory + "/summary.json")["converged"] == true;
+      return "";
     }
   } // namespace
 
@@ -145,33 +117,36 @@ namespace Debond
                        const std::string              &scene_file,
                        const std::vector<std::string> &overrides)
   {
-    const std::string option = "--resume '" + directory + "'";
-    check_directory(directory, option);
-    const auto lock = std::make_shared<const ResultDirectory>(directory);
-    const ResultDirectory &results = *lock;
-    refuse_other_directory(overrides, results.path(), option);
-    const std::string stored = results.file("parameters.prm");
-    if (Scene::from_file(stored).model != ModelKind::finite_elements)
-      throw InputError(option + ": only Model = finite elements leaves "
-                                "checkpoints; run the scene again");
-    if (is_finished(results.path()))
+    const auto refuse_for = [&](const std::string &why) {
+      if (!why.empty())
+        throw InputError("--resume '" + directory + "': " + why);
+    };
+    refuse_for(reason_against(directory));
+    ResumedRun run;
+    run.directory = std::make_shared<const ResultDirectory>(directory);
+    const ResultDirectory &results = *run.directory;
+    refuse_for(reason_against(overrides, results.path()));
+    if (read_json(results.file("summary.json"))["converged"] == true)
       return std::nullopt;
 
-    ResumedRun run;
-    run.directory         = lock;
     const auto checkpoint = CheckpointFiles(results).newest(run.remarks);
     if (!checkpoint)
-      throw InputError(option + ": there is no checkpoint to go on from" +
-                       joined(run.remarks) + "; run the scene again");
+      {
+        run.remarks.insert(run.remarks.begin(),
+                           "there is no checkpoint to go on from");
+        run.remarks.push_back("run the scene again");
+        refuse_for(boost::join(run.remarks, "; "));
+      }
     run.checkpoint = *checkpoint;
     run.scene      = scene_file.empty() ?
-                       Scene::from_text(checkpoint->parameters, overrides, stored) :
+                       Scene::from_text(checkpoint->parameters,
+                                   overrides,
+                                   results.file("parameters.prm")) :
                        Scene::from_file(scene_file, overrides);
     const std::string different =
       differences(run.scene.completed_parameters, checkpoint->parameters);
     if (!different.empty())
-      throw InputError(
-        option + ": the scene is not that of the checkpoint: " + different);
+      refuse_for("the scene is not that of the checkpoint: " + different);
     run.scene.output.directory = results.path();
     return run;
   }

@@ -6,56 +6,61 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace Debond
 {
+  // <h3>What is there before the first step</h3>
+  //
+  // The meshes of both bodies, the condensed stiffness of each on its contact
+  // surface, the quadrature points of the interface. All of that is the
+  // CoupledSystem; what follows here leads it from state to state.
   namespace
   {
+    // A scene that needs more memory than there is would be killed by the
+    // system after minutes, without a word. So the need is estimated first.
     CoupledSystem
     build(const Scene              &scene,
           std::shared_ptr<BodyPair> bodies,
           dealii::TimerOutput      *timer)
     {
-      require_memory(scene); // before anything large is built
+      require_memory(scene);
       const TimedSection t(timer, "set-up");
       return CoupledSystem(scene, std::move(bodies), timer);
     }
 
 
 
+    // What can be said of the scene before anything is solved. None of it is
+    // wrong in itself, but each has made results worse than they looked.
     std::vector<Warning>
-    warnings_of(const Scene &scene)
+    warnings_of(const Scene &scene, const ContactInterface &interface)
     {
       std::vector<Warning> warnings;
       for (const auto &[body, name] :
            {std::make_pair(&scene.bone, "Bone"),
             std::make_pair(&scene.implant, "Implant")})
-        if (body->material != Material::rigid && body->poisson_ratio > 0.45)
+        // A trilinear cell cannot bend without a change of its volume, which
+        // a nearly incompressible material resists.
+        if (!body->is_rigid() && body->poisson_ratio > 0.45)
           warnings.push_back(
             {std::string("locking of ") + name,
-             std::string(name) +
-               " / Poisson ratio = " + to_text(body->poisson_ratio) +
-               ": trilinear cells lock as it approaches 0.5, so that the body "
-               "is too stiff: compare with finer Cells"});
+             Text() << name
+                    << " / Poisson ratio = " << to_text(body->poisson_ratio)
+                    << ": trilinear cells lock as it approaches 0.5, so that "
+                       "the body is too stiff: compare with finer Cells"});
+      // Adaptive steps look at the curve between states, and take the states
+      // to be exact. With viscosity these depend on the step (backward Euler).
       if (scene.load_steps.adaptive && scene.interface.viscosity > 0.)
         warnings.push_back(
           {"viscosity",
            "Load steps / Tolerance does not cover the error in time of "
            "Interface / Viscosity, which is of first order in the step: "
            "compare with smaller Steps"});
-      return warnings;
-    }
-
-
-
-    /** Of the initial bonding as the interface has it. */
-    std::vector<Warning>
-    warnings_of(const ContactInterface &interface)
-    {
-      std::vector<Warning> warnings;
-      const auto          &report = interface.bonding().report();
-      const double         seen   = interface.mean_seen_bonding();
+      // The pattern of the initial bonding phi_0 belongs to the implant. If the
+      // quadrature points are the bone's, they see it where they happen to lie.
+      const auto  &report = interface.bonding().report();
+      const double seen   = interface.mean_seen_bonding();
+      // What it was read from, a picture for instance, may need a remark, too.
       if (!report.remark.empty())
         warnings.push_back({"picture", report.remark});
       if (std::abs(seen - report.mean) > 0.01 * report.mean)
@@ -72,10 +77,15 @@ namespace Debond
 
 
 
+  // The parts refer to each other and to the copy of the scene, which therefore
+  // comes first. At the first time the chuck places the implant, undeformed,
+  // and each quadrature point of the slave finds the master surface that it
+  // faces.
   Simulation::Simulation(const Scene              &scene,
                          std::shared_ptr<BodyPair> bodies,
                          dealii::TimerOutput      *timer)
     : scene(scene)
+    // bodies that a study has condensed already are taken over, not built again
     , coupled_system(build(this->scene, std::move(bodies), timer))
     , solver(this->scene, coupled_system)
     , steps(choose_steps(scene))
@@ -84,13 +94,17 @@ namespace Debond
     , state_checks(this->scene)
   {
     coupled_system.start(solver.time());
-    for (const auto &found :
-         {warnings_of(scene), warnings_of(coupled_system.interface)})
-      all_warnings.insert(all_warnings.end(), found.begin(), found.end());
+    all_warnings = warnings_of(scene, coupled_system.interface);
   }
 
 
 
+  // Three strategies lead through the load history; they share the interface
+  // StepControl. Planned steps are those of the scene. Adaptive ones keep the
+  // curves, drawn as straight lines from row to row, within a tolerance. Where
+  // the load falls and the machine springs back, neither time nor angle grows
+  // along the path of equilibrium: path following takes the mean sliding
+  // distance instead, which does.
   Simulation::Steps
   Simulation::choose_steps(const Scene &scene)
   {
@@ -100,6 +114,8 @@ namespace Debond
       return AdaptiveStepping(load_steps, R);
     if (!load_steps.follow_path)
       return PlannedSteps(load_steps);
+    // A twentieth of the distance over which mu changes resolves the law; an
+    // implant that has slid by its radius has nothing left to tell.
     return PathFollowing(
       load_steps,
       load_steps.largest_slip_step > 0. ?
@@ -110,22 +126,23 @@ namespace Debond
 
 
 
-  // From row to row. Whoever looks on may end the run between them.
+  // <h3>From row to row</h3>
+  //
+  // A run is nothing but one row of the torque curve after the other. Whoever
+  // looks on is told of each of them and may end the run by an exception.
   void
   Simulation::run()
   {
-    if (all_rows.empty())
+    // a simulation that was loaded from a checkpoint has rows, and goes on
+    while (all_rows.empty() || !is_finished())
       advance();
-    while (!is_finished())
-      {
-        signals.next_row();
-        advance();
-      }
     judge_whole_run();
   }
 
 
 
+  // A row is complete, and the system in its state, when the signal is given:
+  // fields, profiles and checkpoints can be taken from it.
   void
   Simulation::advance()
   {
@@ -138,6 +155,9 @@ namespace Debond
 
 
 
+  // Some mistakes only show when all is done: an implant that never touched the
+  // bone, for instance because it was pulled instead of pressed, and a path
+  // that ended before the load that was asked for.
   void
   Simulation::judge_whole_run()
   {
@@ -154,13 +174,18 @@ namespace Debond
 
 
 
-  // Row 0: the state at the first time, solved like a step.
+  // Row 0 is the state at the first time. It is solved like a step, but has no
+  // state before it: no extrapolation, no friction in the past, and nothing to
+  // make smaller if it fails.
   void
   Simulation::solve_first_row()
   {
+    // Bodies that only touch, under a load, have no stiffness against it yet:
+    // the solver lets points stick in its first iteration.
     const StepResult result = solver.solve_first();
-    spent.newton_iterations += result.iterations;
-    refuse_jump(result);
+    so_far.newton_iterations += result.iterations;
+    if (result.hopeless)
+      give_up({}, result);
     if (!result.is_acceptable())
       throw RunError("The state at the first time, " +
                      std::to_string(solver.time()) +
@@ -171,34 +196,48 @@ namespace Debond
 
 
 
-  // A row ends with an accepted step. The control of steps says which step to
-  // try; the solver looks for the state at its end. If there is none within
-  // reach the step is made smaller, down to the smallest that the scene allows.
-  // If there is one the control may still refuse it, because the curve would be
-  // drawn too coarsely or the path be left; nothing of it is kept then. A
-  // planned step that had to be divided takes several accepted steps.
+  // All other rows end with an accepted step. Two objects share the work: the
+  // control of steps says which step to try next, and the solver looks for a
+  // state of equilibrium at its end,
+  //
+  //   S v_c + Q^T f(v_c, q) = 0,   sum_A f_A . dx_A/dq_k - load_k = 0,
+  //
+  // by Newton's method from one or several starts (StepSolver::solve). Both may
+  // say no, and an answer that is no is never kept.
   void
   Simulation::solve_row()
   {
+    // A phase is what lies between two of Load steps / Times. The load may have
+    // a kink there: no step crosses it, and none is extrapolated from before.
     if (step_control.is_between_phases())
       step_control.begin_phase(state());
     unsigned int iterations = 0;
     while (true)
       {
+        // A time to go to, or, along a path of equilibrium, a growth of the
+        // mean sliding distance, for which the solver finds the time.
         const Step       step   = step_control.next();
         const StepResult result = solver.solve(step);
+        // what failed has cost iterations, too
         iterations += result.iterations;
-        spent.newton_iterations += result.iterations;
-        refuse_jump(result);
+        so_far.newton_iterations += result.iterations;
+        // No state within reach, or one where the law has more than one
+        // solution: the step is made smaller, down to the smallest that the
+        // scene allows. The solver has taken the trial back already.
         if (!result.is_acceptable())
           {
-            if (!step_control.reject(step))
+            if (result.hopeless || !step_control.reject(step))
               give_up(step, result);
           }
+        // There is a state. The control may still refuse it, because the curve
+        // would be drawn too coarsely, or because it was a trial in the middle
+        // of a step from which the error is estimated.
         else if (!step_control.take(step, state(), result.iterations))
           coupled_system.rollback();
         else
           {
+            // A planned step that had to be divided takes several accepted
+            // steps, of which only the last one makes a row.
             accept(result);
             if (step_control.row_is_complete())
               return add_row(result.interface, iterations);
@@ -208,6 +247,8 @@ namespace Debond
 
 
 
+  // What the control of steps judges by: the forces of the chuck, whose curves
+  // are drawn, and where the scene wants the chuck to be.
   StepState
   Simulation::state() const
   {
@@ -220,28 +261,27 @@ namespace Debond
 
 
 
-  // Where the law falls more steeply than the interface is stiff, the equations
-  // have more than one solution, and which one Newton's method finds means
-  // nothing.
-  void
-  Simulation::refuse_jump(const StepResult &result) const
-  {
-    if (!result.hopeless)
-      return;
-    std::ostringstream message;
-    message << "Step " << all_rows.size() << ", after time " << solver.time()
-            << ": " << result.why;
-    throw RunError(message.str());
-  }
-
-
-
+  // <h3>Where there is no state to accept</h3>
+  //
+  // A sliding point solves r theta = g_s + mu(g_s) p / eps_t, the rigid case of
+  // Eqs. (29) and (30). Where |d mu/d g_s| p > eps_t its right-hand side falls
+  // with g_s, and the traction has to jump: there are several solutions, and
+  // which one Newton's method finds means nothing. Smaller steps do not change
+  // that, so it is hopeless.
+  //
+  // Otherwise the smallest step has failed. The message says where, and, if a
+  // load is prescribed that the interface may not be able to carry, how to
+  // follow the fall beyond the largest one.
   void
   Simulation::give_up(const Step &step, const StepResult &result) const
   {
-    const Chuck       &chuck = coupled_system.chuck;
-    std::ostringstream message;
+    const Chuck &chuck = coupled_system.chuck;
+    Text         message;
     message << "Step " << all_rows.size();
+    if (result.hopeless)
+      throw RunError(message << ", after time " << solver.time() << ": "
+                             << result.why);
+    // along a path, and with adaptive steps, the number of rows is not known
     if (scene.load_steps.rows_are_planned())
       message << " of " << LoadStepping(scene.load_steps).n_steps();
     message << " failed at time "
@@ -253,29 +293,40 @@ namespace Debond
       message << ". A prescribed load may be more than the interface can "
                  "carry; prescribing the displacement or angle instead, or "
                  "Load steps / Path following = slip, follows the fall";
-    throw RunError(message.str());
+    throw RunError(message);
   }
 
 
 
-  // What is asked of the trial state comes first: commit() turns it into
-  // history, and the checks judge what has become of energies and forces.
+  // <h3>The state becomes history</h3>
+  //
+  // This is the only place where it does. Until here all was a trial: the
+  // positions of both bodies and of the chuck, and for each quadrature point
+  // its interacting point xi_hat and its sliding distance g_s, Eq. (32).
+  // commit() makes the accepted state of them, the g_s^n of the next step;
+  // friction depends on the path, so that there is no return from it.
   void
   Simulation::accept(const StepResult &result)
   {
-    const unsigned int row             = all_rows.size();
-    const double       from            = solver.time();
-    const double       to              = coupled_system.time();
-    const double       reaction_defect = coupled_system.reaction_defect();
+    const unsigned int row  = all_rows.size();
+    const double       from = solver.time(), to = coupled_system.time();
+    // What the contact forces sum up to must be what the top of the implant is
+    // held with. That is asked of the trial state, whose residual both know.
+    reaction_defect = coupled_system.reaction_defect();
     if (row > 0)
       {
-        ++spent.steps;
-        spent.shortest_step =
-          std::fmin(spent.shortest_step, std::abs(to - from));
+        // the first state is no step, and has no duration
+        ++so_far.steps;
+        so_far.smallest_step =
+          std::fmin(so_far.smallest_step, std::abs(to - from));
+        // Steps know their ends only. A chuck that turns back within a step, or
+        // goes along a curve, slides less than the scene says.
         if (scene.has_friction() && scene.has_friction_after(from))
-          state_checks.add_way(row, coupled_system.chuck, from, to);
+          state_checks.add_motion(row, coupled_system.chuck, from, to);
       }
     solver.commit();
+    // Energies, jumps, penetration: a check that is not passed does not end the
+    // run, but it is said, and counted in the row.
     state_checks.add(row, coupled_system, result.interface, reaction_defect);
     for (const Warning &warning : state_checks.take_warnings())
       warn(warning);
@@ -283,6 +334,7 @@ namespace Debond
 
 
 
+  // A warning is given once. The thousandth step tells no more than the first.
   void
   Simulation::warn(const Warning &warning)
   {
@@ -298,6 +350,11 @@ namespace Debond
 
 
 
+  // <h3>A row of the torque curve</h3>
+  //
+  // All forces are what the chuck exerts on the implant. The torque T is the
+  // generalised force conjugate to the rotation about the implant's own axis,
+  // sum_A f_A . dx_A/d gamma: Eq. (37) as a sum over the contact forces.
   void
   Simulation::add_row(const InterfaceSummary &summary,
                       const unsigned int      iterations)
@@ -307,6 +364,7 @@ namespace Debond
     const Chuck::Vector6   &q         = chuck.position();
     const Chuck::Vector6    reaction  = coupled_system.chuck_resultant();
 
+    // Angles are in radians inside, and in degrees in files.
     TorqueRow row;
     row.step       = all_rows.size();
     row.time       = solver.time();
@@ -314,25 +372,36 @@ namespace Debond
     row.torque_Nmm = coupled_system.chuck_forces()[ChuckComponent::rotation_z];
     row.force_N =
       0. - reaction[ChuckComponent::translation_z]; // no negative zero
-    row.pressure_MPa         = row.force_N / interface.implant_area();
-    row.phi_mean             = summary.phi_mean;
-    row.share_stick          = summary.share_stick;
-    row.share_slip           = summary.share_slip;
-    row.share_open           = summary.share_open;
-    row.newton_iterations    = iterations;
+    // The mean pressure refers to the area of the undeformed contact face.
+    row.pressure_MPa = row.force_N / interface.implant_area();
+    // Sums over the quadrature points, by area: the mean bonding state of Eq.
+    // (13), and how much sticks, slides and is open.
+    row.phi_mean          = summary.phi_mean;
+    row.share_stick       = summary.share_stick;
+    row.share_slip        = summary.share_slip;
+    row.share_open        = summary.share_open;
+    row.newton_iterations = iterations;
+    // The balance W = E_bulk + E_interface + D. The work W of the chuck and the
+    // dissipation D are trapezoids over the steps; energy_defect_bound is what
+    // these may be off by.
     row.energy_defect        = state_checks.energy().defect();
     row.work_Nmm             = state_checks.energy().work();
     row.energy_bulk_Nmm      = coupled_system.bulk_energy();
     row.energy_interface_Nmm = summary.energy;
-    row.dissipation_Nmm      = interface.work().dissipation;
-    row.adhesive_work_Nmm    = interface.work().adhesive;
-    row.energy_defect_bound  = state_checks.energy().defect_bound();
-    row.reaction_defect      = state_checks.reaction_defect();
-    row.viscous_work_Nmm     = interface.work().viscous;
-    row.warnings             = state_checks.take_violations();
+    // The part of D above mu_b p is what the bond has cost; the W_adh of Eq.
+    // (20) is read off the curve instead.
+    row.dissipation_Nmm     = interface.work().dissipation;
+    row.adhesive_work_Nmm   = interface.work().adhesive;
+    row.energy_defect_bound = state_checks.energy().defect_bound();
+    row.reaction_defect     = reaction_defect;
+    row.viscous_work_Nmm    = interface.work().viscous;
+    row.warnings            = state_checks.take_violations();
+    // With a compliant machine the scene prescribes the angle of the machine,
+    // ahead of the chuck's by T / k.
     row.machine_angle_deg =
       chuck.machine_position()[ChuckComponent::rotation_z] * 180. / M_PI;
     row.released_energy_Nmm = state_checks.released().total();
+    // Force and moment about the chuck's centre C + u, and where it is.
     for (unsigned int k = 0; k < 6; ++k)
       {
         row.chuck_reaction[k] = reaction[k];

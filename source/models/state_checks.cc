@@ -1,89 +1,20 @@
 #include <debond/models/state_checks.h>
+#include <debond/support/number_text.h>
 #include <debond/system/step_solver.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <functional>
 
 namespace Debond
 {
-  StateChecks::StateChecks(const ModelParameters &parameters)
-    : parameters(parameters)
-    , way(parameters.chuck)
-  {}
-
-
-
-  void
-  StateChecks::add(const unsigned int      step,
-                   const CoupledSystem    &system,
-                   const InterfaceSummary &summary,
-                   const double            reaction_defect)
-  {
-    const bool           is_first        = !energy_balance.has_state();
-    const Chuck::Vector6 forces_before   = energy_balance.forces();
-    const Chuck::Vector6 position_before = energy_balance.position();
-    last_reaction_defect                 = reaction_defect;
-    energy_balance.add(system.chuck_forces(),
-                       system.chuck.position(),
-                       system.bulk_energy(),
-                       summary.energy,
-                       system.interface.work().dissipation);
-    const std::string where = "step " + std::to_string(step) + ": ";
-    // the explicit law does not spend what InterfaceWork::friction says
-    if (!parameters.interface.explicit_friction)
-      check_for_jump(where, forces_before, system, summary);
-    check_interface(where, system, summary);
-    if (!is_first)
-      check_turn(where,
-                 (system.chuck.position() - position_before).tail<3>().norm());
-    check_reaction(where);
-    check_energy_balance(where, system.interface.work().step_dissipation);
-  }
-
-
-
-  // What slides does so by less than it should.
-  void
-  StateChecks::add_way(const unsigned int step,
-                       const Chuck       &chuck,
-                       const double       from,
-                       const double       to)
-  {
-    way.add(chuck, from, to);
-    if (way.missed_share() > ChuckWay::largest_missed_share)
-      note_violation("way",
-                     "step " + std::to_string(step) +
-                       ": steps go straight from state to state, and have "
-                       "missed " +
-                       way.describe() +
-                       " so far: what turns back or goes along a curve needs "
-                       "shorter steps, or Load steps / Times where it turns");
-  }
-
-
-
-  unsigned int
-  StateChecks::take_violations()
-  {
-    const unsigned int n = violated.size();
-    violated.clear();
-    return n;
-  }
-
-
-
-  void
-  StateChecks::note_violation(const std::string &check, const std::string &text)
-  {
-    found.push_back({check, text});
-    violated.insert(check);
-  }
-
-
-
   namespace
   {
+    /** Takes the name of a check that was not passed, and what to say of it. */
+    using Note = std::function<void(const std::string &, const std::string &)>;
+
+
+
     /** What happened to the force that changed most, moments being forces at
      *  the distance @p R. */
     std::string
@@ -96,23 +27,8 @@ namespace Debond
       change.tail<3>() /= R;
       Eigen::Index k;
       change.maxCoeff(&k);
-      std::ostringstream text;
-      text << names[k] << " went from " << from[k] << " to " << to[k]
-           << (is_rotation(k) ? " N mm" : " N");
-      return text.str();
-    }
-
-
-
-    /** Whether anything but the interface stores energy; what that does is
-     *  judged point by point (InterfaceSummary::steepest_softening).
-     */
-    bool
-    can_jump(const ModelParameters &parameters, const CoupledSystem &system)
-    {
-      return parameters.bone.material != Material::rigid ||
-             parameters.implant.material != Material::rigid ||
-             system.chuck.has_compliant_machine();
+      return Text() << names[k] << " went from " << from[k] << " to " << to[k]
+                    << (is_rotation(k) ? " N mm" : " N");
     }
 
 
@@ -132,156 +48,191 @@ namespace Debond
                "between";
       return "Load steps / Path following = slip follows the path between";
     }
-  } // namespace
 
 
 
-  // Whether the state just accepted is on another branch of equilibrium.
-  void
-  StateChecks::check_for_jump(const std::string      &where,
-                              const Chuck::Vector6   &forces_before,
-                              const CoupledSystem    &system,
-                              const InterfaceSummary &summary)
-  {
-    const ContactInterface &interface = system.interface;
-    ReleasedEnergy::State   now;
-    now.forces   = system.chuck_forces();
-    now.position = system.chuck.machine_position();
-    now.stored =
-      system.chuck.machine_energy() + system.bulk_energy() + summary.energy;
-    now.spent                  = interface.work().friction;
-    now.bound                  = interface.work().friction_bound;
-    const double      released = released_energy.add(now);
-    const std::string change =
-      describe_change(forces_before, now.forces, system.R);
-    if (released > 0.)
-      {
-        std::ostringstream text;
-        text << where << "in one step " << change << ", and " << released
-             << " N mm of stored energy were released without equilibrium: the "
-                "load cannot be followed there, the state jumped to another "
-                "branch. "
-             << advice(parameters);
-        note_violation("jump", text.str());
-      }
-    else if (released_energy.may_hide_a_jump() && can_jump(parameters, system))
-      note_violation("steep fall",
-                     where + "in one step " + change +
-                       ": too much to tell a jump from a steep fall; smaller "
-                       "steps do");
-  }
-
-
-
-  namespace
-  {
-    // Beyond that a point may find no partner, or the wrong one [mm].
-    double
-    deepest_penetration(const ModelParameters &parameters,
-                        const CoupledSystem   &system)
+    // Whether the state just accepted is on another branch of equilibrium.
+    // There may be one only if anything but the interface stores energy; what
+    // that does is judged point by point
+    // (InterfaceSummary::steepest_softening).
+    void
+    check_for_jump(const ModelParameters  &parameters,
+                   const CoupledSystem    &system,
+                   const InterfaceSummary &summary,
+                   const Chuck::Vector6   &forces_before,
+                   ReleasedEnergy         &released_energy,
+                   const Note             &note)
     {
-      double       smallest = 0.1 * std::min(parameters.bone.thickness(),
-                                       parameters.implant.thickness());
-      const auto   n        = system.implant.surface().n_elements();
-      const double area     = system.interface.implant_area();
-      return std::min(smallest, std::sqrt(area / n));
+      const Chuck         &chuck    = system.chuck;
+      const InterfaceWork &work     = system.interface.work();
+      const Chuck::Vector6 forces   = system.chuck_forces();
+      const double         released = released_energy.add(
+        {forces,
+                 chuck.machine_position(),
+                 chuck.machine_energy() + system.bulk_energy() + summary.energy,
+                 work.friction,
+                 work.friction_bound});
+      const std::string change =
+        describe_change(forces_before, forces, system.R);
+      if (released > 0.)
+        note("jump",
+             Text() << "in one step " << change << ", and " << released
+                    << " N mm of stored energy were released without "
+                       "equilibrium: the load cannot be followed there, the "
+                       "state jumped to another branch. "
+                    << advice(parameters));
+      else if (released_energy.may_hide_a_jump() &&
+               (!parameters.bone.is_rigid() || !parameters.implant.is_rigid() ||
+                chuck.has_compliant_machine()))
+        note("steep fall",
+             "in one step " + change +
+               ": too much to tell a jump from a steep fall; smaller steps do");
+    }
+
+
+
+    void
+    check_interface(const ModelParameters  &parameters,
+                    const CoupledSystem    &system,
+                    const InterfaceSummary &summary,
+                    const Note             &note)
+    {
+      const ContactInterface &interface = system.interface;
+      if (summary.bonded_opened > 0)
+        note(
+          "opening",
+          Text() << "bonded points open (" << summary.bonded_opened
+                 << "): the law has no strength in tension, so that pulling "
+                    "costs nothing"
+                 << (parameters.interface.opening_breaks_bond ?
+                       "" :
+                       ", and points that close again are bonded as before"));
+      // Beyond that a point may find no partner, or the wrong one [mm].
+      const double too_deep =
+        std::min({0.1 * parameters.bone.thickness(),
+                  0.1 * parameters.implant.thickness(),
+                  std::sqrt(interface.implant_area() /
+                            system.implant.surface().n_elements())});
+      if (summary.max_penetration > too_deep)
+        note("penetration",
+             Text() << "the bodies penetrate each other by "
+                    << summary.max_penetration << " mm, more than " << too_deep
+                    << " mm, a tenth of the thinner one or a whole surface "
+                       "element: lengths are mm, is the push-in right?");
+      if (interface.n_unprojected() > 0)
+        note("projection",
+             Text() << "for " << interface.n_unprojected()
+                    << " open points no closest point of the other surface was "
+                       "found: they stay open");
+    }
+
+
+
+    void
+    check_energy_balance(const EnergyBalance &energy_balance,
+                         const double         step_dissipation,
+                         const Note          &note)
+    {
+      if (energy_balance.dissipates_too_much())
+        note(
+          "dissipation",
+          "more energy is dissipated than was put in: the steps are too large "
+          "for the energy balance to be trusted");
+      if (energy_balance.is_given_back(step_dissipation))
+        note("dissipation falls",
+             "sliding gives energy back: points slide along their traction "
+             "instead of against it");
+      if (energy_balance.is_out_of_balance())
+        note(
+          "energy balance",
+          Text() << "of the chuck's work, " << energy_balance.defect()
+                 << " of its largest value is neither stored nor dissipated; "
+                    "the size of the steps accounts for "
+                 << energy_balance.defect_bound());
     }
   } // namespace
 
 
 
+  StateChecks::StateChecks(const ModelParameters &parameters)
+    : parameters(parameters)
+    , way(parameters.chuck)
+  {}
+
+
+
   void
-  StateChecks::check_interface(const std::string      &where,
-                               const CoupledSystem    &system,
-                               const InterfaceSummary &summary)
+  StateChecks::note(const unsigned int step,
+                    const std::string &check,
+                    const std::string &text)
   {
-    if (summary.bonded_opened > 0)
-      note_violation(
-        "opening",
-        where + "bonded points open (" + std::to_string(summary.bonded_opened) +
-          "): the law has no strength in tension, so that pulling costs nothing" +
-          (parameters.interface.opening_breaks_bond ?
-             "" :
-             ", and points that close again are "
-             "bonded as before"));
-    const double too_deep = deepest_penetration(parameters, system);
-    if (summary.max_penetration > too_deep)
-      {
-        std::ostringstream text;
-        text << where << "the bodies penetrate each other by "
-             << summary.max_penetration << " mm, more than " << too_deep
-             << " mm, a tenth of the thinner one or a whole surface element: "
-                "lengths are mm, is the push-in right?";
-        note_violation("penetration", text.str());
-      }
-    if (system.interface.n_unprojected() > 0)
-      note_violation("projection",
-                     where + "for " +
-                       std::to_string(system.interface.n_unprojected()) +
-                       " open points no closest point of the other surface was "
-                       "found: they stay open");
+    found.push_back({check, "step " + std::to_string(step) + ": " + text});
+    violated.insert(check);
   }
 
 
 
-  // Planned turns are divided; jumps and loaded chucks turn as far as they
-  // like.
+  // What slides does so by less than it should.
   void
-  StateChecks::check_turn(const std::string &where, const double turn)
+  StateChecks::add_motion(const unsigned int step,
+                          const Chuck       &chuck,
+                          const double       from,
+                          const double       to)
   {
-    if (turn > 1.001 * largest_turn && parameters.has_friction())
-      {
-        std::ostringstream text;
-        text << where << "the implant turned by " << turn * 180. / M_PI
-             << " degrees in one step: sliding points are pulled along the "
-                "chords of their ways, and friction is too small by 1 - cos of "
-                "half the angle, "
-             << 1. - std::cos(0.5 * turn) << " of itself";
-        note_violation("turn", text.str());
-      }
+    way.add(chuck, from, to);
+    if (way.missed_share() > ChuckWay::largest_missed_share)
+      note(step,
+           "way",
+           "steps go straight from state to state, and have missed " +
+             way.describe() +
+             " so far: what turns back or goes along a curve needs shorter "
+             "steps, or Load steps / Times where it turns");
   }
 
 
 
   void
-  StateChecks::check_reaction(const std::string &where)
+  StateChecks::add(const unsigned int      step,
+                   const CoupledSystem    &system,
+                   const InterfaceSummary &summary,
+                   const double            reaction_defect)
   {
-    if (last_reaction_defect >
+    const Note note = [&](const std::string &check, const std::string &text) {
+      this->note(step, check, text);
+    };
+    const bool           is_first        = !energy_balance.has_state();
+    const Chuck::Vector6 forces_before   = energy_balance.forces();
+    const Chuck::Vector6 position_before = energy_balance.position();
+    energy_balance.add(system.chuck_forces(),
+                       system.chuck.position(),
+                       system.bulk_energy(),
+                       summary.energy,
+                       system.interface.work().dissipation);
+    // the explicit law does not dissipate what InterfaceWork::friction says
+    if (!parameters.interface.explicit_friction)
+      check_for_jump(
+        parameters, system, summary, forces_before, released_energy, note);
+    check_interface(parameters, system, summary, note);
+
+    // Planned turns are divided; jumps and loaded chucks turn as far as they
+    // like.
+    const double turn =
+      (system.chuck.position() - position_before).tail<3>().norm();
+    if (!is_first && turn > 1.001 * largest_turn && parameters.has_friction())
+      note("turn",
+           Text() << "the implant turned by " << turn * 180. / M_PI
+                  << " degrees in one step: sliding points are pulled along "
+                     "the chords of their paths, and friction is too small by "
+                     "1 - cos of half the angle, "
+                  << 1. - std::cos(0.5 * turn) << " of itself");
+    if (reaction_defect >
         std::max(1e-6, 100. * parameters.load_steps.residual_tolerance))
-      {
-        std::ostringstream text;
-        text
-          << where
-          << "contact forces and the reaction of the implant's top differ by "
-          << last_reaction_defect << " of the larger";
-        note_violation("reaction", text.str());
-      }
+      note("reaction",
+           Text() << "contact forces and the reaction of the implant's top "
+                     "differ by "
+                  << reaction_defect << " of the larger");
+    check_energy_balance(energy_balance,
+                         system.interface.work().step_dissipation,
+                         note);
   }
-
-
-
-  void
-  StateChecks::check_energy_balance(const std::string &where,
-                                    const double       step_dissipation)
-  {
-    if (energy_balance.dissipates_too_much())
-      note_violation("dissipation",
-                     where +
-                       "more energy is dissipated than was put in: the steps "
-                       "are too large for the energy balance to be trusted");
-    if (energy_balance.is_given_back(step_dissipation))
-      note_violation("dissipation falls",
-                     where + "sliding gives energy back: points slide along "
-                             "their traction instead of against it");
-    if (energy_balance.is_out_of_balance())
-      {
-        std::ostringstream text;
-        text << where << "of the chuck's work, " << energy_balance.defect()
-             << " of its largest value is neither stored nor dissipated; the "
-                "size of the steps accounts for "
-             << energy_balance.defect_bound();
-        note_violation("energy balance", text.str());
-      }
-  }
-
 } // namespace Debond

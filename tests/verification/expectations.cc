@@ -324,11 +324,11 @@ namespace Expectations
 
 
 
-    /** Rungs of Model = auto that were run and are further from the reference
+    /** Levels of Model = auto that were run and are further from the reference
      *  curve than auto.csv estimates, or have no estimate; "" if all is well.
      */
     std::string
-    rungs_beyond_estimate(const std::vector<Results> &variants)
+    levels_beyond_estimate(const std::vector<Results> &variants)
     {
       std::ostringstream beyond;
       unsigned int       n = 0;
@@ -352,16 +352,16 @@ namespace Expectations
               const std::map<std::string, double> summary = read_summary(
                 variant.directory + "/rung-" + fields[0] + "/summary.json");
               if (summary.count("difference_max") == 0)
-                throw Problem("a rung has no difference_max");
+                throw Problem("a level has no difference_max");
               const double error = summary.at("difference_max");
               ++n;
               if (!(error < to_number(fields.at(estimate))))
-                beyond << " " << variant.directory << " rung " << fields[0]
+                beyond << " " << variant.directory << " level " << fields[0]
                        << " is off by " << error << ";";
             }
         }
       if (n == 0)
-        throw Problem("there are no rungs");
+        throw Problem("there are no levels");
       return beyond.str();
     }
   } // namespace
@@ -375,9 +375,9 @@ namespace Expectations
     Verdict            verdict;
     try
       {
-        if (expectation == "difference_max of every rung below estimate")
+        if (expectation == "difference_max of every level below estimate")
           {
-            verdict.measured = rungs_beyond_estimate(results);
+            verdict.measured = levels_beyond_estimate(results);
             verdict.is_met   = verdict.measured.empty();
           }
         else

@@ -14,14 +14,14 @@
 //   force_N ripple after time 1 below 0.01
 //   T_max_Nmm of variant 3 = 50.32 within 0.1 %
 //   torque_Nmm of variant 3 at angle_deg 0.05 above 31
-//   difference_max of every rung below estimate
+//   difference_max of every level below estimate
 //
 // A name alone is a key of summary.json (true counts as 1), in a study a column
 // of study.csv; so may the bound of `below' and `above' be. `at COLUMN VALUE`
 // is the last row of torque.csv with that value in that column, `max` the
 // largest absolute value in a column, `ripple after COLUMN VALUE` the largest
 // less the smallest value, relative to their mean, in rows where the other
-// column is at least that. Rungs are those of Model = auto, in all variants,
+// column is at least that. Levels are those of Model = auto, in all variants,
 // and the estimate that of auto.csv. A tolerance without % is absolute.
 
 #include <map>

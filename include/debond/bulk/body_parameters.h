@@ -45,6 +45,18 @@ namespace Debond
     double                      poisson_ratio   = 0.3;
     SurfaceKind                 contact_surface = SurfaceKind::nurbs;
 
+    /** Whether the body does not deform, and has no unknowns. */
+    bool
+    is_rigid() const
+    {
+      return material == Material::rigid;
+    }
+    /** Whether its stiffness depends on its strains. */
+    bool
+    has_large_strains() const
+    {
+      return material == Material::neo_hookean;
+    }
     /** Whether the body is a disk seen from above: a coin or a cap. */
     bool
     is_round() const;

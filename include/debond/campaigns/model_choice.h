@@ -1,93 +1,193 @@
 #ifndef debond_campaigns_model_choice_h
 #define debond_campaigns_model_choice_h
 
-#include <debond/campaigns/model_ladder.h>
-#include <debond/models/foundation.h>
+#include <debond/output/torque_curve.h>
+#include <debond/scene/scene.h>
 
+#include <array>
 #include <functional>
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Debond
 {
+  /** The materials of bone and implant. */
+  using Materials = std::array<Material, 2>;
+
+  /** "rigid", "linear" or "neo-hookean". */
+  std::string
+  name_of(Material material);
+
+  /** "15 x 15 x 2". */
+  std::string
+  in_words(const std::array<unsigned int, 3> &cells);
+
+  /** A level of the hierarchy: one model of a scene, and what came out of it.
+   */
+  struct ModelLevel
+  {
+    static constexpr double undefined =
+      std::numeric_limits<double>::quiet_NaN();
+
+    Materials    materials; ///< of bone and implant
+    unsigned int mesh = 0;  ///< doublings of the coarsest mesh
+    Scene        scene;
+
+    bool                   done = false;
+    std::string            why_not; ///< it is not done
+    std::vector<TorqueRow> rows;
+    double                 seconds = 0;
+    double difference = undefined; ///< largest, from the best level, over T_max
+    double estimate   = undefined; ///< of the error, over T_max
+
+    bool
+    is_foundation() const
+    {
+      return scene.model == ModelKind::foundation;
+    }
+    /** "foundation" or the richer of both materials. */
+    std::string
+    model() const;
+    /** "linear, 15 x 15 x 2 and 3 x 3 x 2 cells". */
+    std::string
+    description() const;
+    /** Unknowns of both bodies; none of those that are rigid. */
+    double
+    unknowns() const;
+  };
+
+  /**
+   * The models that `Model = auto` may choose among: the scenes that they are.
+   * Meshes are numbered from 0, the coarsest; each has twice the cells of the
+   * one before in every direction. The coarsest is that of the scene, or a
+   * half, a quarter ... of it as long as all numbers of cells are even and the
+   * mesh keeps 15 cells across the bone, 3 across the implant and 2 layers.
+   */
+  class ModelHierarchy
+  {
+  public:
+    /** @p step_tolerance is that of the adaptive steps of all models. */
+    ModelHierarchy(const Scene &scene, double step_tolerance);
+
+    /** Finite elements. */
+    ModelLevel
+    finite_elements(const Materials &materials, unsigned int mesh) const;
+
+    /** The closed form with the linear solution on mesh 0. */
+    ModelLevel
+    foundation() const;
+
+    /** The scene with half the cells of mesh 0, rounded up, for the linear
+     *  solution only, and the ratio of the sizes of cells: the smallest of all
+     *  directions. */
+    std::pair<Scene, double>
+    below_coarsest() const;
+
+    /** Why this mesh is more than a computer can be asked for; empty if it is
+     *  not. */
+    std::string
+    limit(const Materials &materials, unsigned int mesh) const;
+
+  private:
+    const Scene                                scene;
+    const double                               step_tolerance;
+    std::array<std::array<unsigned int, 3>, 2> coarsest;
+
+  public:
+    /** From the poorest, two rigid bodies, to the scene's own; the richest that
+     *  are not Neo-Hookean. */
+    std::vector<Materials> materials;
+    Materials              linear_materials;
+  };
+
+
+
+  /** Largest |T - T_reference| relative to the largest |T_reference|: the
+   *  `difference_max` of summary.json, at the rows of both curves. Only angles
+   *  that both have and that are beyond zero in the sense of the rotation, and
+   *  only rows with more than 1 % of their curve's largest torque. NaN if no
+   *  such row is left or if one of the curves turns back. */
+  double
+  largest_difference(const std::vector<TorqueRow> &rows,
+                     const std::vector<TorqueRow> &reference);
+
+  /**
+   * Error of the finest of several meshes, each of which has half the cell size
+   * of the one before, from the @p differences between neighbours, coarsest
+   * first: that of order one, and from the second difference on of the order
+   * that is observed, but at most two; 1.25 times as a reserve. NaN if the
+   * observed order is below one half: meshes that do not converge tell nothing.
+   */
+  double
+  discretisation_error(const std::vector<double> &differences);
+
   /** "4.4 %", or "unknown". */
   std::string
   percent(double ratio);
 
   /**
-   * Climbs the models of a ModelLadder from the cheapest until the error of one
-   * of their torque curves is estimated to be within `Load steps / Tolerance`,
-   * and answers with the cheapest one that is. The error is the largest
-   * difference from the curve of the scene's own bodies on a converged mesh,
-   * relative to the largest torque; doc/auto.md says how it is estimated. How a
-   * model is run and what becomes of its results is for the caller to say.
+   * Runs the models of a ModelHierarchy from the cheapest until the error of
+   * one of their torque curves is estimated to be within `Load steps /
+   * Tolerance`, and answers with the cheapest one that is. The error is the
+   * largest difference from the curve of the scene's own bodies on a converged
+   * mesh, relative to the largest torque; doc/auto.md says how it is estimated.
    */
   class ModelChoice
   {
   public:
-    /** Throws InputError, beginning with the name of the entry, if the scene
-     *  has no torque curve that models could be compared by. */
+    /** Throws EntryError if the scene has no torque curve that models could be
+     *  compared by. */
     explicit ModelChoice(const Scene &scene);
 
-    /** Tries the models. @p run fills Rung::rows, and Rung::estimate of the
-     *  foundation, and throws if it cannot. @p report is called after each
-     *  model, when its error is mostly not known yet. */
+    /** Tries the models, each in a directory DIR/rung-1 and so on. @p report is
+     *  called after each of them, when its error is mostly not known yet. */
     void
-    climb(const std::function<void(Rung &)>       &run,
-          const std::function<void(const Rung &)> &report);
+    climb(const std::function<void(const ModelLevel &)> &report);
 
     /** Those that were tried, by cost. */
-    const std::vector<Rung> &
-    rungs() const
+    const std::vector<ModelLevel> &
+    levels() const
     {
       return tried;
     }
     /** The cheapest within the tolerance, else the best; none if no model could
      *  be run. */
-    const Rung *
+    const ModelLevel *
     answer() const;
     bool
-    is_sufficient(const Rung &rung) const
+    is_sufficient(const ModelLevel &level) const
     {
-      return rung.done && rung.estimate <= tolerance;
+      return level.done && level.estimate <= tolerance;
     }
     /** Why the answer is no better than it is, in words. */
     std::string
     reason() const;
 
-    /** Error of a foundation by itself, see foundation_error(). */
-    double
-    foundation_estimate(const Rung                &foundation,
-                        const FoundationStiffness &stiffness) const;
-
-    const double      tolerance;
-    const ModelLadder ladder;
-
-    /** Materials of the meshes that are refined. */
-    const Materials &
-    refined_materials() const
-    {
-      return refined;
-    }
+    const double         tolerance;
+    const ModelHierarchy hierarchy;
 
   private:
     void
-    try_rung(Rung rung, const std::function<void(Rung &)> &run);
-    const Rung *
+    run(ModelLevel &level) const;
+    void
+    try_level(ModelLevel level);
+    const ModelLevel *
     find(const Materials &materials, unsigned int mesh) const;
-    const Rung *
+    const ModelLevel *
     best() const;
-    const Rung *
+    const ModelLevel *
     sufficient() const;
     void
     estimate_errors();
     double
     linearisation_error() const;
 
-    const double      step_error; ///< what steps contribute to an estimate
-    std::vector<Rung> tried;
-    std::string       why_no_further; ///< if the tolerance is not reached
-    Materials         refined;
+    const double            step_error; ///< what steps add to an estimate
+    std::vector<ModelLevel> tried;
+    std::string             why_no_further; ///< if the tolerance is not reached
+    Materials               refined;        ///< those of the finer meshes
   };
 } // namespace Debond
 #endif

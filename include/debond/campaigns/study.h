@@ -2,21 +2,16 @@
 #define debond_campaigns_study_h
 
 #include <debond/campaigns/variant.h>
+#include <debond/support/written_files.h>
 #include <debond/support/input_error.h>
-
-#include <deal.II/base/timer.h>
 
 #include <iosfwd>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace Debond
 {
-  /** Columns of study.csv and their values, of one variant. */
-  using StudyRow = std::vector<std::pair<std::string, std::string>>;
-
   /**
    * A scene whose entries hold several values: runs every variant, several at a
    * time, into DIR/variant-001 and so on, and gathers them in DIR/study.csv.
@@ -58,21 +53,16 @@ namespace Debond
 
   private:
     std::string
-    describe(unsigned int variant) const;
+    describe(const Variant &variant) const;
     /** Returns what keeps others out of the directory of the study. */
     DirectoryLock
     prepare(bool force);
     void
-    report(unsigned int variant, std::ostream &out) const;
-    StudyRow
-    table_row(unsigned int variant) const;
-    /** Ends a study that a signal asks to stop: throws Interrupted. */
-    [[noreturn]] void
-    stop();
+    run_variants(unsigned int n_jobs, std::ostream &out);
+    unsigned int
+    n_done() const;
     void
     write_table();
-    void
-    write_table_if_due();
     void
     write_ensemble(std::ostream &out) const;
 
@@ -80,8 +70,6 @@ namespace Debond
     std::vector<Variant>     variants;
     std::string              directory;
     unsigned int             reference = 0; ///< number of a variant, 0: none
-    dealii::Timer            since_table;
-    double                   time_between_tables = 2; ///< [s]
   };
 } // namespace Debond
 #endif

@@ -16,11 +16,12 @@ namespace Debond
   text_of(const nlohmann::ordered_json &value);
   /** A number of a summary; NaN if there is none of this name. */
   double
-  number(const nlohmann::ordered_json &summary, const std::string &name);
+  number_in(const nlohmann::ordered_json &summary, const std::string &name);
 
   /** A variant of a study, and what its directory holds. */
   struct Variant
   {
+    std::string              name; ///< "variant-001"
     Scene                    scene;
     std::vector<std::string> values;            ///< of the varied entries
     unsigned int             n_repetitions = 1; ///< runs that are wanted
@@ -35,12 +36,9 @@ namespace Debond
     void
     look_up();
     /** To be called when a run has ended: @p why_failed, empty if it did not.
-     */
-    void
-    end_run(const std::string &why_failed);
-    /** Whether all is well, but runs are missing. */
+     *  Returns whether all is well, but another run is wanted. */
     bool
-    wants_another_run() const;
+    end_run(const std::string &why_failed);
     /** Removes the summaries of earlier runs. */
     void
     forget_repetitions();

@@ -1,9 +1,12 @@
 #ifndef debond_campaigns_variant_queue_h
 #define debond_campaigns_variant_queue_h
 
+#include <sys/types.h>
+
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace Debond
 {
@@ -68,5 +71,35 @@ namespace Debond
     unsigned int                        last_group = -1; ///< one that is begun
     std::shared_ptr<BodyPair>           bodies;
   };
+
+
+
+  /** A process that runs a variant. It does not outlive its study. It leaves
+   *  its results in its directory and, if it fails, says why on a pipe. */
+  struct VariantProcess
+  {
+    unsigned int variant;
+    pid_t        id;
+    int          read_end; ///< of the pipe with its last words
+  };
+
+  /** Starts a variant, with bodies that it shares or none; it goes on from the
+   *  checkpoint of a run that was ended, if there is one. */
+  VariantProcess
+  start_process(unsigned int                     variant,
+                const Scene                     &scene,
+                const std::shared_ptr<BodyPair> &bodies);
+
+  /** Waits until one of them ends; their end() if a signal asks to stop. */
+  std::vector<VariantProcess>::iterator
+  wait_for_one(std::vector<VariantProcess> &processes);
+
+  /** Waits for the end of a process. Returns why it failed, if it did. */
+  std::string
+  end_of(const VariantProcess &process);
+
+  /** Asks all of them to end, and waits until they have. */
+  void
+  stop(const std::vector<VariantProcess> &processes);
 } // namespace Debond
 #endif

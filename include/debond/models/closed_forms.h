@@ -4,6 +4,7 @@
 #include <debond/interface/friction_law.h>
 
 #include <limits>
+#include <memory>
 #include <vector>
 
 namespace Debond
@@ -24,9 +25,12 @@ namespace Debond
     {
       double radius   = 0; ///< R [mm]
       double pressure = 0; ///< p [MPa], the same everywhere
-      double phi_0    = 1; ///< initial bonding inside bonded_radius
+      /** Of the tangential traction per path of points that stick [MPa/mm]:
+       *  eps_t, or lambda of Eq. (39). */
+      double stiffness = 0;
+      double phi_0     = 1; ///< initial bonding inside bonded_radius
       /** Points further out are not bonded at the start [mm]. */
-      double bonded_radius = std::numeric_limits<double>::infinity();
+      double bonded_radius        = std::numeric_limits<double>::infinity();
       FrictionLawPointer friction = default_friction_law();
     };
     const Disk disk;
@@ -62,8 +66,9 @@ namespace Debond
       double dissipation   = 0; ///< work of friction since theta = 0 [N mm]
       double adhesive_work = 0; ///< its part above mu_b p, D_adh [N mm]
     };
+    /** Integrates the fields of point() over the disk. */
     virtual State
-    state(double theta) const = 0;
+    state(double theta) const;
 
     /** Torque T [N mm] at the angle @p theta [rad]: Eq. (37). */
     double
@@ -73,6 +78,10 @@ namespace Debond
     }
 
   protected:
+    /** Radii [mm] where the fields of point() are not smooth, in any order;
+     *  those outside of ]0, R[ do not matter. */
+    virtual std::vector<double>
+    kinks(double theta) const;
     /** phi_0 at a radius [mm]. */
     double
     initial_bonding(double r) const;
@@ -80,21 +89,9 @@ namespace Debond
      *  @p slip [mm]. */
     FrictionCoefficient
     friction(double phi_0, double slip) const;
-
-    /** The point at the radius @p r after the sliding distance @p slip; while
-     *  it sticks, with the @p stiffness of its traction per path
-     *  [MPa/mm]. */
+    /** The point at the radius @p r after the sliding distance @p slip. */
     Point
-    point_with(bool   sticks,
-               double r,
-               double slip,
-               double theta,
-               double stiffness) const;
-    /** The fields of point() integrated between the radii @p kinks, in any
-     *  order, where they are not smooth; those outside of ]0, R[ do not
-     *  matter. @p stiffness stores the tangential traction [MPa/mm]. */
-    State
-    integrate(double theta, std::vector<double> kinks, double stiffness) const;
+    point_with(bool sticks, double r, double slip, double theta) const;
   };
 
 
@@ -120,44 +117,30 @@ namespace Debond
   class RigidBodiesTorsion : public TorsionModel
   {
   public:
-    struct Parameters : Disk
-    {
-      double stiffness = 0; ///< eps_t, or lambda of Eq. (39) [MPa/mm]
-    };
-
     /** Throws dealii::ExcMessage unless has_unique_solution(). */
-    explicit RigidBodiesTorsion(const Parameters &parameters);
+    explicit RigidBodiesTorsion(const Disk &disk);
 
     /** Whether the law softens slowly enough, |d mu/d g_s| p < eps_t
      *  everywhere; otherwise the traction jumps at some angle. */
     static bool
-    has_unique_solution(const Parameters &parameters);
+    has_unique_solution(const Disk &disk);
 
     /** Sliding distance g_s [mm] at the radius @p r [mm] and the angle @p theta
      *  [rad] of a rotation that began at zero and never reversed. */
     double
     slip(double r, double theta) const;
 
-    /** Tangential traction t [MPa], with the sign of @p theta. */
-    double
-    traction(double r, double theta) const
-    {
-      return point(r, theta).traction;
-    }
-
     Point
     point(double r, double theta) const override;
     double
     stick_radius(double theta) const override;
-    State
-    state(double theta) const override;
 
   private:
+    std::vector<double>
+    kinks(double theta) const override;
     /** The path r theta at which the sliding distance is @p slip [mm]. */
     double
     path(double slip, double phi_0) const;
-
-    const double stiffness;
   };
 
 
@@ -181,13 +164,16 @@ namespace Debond
    */
   class CompliantMachineTorsion
   {
+    const TorsionModel &bodies;
+    const double        stiffness, largest_angle;
+
   public:
     /** @p bodies must outlive this object. @p stiffness k > 0 of the machine
      *  [N mm/rad]; the curve is searched up to the angle @p largest_angle of
      *  the disk [rad] at a few thousand points. */
-    CompliantMachineTorsion(const RigidBodiesTorsion &bodies,
-                            double                    stiffness,
-                            double                    largest_angle);
+    CompliantMachineTorsion(const TorsionModel &bodies,
+                            double              stiffness,
+                            double              largest_angle);
 
     /** theta_m at the angle @p theta of the disk [rad]. */
     double
@@ -205,11 +191,7 @@ namespace Debond
       bool   is_maximum    = false;
     };
     /** In the order of theta. */
-    const std::vector<LimitPoint> &
-    limit_points() const
-    {
-      return limits;
-    }
+    const std::vector<LimitPoint> limit_points;
 
     /** What a machine that turns on and on cannot follow. */
     struct Jump
@@ -219,11 +201,7 @@ namespace Debond
       double torque_before = 0, torque_after = 0; ///< [N mm]
       double released_energy = 0;                 ///< [N mm]
     };
-    const std::vector<Jump> &
-    jumps() const
-    {
-      return all_jumps;
-    }
+    const std::vector<Jump> jumps;
 
     /** theta [rad] when a machine that turns on and on has come to @p
      *  machine_angle <= `largest_angle` [rad]; at a jump the angle before. */
@@ -231,17 +209,12 @@ namespace Debond
     angle(double machine_angle) const;
 
   private:
-    void
-    find_limit_points();
-    void
-    find_jumps();
+    std::vector<LimitPoint>
+    find_limit_points() const;
+    std::vector<Jump>
+    find_jumps() const;
     double
     angle_between(double begin, double end, double machine_angle) const;
-
-    const RigidBodiesTorsion &bodies;
-    const double              stiffness, largest_angle;
-    std::vector<LimitPoint>   limits;
-    std::vector<Jump>         all_jumps;
   };
 
 
@@ -255,33 +228,14 @@ namespace Debond
    *
    * The sliding distance of Eq. (49) is not the motion that the traction works
    * on, so this model does not balance energy.
+   *
+   * @p linear_limit theta_lin > 0, @p full_sliding theta_max >= theta_lin
+   * [rad]. The stiffness of @p disk follows from theta_lin, Eqs. (43) and (46).
    */
-  class AnalyticalTorsion : public TorsionModel
-  {
-  public:
-    /** @p linear_limit theta_lin > 0, @p full_sliding theta_max >= theta_lin
-     *  [rad]. */
-    AnalyticalTorsion(const Disk &disk,
-                      double      linear_limit,
-                      double      full_sliding);
-
-    Point
-    point(double r, double theta) const override;
-    double
-    stick_radius(double theta) const override;
-    State
-    state(double theta) const override;
-
-  private:
-    /** g_s / r of sliding points, Eq. (49) [rad]. */
-    double
-    slip_per_radius(double theta) const;
-
-    const double linear_limit, full_sliding;
-    const double stiffness; ///< Eqs. (43) and (46)
-  };
-
-
+  std::unique_ptr<TorsionModel>
+  analytical_torsion(const TorsionModel::Disk &disk,
+                     double                    linear_limit,
+                     double                    full_sliding);
 
   /**
    * The model of Mathieu et al. (2012) as the paper prints it, Eqs. (14) to
@@ -289,39 +243,14 @@ namespace Debond
    * rigid disk and an elastic half space; behind its tip the constant friction
    * tau_0 acts. Before the crack starts, the bonded disk of Reissner and
    * Sagoci.
+   *
+   * @p shear_modulus G > 0 [MPa], @p adhesion_energy w_adh >= 0 [N/mm],
+   * @p friction_stress tau_0 >= 0 [MPa]. Of @p disk only the radius counts.
    */
-  class MathieuTorsion : public TorsionModel
-  {
-  public:
-    /** @p shear_modulus G > 0 [MPa], @p adhesion_energy w_adh >= 0 [N/mm],
-     *  @p friction_stress tau_0 >= 0 [MPa]. Of @p disk only the radius counts.
-     */
-    MathieuTorsion(const Disk &disk,
-                   double      shear_modulus,
-                   double      adhesion_energy,
-                   double      friction_stress)
-      : TorsionModel(disk)
-      , G(shear_modulus)
-      , w_adh(adhesion_energy)
-      , tau_0(friction_stress)
-    {}
-
-    /** Angle at which the crack has the radius @p c [mm]: Eq. (14) [rad]. */
-    double
-    angle(double c) const;
-
-    /** Eqs. (15) and (16); the traction is infinite at the crack tip. */
-    Point
-    point(double r, double theta) const override;
-    /** Radius of the crack: the inverse of Eq. (14). */
-    double
-    stick_radius(double theta) const override;
-    /** With Eq. (37) integrated in closed form. */
-    State
-    state(double theta) const override;
-
-  private:
-    const double G, w_adh, tau_0;
-  };
+  std::unique_ptr<TorsionModel>
+  mathieu_torsion(const TorsionModel::Disk &disk,
+                  double                    shear_modulus,
+                  double                    adhesion_energy,
+                  double                    friction_stress);
 } // namespace Debond
 #endif

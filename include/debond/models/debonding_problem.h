@@ -21,40 +21,34 @@ namespace Debond
   class DebondingProblem
   {
   public:
-    /** @p bodies: see CoupledSystem. */
+    /** @p bodies: see CoupledSystem. Throws NotEnoughMemory. */
     explicit DebondingProblem(const Scene              &scene,
                               std::shared_ptr<BodyPair> bodies = nullptr);
-    ~DebondingProblem();
 
+    /** From the beginning, or from a checkpoint of a run of this scene: rows
+     *  and files from there on are those of a run that was never interrupted,
+     *  to the last bit. Throws InputError, with its place in the scene, if the
+     *  checkpoint is not from this program; what Simulation throws;
+     *  Interrupted, WriteError. */
     void
-    run()
-    {
-      run(nullptr);
-    }
-
-    /** The same from a checkpoint of a run of this scene: rows and files from
-     *  there on are those of a run that was never interrupted, to the last bit.
-     *  Throws InputError if the checkpoint is not from this program. */
-    void
-    resume(const Checkpoint &checkpoint);
+    run(const Checkpoint *checkpoint = nullptr);
 
     /** Builds the meshes, prints degrees of freedom and what closed forms
-     *  foretell, and runs nothing. */
+     *  predict, and runs nothing. */
     void
-    check(std::ostream &out);
+    check(std::ostream &out) const;
 
+    /** Those of the run, also of one that failed. */
     const std::vector<TorqueRow> &
-    rows() const;
+    rows() const
+    {
+      return all_rows;
+    }
 
   private:
-    struct Run;
-
-    void
-    run(const Checkpoint *checkpoint);
-
     const Scene               scene;
     std::shared_ptr<BodyPair> bodies;
-    std::unique_ptr<Run>      current; ///< while and after it runs
+    std::vector<TorqueRow>    all_rows;
   };
 } // namespace Debond
 #endif

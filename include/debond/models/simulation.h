@@ -13,7 +13,6 @@
 
 #include <boost/signals2/signal.hpp>
 
-#include <limits>
 #include <memory>
 #include <variant>
 #include <vector>
@@ -27,6 +26,11 @@ namespace Debond
    *     Simulation simulation(scene);
    *     simulation.run();
    *     for (const TorqueRow &row : simulation.rows()) ...
+   *
+   * Each state solves, in the control points of both contact surfaces and the
+   * loaded components of the chuck, the equations of CoupledSystem: contact and
+   * friction of the paper, Eqs. (11) to (13) and (23) to (36), between two
+   * bodies that are rigid, linear or Neo-Hookean, Eq. (1).
    *
    * It knows no directory, console, clock, signal or file; what does looks on.
    * The checks that make a state trustworthy belong to it: that the residual
@@ -50,8 +54,6 @@ namespace Debond
      */
     struct Signals
     {
-      /** A row is to be solved for, after those that there are. */
-      boost::signals2::signal<void()> next_row;
       /** The newest row; the system is in its state. */
       boost::signals2::signal<void(const TorqueRow &)> row;
       /** A check was not passed for the first time, see warnings(). */
@@ -64,7 +66,9 @@ namespace Debond
      *  the scene has no finite value. */
     void
     run();
-    /** Solves for one more row; the first is the state at the first time. */
+    /** Solves for one more row; the first is the state at the first time. For
+     *  programs that want to look at every state themselves. Throws as run()
+     *  does. */
     void
     advance();
     bool
@@ -84,11 +88,13 @@ namespace Debond
     {
       return coupled_system;
     }
+    /** Works, energies and jumps so far. */
     const StateChecks &
     checks() const
     {
       return state_checks;
     }
+    /** Where in the load history the simulation is, and why it ends. */
     const StepControl &
     control() const
     {
@@ -102,17 +108,12 @@ namespace Debond
       return all_warnings;
     }
 
-    struct Effort
-    {
-      unsigned int steps             = 0; ///< accepted, sub-steps included
-      unsigned int newton_iterations = 0; ///< also of attempts that failed
-      /** Time of the shortest accepted step. */
-      double shortest_step = std::numeric_limits<double>::quiet_NaN();
-    };
-    const Effort &
+    /** What summary.json is to tell of the steps: `steps`, `smallest_step`,
+     *  `newton_iterations`, also of attempts that failed. */
+    const RunSummary &
     effort() const
     {
-      return spent;
+      return so_far;
     }
 
     /** See serialization.h. Between rows; a simulation that is loaded is one of
@@ -122,7 +123,7 @@ namespace Debond
     serialize(Archive &archive, const unsigned int)
     {
       archive &coupled_system &solver &state_checks &all_rows &all_warnings;
-      archive &spent.steps &spent.newton_iterations &spent.shortest_step;
+      archive &so_far.steps &so_far.newton_iterations &so_far.smallest_step;
       std::visit([&archive](auto &chosen) { archive &chosen; }, steps);
     }
 
@@ -131,6 +132,9 @@ namespace Debond
   private:
     using Steps = std::variant<PlannedSteps, AdaptiveStepping, PathFollowing>;
 
+    // A step in order: solve_row() asks the control of steps which one to
+    // try and has the solver look for the state at its end, accept() makes it
+    // history, add_row() says what came of it.
     static Steps
     choose_steps(const Scene &scene);
     void
@@ -143,8 +147,6 @@ namespace Debond
     accept(const StepResult &result);
     void
     add_row(const InterfaceSummary &summary, unsigned int iterations);
-    void
-    refuse_jump(const StepResult &result) const;
     [[noreturn]] void
     give_up(const Step &step, const StepResult &result) const;
     void
@@ -152,6 +154,7 @@ namespace Debond
     void
     warn(const Warning &warning);
 
+    // In this order, because each refers to those before.
     CoupledSystem          coupled_system;
     StepSolver             solver;
     Steps                  steps;
@@ -159,7 +162,8 @@ namespace Debond
     StateChecks            state_checks;
     std::vector<TorqueRow> all_rows;
     std::vector<Warning>   all_warnings;
-    Effort                 spent;
+    RunSummary             so_far;
+    double                 reaction_defect = 0; ///< of the last accepted state
   };
 } // namespace Debond
 #endif

@@ -39,11 +39,11 @@ namespace Debond
     /** Keeps a reference. */
     explicit StateChecks(const ModelParameters &parameters);
 
-    /** Notes the way of the chuck in a step with friction from time @p from to
-     *  time @p to, that is about to be accepted as a part of the planned @p
-     * step. Throws InputError if a value on the way is not finite. */
+    /** Notes what the chuck is to do in a step with friction from time @p from
+     *  to time @p to, that is about to be accepted as a part of the planned
+     *  @p step. Throws InputError if a value in between is not finite. */
     void
-    add_way(unsigned int step, const Chuck &chuck, double from, double to);
+    add_motion(unsigned int step, const Chuck &chuck, double from, double to);
 
     /** Notes a state that has just been accepted in a planned step. @p summary
      *  and @p reaction_defect are those of the state before commit(). A check
@@ -64,12 +64,6 @@ namespace Debond
     {
       return released_energy;
     }
-    /** Of the last state. */
-    double
-    reaction_defect() const
-    {
-      return last_reaction_defect;
-    }
     /** What was found since the last call. */
     std::vector<Warning>
     take_warnings()
@@ -78,34 +72,22 @@ namespace Debond
     }
     /** How many checks were not passed by a state since the last call. */
     unsigned int
-    take_violations();
+    take_violations()
+    {
+      return std::exchange(violated, {}).size();
+    }
 
     /** See serialization.h. */
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &energy_balance &released_energy &way &last_reaction_defect;
+      archive &energy_balance &released_energy &way;
     }
 
   private:
     void
-    note_violation(const std::string &check, const std::string &text);
-    void
-    check_for_jump(const std::string      &where,
-                   const Chuck::Vector6   &forces_before,
-                   const CoupledSystem    &system,
-                   const InterfaceSummary &summary);
-    void
-    check_interface(const std::string      &where,
-                    const CoupledSystem    &system,
-                    const InterfaceSummary &summary);
-    void
-    check_turn(const std::string &where, double turn);
-    void
-    check_reaction(const std::string &where);
-    void
-    check_energy_balance(const std::string &where, double step_dissipation);
+    note(unsigned int step, const std::string &check, const std::string &text);
 
     const ModelParameters &parameters;
     EnergyBalance          energy_balance;
@@ -113,7 +95,6 @@ namespace Debond
     ChuckWay               way;
     std::set<std::string>  violated; ///< since the last row
     std::vector<Warning>   found;    ///< since they were taken
-    double                 last_reaction_defect = 0;
   };
 } // namespace Debond
 #endif

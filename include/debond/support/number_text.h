@@ -42,5 +42,25 @@ namespace Debond
                        std::to_string(std::stoi(scientific.substr(exponent))));
     return scientific.size() < fixed.size() ? scientific : fixed;
   }
+
+  /** A text of what a stream takes, `Text() << "at " << 1.5 << " mm"`. */
+  class Text
+  {
+  public:
+    template <typename Part>
+    Text &
+    operator<<(const Part &part)
+    {
+      stream << part;
+      return *this;
+    }
+    operator std::string() const
+    {
+      return stream.str();
+    }
+
+  private:
+    std::ostringstream stream;
+  };
 } // namespace Debond
 #endif

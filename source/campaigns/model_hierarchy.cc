@@ -1,8 +1,8 @@
-#include <debond/campaigns/model_ladder.h>
+#include <debond/campaigns/model_choice.h>
+#include <debond/support/number_text.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace Debond
 {
@@ -29,7 +29,7 @@ namespace Debond
     double
     number_of_unknowns(const BodyParameters &body)
     {
-      if (body.material == Material::rigid)
+      if (body.is_rigid())
         return 0.;
       const double x = body.cells[0], y = body.cells[1], z = body.cells[2];
       const double more = body.contact_surface == SurfaceKind::nurbs ? 2. : 1.;
@@ -52,14 +52,13 @@ namespace Debond
   std::string
   in_words(const std::array<unsigned int, 3> &cells)
   {
-    return std::to_string(cells[0]) + " x " + std::to_string(cells[1]) + " x " +
-           std::to_string(cells[2]);
+    return Text() << cells[0] << " x " << cells[1] << " x " << cells[2];
   }
 
 
 
   std::string
-  Rung::model() const
+  ModelLevel::model() const
   {
     return is_foundation() ? "foundation" :
                              name_of(std::max(materials[0], materials[1]));
@@ -68,7 +67,7 @@ namespace Debond
 
 
   std::string
-  Rung::description() const
+  ModelLevel::description() const
   {
     return model() + ", " + in_words(scene.bone.cells) + " and " +
            in_words(scene.implant.cells) + " cells";
@@ -77,7 +76,7 @@ namespace Debond
 
 
   double
-  Rung::unknowns() const
+  ModelLevel::unknowns() const
   {
     return is_foundation() ?
              0. :
@@ -86,16 +85,22 @@ namespace Debond
 
 
 
-  ModelLadder::ModelLadder(const Scene &scene, const double step_tolerance)
+  ModelHierarchy::ModelHierarchy(const Scene &scene,
+                                 const double step_tolerance)
     : scene(scene)
     , step_tolerance(step_tolerance)
     , coarsest{{scene.bone.cells, scene.implant.cells}}
   {
+    // None richer than a limit, in the order of their cost.
+    const auto limited_to = [&](const Material limit) {
+      return Materials{{std::min(scene.bone.material, limit),
+                        std::min(scene.implant.material, limit)}};
+    };
+    linear_materials = limited_to(Material::linear);
     for (const Material limit :
          {Material::rigid, Material::linear, Material::neo_hookean})
-      if (const Materials next = limited_to(limit);
-          all_materials.empty() || next != all_materials.back())
-        all_materials.push_back(next);
+      if (materials.empty() || limited_to(limit) != materials.back())
+        materials.push_back(limited_to(limit));
     while (can_be_halved(coarsest[0], 15) && can_be_halved(coarsest[1], 3))
       for (Cells &cells : coarsest)
         for (unsigned int &n : cells)
@@ -104,90 +109,79 @@ namespace Debond
 
 
 
-  Materials
-  ModelLadder::limited_to(const Material limit) const
+  ModelLevel
+  ModelHierarchy::finite_elements(const Materials   &materials,
+                                  const unsigned int mesh) const
   {
-    return {{std::min(scene.bone.material, limit), // in the order of their cost
-             std::min(scene.implant.material, limit)}};
-  }
-
-
-
-  Rung
-  ModelLadder::finite_elements(const unsigned int number,
-                               const Materials   &materials,
-                               const unsigned int mesh) const
-  {
-    Rung rung;
-    rung.materials     = materials;
-    rung.mesh          = mesh;
-    rung.scene         = scene;
-    rung.scene.model   = ModelKind::finite_elements;
+    ModelLevel level;
+    level.materials    = materials;
+    level.mesh         = mesh;
+    level.scene        = scene;
+    level.scene.model  = ModelKind::finite_elements;
     unsigned int which = 0;
-    for (BodyParameters *const body : {&rung.scene.bone, &rung.scene.implant})
+    for (BodyParameters *const body : {&level.scene.bone, &level.scene.implant})
       {
         body->material = materials[which];
         body->cells    = coarsest[which++];
         for (unsigned int &n : body->cells)
           n <<= mesh;
       }
-    rung.scene.load_steps.adaptive  = true;
-    rung.scene.load_steps.tolerance = step_tolerance;
-    OutputParameters &output        = rung.scene.output;
-    output.console                  = ConsoleKind::quiet;
-    output.directory += "/rung-" + std::to_string(number);
-    output.overwrite_other_results = true;
-    output.resumable               = false;
-    return rung;
+    level.scene.load_steps.adaptive  = true;
+    level.scene.load_steps.tolerance = step_tolerance;
+    OutputParameters &output         = level.scene.output;
+    output.console                   = ConsoleKind::quiet;
+    output.overwrite_other_results   = true;
+    output.resumable                 = false;
+    return level;
   }
 
 
 
-  Rung
-  ModelLadder::foundation(const unsigned int number) const
+  ModelLevel
+  ModelHierarchy::foundation() const
   {
-    Rung rung        = finite_elements(number, all_materials.back(), 0);
-    rung.materials   = linear_materials(); // those of the linear solution
-    rung.scene.model = ModelKind::foundation;
+    ModelLevel level  = finite_elements(materials.back(), 0);
+    level.materials   = linear_materials; // those of the linear solution
+    level.scene.model = ModelKind::foundation;
     // the bodies' own, whatever the scene says
-    rung.scene.closed_form.pressure            = 0.;
-    rung.scene.closed_form.normal_stiffness    = 0.;
-    rung.scene.closed_form.torsional_stiffness = 0.;
-    return rung;
+    level.scene.closed_form.pressure            = 0.;
+    level.scene.closed_form.normal_stiffness    = 0.;
+    level.scene.closed_form.torsional_stiffness = 0.;
+    return level;
   }
 
 
 
-  Scene
-  ModelLadder::below_coarsest(double &ratio) const
+  std::pair<Scene, double>
+  ModelHierarchy::below_coarsest() const
   {
     Scene        result = scene;
     unsigned int which  = 0;
-    ratio               = 2.;
+    double       ratio  = 2.;
     for (BodyParameters *const body : {&result.bone, &result.implant})
       {
         const Cells &cells = coarsest[which++];
         for (unsigned int d = 0; d < 3; ++d)
           {
             body->cells[d] = std::max(d < 2 ? 2U : 1U, (cells[d] + 1) / 2);
-            if (body->material != Material::rigid || d < 2)
+            if (!body->is_rigid() || d < 2)
               ratio = std::min(ratio, double(cells[d]) / body->cells[d]);
           }
       }
-    return result;
+    return {result, ratio};
   }
 
 
 
   std::string
-  ModelLadder::limit(const Materials &materials, const unsigned int mesh) const
+  ModelHierarchy::limit(const Materials   &materials,
+                        const unsigned int mesh) const
   {
     if (mesh > largest_mesh)
-      return "the mesh has been refined " + std::to_string(largest_mesh) +
-             " times";
-    const Rung   next     = finite_elements(0, materials, mesh);
-    const double unknowns = next.unknowns();
-    double       n_cells = 0., contact_unknowns = 0.;
+      return Text() << "the mesh has been refined " << largest_mesh << " times";
+    const ModelLevel next     = finite_elements(materials, mesh);
+    const double     unknowns = next.unknowns();
+    double           n_cells = 0., contact_unknowns = 0.;
     for (const BodyParameters *const body :
          {&next.scene.bone, &next.scene.implant})
       {
@@ -196,20 +190,20 @@ namespace Debond
         for (const unsigned int d : {0, 1})
           share *= scene.implant.width(d) / body->width(d);
         n_cells += on_face * body->cells[2];
-        if (body->material != Material::rigid)
+        if (!body->is_rigid())
           contact_unknowns += 3. * share * on_face;
       }
-    std::ostringstream text;
     if (unknowns > scene.automatic.largest_number_of_unknowns)
-      text << "the next mesh has " << unknowns << " unknowns, more than "
-           << scene.automatic.largest_number_of_unknowns
-           << " (Auto / Largest number of unknowns)";
-    else if (contact_unknowns > largest_number_of_contact_unknowns)
-      text << "the next mesh has some " << contact_unknowns
-           << " unknowns on the contact surfaces, more than "
-           << largest_number_of_contact_unknowns;
-    else if (n_cells > largest_number_of_cells)
-      text << "the next mesh has " << n_cells << " cells";
-    return text.str();
+      return Text() << "the next mesh has " << unknowns
+                    << " unknowns, more than "
+                    << scene.automatic.largest_number_of_unknowns
+                    << " (Auto / Largest number of unknowns)";
+    if (contact_unknowns > largest_number_of_contact_unknowns)
+      return Text() << "the next mesh has some " << contact_unknowns
+                    << " unknowns on the contact surfaces, more than "
+                    << largest_number_of_contact_unknowns;
+    if (n_cells > largest_number_of_cells)
+      return Text() << "the next mesh has " << n_cells << " cells";
+    return "";
   }
 } // namespace Debond

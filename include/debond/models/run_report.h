@@ -1,0 +1,59 @@
+#ifndef debond_models_run_report_h
+#define debond_models_run_report_h
+
+#include <debond/output/console.h>
+#include <debond/output/profile_output.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace Debond
+{
+  /** What runs leave of their rows, whatever the model: torque.csv, profiles,
+   *  lines on the console and, at the end, summary.json. */
+  class RunReport
+  {
+  public:
+    RunReport(const Scene &scene, const ResultDirectory &directory);
+
+    /** Begins torque.csv with the rows that there are already. */
+    void
+    begin(const std::vector<TorqueRow> &rows);
+    /** A new row, of @p n_steps planned ones (0: their number is not known).
+     *  @p points are those of the interface. */
+    void
+    add(const TorqueRow                                    &row,
+        unsigned int                                        n_steps,
+        const std::function<std::vector<InterfacePoint>()> &points);
+    /** Writes summary.json: @p summary, whose effort and end are set, and
+     *  @p facts, with the measures of the torque curve of all @p rows. Area
+     *  and mean bonding of @p settings are set, where the scene does not
+     *  observe the latter. */
+    void
+    finish(const std::vector<TorqueRow> &rows,
+           RunSummary                    summary,
+           CurveSettings                 settings,
+           const nlohmann::ordered_json &facts);
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &console &profiles;
+    }
+
+    Console                          console;
+    std::optional<GrowingFile> torque_curve; ///< from begin() on
+
+  private:
+    const Scene           &scene;
+    const ResultDirectory &directory;
+    const ReferenceCurve   reference;
+    ProfileOutput          profiles;
+  };
+} // namespace Debond
+#endif

@@ -1,0 +1,85 @@
+#include <debond/models/run_report.h>
+#include <debond/support/number_text.h>
+#include <debond/support/runtime.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <iostream>
+
+namespace Debond
+{
+  RunReport::RunReport(const Scene &scene, const ResultDirectory &directory)
+    : console(scene.output.console, std::cout)
+    , scene(scene)
+    , directory(directory)
+    , reference(read_reference_curve(scene.output.reference_curve))
+    , profiles(scene, directory)
+  {}
+
+
+
+  void
+  RunReport::begin(const std::vector<TorqueRow> &rows)
+  {
+    if (!scene.title.empty())
+      console.headline(scene.title);
+    torque_curve.emplace(directory.file("torque.csv"), torque_table(rows));
+  }
+
+
+
+  void
+  RunReport::add(const TorqueRow                                    &row,
+                 const unsigned int                                  n_steps,
+                 const std::function<std::vector<InterfacePoint>()> &points)
+  {
+    torque_curve->append(torque_line(row));
+    console.row(row, n_steps);
+    profiles.write(row.angle_deg, points);
+  }
+
+
+
+  void
+  RunReport::finish(const std::vector<TorqueRow> &rows,
+                    RunSummary                    summary,
+                    CurveSettings                 settings,
+                    const nlohmann::ordered_json &facts)
+  {
+    console.warn("profile", profiles.finish());
+
+    // What is read off the curve, and what it refers to, Eqs. (19) to (21).
+    const OutputParameters &output = scene.output;
+    if (output.observed_bonding > 0)
+      settings.mean_phi_0 = output.observed_bonding;
+    if (output.full_sliding_angle > 0)
+      settings.full_sliding_angle_deg = output.full_sliding_angle;
+    settings.phase_times          = scene.load_steps.times;
+    settings.reference            = reference;
+    const CurveMeasures &measures = summary.measures =
+      measure_torque_curve(rows, settings);
+    if (summary.converged)
+      console.warn("reference", warning_about_reference(measures, settings));
+
+    summary.warnings            = console.warnings;
+    summary.profile_measures    = profiles.measures();
+    summary.peak_memory_MB      = peak_memory_MB();
+    nlohmann::ordered_json json = summary;
+    json.update(facts);
+    write_json(directory.file("summary.json"), json);
+    if (!summary.converged)
+      return;
+
+    Text        text;
+    const auto &end = rows.back().chuck_reaction;
+    if (std::isfinite(measures.theta_max_deg))
+      text << "Largest torque " << measures.T_max_Nmm << " N mm at "
+           << measures.theta_max_deg << " deg, at the end "
+           << measures.T_inf_Nmm << " N mm. ";
+    else
+      text << "Force of the chuck at the end: " << end[0] << ", " << end[1]
+           << ", " << end[2] << " N. ";
+    console.headline(text << "Results are in " << directory.path());
+  }
+} // namespace Debond

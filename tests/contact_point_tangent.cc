@@ -250,7 +250,7 @@ struct Setting
   set_frictionless()
   {
     friction         = {0., 0.};
-    law.friction     = Debond::frictionless();
+    law.friction     = modified_coulomb({0., 0., 0.022, 0.74, true});
     frictionless_law = true;
   }
 };

@@ -1,17 +1,7 @@
 #include <debond/interface/bond_friction.h>
 
-#include <algorithm>
-
 namespace Debond
 {
-  BondFriction::BondFriction(const double mu_broken, const double mu_unbroken)
-    : mu_b(mu_broken)
-    , mu_ub(mu_unbroken)
-    , drop(mu_unbroken - mu_broken)
-  {}
-
-
-
   // Eq. (11), at the updated sliding distance.
   FrictionCoefficient
   BondFriction::coefficient(const FrictionState &start,
@@ -31,8 +21,6 @@ namespace Debond
   BondFriction::adhesive_strength(const FrictionState &start,
                                   const double         distance) const
   {
-    if (drop == 0.)
-      return 0.;
     return start.phi_0 * drop *
            (integrated_decay(start.slip + distance) -
             integrated_decay(start.slip));

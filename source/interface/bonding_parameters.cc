@@ -119,29 +119,30 @@ namespace Debond
     const bool is_disk    = pattern == Kind::disk || pattern == Kind::annulus;
     const bool reads_file = pattern == Kind::image || pattern == Kind::file;
     // it was set, so the pattern was meant to be another one
-    const auto refuse_unused = [&](const bool         is_set,
-                                   const std::string &entry,
-                                   const std::string &user) {
-      if (is_set)
-        throw EntryError(bonding_section + entry,
-                         "it is not used by Pattern = " + name_of(pattern) +
-                           ": it belongs to Pattern = " + user);
+    struct Row
+    {
+      bool              is_used, is_set;
+      const char *const entry, *const user;
     };
-    refuse_unused(!is_disk && !is_random && bonded_fraction != 1,
-                  "Bonded fraction",
-                  "disk, annulus or random (Initial bonding lowers the degree "
-                  "of bonding)");
-    refuse_unused(!is_random && seed != 1, "Seed", "random");
-    refuse_unused(!is_random && correlation_length != 0,
-                  "Correlation length",
-                  "random");
-    refuse_unused(pattern != Kind::expression && expression != "1",
-                  "Expression",
-                  "expression");
-    refuse_unused(!reads_file && !file.empty(), "File", "image or file");
-    refuse_unused(pattern != Kind::image && threshold != -1,
-                  "Threshold",
-                  "image");
+    for (const Row &row :
+         {Row{is_disk || is_random,
+              bonded_fraction != 1,
+              "Bonded fraction",
+              "disk, annulus or random (Initial bonding lowers the degree of "
+              "bonding)"},
+          Row{is_random, seed != 1, "Seed", "random"},
+          Row{
+            is_random, correlation_length != 0, "Correlation length", "random"},
+          Row{pattern == Kind::expression,
+              expression != "1",
+              "Expression",
+              "expression"},
+          Row{reads_file, !file.empty(), "File", "image or file"},
+          Row{pattern == Kind::image, threshold != -1, "Threshold", "image"}})
+      if (row.is_set && !row.is_used)
+        throw EntryError(bonding_section + row.entry,
+                         "it is not used by Pattern = " + name_of(pattern) +
+                           ": it belongs to Pattern = " + row.user);
     if (reads_file && file.empty())
       throw EntryError(bonding_section + "Pattern",
                        "it needs the name of a file: " + bonding_section +

@@ -1,7 +1,5 @@
 #include <debond/bulk/body_mesh.h>
-#include <debond/geometry/closest_point.h>
 #include <debond/interface/contact_interface.h>
-#include <debond/interface/contact_tangent.h>
 
 #include <algorithm>
 #include <sstream>
@@ -16,25 +14,18 @@ namespace Debond
     , slave(parameters.slave)
     , mesh{{&bone, &implant}}
   {
-    const auto quadrature =
-      surface_quadrature(mesh[slave]->surface(), parameters.quadrature_points);
-    points.reserve(quadrature.size());
-    for (const auto &quadrature_point : quadrature)
+    const unsigned int n = parameters.quadrature_points;
+    for (const auto &place : surface_quadrature(mesh[slave]->surface(), n))
       {
         SlavePoint point;
-        point.element           = quadrature_point.element;
-        point.xi                = quadrature_point.xi;
-        point.X                 = quadrature_point.X;
-        point.basis             = quadrature_point.basis;
-        point.JxW               = quadrature_point.JxW;
-        point.accepted.internal = parameters.friction->initial_variables();
+        static_cast<SurfaceQuadraturePoint &>(point) = place;
+        point.accepted.internal = law.friction->initial_variables();
         points.push_back(point);
       }
     for (const Side side : both_sides)
       forces[side].setZero(3, mesh[side]->surface().n_control_points());
-    for (const auto &quadrature_point :
-         surface_quadrature(implant.surface(), parameters.quadrature_points))
-      area_of_implant += quadrature_point.JxW;
+    for (const auto &place : surface_quadrature(implant.surface(), n))
+      area_of_implant += place.JxW;
   }
 
 
@@ -50,15 +41,14 @@ namespace Debond
                                        mesh[Side::implant]->surface(),
                                        parameters.quadrature_points);
     for (unsigned int q = 0; q < points.size(); ++q)
-      if (slave == Side::implant)
-        points[q].phi_0 = pattern->at(q);
-      else
-        {
-          // the master is the implant
-          points[q].faces_implant = points[q].accepted.has_partner;
-          points[q].phi_0 =
-            points[q].faces_implant ? pattern->at(points[q].accepted.xi) : 0.;
-        }
+      {
+        SlavePoint &point = points[q];
+        point.faces_implant =
+          slave == Side::implant || point.accepted.has_partner;
+        if (point.faces_implant)
+          point.phi_0 = slave == Side::implant ? pattern->at(q) :
+                                                 pattern->at(point.accepted.xi);
+      }
   }
 
 
@@ -91,12 +81,11 @@ namespace Debond
   void
   ContactInterface::project_accepted(
     SlavePoint                   &point,
-    const MasterSurface          &master,
     const InterfaceConfiguration &configuration,
     const bool                    use_guess)
   {
     const Projection projection =
-      project(master,
+      project(master(configuration),
               interpolate(point.basis, configuration.side[slave].positions),
               use_guess ? &point.accepted.xi : nullptr);
     point.accepted.xi          = projection.xi;
@@ -131,7 +120,7 @@ namespace Debond
       accepted_positions[side] = configuration.side[side].positions;
     unprojected = 0;
     for (SlavePoint &point : points)
-      project_accepted(point, master(configuration), configuration, false);
+      project_accepted(point, configuration, false);
     assign_bonding();
   }
 
@@ -144,19 +133,24 @@ namespace Debond
     const MasterSurface surface = master(configuration);
     const double        moved   = motion(configuration);
     mode_now                    = mode;
-    forces =
-      sum_in_chunks(points.size(),
-                    configuration,
-                    [&](const unsigned int q, NodalSums &sums) {
-                      update(points[q], configuration, surface, moved, mode);
-                      add_forces(points[q], sums);
-                    });
-    const auto failed =
+    forces                      = sum_in_chunks(points.size(),
+                           configuration,
+                           [&](const unsigned int q, NodalSums &sums) {
+                             SlavePoint &point = points[q];
+                             update(point, configuration, surface, moved, mode);
+                             if (point.trial.state.status == PointStatus::open)
+                               return;
+                             const Eigen::Vector3d f =
+                               point.JxW * point.trial.traction;
+                             spread(point.basis, f, sums[slave]);
+                             spread(point.trial.basis, -f, sums[master_side()]);
+                           });
+    const auto found =
       std::find_if(points.begin(), points.end(), [](const SlavePoint &point) {
         return point.trial.failed;
       });
-    failed_point = failed == points.end() ? -1 : failed - points.begin();
-    return failed_point < 0;
+    failed = found == points.end() ? nullptr : &*found;
+    return failed == nullptr;
   }
 
 
@@ -168,63 +162,23 @@ namespace Debond
                            const double                  moved,
                            const ContactPointMode       &mode) const
   {
-    if (point.accepted.has_partner || point.clearance <= moved)
+    if (!point.accepted.has_partner && point.clearance > moved)
       {
-        ContactPointMode mode_here = mode;
-        if (parameters.slip_along_previous_gap)
-          mode_here.slip_direction =
-            configuration.side[master_side()].frame * point.accepted_traction;
-        update_contact_point(law,
-                             point.accepted,
-                             point.phi_0,
-                             interpolate(point.basis,
-                                         configuration.side[slave].positions),
-                             surface,
-                             mode_here,
-                             point.trial);
+        leave_open(law, point.accepted, point.trial); // still beyond the edge
         return;
       }
-    leave_open(law, point.accepted,
-               point.trial); // still beyond the edge
-  }
-
-
-
-  void
-  ContactInterface::add_forces(const SlavePoint &point, NodalSums &sums) const
-  {
-    if (point.trial.state.status == PointStatus::open)
-      return;
-    const Eigen::Vector3d f = point.JxW * point.trial.traction;
-    spread(point.basis, f, sums[slave]);
-    spread(point.trial.basis, -f, sums[master_side()]);
-  }
-
-
-
-  void
-  ContactInterface::add_tangent(const InterfaceConfiguration &configuration,
-                                Eigen::MatrixXd              &matrix) const
-  {
-    add_contact_tangent(points, slave, configuration, matrix);
-  }
-
-
-
-  void
-  ContactInterface::apply_tangent(const InterfaceConfiguration &configuration,
-                                  const Eigen::VectorXd        &direction,
-                                  Eigen::VectorXd              &result) const
-  {
-    apply_contact_tangent(points, slave, configuration, direction, result);
-  }
-
-
-
-  FrictionCoefficient
-  ContactInterface::friction(const SlavePoint &point) const
-  {
-    return point.friction(*parameters.friction, point.trial.state);
+    ContactPointMode mode_here = mode;
+    if (parameters.slip_along_previous_gap)
+      mode_here.slip_direction =
+        configuration.side[master_side()].frame * point.accepted_traction;
+    update_contact_point(law,
+                         point.accepted,
+                         point.phi_0,
+                         interpolate(point.basis,
+                                     configuration.side[slave].positions),
+                         surface,
+                         mode_here,
+                         point.trial);
   }
 
 
@@ -232,13 +186,12 @@ namespace Debond
   void
   ContactInterface::commit(const InterfaceConfiguration &configuration)
   {
-    const MasterSurface    surface = master(configuration);
-    const Eigen::Matrix3d &Q       = configuration.side[master_side()].frame;
-    const double           moved   = motion(configuration);
+    const Eigen::Matrix3d &Q     = configuration.side[master_side()].frame;
+    const double           moved = motion(configuration);
     for (const Side side : both_sides)
       accepted_positions[side] = configuration.side[side].positions;
-    unprojected = 0;
-    spent.begin_step();
+    unprojected            = 0;
+    works.step_dissipation = 0.;
     for (SlavePoint &point : points)
       {
         if (!point.accepted.has_partner && point.clearance > moved)
@@ -246,7 +199,7 @@ namespace Debond
             point.clearance -= moved;
             continue;
           }
-        spent.add(point, *parameters.friction, mode_now, Q);
+        works.add(point, *law.friction, mode_now, Q);
         const ContactPointResult &trial = point.trial;
         point.accepted                  = trial.state;
         point.accepted_traction = Q.transpose() * trial.tangential_traction;
@@ -255,7 +208,7 @@ namespace Debond
         point.accepted_pressure = trial.pressure;
         point.accepted_energy   = trial.energy;
         if (point.accepted.status == PointStatus::open)
-          project_accepted(point, surface, configuration, true);
+          project_accepted(point, configuration, true);
       }
   }
 
@@ -265,7 +218,6 @@ namespace Debond
   ContactInterface::statuses() const
   {
     std::vector<PointStatus> result;
-    result.reserve(points.size());
     for (const SlavePoint &point : points)
       result.push_back(point.trial.state.status);
     return result;
@@ -276,30 +228,8 @@ namespace Debond
   bool
   ContactInterface::has_open_points() const
   {
-    return std::any_of(points.begin(),
-                       points.end(),
-                       [](const SlavePoint &point) {
-                         return point.trial.state.status == PointStatus::open;
-                       });
-  }
-
-
-
-  MeanSlip
-  ContactInterface::mean_slip(const InterfaceConfiguration &configuration) const
-  {
-    return Debond::mean_slip(points,
-                             slave,
-                             configuration,
-                             mode_now.frictionless);
-  }
-
-
-
-  InterfaceSummary
-  ContactInterface::summarise() const
-  {
-    return Debond::summarise(points, law, mode_now);
+    const auto all = statuses();
+    return std::find(all.begin(), all.end(), PointStatus::open) != all.end();
   }
 
 
@@ -307,13 +237,12 @@ namespace Debond
   std::string
   ContactInterface::describe_failure() const
   {
-    if (failed_point < 0)
+    if (failed == nullptr)
       return "";
-    const SlavePoint  &point = points[failed_point];
     std::ostringstream text;
     text << "no solution of the friction law at the " << name_of(slave)
-         << "'s quadrature point at parameters (" << point.xi[0] << ", "
-         << point.xi[1] << "), g_s = " << point.accepted.slip << " mm";
+         << "'s quadrature point at parameters (" << failed->xi[0] << ", "
+         << failed->xi[1] << "), g_s = " << failed->accepted.slip << " mm";
     return text.str();
   }
 } // namespace Debond

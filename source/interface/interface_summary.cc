@@ -1,6 +1,7 @@
-#include <debond/interface/interface_summary.h>
+#include <debond/interface/contact_interface.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace Debond
 {
@@ -29,12 +30,13 @@ namespace Debond
 
 
   InterfaceSummary
-  summarise(const std::vector<SlavePoint> &points,
-            const ContactPointLaw         &law,
-            const ContactPointMode        &mode)
+  ContactInterface::summarise() const
   {
     InterfaceSummary summary;
     double           area = 0.;
+    // open, stick, slip: see PointStatus
+    const std::array<double *, 3> share{
+      {&summary.share_open, &summary.share_stick, &summary.share_slip}};
     for (const SlavePoint &point : points)
       {
         const ContactPointResult &trial = point.trial;
@@ -42,20 +44,8 @@ namespace Debond
         if (point.faces_implant)
           {
             area += point.JxW;
-            summary.phi_mean +=
-              point.JxW * point.friction(*law.friction, trial.state).phi;
-            switch (trial.state.status)
-              {
-                case PointStatus::open:
-                  summary.share_open += point.JxW;
-                  break;
-                case PointStatus::stick:
-                  summary.share_stick += point.JxW;
-                  break;
-                case PointStatus::slip:
-                  summary.share_slip += point.JxW;
-                  break;
-              }
+            summary.phi_mean += point.JxW * friction(point).phi;
+            *share[static_cast<unsigned int>(trial.state.status)] += point.JxW;
           }
         if (trial.state.status == PointStatus::open)
           {
@@ -70,16 +60,53 @@ namespace Debond
         summary.energy += point.JxW * trial.energy;
         summary.max_softening =
           std::max(summary.max_softening, trial.softening);
-        if (!law.explicit_friction && !mode.frictionless)
-          add_steepest_softening(point, law, mode, summary);
+        if (!law.explicit_friction && !mode_now.frictionless)
+          add_steepest_softening(point, law, mode_now, summary);
         summary.max_penetration =
           std::max(summary.max_penetration, -trial.normal_gap);
       }
-    for (double *share : {&summary.phi_mean,
-                          &summary.share_stick,
-                          &summary.share_slip,
-                          &summary.share_open})
-      *share /= area;
+    summary.phi_mean /= area;
+    for (double *part : share)
+      *part /= area;
     return summary;
+  }
+
+
+
+  void
+  InterfaceWork::add(const SlavePoint       &point,
+                     const FrictionLaw      &law,
+                     const ContactPointMode &mode,
+                     const Eigen::Matrix3d  &frame)
+  {
+    const ContactPointResult &trial = point.trial;
+    const Eigen::Vector3d     slip  = point.JxW * trial.slip_increment;
+    step_dissipation += trial.tangential_traction.dot(slip);
+    dissipation +=
+      0.5 *
+      (frame * point.accepted_traction + trial.tangential_traction).dot(slip);
+    // the viscous traction is anything between its two ends
+    const double viscous_part =
+      0.5 * (frame * point.accepted_viscous_traction + trial.viscous_traction)
+              .dot(slip);
+    for (double *work : {&viscous, &friction, &friction_bound})
+      *work += viscous_part;
+
+    const bool opens = trial.state.status == PointStatus::open;
+    if (opens)
+      friction_bound += point.JxW * point.accepted_energy;
+    if (opens || mode.frictionless)
+      return;
+    // the law is integrated over the distance that the point slides, from its
+    // accepted state, with the pressure between its two ends
+    const FrictionState start =
+      friction_state(point.accepted, point.phi_0, mode.duration);
+    const double distance = trial.state.slip - point.accepted.slip;
+    const double p = point.accepted_pressure, mean = 0.5 * (p + trial.pressure);
+    const double per_pressure =
+      point.JxW * law.friction_strength(start, distance);
+    adhesive += point.JxW * mean * law.adhesive_strength(start, distance);
+    friction += mean * per_pressure;
+    friction_bound += 0.5 * std::abs(p - trial.pressure) * per_pressure;
   }
 } // namespace Debond

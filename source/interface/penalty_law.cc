@@ -1,4 +1,4 @@
-#include <debond/interface/normal_law.h>
+#include <debond/interface/contact_law.h>
 
 namespace Debond
 {

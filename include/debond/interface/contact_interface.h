@@ -4,8 +4,6 @@
 #include <debond/interface/bonding_pattern.h>
 #include <debond/interface/interface_parameters.h>
 #include <debond/interface/interface_summary.h>
-#include <debond/interface/interface_work.h>
-#include <debond/interface/mean_slip.h>
 
 #include <memory>
 #include <string>
@@ -30,20 +28,10 @@ namespace Debond
                      const BodyMesh            &bone,
                      const BodyMesh            &implant);
 
-    unsigned int
-    n_points() const
-    {
-      return points.size();
-    }
     Side
     slave_side() const
     {
       return slave;
-    }
-    Side
-    master_side() const
-    {
-      return other(slave);
     }
 
     /** Faces every point with its closest point on the master. */
@@ -63,10 +51,14 @@ namespace Debond
       return forces[side];
     }
 
-    /** Tangent of the last evaluate(), see add_contact_tangent(). */
+    /** Adds the tangent of the last evaluate() to a dense matrix: rows are
+     *  equations of control points in their bodies' frames and of chuck
+     *  components, d(force)/d(unknowns), without the terms that come from the
+     *  rotation of frames and lever arms (see CoupledTangent). */
     void
     add_tangent(const InterfaceConfiguration &configuration,
                 Eigen::MatrixXd              &matrix) const;
+    /** Adds the product of that tangent with a vector of unknowns. */
     void
     apply_tangent(const InterfaceConfiguration &configuration,
                   const Eigen::VectorXd        &direction,
@@ -107,7 +99,10 @@ namespace Debond
     }
     /** phi and mu of a point in its trial state. */
     FrictionCoefficient
-    friction(const SlavePoint &point) const;
+    friction(const SlavePoint &point) const
+    {
+      return point.friction(*law.friction, point.trial.state);
+    }
     /** The mean of phi_0 over the slave's quadrature points that face the
      *  implant at the start: that of the pattern if the implant is the slave.
      */
@@ -125,7 +120,7 @@ namespace Debond
       return parameters;
     }
 
-    /** Of the last evaluate(), see mean_slip.h. */
+    /** Of the last evaluate(). */
     MeanSlip
     mean_slip(const InterfaceConfiguration &configuration) const;
 
@@ -141,11 +136,11 @@ namespace Debond
       return area_of_implant;
     }
 
-    /** What has been spent up to the accepted state. */
+    /** The works up to the accepted state. */
     const InterfaceWork &
     work() const
     {
-      return spent;
+      return works;
     }
 
     /** Where the last evaluate() failed, for messages; empty if it did not. */
@@ -159,10 +154,17 @@ namespace Debond
     {
       for (SlavePoint &point : points)
         archive &point;
-      archive &forces &accepted_positions &spent;
+      archive &forces &accepted_positions &works;
     }
 
   private:
+    Side
+    master_side() const
+    {
+      return other(slave);
+    }
+    MasterSurface
+    master(const InterfaceConfiguration &configuration) const;
     void
     assign_bonding();
     void
@@ -172,18 +174,13 @@ namespace Debond
            double                        moved,
            const ContactPointMode       &mode) const;
     void
-    add_forces(const SlavePoint &point, NodalSums &sums) const;
-    void
     project_accepted(SlavePoint                   &point,
-                     const MasterSurface          &master,
                      const InterfaceConfiguration &configuration,
                      bool                          use_guess);
     /** Bound of how far points of the two surfaces have moved towards each
      *  other since the accepted configuration [mm]. */
     double
     motion(const InterfaceConfiguration &configuration) const;
-    MasterSurface
-    master(const InterfaceConfiguration &configuration) const;
 
     const InterfaceParameters             parameters;
     const ContactPointLaw                 law;
@@ -193,9 +190,9 @@ namespace Debond
     double                                area_of_implant = 0;
     std::unique_ptr<const BondingPattern> pattern;
     NodalSums                             forces, accepted_positions;
-    InterfaceWork                         spent;
-    unsigned int                          unprojected  = 0;
-    int                                   failed_point = -1;
+    InterfaceWork                         works;
+    unsigned int                          unprojected = 0;
+    const SlavePoint                     *failed      = nullptr;
     ContactPointMode                      mode_now; ///< of the last evaluate()
   };
 } // namespace Debond

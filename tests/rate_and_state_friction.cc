@@ -310,6 +310,27 @@ check_growth(const std::string &evolution, const double ratio)
 
 
 
+// In a short step the direct effect makes traction of the rounding of
+// positions, A p/(V dt) of it; the point is found all the same.
+void
+check_short_steps()
+{
+  double deviation = 0;
+  bool   slides    = true;
+  for (const double duration : {1e-4, 1e-6, 1e-8})
+    {
+      PulledPoint point("ageing", 1., 0.);
+      grow(deviation, std::abs(point.step(duration) - duration));
+      slides = slides && point.slides;
+    }
+  report("short steps of steady sliding, deviation of the distance [mm]",
+         deviation,
+         2e-15);
+  report("  they slide", slides);
+}
+
+
+
 int
 main()
 {
@@ -321,6 +342,7 @@ main()
       check_derivative(law_with(evolution));
     }
   check_rest();
+  check_short_steps();
   for (const std::string evolution : {"ageing", "slip"})
     for (const double ratio : {0.7, 0.9, 1.1, 1.4})
       check_growth(evolution, ratio);

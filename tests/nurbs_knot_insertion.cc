@@ -86,7 +86,7 @@ void
 check_uniform_refinement()
 {
   const NurbsSurface one =
-    curved_surface(KnotVector::graded(2, 1), KnotVector::uniform(2, 1));
+    curved_surface(KnotVector::graded(2, 1), KnotVector::graded(2, 1));
   const NurbsSurface refined = one.refine_uniformly(7, 4);
   const auto         n       = refined.n_elements_per_direction();
   std::cout << "Uniform refinement: " << n[0] << " x " << n[1] << " elements"

@@ -50,6 +50,44 @@ namespace Debond
 
 
 
+  namespace
+  {
+    /** Bonds the parts of smallest rank; ranks that differ by at most
+     *  @p tolerance are equal. */
+    void
+    bond_in_order(const std::vector<double>         &rank,
+                  const double                       tolerance,
+                  const double                       bonded_fraction,
+                  std::vector<BondingPattern::Part> &parts)
+    {
+      std::vector<unsigned int> order(parts.size());
+      std::iota(order.begin(), order.end(), 0);
+      std::stable_sort(order.begin(),
+                       order.end(),
+                       [&](const unsigned int a, const unsigned int b) {
+                         return rank[a] < rank[b];
+                       });
+      double remaining = 0.;
+      for (const BondingPattern::Part &part : parts)
+        remaining += bonded_fraction * part.area;
+      for (unsigned int first = 0; first < order.size();)
+        {
+          unsigned int last = first;
+          double       area = 0.;
+          for (; last < order.size() &&
+                 rank[order[last]] - rank[order[first]] <= tolerance;
+               ++last)
+            area += parts[order[last]].area;
+          const double share = std::clamp(remaining / area, 0., 1.);
+          for (; first < last; ++first)
+            parts[order[first]].phi_0 = share;
+          remaining -= area;
+        }
+    }
+  } // namespace
+
+
+
   // Disks and annuli go by the radius; random patterns draw parts one by one,
   // or take the highest places of a smooth random field.
   void
@@ -72,7 +110,10 @@ namespace Debond
             rank[i]             = pattern == Kind::disk ? radius : -radius;
             largest             = std::max(largest, radius);
           }
-        bond_in_order(rank, 1e-9 * largest, parameters.bonded_fraction);
+        bond_in_order(rank,
+                      1e-9 * largest,
+                      parameters.bonded_fraction,
+                      all_parts);
         return;
       }
     if (pattern == Kind::random)
@@ -85,7 +126,7 @@ namespace Debond
             rank[i] = -field(centres[i]);
           else
             rank[order[i]] = i;
-        bond_in_order(rank, 0., parameters.bonded_fraction);
+        bond_in_order(rank, 0., parameters.bonded_fraction, all_parts);
         return;
       }
     if (pattern != Kind::homogeneous)
@@ -93,38 +134,6 @@ namespace Debond
         parameters, implant, surface, n, centres, summary.remark);
     for (unsigned int i = 0; i < values.size(); ++i)
       all_parts[i].phi_0 = values[i];
-  }
-
-
-
-  void
-  BondingPattern::bond_in_order(const std::vector<double> &rank,
-                                const double               tolerance,
-                                const double               bonded_fraction)
-  {
-    std::vector<unsigned int> order(all_parts.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(),
-                     order.end(),
-                     [&](const unsigned int a, const unsigned int b) {
-                       return rank[a] < rank[b];
-                     });
-    double remaining = 0.;
-    for (const Part &part : all_parts)
-      remaining += bonded_fraction * part.area;
-    for (unsigned int first = 0; first < order.size();)
-      {
-        unsigned int last = first;
-        double       area = 0.;
-        for (; last < order.size() &&
-               rank[order[last]] - rank[order[first]] <= tolerance;
-             ++last)
-          area += all_parts[order[last]].area;
-        const double share = std::clamp(remaining / area, 0., 1.);
-        for (; first < last; ++first)
-          all_parts[order[first]].phi_0 = share;
-        remaining -= area;
-      }
   }
 
 

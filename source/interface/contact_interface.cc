@@ -4,8 +4,17 @@
 #include <algorithm>
 #include <sstream>
 
+// The points of the interface in a step. Newton's method calls evaluate() with
+// the surfaces where it has put them: every slave point is updated by itself,
+// from its accepted history (contact_point.cc), and its traction is spread over
+// the control points of both surfaces. Whatever Newton's method tries, the
+// accepted history stays as it is; commit() replaces it once the step is good.
+
 namespace Debond
 {
+  // The contact integral of Eq. (36) is a sum over quadrature points of the
+  // slave. The paper integrates over the current area, we over the reference
+  // area, which differs by the surface strain, 1e-4: tractions are nominal.
   ContactInterface::ContactInterface(const InterfaceParameters &parameters,
                                      const BodyMesh            &bone,
                                      const BodyMesh            &implant)
@@ -78,6 +87,9 @@ namespace Debond
 
 
 
+  // The interacting point xi_hat^n of a point that is open: its closest point
+  // on the master, so that a point that closes during the next step starts from
+  // there, and what it moves along the surface in that step counts as slip.
   void
   ContactInterface::project_accepted(
     SlavePoint                   &point,
@@ -98,7 +110,8 @@ namespace Debond
 
 
 
-  // Every point of a surface is a convex combination of control points.
+  // Every point of a surface is a convex combination of control points, so none
+  // moves further than the control point that moves most.
   double
   ContactInterface::motion(const InterfaceConfiguration &configuration) const
   {
@@ -113,6 +126,8 @@ namespace Debond
 
 
 
+  // "At initial contact the interacting point is the closest projection point"
+  // (paper, after Eq. 28).
   void
   ContactInterface::initialise(const InterfaceConfiguration &configuration)
   {
@@ -126,25 +141,44 @@ namespace Debond
 
 
 
+  // Points do not know of each other, so they are updated in parallel; the sums
+  // are formed in the same order whatever the number of threads.
   bool
   ContactInterface::evaluate(const InterfaceConfiguration &configuration,
                              const ContactPointMode       &mode)
   {
     const MasterSurface surface = master(configuration);
     const double        moved   = motion(configuration);
+    const auto         &sides   = configuration.side;
     mode_now                    = mode;
-    forces                      = sum_in_chunks(points.size(),
-                           configuration,
-                           [&](const unsigned int q, NodalSums &sums) {
-                             SlavePoint &point = points[q];
-                             update(point, configuration, surface, moved, mode);
-                             if (point.trial.state.status == PointStatus::open)
-                               return;
-                             const Eigen::Vector3d f =
-                               point.JxW * point.trial.traction;
-                             spread(point.basis, f, sums[slave]);
-                             spread(point.trial.basis, -f, sums[master_side()]);
-                           });
+    const auto update           = [&](const unsigned int q, NodalSums &sums) {
+      SlavePoint &point = points[q];
+      // most points beyond the edge stay there: they need no projection until
+      // the surfaces may have come close enough
+      if (!point.accepted.has_partner && point.clearance > moved)
+        {
+          leave_open(law, point.accepted, point.trial);
+          return;
+        }
+      // the previous gap of Eq. (31) as printed has the direction of the
+      // previous traction, which is kept in the frame of the master
+      ContactPointMode mode_here = mode;
+      if (parameters.slip_along_previous_gap)
+        mode_here.slip_direction =
+          sides[master_side()].frame * point.accepted_traction;
+      const Eigen::Vector3d x =
+        interpolate(point.basis, sides[slave].positions);
+      update_contact_point(
+        law, point.accepted, point.phi_0, x, surface, mode_here, point.trial);
+      if (point.trial.state.status == PointStatus::open)
+        return;
+      // f_A = int N_A t dA on the slave, and the opposite on the master at
+      // xi_hat, Eq. (36)
+      const Eigen::Vector3d f = point.JxW * point.trial.traction;
+      spread(point.basis, f, sums[slave]);
+      spread(point.trial.basis, -f, sums[master_side()]);
+    };
+    forces = sum_in_chunks(points.size(), configuration, update);
     const auto found =
       std::find_if(points.begin(), points.end(), [](const SlavePoint &point) {
         return point.trial.failed;
@@ -155,34 +189,9 @@ namespace Debond
 
 
 
-  void
-  ContactInterface::update(SlavePoint                   &point,
-                           const InterfaceConfiguration &configuration,
-                           const MasterSurface          &surface,
-                           const double                  moved,
-                           const ContactPointMode       &mode) const
-  {
-    if (!point.accepted.has_partner && point.clearance > moved)
-      {
-        leave_open(law, point.accepted, point.trial); // still beyond the edge
-        return;
-      }
-    ContactPointMode mode_here = mode;
-    if (parameters.slip_along_previous_gap)
-      mode_here.slip_direction =
-        configuration.side[master_side()].frame * point.accepted_traction;
-    update_contact_point(law,
-                         point.accepted,
-                         point.phi_0,
-                         interpolate(point.basis,
-                                     configuration.side[slave].positions),
-                         surface,
-                         mode_here,
-                         point.trial);
-  }
-
-
-
+  // The trial state becomes the accepted one. Tractions are kept in the frame
+  // of the master, so that a rotation of the whole changes nothing; the works
+  // need both ends of the step, and so come first.
   void
   ContactInterface::commit(const InterfaceConfiguration &configuration)
   {

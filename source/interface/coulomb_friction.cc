@@ -45,6 +45,9 @@ namespace Debond
       }
 
     protected:
+      // Eq. (13), with s = g_s/a_s: the bond holds up to s = 1, is gone from s
+      // = 1 + 2 b_s on, and falls along half a sine in between, smoothly at
+      // both ends, so that dmu/dg_s is continuous.
       double
       decay(const double slip, double &slope) const override
       {
@@ -59,6 +62,8 @@ namespace Debond
         return 0.5 * (1. - std::sin(argument));
       }
 
+      // The integral of Eq. (13) in closed form: for the work of adhesion,
+      // which a trapezoid over a step would miss by the curvature of s.
       double
       integrated_decay(const double slip) const override
       {

@@ -24,16 +24,13 @@ namespace Debond
       std::vector<std::vector<std::pair<unsigned int, double>>> result(n_fine);
       const double size = double(n_fine) / n_coarse; // of a coarse pixel
       for (unsigned int i = 0; i < n_fine; ++i)
-        for (unsigned int k = static_cast<unsigned int>(i / size);
+        for (auto k = static_cast<unsigned int>(i / size);
              k < n_coarse && k * size < i + 1;
              ++k)
-          {
-            const double share = (std::min((k + 1) * size, i + 1.) -
+          result[i].emplace_back(k,
+                                 (std::min((k + 1) * size, i + 1.) -
                                   std::max(k * size, double(i))) /
-                                 size;
-            if (share > 0.)
-              result[i].emplace_back(k, share);
-          }
+                                   size);
       return result;
     }
   } // namespace

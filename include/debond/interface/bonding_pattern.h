@@ -87,12 +87,6 @@ namespace Debond
     }
     void
     fill(const BondingParameters &parameters, const BodyParameters &implant);
-    /** Bonds the parts of smallest rank; ranks that differ by at most
-     *  @p tolerance are equal. */
-    void
-    bond_in_order(const std::vector<double> &rank,
-                  double                     tolerance,
-                  double                     bonded_fraction);
     void
     count_patches();
 

@@ -17,9 +17,12 @@ namespace Debond
    * The interface: the slave quadrature points, their history, the forces they
    * exert on the control points of both surfaces, and the tangent.
    *
-   * evaluate() computes a *trial* result of every point from the accepted
-   * history and never changes that history; commit() is the only way to accept
-   * it. A rejected step therefore leaves no trace.
+   * A step goes as follows. Newton's method proposes an InterfaceConfiguration:
+   * where both surfaces are. evaluate() computes a *trial* result of every
+   * point from the accepted history and never changes that history; force() has
+   * the sums of Eq. (36), add_tangent() or apply_tangent() their derivatives.
+   * When the step has converged, and only then, commit() makes the trial states
+   * the accepted ones, so that a rejected step leaves no trace.
    */
   class ContactInterface
   {
@@ -167,12 +170,6 @@ namespace Debond
     master(const InterfaceConfiguration &configuration) const;
     void
     assign_bonding();
-    void
-    update(SlavePoint                   &point,
-           const InterfaceConfiguration &configuration,
-           const MasterSurface          &surface,
-           double                        moved,
-           const ContactPointMode       &mode) const;
     void
     project_accepted(SlavePoint                   &point,
                      const InterfaceConfiguration &configuration,

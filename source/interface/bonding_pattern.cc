@@ -101,39 +101,37 @@ namespace Debond
     for (const Part &part : all_parts)
       centres.push_back(part.centre);
 
+    double tolerance = 0.;
     if (pattern == Kind::disk || pattern == Kind::annulus)
+      for (unsigned int i = 0; i < rank.size(); ++i)
+        {
+          const double radius = centres[i].norm();
+          rank[i]             = pattern == Kind::disk ? radius : -radius;
+          tolerance           = std::max(tolerance, 1e-9 * radius);
+        }
+    else if (pattern == Kind::random && parameters.correlation_length > 0.)
+      std::transform(centres.begin(),
+                     centres.end(),
+                     rank.begin(),
+                     [field = RandomField(parameters.seed,
+                                          parameters.correlation_length)](
+                       const auto &centre) { return -field(centre); });
+    else if (pattern == Kind::random)
       {
-        double largest = 0.;
+        const auto order = random_order(rank.size(), parameters.seed);
         for (unsigned int i = 0; i < rank.size(); ++i)
-          {
-            const double radius = centres[i].norm();
-            rank[i]             = pattern == Kind::disk ? radius : -radius;
-            largest             = std::max(largest, radius);
-          }
-        bond_in_order(rank,
-                      1e-9 * largest,
-                      parameters.bonded_fraction,
-                      all_parts);
+          rank[order[i]] = i;
+      }
+    else
+      {
+        if (pattern != Kind::homogeneous)
+          values = bonding_from_source(
+            parameters, implant, surface, n, centres, summary.remark);
+        for (unsigned int i = 0; i < values.size(); ++i)
+          all_parts[i].phi_0 = values[i];
         return;
       }
-    if (pattern == Kind::random)
-      {
-        const double      l     = parameters.correlation_length;
-        const auto        order = random_order(rank.size(), parameters.seed);
-        const RandomField field(parameters.seed, l > 0. ? l : 1.);
-        for (unsigned int i = 0; i < rank.size(); ++i)
-          if (l > 0.)
-            rank[i] = -field(centres[i]);
-          else
-            rank[order[i]] = i;
-        bond_in_order(rank, 0., parameters.bonded_fraction, all_parts);
-        return;
-      }
-    if (pattern != Kind::homogeneous)
-      values = bonding_from_source(
-        parameters, implant, surface, n, centres, summary.remark);
-    for (unsigned int i = 0; i < values.size(); ++i)
-      all_parts[i].phi_0 = values[i];
+    bond_in_order(rank, tolerance, parameters.bonded_fraction, all_parts);
   }
 
 
@@ -227,13 +225,12 @@ namespace Debond
   {
     std::string text = std::string(by_element ? "element" : "point") +
                        ",x_mm,y_mm,area_mm2,phi_0\n";
-    for (unsigned int i = 0; i < all_parts.size(); ++i)
+    unsigned int number = 0;
+    for (const Part &part : all_parts)
       {
-        text += std::to_string(i + 1);
-        for (const double value : {all_parts[i].centre[0],
-                                   all_parts[i].centre[1],
-                                   all_parts[i].area,
-                                   all_parts[i].phi_0})
+        text += std::to_string(++number);
+        for (const double value :
+             {part.centre[0], part.centre[1], part.area, part.phi_0})
           text += "," + to_text(value, 17);
         text += "\n";
       }

@@ -71,130 +71,85 @@ namespace Debond
 
 
 
-    // The dense tangent of one point: rows and columns are the unknowns that
-    // move it. A column is d(t, xi_hat)/d(unknown) = [dt/dw; dxi/dw] dw, a row
-    // the force on w along the motion dw with the row's unknown.
-    class PointTangent
+    // How the unknowns of the coupled system move w: a column dw for each that
+    // does, control points of both surfaces in the frames of their bodies, and
+    // components of the chuck.
+    class UnknownMotions
     {
     public:
-      PointTangent(const SlavePoint             &point,
-                   const InterfaceConfiguration &configuration,
-                   const Side                    slave)
-        : point(point)
-        , slave_side(configuration.side[slave])
-        , master_side(configuration.side[other(slave)])
+      UnknownMotions(const SlavePoint             &point,
+                     const Side                    slave,
+                     const InterfaceConfiguration &configuration)
       {
-        D << point.trial.dt, point.trial.dxi;
-        in_frames = D;
-        in_frames.leftCols<3>() *= slave_side.frame;
-        for (unsigned int block = 1; block < 5; ++block)
-          in_frames.middleCols<3>(3 * block) *= master_side.frame;
-
-        const SurfaceBasis &basis = point.trial.basis,
-                           &old   = point.trial.old_basis;
-        const bool slips = point.trial.state.status == PointStatus::slip;
-        const bool same  = slips && old.element == basis.element;
+        const auto &master = configuration.side[other(slave)];
         for (unsigned int a = 0; a < point.basis.size; ++a)
-          add_columns(point.basis.N[a] * in_frames.leftCols<3>(),
-                      slave_side,
-                      point.basis.control_point[a]);
-        for (unsigned int b = 0; b < basis.size; ++b)
-          add_columns(basis.N[b] * in_frames.middleCols<3>(3) +
-                        basis.N_1[b] * in_frames.middleCols<3>(6) +
-                        basis.N_2[b] * in_frames.middleCols<3>(9) +
-                        (same ? old.N[b] : 0.) * in_frames.rightCols<3>(),
-                      master_side,
-                      basis.control_point[b]);
-        if (slips && !same)
-          for (unsigned int b = 0; b < old.size; ++b)
-            add_columns(old.N[b] * in_frames.rightCols<3>(),
-                        master_side,
-                        old.control_point[b]);
-      }
-
-      /** A component of the chuck, whose unit moves w by @p dw. */
-      void
-      add_chuck(const int number, const LocalVector &dw)
-      {
-        chuck_motion[n_chuck]   = dw;
-        chuck_number[n_chuck++] = number;
-        add_column(number, D * dw);
+          add(configuration.side[slave],
+              point.basis.control_point[a],
+              {{point.basis.N[a], 0., 0., 0., 0.}});
+        // y_n depends on the same control points as y, unless the point slid
+        // from one element of the master to another
+        const SurfaceBasis &now = point.trial.basis,
+                           &old = point.trial.old_basis;
+        const bool slips        = point.trial.state.status == PointStatus::slip;
+        const bool same         = slips && old.element == now.element;
+        for (unsigned int b = 0; b < now.size; ++b)
+          add(master,
+              now.control_point[b],
+              {{0., now.N[b], now.N_1[b], now.N_2[b], same ? old.N[b] : 0.}});
+        for (unsigned int b = 0; slips && !same && b < old.size; ++b)
+          add(master, old.control_point[b], {{0., 0., 0., 0., old.N[b]}});
       }
 
       void
-      add_to(Eigen::MatrixXd &matrix) const
+      add(const int unknown, const LocalVector &motion)
       {
-        const SurfaceBasis &basis = point.trial.basis;
-        for (unsigned int j = 0; j < n_columns; ++j)
+        if (unknown < 0)
+          return;
+        dw.col(n)   = motion;
+        number[n++] = unknown;
+      }
+
+      // A row is the force on w along the motion with the row's unknown, a
+      // column its change with the column's unknown, by the total derivatives
+      // of traction and xi_hat that the update of the point has left.
+      void
+      add_tangent(const SlavePoint &point, Eigen::MatrixXd &matrix) const
+      {
+        for (unsigned int j = 0; j < n; ++j)
           {
-            double           *column = &matrix(0, number_of_column[j]);
-            const LocalVector force  = change_of_force(point,
-                                                      columns.col(j).head<3>(),
-                                                      columns.col(j).tail<2>());
-            const Vector3d f = slave_side.frame.transpose() * force.head<3>();
-            for (unsigned int a = 0; a < point.basis.size; ++a)
-              add_rows(point.basis.N[a] * f,
-                       slave_side,
-                       point.basis.control_point[a],
-                       column);
-            const Eigen::Matrix3d m =
-              master_side.frame.transpose() *
-              Eigen::Map<const Eigen::Matrix3d>(force.data() + 3);
-            for (unsigned int b = 0; b < basis.size; ++b)
-              add_rows(basis.N[b] * m.col(0) + basis.N_1[b] * m.col(1) +
-                         basis.N_2[b] * m.col(2),
-                       master_side,
-                       basis.control_point[b],
-                       column);
-            for (unsigned int k = 0; k < n_chuck; ++k)
-              column[chuck_number[k]] += chuck_motion[k].dot(force);
+            const LocalVector force =
+              change_of_force(point,
+                              point.trial.dt * dw.col(j),
+                              point.trial.dxi * dw.col(j));
+            // no force acts on y_n
+            const Rows rows =
+              dw.topLeftCorner(12, n).transpose() * force.head<12>();
+            for (unsigned int i = 0; i < n; ++i)
+              matrix(number[i], number[j]) += rows[i];
           }
       }
 
     private:
-      using Surface                    = InterfaceConfiguration::Surface;
-      static constexpr int max_columns = 3 * 27 + 6;
-
       void
-      add_column(const int number, const Matrix<double, 5, 1> &column)
-      {
-        if (number < 0)
-          return;
-        columns.col(n_columns)        = column;
-        number_of_column[n_columns++] = number;
-      }
-
-      void
-      add_columns(const Matrix<double, 5, 3> &block,
-                  const Surface              &side,
-                  const unsigned int          control_point)
-      {
-        for (unsigned int c = 0; c < 3; ++c)
-          add_column(side.unknown_of[3 * control_point + c], block.col(c));
-      }
-
-      static void
-      add_rows(const Vector3d    &f,
-               const Surface     &side,
-               const unsigned int control_point,
-               double            *column)
+      add(const InterfaceConfiguration::Surface &side,
+          const unsigned int                     control_point,
+          const std::array<double, 5>           &factors)
       {
         for (unsigned int c = 0; c < 3; ++c)
           {
-            const int row = side.unknown_of[3 * control_point + c];
-            if (row >= 0)
-              column[row] += f[c];
+            LocalVector motion;
+            for (unsigned int k = 0; k < 5; ++k)
+              motion.segment<3>(3 * k) = factors[k] * side.frame.col(c);
+            add(side.unknown_of[3 * control_point + c], motion);
           }
       }
 
-      const SlavePoint              &point;
-      const Surface                 &slave_side, &master_side;
-      Matrix<double, 5, 15>          D, in_frames;
-      Matrix<double, 5, max_columns> columns;
-      std::array<int, max_columns>   number_of_column;
-      std::array<LocalVector, 6>     chuck_motion;
-      std::array<int, 6>             chuck_number;
-      unsigned int                   n_columns = 0, n_chuck = 0;
+      static constexpr int max_unknowns = 3 * 27 + 6;
+      using Rows = Matrix<double, Eigen::Dynamic, 1, 0, max_unknowns, 1>;
+
+      Matrix<double, 15, max_unknowns> dw;
+      std::array<int, max_unknowns>    number;
+      unsigned int                     n = 0;
     };
   } // namespace
 
@@ -213,10 +168,10 @@ namespace Debond
     for (const SlavePoint &point : points)
       if (point.trial.state.status != PointStatus::open)
         {
-          PointTangent tangent(point, configuration, slave);
+          UnknownMotions motions(point, slave, configuration);
           for (const auto &[number, moved] : chuck)
-            tangent.add_chuck(number, local_motion(point, slave, moved));
-          tangent.add_to(matrix);
+            motions.add(number, local_motion(point, slave, moved));
+          motions.add_tangent(point, matrix);
         }
   }
 

@@ -5,30 +5,6 @@
 
 namespace Debond
 {
-  namespace
-  {
-    void
-    add_steepest_softening(const SlavePoint       &point,
-                           const ContactPointLaw  &law,
-                           const ContactPointMode &mode,
-                           InterfaceSummary       &summary)
-    {
-      const double slope = law.friction->steepest_fall(
-        friction_state(point.accepted, point.phi_0, mode.duration));
-      const double softening =
-        slope * point.trial.pressure /
-        (law.tangential_penalty + viscous_stiffness(law, mode));
-      if (softening > summary.steepest_softening)
-        {
-          summary.steepest_softening = softening;
-          summary.softening_pressure = point.trial.pressure;
-          summary.softening_slope    = slope;
-        }
-    }
-  } // namespace
-
-
-
   InterfaceSummary
   ContactInterface::summarise() const
   {
@@ -37,6 +13,8 @@ namespace Debond
     // open, stick, slip: see PointStatus
     const std::array<double *, 3> share{
       {&summary.share_open, &summary.share_stick, &summary.share_slip}};
+    const double resistance =
+      law.tangential_penalty + viscous_stiffness(law, mode_now);
     for (const SlavePoint &point : points)
       {
         const ContactPointResult &trial = point.trial;
@@ -60,10 +38,19 @@ namespace Debond
         summary.energy += point.JxW * trial.energy;
         summary.max_softening =
           std::max(summary.max_softening, trial.softening);
-        if (!law.explicit_friction && !mode_now.frictionless)
-          add_steepest_softening(point, law, mode_now, summary);
         summary.max_penetration =
           std::max(summary.max_penetration, -trial.normal_gap);
+        if (law.explicit_friction || mode_now.frictionless)
+          continue;
+        const double slope = law.friction->steepest_fall(
+          friction_state(point.accepted, point.phi_0, mode_now.duration));
+        const double softening = slope * trial.pressure / resistance;
+        if (softening > summary.steepest_softening)
+          {
+            summary.steepest_softening = softening;
+            summary.softening_pressure = trial.pressure;
+            summary.softening_slope    = slope;
+          }
       }
     summary.phi_mean /= area;
     for (double *part : share)

@@ -116,22 +116,6 @@ namespace Debond
                           std::vector<double>(net.cols(), 1.));
     }
 
-
-
-    /** Boehm's ratio: on insertion of @p knot the new coefficient i lies
-     *  between the old ones i-1 (ratio 0) and i (ratio 1). */
-    double
-    boehm_ratio(const std::vector<double> &U,
-                const unsigned int         p,
-                const double               knot,
-                const unsigned int         i)
-    {
-      if (U[i + p] <= knot)
-        return 1.;
-      if (U[i] >= knot)
-        return 0.;
-      return (knot - U[i]) / (U[i + p] - U[i]);
-    }
   } // namespace
 
 
@@ -143,9 +127,6 @@ namespace Debond
     : knot_vectors{{knots_1, knots_2}}
     , points(control_points)
     , weight(weights)
-    , is_rational(std::any_of(weights.begin(),
-                              weights.end(),
-                              [](const double w) { return w != 1.; }))
   {
     if (knots_1.n_spans() == 0 || knots_2.n_spans() == 0 ||
         knots_1.degree() != knots_2.degree())
@@ -155,12 +136,11 @@ namespace Debond
         weight.size() != n_control_points())
       throw std::invalid_argument(
         "A surface needs one control point and one weight per basis function.");
-    if (!points.allFinite())
-      throw std::invalid_argument("Control points must be finite.");
-    if (!std::all_of(weight.begin(), weight.end(), [](const double w) {
-          return w > 0. && std::isfinite(w);
-        }))
-      throw std::invalid_argument("Weights must be positive and finite.");
+    const Eigen::Map<const Eigen::ArrayXd> w(weight.data(), weight.size());
+    if (!points.allFinite() || !w.allFinite() || !(w > 0.).all())
+      throw std::invalid_argument(
+        "Control points and weights must be finite, and weights positive.");
+    is_rational = (w != 1.).any();
   }
 
 
@@ -288,9 +268,11 @@ namespace Debond
     for (unsigned int j = 0; j < n_2; ++j)
       for (unsigned int i = 0; i < n_1; ++i)
         {
-          const unsigned int to = j * n_1 + i;
-          const double       alpha =
-            boehm_ratio(U, degree(), knot, direction == 0 ? i : j);
+          const unsigned int to = j * n_1 + i, d = direction == 0 ? i : j;
+          const double       end     = U[d + degree()];
+          const double       alpha   = end <= knot  ? 1. :
+                                       U[d] >= knot ? 0. :
+                                                      (knot - U[d]) / (end - U[d]);
           const unsigned int step    = (direction == 0 ? 1 : old_n);
           const unsigned int a       = j * old_n + i - (alpha < 1. ? step : 0);
           const unsigned int b       = j * old_n + i - (alpha > 0. ? 0 : step);

@@ -243,6 +243,61 @@ namespace Debond
 
 
 
+  InterfaceSummary
+  ContactInterface::summarise() const
+  {
+    InterfaceSummary summary;
+    double           area = 0.;
+    // open, stick, slip: see PointStatus
+    const std::array<double *, 3> share{
+      {&summary.share_open, &summary.share_stick, &summary.share_slip}};
+    const double resistance =
+      law.tangential_penalty + viscous_stiffness(law, mode_now);
+    for (const SlavePoint &point : points)
+      {
+        const ContactPointResult &trial = point.trial;
+        summary.normal_force += point.JxW * trial.pressure;
+        if (point.faces_implant)
+          {
+            area += point.JxW;
+            summary.phi_mean += point.JxW * friction(point).phi;
+            *share[static_cast<unsigned int>(trial.state.status)] += point.JxW;
+          }
+        if (trial.state.status == PointStatus::open)
+          {
+            // whether it was bonded: opening itself may have broken it
+            if (law.friction->has_bond() &&
+                point.accepted.status != PointStatus::open &&
+                point.friction(*law.friction, point.accepted).phi > 0.)
+              ++summary.bonded_opened;
+            continue;
+          }
+        ++summary.n_closed;
+        summary.energy += point.JxW * trial.energy;
+        summary.max_softening =
+          std::max(summary.max_softening, trial.softening);
+        summary.max_penetration =
+          std::max(summary.max_penetration, -trial.normal_gap);
+        if (law.explicit_friction || mode_now.frictionless)
+          continue;
+        const double slope = law.friction->steepest_fall(
+          friction_state(point.accepted, point.phi_0, mode_now.duration));
+        const double softening = slope * trial.pressure / resistance;
+        if (softening > summary.steepest_softening)
+          {
+            summary.steepest_softening = softening;
+            summary.softening_pressure = trial.pressure;
+            summary.softening_slope    = slope;
+          }
+      }
+    summary.phi_mean /= area;
+    for (double *part : share)
+      *part /= area;
+    return summary;
+  }
+
+
+
   std::string
   ContactInterface::describe_failure() const
   {

@@ -39,8 +39,8 @@ namespace Debond
 
 
 
-  // phi_0 belongs to the implant: with the bone as slave a point takes that of
-  // the implant point it faces at the start.
+  // phi_0 of Eq. (13) belongs to the implant: with the bone as slave a point
+  // takes that of the implant point it faces at the start.
   void
   ContactInterface::assign_bonding()
   {
@@ -147,6 +147,8 @@ namespace Debond
   ContactInterface::evaluate(const InterfaceConfiguration &configuration,
                              const ContactPointMode       &mode)
   {
+    // the master where it is now, and how far things have moved at most since
+    // the accepted state
     const MasterSurface surface = master(configuration);
     const double        moved   = motion(configuration);
     const auto         &sides   = configuration.side;
@@ -203,6 +205,7 @@ namespace Debond
     works.step_dissipation = 0.;
     for (SlavePoint &point : points)
       {
+        // beyond the edge, and still too far to reach it
         if (!point.accepted.has_partner && point.clearance > moved)
           {
             point.clearance -= moved;
@@ -216,6 +219,8 @@ namespace Debond
           Q.transpose() * trial.viscous_traction;
         point.accepted_pressure = trial.pressure;
         point.accepted_energy   = trial.energy;
+        // what is open forgets its interacting point, or it would be pulled
+        // back to it when it closes again somewhere else
         if (point.accepted.status == PointStatus::open)
           project_accepted(point, configuration, true);
       }
@@ -243,6 +248,11 @@ namespace Debond
 
 
 
+  // What a step is judged by. Areas count where the implant is faced, forces
+  // and energies everywhere. The local problem of a sliding point has one
+  // solution while |dmu/dg_s| p < eps_t + eta/dt: the slope is asked for where
+  // it will be steepest, so that a step that ends beyond the steepest place is
+  // not missed.
   InterfaceSummary
   ContactInterface::summarise() const
   {

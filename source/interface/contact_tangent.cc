@@ -155,6 +155,9 @@ namespace Debond
 
 
 
+  // Points are independent, so the matrix is a sum of dense blocks. The chuck
+  // moves all control points of the implant at once: what that does to w of a
+  // point is found as for any other motion of the control points.
   void
   ContactInterface::add_tangent(const InterfaceConfiguration &configuration,
                                 Eigen::MatrixXd              &matrix) const
@@ -177,6 +180,9 @@ namespace Debond
 
 
 
+  // The same tangent without a matrix, for iterative solvers: the unknowns move
+  // the control points, these move w of every point, that changes its forces,
+  // which go back the other way.
   void
   ContactInterface::apply_tangent(const InterfaceConfiguration &configuration,
                                   const Eigen::VectorXd        &direction,

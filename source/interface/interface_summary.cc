@@ -4,6 +4,11 @@
 
 namespace Debond
 {
+  // While a point slides it dissipates t_t . dy, a trapezoid between the
+  // accepted and the trial traction; the accepted one was kept in the frame of
+  // the master. Beside that stands the work that the law itself allows for this
+  // slip, with the exact integral of mu over the distance: a step in which the
+  // state jumps cannot dissipate more.
   void
   InterfaceWork::add(const SlavePoint       &point,
                      const FrictionLaw      &law,

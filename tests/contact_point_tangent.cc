@@ -5,6 +5,7 @@
 // only if its trial traction is within the friction limit. So do viscous
 // sliding, an explicit friction coefficient and a given direction of slip.
 
+#include <debond/geometry/surface_geometry.h>
 #include <debond/interface/bond_friction.h>
 #include <debond/interface/contact_point.h>
 

@@ -120,10 +120,8 @@ check_law(const std::string &name)
                                  d :
                                std::abs(law->adhesive_strength(start, d)) / d);
         positive = positive && now.mu >= 0.;
-        if (rate)
-          continue;
-        grow(faster, -now.dmu * size - law->steepest_fall(start) * size);
-        if (start.slip + d >= law->kinks().back())
+        grow(faster, (-now.dmu - law->steepest_fall(start, d)) * size);
+        if (!rate && start.slip + d >= law->kinks().back())
           grow(tail, std::abs(now.mu - mu(1000. * d)));
       }
   std::cout << name << std::endl;

@@ -270,6 +270,14 @@ check_without_viscosity()
          std::abs(stiff.rows().back().torque_Nmm / steady - 1.),
          1e-3);
   report("  stiff machine: nothing jumps", !jumps(stiff));
+  // a speed that ends is no jump
+  Simulation held(
+    Scene::from_text(scene_text,
+                     {"Chuck/Rotation z/Value=10 * min(max(t - 1, 0), 1.4)",
+                      "Chuck/Rotation z/Stiffness=2000",
+                      "Load steps/Steps=1,20,100"}));
+  held.run();
+  report("  stiff machine that stops: nothing jumps", !jumps(held));
   Simulation soft = scene_with(0., k, 200);
   soft.run();
   report("  soft machine: there is no quasi-static solution, and it is said",

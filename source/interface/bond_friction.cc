@@ -45,7 +45,7 @@ namespace Debond
 
   // A bond that strengthens as it breaks, mu_ub < mu_b, never falls.
   double
-  BondFriction::steepest_fall(const FrictionState &start) const
+  BondFriction::steepest_fall(const FrictionState &start, double) const
   {
     return drop > 0. ? steepest_decay(start.slip) * start.phi_0 * drop : 0.;
   }

@@ -291,7 +291,8 @@ namespace Debond
         if (law.explicit_friction || mode_now.frictionless)
           continue;
         const double slope = law.friction->steepest_fall(
-          friction_state(point.accepted, point.phi_0, mode_now.duration));
+          friction_state(point.accepted, point.phi_0, mode_now.duration),
+          trial.state.slip - point.accepted.slip);
         const double softening = slope * trial.pressure / resistance;
         if (softening > summary.steepest_softening)
           {

@@ -33,7 +33,7 @@ namespace Debond
               "Time before which the interface is frictionless.");
     table.add("Opening breaks bond",
               opening_breaks_bond,
-              Allowed::yes_or_no(),
+              Allowed::choice("false | true"),
               "Whether a bonded point that opens is debonded for good; in the "
               "paper it is not.");
     declare_variants(table);

@@ -135,13 +135,17 @@ namespace Debond
     forward =
       distance > 1e-14 * trial_gap.norm() ? Vector3d(slip / distance) : tau;
     // A point cannot slide against what pulls it. Where Newton's method looks
-    // there, mu goes on along its tangent: the distance alone would have a
-    // second solution there, where friction rises with the speed.
+    // there, mu goes on along its tangent, but never rises: the distance alone
+    // would have a second solution there where friction rises with the speed, a
+    // rise one where it falls steeply.
     const bool backwards = !direction_is_given && slip.dot(tau) < 0.;
     sense                = backwards ? -1. : 1.;
     coefficient          = friction.after(backwards ? 0. : distance);
     if (backwards)
-      coefficient.mu -= coefficient.dmu * distance;
+      {
+        coefficient.dmu = std::max(0., coefficient.dmu);
+        coefficient.mu -= coefficient.dmu * distance;
+      }
     // the viscous part resists as fast as the point moves, and it pulls where
     // a trial moves backwards
     const double resistance =

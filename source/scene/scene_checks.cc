@@ -1,6 +1,7 @@
 #include <debond/input/entry_table.h>
-#include <debond/input/time_function.h>
+#include <debond/input/expression_parser.h>
 #include <debond/interface/bonding_pattern.h>
+#include <debond/scene/reference_data.h>
 #include <debond/scene/scene.h>
 #include <debond/support/number_text.h>
 #include <debond/system/load_stepping.h>
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 namespace Debond
 {
@@ -127,25 +129,25 @@ namespace Debond
 
       if (interface.friction_starts_at <= times.front())
         return;
-      if (load_steps.adaptive || load_steps.follow_path)
+      const bool is_planned = !load_steps.adaptive && !load_steps.follow_path;
+      std::vector<double> ends      = times; // of what has friction or has none
+      double              tolerance = 0.;
+      if (is_planned)
         {
-          if (std::find(times.begin(),
-                        times.end(),
-                        interface.friction_starts_at) == times.end())
-            throw EntryError(entry,
-                             "this is inside a phase: with adaptive steps or "
-                             "Path following one of Load steps / Times is "
-                             "expected");
-          return;
+          const LoadStepping stepping(load_steps);
+          for (unsigned int step = 0; step <= stepping.n_steps(); ++step)
+            ends.push_back(stepping.time(step));
+          tolerance = 1e-9 * (times.back() - times.front());
         }
-      const LoadStepping stepping(load_steps);
-      for (unsigned int step = 0; step <= stepping.n_steps(); ++step)
-        if (std::abs(stepping.time(step) - interface.friction_starts_at) <=
-            1e-9 * (times.back() - times.front()))
+      for (const double end : ends)
+        if (std::abs(end - interface.friction_starts_at) <= tolerance)
           return;
       throw EntryError(entry,
-                       "this is inside a planned step: expected the end of a "
-                       "step (Load steps / Times and Steps)");
+                       is_planned ?
+                         "this is inside a planned step: expected the end of a "
+                         "step (Load steps / Times and Steps)" :
+                         "this is inside a phase: with adaptive steps or Path "
+                         "following one of Load steps / Times is expected");
     }
 
 
@@ -156,19 +158,28 @@ namespace Debond
     {
       if (!scene.interface.friction->depends_on_rate())
         return;
-      const auto refuse = [](const std::string &entry) {
-        throw EntryError(entry,
-                         "it does not go with this Friction law, whose "
-                         "coefficient depends on the sliding speed");
-      };
-      if (scene.load_steps.follow_path)
-        refuse("Load steps / Path following");
-      if (scene.interface.explicit_friction)
-        refuse("Interface / Friction update");
-      if (scene.output.friction_law_curve)
-        refuse("Output / Friction law curve");
-      if (scene.model != ModelKind::finite_elements)
-        refuse("Model");
+      const std::pair<bool, const char *> without_rate[] = {
+        {scene.load_steps.follow_path, "Load steps / Path following"},
+        {scene.interface.explicit_friction, "Interface / Friction update"},
+        {scene.output.friction_law_curve, "Output / Friction law curve"},
+        {scene.model != ModelKind::finite_elements, "Model"}};
+      for (const auto &[is_wanted, entry] : without_rate)
+        if (is_wanted)
+          throw EntryError(entry,
+                           "it does not go with this Friction law, whose "
+                           "coefficient depends on the sliding speed");
+    }
+
+
+
+    void
+    check_references(const OutputParameters &output)
+    {
+      read_reference_curve(output.reference_curve);
+      read_profiles(output.reference_profiles);
+      if (!output.reference_profiles.empty() && output.profile_angles.empty())
+        throw EntryError("Output / Reference profiles",
+                         "it needs Output / Profile angles to compare at");
     }
 
 
@@ -228,7 +239,7 @@ namespace Debond
     check_rate(*this);
     check_chuck(*this);
     check_path_following(*this);
-    output.check();
+    check_references(output);
     check_bonding_file(interface.bonding.file, output.directory);
   }
 } // namespace Debond

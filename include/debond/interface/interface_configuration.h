@@ -3,7 +3,7 @@
 
 #include <debond/bulk/side.h>
 #include <debond/geometry/nurbs_surface.h>
-#include <debond/support/chunks.h>
+#include <debond/support/runtime.h>
 
 #include <array>
 #include <utility>

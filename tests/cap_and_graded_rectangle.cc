@@ -5,7 +5,7 @@
 
 #include <debond/bulk/body_mesh.h>
 #include <debond/geometry/closest_point.h>
-#include <debond/geometry/surface_quadrature.h>
+#include <debond/geometry/surface_geometry.h>
 
 #include <Eigen/Geometry>
 

@@ -107,7 +107,7 @@ check_constant_friction()
   report("relative deviation from the elementary formula", largest, 1e-12);
 
   auto frictionless     = paper();
-  frictionless.friction = Debond::frictionless();
+  frictionless.friction = Debond::modified_coulomb({0., 0., 0.022, 0.74, true});
   report("torque without friction",
          std::abs(RigidBodiesTorsion(frictionless).torque(degree)),
          1e-12);

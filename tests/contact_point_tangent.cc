@@ -5,6 +5,7 @@
 // only if its trial traction is within the friction limit. So do viscous
 // sliding, an explicit friction coefficient and a given direction of slip.
 
+#include <debond/geometry/surface_geometry.h>
 #include <debond/interface/bond_friction.h>
 #include <debond/interface/contact_point.h>
 
@@ -250,7 +251,7 @@ struct Setting
   set_frictionless()
   {
     friction         = {0., 0.};
-    law.friction     = Debond::frictionless();
+    law.friction     = modified_coulomb({0., 0., 0.022, 0.74, true});
     frictionless_law = true;
   }
 };

@@ -5,7 +5,7 @@
 // of the volume of the coin.
 
 #include <debond/bulk/enriched_cells.h>
-#include <debond/geometry/surface_quadrature.h>
+#include <debond/geometry/surface_geometry.h>
 
 #include <Eigen/Geometry>
 

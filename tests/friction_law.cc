@@ -147,10 +147,11 @@ main()
   report("  its bond still decays",
          coulomb()->coefficient({}, 0.).phi == 1. &&
            coulomb()->coefficient({}, 1.).phi == 0.);
+  const auto frictionless = modified_coulomb({0., 0., 0.022, 0.74, true});
   report("Frictionless: zero",
-         frictionless()->coefficient({}, 0.).mu == 0. &&
-           frictionless()->coefficient({}, 0.03).dmu == 0. &&
-           frictionless()->steepest_fall({}) == 0. &&
-           frictionless()->friction_strength({}, 1.) == 0. &&
-           frictionless()->adhesive_strength({}, 1.) == 0.);
+         frictionless->coefficient({}, 0.).mu == 0. &&
+           frictionless->coefficient({}, 0.03).dmu == 0. &&
+           frictionless->steepest_fall({}) == 0. &&
+           frictionless->friction_strength({}, 1.) == 0. &&
+           frictionless->adhesive_strength({}, 1.) == 0.);
 }

@@ -3,6 +3,7 @@
 // control points of both bodies and all six chuck components; the system with
 // it is the same assembled and applied.
 
+#include <debond/scene/scene.h>
 #include <debond/support/runtime.h>
 #include <debond/system/coupled_system.h>
 

@@ -176,9 +176,7 @@ main()
   check("Degree 2, uneven knots, weights 1",
         surface_with(uneven_1, uneven_2, false));
   check("Degree 2, one span, uneven weights",
-        surface_with(KnotVector::uniform(2, 1),
-                     KnotVector::uniform(2, 1),
-                     true));
+        surface_with(KnotVector::graded(2, 1), KnotVector::graded(2, 1), true));
   const KnotVector linear_1(1, {0, 0, 0.1, 0.4, 1, 1});
   const KnotVector linear_2(1, {0, 0, 0.7, 1, 1});
   check("Degree 1, uneven knots, uneven weights",

@@ -86,7 +86,7 @@ void
 check_uniform_refinement()
 {
   const NurbsSurface one =
-    curved_surface(KnotVector::uniform(2, 1), KnotVector::uniform(2, 1));
+    curved_surface(KnotVector::graded(2, 1), KnotVector::graded(2, 1));
   const NurbsSurface refined = one.refine_uniformly(7, 4);
   const auto         n       = refined.n_elements_per_direction();
   std::cout << "Uniform refinement: " << n[0] << " x " << n[1] << " elements"
@@ -166,5 +166,5 @@ main()
   expect_refusal("knots that are not open", [] {
     KnotVector(2, {0, 0, 0.5, 1, 1, 1});
   });
-  expect_refusal("degree 3", [] { KnotVector::uniform(3, 4); });
+  expect_refusal("degree 3", [] { KnotVector::graded(3, 4); });
 }

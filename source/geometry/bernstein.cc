@@ -45,98 +45,48 @@ namespace Debond
 
 
 
-    /**
-     * Finishes the operator of the span [U[a], U[b]] whose right knot has
-     * multiplicity @p mult: repeats this knot until the span is a Bezier
-     * segment, and hands the part that overlaps to the next span.
-     */
-    void
-    insert_right_knot(const unsigned int         p,
-                      const std::vector<double> &U,
-                      const unsigned int         a,
-                      const unsigned int         b,
-                      const unsigned int         mult,
-                      Eigen::Matrix3d           &C,
-                      Eigen::Matrix3d           &next)
-    {
-      std::array<double, max_degree + 1> alpha{};
-      for (unsigned int j = p; j > mult; --j)
-        alpha[j - mult - 1] = (U[b] - U[a]) / (U[a + j] - U[a]);
-
-      const unsigned int n_insertions = p - mult;
-      for (unsigned int j = 1; j <= n_insertions; ++j)
-        {
-          const unsigned int save = n_insertions - j;
-          const unsigned int s    = mult + j;
-          for (unsigned int k = p; k >= s; --k)
-            C.col(k) =
-              alpha[k - s] * C.col(k) + (1. - alpha[k - s]) * C.col(k - 1);
-          next.block(save, save, j + 1, 1) = C.block(p - j, p, j + 1, 1);
-        }
-    }
-
-
-
-    /** Unit matrix in the upper left (p+1)x(p+1) block. */
+    /** The operator of the span between the knots @p m and m+1: column k has
+     *  the Bezier coefficients k of the splines that live there. They are the
+     *  values of the splines' polar forms at p-k times the left knot and k
+     *  times the right one, by de Boor's recursion; the same numbers as by
+     *  Algorithm 1 of Borden, Scott, Evans, Hughes (2011). */
     Eigen::Matrix3d
-    unit_block(const unsigned int p)
+    extraction_operator(const unsigned int         p,
+                        const std::vector<double> &U,
+                        const unsigned int         m)
     {
       Eigen::Matrix3d C = Eigen::Matrix3d::Zero();
-      C.topLeftCorner(p + 1, p + 1).setIdentity();
+      for (unsigned int k = 0; k <= p; ++k)
+        {
+          Eigen::Matrix3d d = Eigen::Matrix3d::Identity();
+          for (unsigned int r = 1; r <= p; ++r)
+            for (unsigned int j = p; j >= r; --j)
+              {
+                const double left = U[m + j - p], right = U[m + 1 + j - r];
+                const double u     = U[r + k > p ? m + 1 : m];
+                const double alpha = (u - left) / (right - left);
+                d.col(j) = (1. - alpha) * d.col(j - 1) + alpha * d.col(j);
+              }
+          C.col(k).head(p + 1) = d.col(p).head(p + 1);
+        }
       return C;
     }
 
 
 
-    /** Algorithm 1 of Borden, Scott, Evans, Hughes (2011), with indices from
-     *  zero: all operators in one sweep over the knots. */
-    std::vector<Eigen::Matrix3d>
-    extraction_operators(const unsigned int p, const std::vector<double> &U)
+    /** The p+1 Bernstein polynomials of degree p at u in [0,1]. */
+    BernsteinValues
+    bernstein(const unsigned int p, const double u)
     {
-      std::vector<Eigen::Matrix3d> operators(1, unit_block(p));
-      const unsigned int           last = U.size() - 1;
-
-      unsigned int a = p;     // last repetition of the span's left knot
-      unsigned int b = p + 1; // will be the last repetition of its right knot
-      while (true)
-        {
-          const unsigned int first = b;
-          while (b < last && U[b + 1] == U[b])
-            ++b;
-          if (b == last)
-            return operators;
-
-          const unsigned int mult = b - first + 1;
-          Eigen::Matrix3d    next = unit_block(p);
-          if (mult < p)
-            insert_right_knot(p, U, a, b, mult, operators.back(), next);
-          operators.push_back(next);
-
-          a = b;
-          ++b;
-        }
+      using Eigen::Vector3d;
+      const double v = 1. - u;
+      if (p == 1)
+        return {Vector3d(v, u, 0.), Vector3d(-1., 1., 0.), Vector3d::Zero()};
+      return {Vector3d(v * v, 2. * u * v, u * u),
+              Vector3d(-2. * v, 2. * (v - u), 2. * u),
+              Vector3d(2., -4., 2.)};
     }
   } // namespace
-
-
-
-  BernsteinValues
-  bernstein(const unsigned int degree, const double u)
-  {
-    assert(degree <= max_degree);
-    const double v = 1. - u;
-    switch (degree)
-      {
-        case 2:
-          return {{{v * v, 2. * u * v, u * u}},
-                  {{-2. * v, 2. * (v - u), 2. * u}},
-                  {{2., -4., 2.}}};
-        case 1:
-          return {{{v, u, 0.}}, {{-1., 1., 0.}}, {{0., 0., 0.}}};
-        default:
-          return {{{1., 0., 0.}}, {{0., 0., 0.}}, {{0., 0., 0.}}};
-      }
-  }
 
 
 
@@ -153,17 +103,8 @@ namespace Debond
         {
           breaks.push_back(knots[i + 1]);
           first_function.push_back(i - p);
+          extraction.push_back(extraction_operator(p, knots, i));
         }
-    extraction = extraction_operators(p, knots);
-    assert(extraction.size() == n_spans());
-  }
-
-
-
-  KnotVector
-  KnotVector::uniform(const unsigned int degree, const unsigned int n_spans)
-  {
-    return graded(degree, n_spans, 1.);
   }
 
 
@@ -210,13 +151,13 @@ namespace Debond
     const double left = breaks[span], scale = 1. / (breaks[span + 1] - left);
     const BernsteinValues b = bernstein(p, (u - left) * scale);
 
-    // Row by row C times Bernstein; what lies outside the (p+1)x(p+1) block is
-    // zero, so the loops can have a length the compiler knows.
-    const double   *C = extraction[span].data(); // columns are contiguous
-    BernsteinValues N;
-    for (unsigned int i = 0; i <= max_degree; ++i)
+    // What lies outside the (p+1) x (p+1) block is zero, so the loop can have a
+    // length that the compiler knows.
+    const Eigen::Matrix3d &C = extraction[span];
+    BernsteinValues        N;
+    for (unsigned int i = 0; i < 3; ++i)
       {
-        const double c0 = C[i], c1 = C[i + 3], c2 = C[i + 6];
+        const double c0 = C(i, 0), c1 = C(i, 1), c2 = C(i, 2);
         N.B[i]  = c0 * b.B[0] + c1 * b.B[1] + c2 * b.B[2];
         N.dB[i] = (c0 * b.dB[0] + c1 * b.dB[1] + c2 * b.dB[2]) * scale;
         N.ddB[i] =

@@ -1,5 +1,4 @@
 #include <debond/geometry/closest_point.h>
-#include <debond/geometry/distance_minimum.h>
 
 #include <Eigen/Dense>
 
@@ -10,11 +9,321 @@
 #include <stdexcept>
 #include <vector>
 
+// How the projection works. Inside one element the surface is smooth, so half
+// the squared distance, f(xi) = |x - y(xi)|^2 / 2, is minimised there by
+// Newton's method, with the element's borders as bounds. When the minimum of
+// one element lies on its border, the elements beyond are asked whether they
+// lead further down. This treats a smooth surface and one with ridges (degree
+// 1) alike: on a ridge no neighbour leads further down, and the point on the
+// ridge is the result.
+
 namespace Debond
 {
+  using Eigen::Matrix2d;
+  using Eigen::Vector2d;
+  using Eigen::Vector3d;
+
   namespace
   {
-    constexpr unsigned int max_starts = 8; // of the global search
+    constexpr double       eps        = std::numeric_limits<double>::epsilon();
+    constexpr double       infinity   = std::numeric_limits<double>::infinity();
+    constexpr unsigned int max_newton = 60; // in one element
+    constexpr unsigned int max_halvings = 40;
+    constexpr unsigned int max_starts   = 8; // of the global search
+
+    // Keeps a surface shrunk to a point from a 0/0; its square is a number too.
+    constexpr double least_curvature = 1e-100;
+
+
+
+    /** The point x and the deformed surface whose distance is minimised. */
+    struct DistanceProblem
+    {
+      const NurbsSurface &surface;
+      const ControlNet   &control_points;
+      const Vector3d     &x;
+    };
+
+
+
+    /** The distance function and its model at one point of an element. */
+    struct DistanceState
+    {
+      /** At @p xi in @p element, which may lie on its sides. */
+      DistanceState(const DistanceProblem &problem,
+                    const unsigned int     element,
+                    const Vector2d        &xi)
+        : xi(xi)
+      {
+        SurfaceBasis basis;
+        problem.surface.evaluate_in_element(element, xi, basis, true);
+        contract(basis, problem.control_points, true, y);
+        r         = problem.x - y.y;
+        gradient  = Vector2d(-r.dot(y.a1), -r.dot(y.a2));
+        lengths   = Vector2d(y.a1.norm(), y.a2.norm());
+        magnitude = problem.x.norm() + y.y.norm();
+      }
+
+      /** Of f. */
+      Matrix2d
+      hessian() const
+      {
+        Matrix2d H;
+        H(0, 0) = y.a1.dot(y.a1) - r.dot(y.a11);
+        H(1, 1) = y.a2.dot(y.a2) - r.dot(y.a22);
+        H(0, 1) = H(1, 0) = y.a1.dot(y.a2) - r.dot(y.a12);
+        return H;
+      }
+
+      /** Whether @p step would change the parameters by round-off only, or the
+       *  gradient is no more than that. */
+      bool
+      is_negligible(const Vector2d &step) const
+      {
+        const Vector2d noise = 4. * eps * magnitude * lengths;
+        return step.lpNorm<Eigen::Infinity>() <= 1e-14 ||
+               (gradient.cwiseAbs() - noise).maxCoeff() <= 0.;
+      }
+
+      Vector2d        xi;
+      SurfaceGeometry y;
+      Vector3d        r;         ///< x - y
+      Vector2d        gradient;  ///< of f
+      Vector2d        lengths;   ///< of the tangents
+      double          magnitude; ///< of positions, for round-off
+    };
+
+
+
+    /**
+     * Hessian H of f where it is positive definite, also but for round-off;
+     * else |H|, which turns negative eigenvalues round. (Gauss-Newton would
+     * keep only a_alpha . a_beta: far from the surface this overshoots along an
+     * edge, and the halved steps creep towards the bound.) The shift is for the
+     * corners of the disk, where tangents are parallel.
+     */
+    Matrix2d
+    positive_model(const DistanceState &s)
+    {
+      const Matrix2d H = s.hessian();
+      if (H(0, 0) > 0. && H(1, 1) > 0. &&
+          H.determinant() > 1e-13 * H(0, 0) * H(1, 1))
+        return H;
+      const double shift = 1e-8 * s.lengths.squaredNorm() + least_curvature;
+      const Eigen::SelfAdjointEigenSolver<Matrix2d> eigen(H);
+      const Matrix2d                               &V = eigen.eigenvectors();
+      return V * eigen.eigenvalues().cwiseAbs().asDiagonal() * V.transpose() +
+             shift * Matrix2d::Identity();
+    }
+
+
+
+    /** True if f is stationary at @p s but can be reduced along a direction
+     *  of negative curvature that does not leave the patch. */
+    bool
+    is_saddle_or_maximum(const DistanceState &s)
+    {
+      const Vector2d g = s.lengths.cwiseAbs2();
+      const Matrix2d H = s.hessian();
+
+      // A parameter held by a bound (or by a ridge) has a gradient.
+      bool is_free[2];
+      for (unsigned int c = 0; c < 2; ++c)
+        {
+          is_free[c] =
+            std::abs(s.gradient[c]) <= 1e-8 * s.r.norm() * s.lengths[c];
+          if (is_free[c] && H(c, c) < -1e-8 * g[c])
+            return true;
+        }
+
+      // From a corner only directions between the two edges stay in the patch.
+      const bool in_corner =
+        (s.xi[0] == 0. || s.xi[0] == 1.) && (s.xi[1] == 0. || s.xi[1] == 1.);
+      if (in_corner && (s.xi[0] == s.xi[1]) == (H(0, 1) > 0.))
+        return false;
+      return is_free[0] && is_free[1] && H.determinant() < -1e-8 * g.prod();
+    }
+
+
+
+    /** Minimum of the positive definite model over steps that stay between the
+     *  bounds: the free minimum if it does, else the best of the four sides. */
+    Vector2d
+    bounded_minimum(const Matrix2d &H,
+                    const Vector2d &g,
+                    const Vector2d &lower,
+                    const Vector2d &upper)
+    {
+      const Vector2d free = -H.inverse() * g;
+      if ((free.array() >= lower.array()).all() &&
+          (free.array() <= upper.array()).all())
+        return free;
+
+      Vector2d best       = Vector2d::Zero();
+      double   best_value = infinity;
+      for (unsigned int side = 0; side < 4; ++side)
+        {
+          const unsigned int c = side / 2, o = 1 - c;
+          Vector2d           step;
+          step[c]            = (side % 2 == 0 ? lower[c] : upper[c]);
+          step[o]            = std::clamp(-(g[o] + H(0, 1) * step[c]) / H(o, o),
+                               lower[o],
+                               upper[o]);
+          const double value = g.dot(step) + 0.5 * step.dot(H * step);
+          if (value < best_value)
+            {
+              best       = step;
+              best_value = value;
+            }
+        }
+      return best;
+    }
+
+
+
+    /** The descent of a point from element to element. */
+    struct Descent
+    {
+      Descent(const DistanceProblem &problem,
+              const unsigned int     element,
+              const Vector2d        &xi)
+        : problem(&problem)
+        , element(element)
+        , box(problem.surface.element_bounds(element))
+        , s(problem, element, xi)
+      {}
+
+      /** Goes to the minimum of the distance over the patch that is reached
+       *  from here. Returns whether it was found. */
+      bool
+      minimise()
+      {
+        const auto n = problem->surface.n_elements_per_direction();
+        // Every passage leads down, so none is needed twice; the cap is for
+        // what round-off may do.
+        for (unsigned int k = 0; k < 10 + 4 * (n[0] + n[1]); ++k)
+          {
+            if (!minimise_in_element())
+              return false;
+            if (!pass_on())
+              return true;
+          }
+        return false;
+      }
+
+      /**
+       * Newton step within the box. A parameter that is held by a bound stays
+       * out of it: along an edge f may be convex though it is not in the plane,
+       * and only the exact second derivative converges fast.
+       */
+      Vector2d
+      bounded_step() const
+      {
+        const Vector2d &g     = s.gradient;
+        const Vector2d  lower = box[0] - s.xi, upper = box[1] - s.xi;
+        bool            is_held[2];
+        for (unsigned int c = 0; c < 2; ++c)
+          is_held[c] =
+            (lower[c] >= 0. && g[c] > 0.) || (upper[c] <= 0. && g[c] < 0.);
+        if (!is_held[0] && !is_held[1])
+          return bounded_minimum(positive_model(s), g, lower, upper);
+
+        const Matrix2d H    = s.hessian();
+        Vector2d       step = Vector2d::Zero();
+        for (unsigned int c = 0; c < 2; ++c)
+          if (!is_held[c])
+            {
+              const double first = s.lengths[c] * s.lengths[c];
+              const double h =
+                H(c, c) > 1e-8 * first ? H(c, c) : first + least_curvature;
+              step[c] = std::clamp(-g[c] / h, lower[c], upper[c]);
+            }
+        return step;
+      }
+
+      /** One step with line search (Armijo). Returns false if the distance
+       *  cannot be reduced any more. */
+      bool
+      descend(const Vector2d &step)
+      {
+        // Close to the minimum the change of f drowns in round-off long before
+        // the parameters are accurate; the full step is trusted there.
+        const double round_off = eps * s.magnitude;
+        double       slack     = 8. * round_off * (s.r.norm() + round_off);
+        double       length    = 1.;
+        for (unsigned int i = 0; i <= max_halvings; ++i, length *= 0.5)
+          {
+            // put exactly on a bound that is met but for round-off: later
+            // decisions ask whether a parameter is on a bound
+            Vector2d xi = s.xi + length * step;
+            for (const Vector2d &bound : box)
+              xi = ((xi - bound).array().abs() <= 4. * eps).select(bound, xi);
+            const DistanceState next(*problem,
+                                     element,
+                                     xi.cwiseMax(box[0]).cwiseMin(box[1]));
+            // As a product the difference keeps its digits.
+            const double change = 0.5 * (next.r - s.r).dot(next.r + s.r);
+            if (change <= 1e-4 * length * s.gradient.dot(step) + slack)
+              {
+                s = next;
+                return true;
+              }
+            slack = 0.;
+          }
+        return false;
+      }
+
+      bool
+      minimise_in_element()
+      {
+        for (unsigned int iteration = 0; iteration < max_newton; ++iteration)
+          {
+            if (!s.r.allFinite() || !s.gradient.allFinite())
+              return false;
+            const Vector2d step = bounded_step();
+            if (s.is_negligible(step))
+              return !is_saddle_or_maximum(s);
+            if (!descend(step))
+              return false;
+          }
+        return false;
+      }
+
+      /** Goes on in an element beyond a side that the point lies on, if it
+       *  leads further down. The one across a vertex need not be asked: if f
+       *  grows along its two sides there, which the others share, it grows in
+       *  between. */
+      bool
+      pass_on()
+      {
+        const auto         n = problem->surface.n_elements_per_direction();
+        const unsigned int index[2]  = {element % n[0], element / n[0]};
+        const unsigned int stride[2] = {1, n[0]};
+        for (unsigned int c = 0; c < 2; ++c)
+          {
+            const bool back = s.xi[c] == box[0][c] && index[c] > 0;
+            if (!back && !(s.xi[c] == box[1][c] && index[c] + 1 < n[c]))
+              continue;
+            Descent        there(*problem,
+                          back ? element - stride[c] : element + stride[c],
+                          s.xi);
+            const Vector2d step = there.bounded_step();
+            if (step.lpNorm<Eigen::Infinity>() > 1e-13 &&
+                !there.s.is_negligible(step) && there.descend(step) &&
+                there.s.xi != s.xi)
+              {
+                *this = there;
+                return true;
+              }
+          }
+        return false;
+      }
+
+      const DistanceProblem  *problem;
+      unsigned int            element;
+      std::array<Vector2d, 2> box; ///< bounds of the element
+      DistanceState           s;
+    };
 
 
 
@@ -24,22 +333,19 @@ namespace Debond
      * inside of the patch has the direction of the limit. Zero if there is no
      * normal at all.
      */
-    Eigen::Vector3d
+    Vector3d
     unit_normal(const DistanceState &s)
     {
-      const SurfaceGeometry &y      = s.geometry;
-      Eigen::Vector3d        normal = y.a1.cross(y.a2);
-      const double           scale  = y.a1.norm() * y.a2.norm();
-      if (!(normal.norm() > 1e-8 * scale))
+      const SurfaceGeometry &y      = s.y;
+      Vector3d               normal = y.a1.cross(y.a2);
+      if (!(normal.norm() > 1e-8 * s.lengths.prod()))
         {
           const double in_1 = (s.xi[0] < 0.5 ? 1. : -1.);
           const double in_2 = (s.xi[1] < 0.5 ? 1. : -1.);
           normal            = (in_1 * y.a11 + in_2 * y.a12).cross(y.a2) +
                    y.a1.cross(in_1 * y.a12 + in_2 * y.a22);
         }
-      const double length = normal.norm();
-      return length > 0. ? Eigen::Vector3d(normal / length) :
-                           Eigen::Vector3d::Zero();
+      return normal.normalized();
     }
 
 
@@ -50,42 +356,40 @@ namespace Debond
     bool
     is_orthogonal(const DistanceState &s)
     {
-      const SurfaceGeometry &y  = s.geometry;
-      const double           l1 = y.a1.norm(), l2 = y.a2.norm();
-      const bool             on_1 = (s.xi[0] <= 0. || s.xi[0] >= 1.);
-      const bool             on_2 = (s.xi[1] <= 0. || s.xi[1] >= 1.);
+      const bool on_1 = (s.xi[0] <= 0. || s.xi[0] >= 1.);
+      const bool on_2 = (s.xi[1] <= 0. || s.xi[1] >= 1.);
       // Closer to a singular corner than this, the minimum is so flat that
       // round-off decides whether it is on the border, and the normal has
       // fewer digits.
-      const bool is_singular = y.a1.cross(y.a2).norm() <= 1e-6 * l1 * l2;
+      const bool is_singular =
+        s.y.a1.cross(s.y.a2).norm() <= 1e-6 * s.lengths.prod();
       if (!on_1 && !on_2 && !is_singular)
         return true;
 
-      const double size      = std::max(l1, l2);
-      const double tolerance = is_singular ? 1e-7 * s.r.norm() + 1e-9 * size :
-                                             1e-10 * s.r.norm() + 1e-13 * size;
+      const double tolerance =
+        (is_singular ? 1e-7 : 1e-10) * s.r.norm() +
+        (is_singular ? 1e-9 : 1e-13) * s.lengths.maxCoeff();
 
-      const Eigen::Vector3d normal = unit_normal(s);
-      if (normal.squaredNorm() == 0.)
-        return s.r.norm() <= tolerance;
-      if (on_1 == on_2)
+      // zero where there is no normal: then nothing but y itself is
+      const Vector3d normal = unit_normal(s);
+      if (on_1 == on_2 || normal.isZero(0.))
         return (s.r - s.r.dot(normal) * normal).norm() <= tolerance;
 
-      const Eigen::Vector3d along = (on_1 ? y.a2 : y.a1).normalized();
+      const Vector3d along = (on_1 ? s.y.a2 : s.y.a1).normalized();
       return std::abs(s.r.dot(normal.cross(along))) <= tolerance;
     }
 
 
 
     ClosestPoint
-    result_of(const DistanceState &s, const bool converged)
+    minimise_from(const DistanceProblem &problem,
+                  const unsigned int     element,
+                  const Vector2d        &xi)
     {
-      ClosestPoint result;
-      result.xi            = s.xi;
-      result.distance      = s.r.norm();
-      result.converged     = converged;
-      result.is_orthogonal = converged && is_orthogonal(s);
-      return result;
+      Descent              descent(problem, element, xi);
+      const bool           converged = descent.minimise();
+      const DistanceState &s         = descent.s;
+      return {s.xi, s.r.norm(), converged && is_orthogonal(s), converged};
     }
 
 
@@ -93,10 +397,10 @@ namespace Debond
     /** A place where the global search may start Newton's method. */
     struct Candidate
     {
-      unsigned int    element;
-      double          bound;    ///< squared distance: no point is nearer
-      double          distance; ///< squared, of the nearest sample
-      Eigen::Vector2d xi;       ///< of this sample
+      unsigned int element;
+      double       bound;    ///< squared distance: no point is nearer
+      double       distance; ///< squared, of the nearest sample
+      Vector2d     xi;       ///< of this sample
     };
 
 
@@ -108,17 +412,17 @@ namespace Debond
                            const unsigned int     element)
     {
       const auto indices   = problem.surface.element_control_points(element);
-      const unsigned int p = problem.surface.degree();
-      const unsigned int n = (p + 1) * (p + 1);
-      Eigen::Vector3d    lower = problem.control_points.col(indices[0]);
-      Eigen::Vector3d    upper = lower;
-      for (unsigned int k = 1; k < n; ++k)
+      const unsigned int n = problem.surface.degree() + 1;
+      Vector3d           lower = problem.control_points.col(indices[0]);
+      Vector3d           upper = lower;
+      for (unsigned int k = 1; k < n * n; ++k)
         {
-          lower = lower.cwiseMin(problem.control_points.col(indices[k]));
-          upper = upper.cwiseMax(problem.control_points.col(indices[k]));
+          const Vector3d point = problem.control_points.col(indices[k]);
+          lower                = lower.cwiseMin(point);
+          upper                = upper.cwiseMax(point);
         }
-      const Eigen::Vector3d inside = problem.x.cwiseMax(lower).cwiseMin(upper);
-      return (problem.x - inside).squaredNorm();
+      return (problem.x - problem.x.cwiseMax(lower).cwiseMin(upper))
+        .squaredNorm();
     }
 
 
@@ -135,17 +439,14 @@ namespace Debond
       const auto               box = problem.surface.element_bounds(element);
       std::array<Candidate, 9> samples;
       SurfaceBasis             basis;
-      SurfaceGeometry          geometry;
       for (unsigned int k = 0; k < 9; ++k)
         {
-          const Eigen::Vector2d t(0.02 + 0.48 * (k % 3), 0.02 + 0.48 * (k / 3));
-          const Eigen::Vector2d xi = box[0] + t.cwiseProduct(box[1] - box[0]);
+          const Vector2d t(0.02 + 0.48 * (k % 3), 0.02 + 0.48 * (k / 3));
+          const Vector2d xi = box[0] + t.cwiseProduct(box[1] - box[0]);
           problem.surface.evaluate_in_element(element, xi, basis, false);
-          contract(basis, problem.control_points, false, geometry);
-          samples[k] = {element,
-                        bound,
-                        (problem.x - geometry.y).squaredNorm(),
-                        xi};
+          const Vector3d r =
+            problem.x - interpolate(basis, problem.control_points);
+          samples[k] = {element, bound, r.squaredNorm(), xi};
         }
 
       for (unsigned int k = 0; k < 9; ++k)
@@ -165,22 +466,20 @@ namespace Debond
     std::vector<Candidate>
     starting_points(const DistanceProblem &problem)
     {
-      std::vector<double> bounds(problem.surface.n_elements());
-      for (unsigned int e = 0; e < bounds.size(); ++e)
-        bounds[e] = squared_distance_bound(problem, e);
-
+      std::vector<std::pair<double, unsigned int>> elements;
+      for (unsigned int e = 0; e < problem.surface.n_elements(); ++e)
+        elements.emplace_back(squared_distance_bound(problem, e), e);
       // The element with the least bound comes first and rules out most.
-      const unsigned int first =
-        std::min_element(bounds.begin(), bounds.end()) - bounds.begin();
-      double                 nearest = std::numeric_limits<double>::infinity();
+      std::iter_swap(elements.begin(),
+                     std::min_element(elements.begin(), elements.end()));
+      double                 nearest = infinity;
       std::vector<Candidate> result;
-      for (unsigned int k = 0; k < bounds.size(); ++k)
+      for (const auto &[bound, element] : elements)
         {
-          const unsigned int e        = (k == 0 ? first : k == first ? 0 : k);
-          const auto         n_before = result.size();
-          if (bounds[e] <= nearest)
-            sample(problem, e, bounds[e], result);
-          for (auto i = n_before; i < result.size(); ++i)
+          auto i = result.size();
+          if (bound <= nearest)
+            sample(problem, element, bound, result);
+          for (; i < result.size(); ++i)
             nearest = std::min(nearest, result[i].distance);
         }
       std::sort(result.begin(), result.end(), [](const auto &a, const auto &b) {
@@ -196,8 +495,7 @@ namespace Debond
     ClosestPoint
     search_globally(const DistanceProblem &problem)
     {
-      ClosestPoint best;
-      best.distance  = std::numeric_limits<double>::infinity();
+      ClosestPoint best{{}, infinity, false, false};
       unsigned int n = 0;
       for (const Candidate &candidate : starting_points(problem))
         {
@@ -206,14 +504,10 @@ namespace Debond
             continue;
           if (n++ == max_starts)
             break;
-
-          unsigned int  element = candidate.element;
-          DistanceState s = evaluate_distance(problem, element, candidate.xi);
-          const bool    converged      = minimise_distance(problem, element, s);
-          const ClosestPoint found     = result_of(s, converged);
-          const bool         is_nearer = found.distance < to_beat;
-          if ((found.converged && !best.converged) ||
-              (found.converged == best.converged && is_nearer))
+          const ClosestPoint found =
+            minimise_from(problem, candidate.element, candidate.xi);
+          if (found.converged != best.converged ? found.converged :
+                                                  found.distance < to_beat)
             best = found;
         }
       return best;
@@ -223,10 +517,10 @@ namespace Debond
 
 
   ClosestPoint
-  closest_point(const NurbsSurface    &surface,
-                const ControlNet      &control_points,
-                const Eigen::Vector3d &x,
-                const Eigen::Vector2d *guess)
+  closest_point(const NurbsSurface &surface,
+                const ControlNet   &control_points,
+                const Vector3d     &x,
+                const Vector2d     *guess)
   {
     if (control_points.cols() != surface.n_control_points())
       throw std::invalid_argument(
@@ -235,11 +529,9 @@ namespace Debond
     const DistanceProblem problem{surface, control_points, x};
     if (guess != nullptr && guess->allFinite())
       {
-        const Eigen::Vector2d xi      = guess->cwiseMax(0.).cwiseMin(1.);
-        unsigned int          element = surface.element_of(xi);
-        DistanceState         s       = evaluate_distance(problem, element, xi);
-        const bool         converged  = minimise_distance(problem, element, s);
-        const ClosestPoint result     = result_of(s, converged);
+        const Vector2d     xi = guess->cwiseMax(0.).cwiseMin(1.);
+        const ClosestPoint result =
+          minimise_from(problem, surface.element_of(xi), xi);
         // A minimum on the border may be a local one: the search from the
         // guess slid off along the edge. It would open the contact, so make
         // sure.

@@ -12,17 +12,20 @@ namespace Debond
   namespace
   {
     /**
-     * Tensor product of two sets of univariate B-splines, first index fastest.
-     * The degree is a template argument for the loops to be unrolled.
+     * Tensor product of two sets of univariate B-splines, first index fastest,
+     * and, where there are weights, Eq. (34) of the paper: R_A = w_A N_A / W
+     * with W = sum_B w_B N_B. The derivatives follow from those of R_A W = w_A
+     * N_A. The degree is a template argument for the loops to be unrolled.
      */
-    template <unsigned int p>
+    template <unsigned int p, bool second_derivatives>
     void
-    tensor_product(const BernsteinValues &first,
-                   const BernsteinValues &second,
-                   const bool             second_derivatives,
-                   SurfaceBasis          &basis)
+    fill_basis(const BernsteinValues     &first,
+               const BernsteinValues     &second,
+               const std::vector<double> *weights,
+               SurfaceBasis              &basis)
     {
-      constexpr unsigned int n = p + 1;
+      constexpr unsigned int n = p + 1, size = n * n;
+      basis.size = size;
       for (unsigned int j = 0; j < n; ++j)
         for (unsigned int i = 0; i < n; ++i)
           {
@@ -30,73 +33,40 @@ namespace Debond
             basis.N[k]           = first.B[i] * second.B[j];
             basis.N_1[k]         = first.dB[i] * second.B[j];
             basis.N_2[k]         = first.B[i] * second.dB[j];
+            if (second_derivatives)
+              {
+                basis.N_11[k] = first.ddB[i] * second.B[j];
+                basis.N_12[k] = first.dB[i] * second.dB[j];
+                basis.N_22[k] = first.B[i] * second.ddB[j];
+              }
           }
-      if (second_derivatives)
-        for (unsigned int j = 0; j < n; ++j)
-          for (unsigned int i = 0; i < n; ++i)
-            {
-              const unsigned int k = j * n + i;
-              basis.N_11[k]        = first.ddB[i] * second.B[j];
-              basis.N_12[k]        = first.dB[i] * second.dB[j];
-              basis.N_22[k]        = first.B[i] * second.ddB[j];
-            }
-    }
-
-
-
-    template <std::size_t size>
-    double
-    sum(const std::array<double, SurfaceBasis::max_size> &values)
-    {
-      double result = 0.;
-      for (std::size_t k = 0; k < size; ++k)
-        result += values[k];
-      return result;
-    }
-
-
-
-    /**
-     * Eq. (34) of the paper: R_A = w_A N_A / W with W = sum_B w_B N_B. The
-     * derivatives follow from those of R_A W = w_A N_A.
-     */
-    template <unsigned int p>
-    void
-    make_rational(const std::vector<double> &weights,
-                  const bool                 second_derivatives,
-                  SurfaceBasis              &basis)
-    {
-      constexpr unsigned int size = (p + 1) * (p + 1);
-      for (unsigned int k = 0; k < size; ++k)
-        {
-          const double w = weights[basis.control_point[k]];
-          basis.N[k] *= w;
-          basis.N_1[k] *= w;
-          basis.N_2[k] *= w;
-          if (second_derivatives)
-            {
-              basis.N_11[k] *= w;
-              basis.N_12[k] *= w;
-              basis.N_22[k] *= w;
-            }
-        }
-
-      const double inverse_W = 1. / sum<size>(basis.N);
-      const double W_1 = sum<size>(basis.N_1), W_2 = sum<size>(basis.N_2);
-      for (unsigned int k = 0; k < size; ++k)
-        {
-          basis.N[k] *= inverse_W;
-          basis.N_1[k] = (basis.N_1[k] - basis.N[k] * W_1) * inverse_W;
-          basis.N_2[k] = (basis.N_2[k] - basis.N[k] * W_2) * inverse_W;
-        }
-      if (!second_derivatives)
+      if (weights == nullptr)
         return;
 
-      const double W_11 = sum<size>(basis.N_11), W_12 = sum<size>(basis.N_12),
-                   W_22 = sum<size>(basis.N_22);
+      double W = 0., W_1 = 0., W_2 = 0., W_11 = 0., W_12 = 0., W_22 = 0.;
       for (unsigned int k = 0; k < size; ++k)
         {
-          const double R = basis.N[k], R_1 = basis.N_1[k], R_2 = basis.N_2[k];
+          const double w = (*weights)[basis.control_point[k]];
+          W += basis.N[k] *= w;
+          W_1 += basis.N_1[k] *= w;
+          W_2 += basis.N_2[k] *= w;
+          if (second_derivatives)
+            {
+              W_11 += basis.N_11[k] *= w;
+              W_12 += basis.N_12[k] *= w;
+              W_22 += basis.N_22[k] *= w;
+            }
+        }
+      const double inverse_W = 1. / W;
+      for (unsigned int k = 0; k < size; ++k)
+        {
+          const double R   = basis.N[k] *= inverse_W;
+          const double R_1 = basis.N_1[k] =
+            (basis.N_1[k] - R * W_1) * inverse_W;
+          const double R_2 = basis.N_2[k] =
+            (basis.N_2[k] - R * W_2) * inverse_W;
+          if (!second_derivatives)
+            continue;
           basis.N_11[k] =
             (basis.N_11[k] - 2. * R_1 * W_1 - R * W_11) * inverse_W;
           basis.N_12[k] =
@@ -126,20 +96,26 @@ namespace Debond
 
 
 
-    /** Boehm's ratio: on insertion of @p knot the new coefficient i lies
-     *  between the old ones i-1 (ratio 0) and i (ratio 1). */
-    double
-    boehm_ratio(const std::vector<double> &U,
-                const unsigned int         p,
-                const double               knot,
-                const unsigned int         i)
+    /** The surface with weights 1 and the control points position(u_i, v_j).
+     */
+    template <typename Position>
+    NurbsSurface
+    unweighted(const KnotVector          &knots_1,
+               const KnotVector          &knots_2,
+               const std::vector<double> &u,
+               const std::vector<double> &v,
+               const Position            &position)
     {
-      if (U[i + p] <= knot)
-        return 1.;
-      if (U[i] >= knot)
-        return 0.;
-      return (knot - U[i]) / (U[i + p] - U[i]);
+      ControlNet net(3, u.size() * v.size());
+      for (unsigned int j = 0; j < v.size(); ++j)
+        for (unsigned int i = 0; i < u.size(); ++i)
+          net.col(j * u.size() + i) = position(u[i], v[j]);
+      return NurbsSurface(knots_1,
+                          knots_2,
+                          net,
+                          std::vector<double>(net.cols(), 1.));
     }
+
   } // namespace
 
 
@@ -151,9 +127,6 @@ namespace Debond
     : knot_vectors{{knots_1, knots_2}}
     , points(control_points)
     , weight(weights)
-    , is_rational(std::any_of(weights.begin(),
-                              weights.end(),
-                              [](const double w) { return w != 1.; }))
   {
     if (knots_1.n_spans() == 0 || knots_2.n_spans() == 0 ||
         knots_1.degree() != knots_2.degree())
@@ -163,12 +136,11 @@ namespace Debond
         weight.size() != n_control_points())
       throw std::invalid_argument(
         "A surface needs one control point and one weight per basis function.");
-    if (!points.allFinite())
-      throw std::invalid_argument("Control points must be finite.");
-    if (!std::all_of(weight.begin(), weight.end(), [](const double w) {
-          return w > 0. && std::isfinite(w);
-        }))
-      throw std::invalid_argument("Weights must be positive and finite.");
+    const Eigen::Map<const Eigen::ArrayXd> w(weight.data(), weight.size());
+    if (!points.allFinite() || !w.allFinite() || !(w > 0.).all())
+      throw std::invalid_argument(
+        "Control points and weights must be finite, and weights positive.");
+    is_rational = (w != 1.).any();
   }
 
 
@@ -223,22 +195,16 @@ namespace Debond
     const BernsteinValues splines1 = knot_vectors[0].evaluate(span_1, xi[0]);
     const BernsteinValues splines2 = knot_vectors[1].evaluate(span_2, xi[1]);
 
-    basis.element       = element;
-    basis.control_point = element_control_points(element);
-    if (degree() == 2)
-      {
-        basis.size = 9;
-        tensor_product<2>(splines1, splines2, second_derivatives, basis);
-        if (is_rational)
-          make_rational<2>(weight, second_derivatives, basis);
-      }
+    basis.element             = element;
+    basis.control_point       = element_control_points(element);
+    const auto *const weights = is_rational ? &weight : nullptr;
+    if (second_derivatives)
+      (degree() == 2 ? fill_basis<2, true> :
+                       fill_basis<1, true>)(splines1, splines2, weights, basis);
     else
-      {
-        basis.size = 4;
-        tensor_product<1>(splines1, splines2, second_derivatives, basis);
-        if (is_rational)
-          make_rational<1>(weight, second_derivatives, basis);
-      }
+      (degree() == 2 ?
+         fill_basis<2, false> :
+         fill_basis<1, false>)(splines1, splines2, weights, basis);
   }
 
 
@@ -293,32 +259,29 @@ namespace Debond
     const unsigned int  old_n = knot_vectors[0].n_basis_functions();
     const unsigned int  n_1   = new_knots[0].n_basis_functions();
     const unsigned int  n_2   = new_knots[1].n_basis_functions();
-    const unsigned int  step  = (direction == 0 ? 1 : old_n);
     ControlNet          new_points(3, n_1 * n_2);
     std::vector<double> new_weights(n_1 * n_2);
 
-    // Rational surfaces are B-splines in the coordinates (w x, w). Old points
-    // are read only where their share is not zero: elsewhere they need not
-    // exist.
+    // Rational surfaces are B-splines in the coordinates (w x, w). Boehm's
+    // ratio says where the new coefficient lies between two old ones, of which
+    // the one with no share need not exist.
     for (unsigned int j = 0; j < n_2; ++j)
       for (unsigned int i = 0; i < n_1; ++i)
         {
-          const unsigned int to = j * n_1 + i, from = j * old_n + i;
-          const double       alpha =
-            boehm_ratio(U, degree(), knot, direction == 0 ? i : j);
-          if (alpha == 0. || alpha == 1.)
-            {
-              const unsigned int old = (alpha == 1. ? from : from - step);
-              new_weights[to]        = weight[old];
-              new_points.col(to)     = points.col(old);
-              continue;
-            }
-          const double w_a = weight[from - step], w_b = weight[from];
-          const double w  = w_a + alpha * (w_b - w_a);
-          new_weights[to] = w;
+          const unsigned int to = j * n_1 + i, d = direction == 0 ? i : j;
+          const double       end     = U[d + degree()];
+          const double       alpha   = end <= knot  ? 1. :
+                                       U[d] >= knot ? 0. :
+                                                      (knot - U[d]) / (end - U[d]);
+          const unsigned int step    = (direction == 0 ? 1 : old_n);
+          const unsigned int a       = j * old_n + i - (alpha < 1. ? step : 0);
+          const unsigned int b       = j * old_n + i - (alpha > 0. ? 0 : step);
+          const double       share_a = (1. - alpha) * weight[a];
+          const double       share_b = alpha * weight[b];
+          const double       w       = share_a + share_b;
+          new_weights[to]            = w;
           new_points.col(to) =
-            ((1. - alpha) * w_a / w) * points.col(from - step) +
-            (alpha * w_b / w) * points.col(from);
+            share_a / w * points.col(a) + share_b / w * points.col(b);
         }
     return NurbsSurface(new_knots[0], new_knots[1], new_points, new_weights);
   }
@@ -334,10 +297,9 @@ namespace Debond
         "Uniform refinement starts from one element and makes one at least.");
 
     NurbsSurface result = *this;
-    for (unsigned int i = 1; i < n1; ++i)
-      result = result.insert_knot(0, static_cast<double>(i) / n1);
-    for (unsigned int i = 1; i < n2; ++i)
-      result = result.insert_knot(1, static_cast<double>(i) / n2);
+    for (const auto &[direction, n] : {std::pair(0U, n1), std::pair(1U, n2)})
+      for (unsigned int i = 1; i < n; ++i)
+        result = result.insert_knot(direction, static_cast<double>(i) / n);
     return result;
   }
 
@@ -359,7 +321,7 @@ namespace Debond
     net.row(2).setZero();
     const std::vector<double> w = {1, s, 1, s, 1, s, 1, s, 1};
 
-    const KnotVector one_span = KnotVector::uniform(2, 1);
+    const KnotVector one_span = KnotVector::graded(2, 1);
     return NurbsSurface(one_span, one_span, net, w).refine_uniformly(n, n);
   }
 
@@ -398,27 +360,24 @@ namespace Debond
           B(i, knots.first_basis_function(span) + k) = values.B[k];
       }
 
-    Eigen::MatrixXd w(size, size), w_x(size, size), w_y(size, size);
-    for (unsigned int A = 0; A < result.n_control_points(); ++A)
-      {
-        w(A % size, A / size)   = result.weight[A];
-        w_x(A % size, A / size) = result.weight[A] * result.points(0, A);
-        w_y(A % size, A / size) = result.weight[A] * result.points(1, A);
-      }
-    const Eigen::ArrayXXd W = B * w * B.transpose();
-    const Eigen::ArrayXXd x = (B * w_x * B.transpose()).array() / W;
-    const Eigen::ArrayXXd y = (B * w_y * B.transpose()).array() / W;
-    Eigen::MatrixXd       W_z(size, size);
-    for (unsigned int j = 0; j < size; ++j)
-      for (unsigned int i = 0; i < size; ++i)
-        W_z(i, j) =
-          W(i, j) * height_on_sphere(std::min(R, std::hypot(x(i, j), y(i, j))),
-                                     cap_radius);
+    using Table = Eigen::ArrayXXd; // of all control points or abscissae
+    using Map   = Eigen::Map<const Table>;
+    const Map  w(result.weight.data(), size, size);
+    const auto interpolant = [&B](const Table &coefficients) -> Table {
+      return (B * coefficients.matrix() * B.transpose()).array();
+    };
+    const Eigen::VectorXd x = result.points.row(0), y = result.points.row(1);
+    const Table           W = interpolant(w);
+    const Table           r_squared =
+      (interpolant(w * Map(x.data(), size, size)) / W).square() +
+      (interpolant(w * Map(y.data(), size, size)) / W).square();
+    const Table height = r_squared.unaryExpr([&](const double r2) {
+      return height_on_sphere(std::min(R, std::sqrt(r2)), cap_radius);
+    });
     const Eigen::PartialPivLU<Eigen::MatrixXd> solver(B);
-    const Eigen::MatrixXd                      columns = solver.solve(W_z);
-    const Eigen::MatrixXd w_z = solver.solve(columns.transpose()).transpose();
-    for (unsigned int A = 0; A < result.n_control_points(); ++A)
-      result.points(2, A) = w_z(A % size, A / size) / result.weight[A];
+    const Eigen::MatrixXd columns = solver.solve((W * height).matrix());
+    const Table z = solver.solve(columns.transpose()).transpose().array() / w;
+    result.points.row(2) = z.reshaped().transpose();
     return result;
   }
 
@@ -437,17 +396,15 @@ namespace Debond
 
     const KnotVector knots_1 = KnotVector::graded(degree, n1, grading);
     const KnotVector knots_2 = KnotVector::graded(degree, n2, grading);
-    const auto       u       = greville_abscissae(knots_1);
-    const auto       v       = greville_abscissae(knots_2);
-    ControlNet       net(3, u.size() * v.size());
-    for (unsigned int j = 0; j < v.size(); ++j)
-      for (unsigned int i = 0; i < u.size(); ++i)
-        net.col(j * u.size() + i) =
-          Eigen::Vector3d((u[i] - 0.5) * lx, (v[j] - 0.5) * ly, 0.);
-    return NurbsSurface(knots_1,
-                        knots_2,
-                        net,
-                        std::vector<double>(net.cols(), 1.));
+    return unweighted(knots_1,
+                      knots_2,
+                      greville_abscissae(knots_1),
+                      greville_abscissae(knots_2),
+                      [&](const double u, const double v) {
+                        return Eigen::Vector3d((u - 0.5) * lx,
+                                               (v - 0.5) * ly,
+                                               0.);
+                      });
   }
 
 
@@ -455,25 +412,17 @@ namespace Debond
   NurbsSurface
   NurbsSurface::bilinear_interpolant() const
   {
-    std::array<KnotVector, 2> new_knots;
-    for (unsigned int d = 0; d < 2; ++d)
-      {
-        std::vector<double> values = knot_vectors[d].breakpoints();
-        values.insert(values.begin(), 0.);
-        values.push_back(1.);
-        new_knots[d] = KnotVector(1, values);
-      }
-
-    const std::vector<double> &u = knot_vectors[0].breakpoints();
-    const std::vector<double> &v = knot_vectors[1].breakpoints();
-    ControlNet                 net(3, u.size() * v.size());
-    for (unsigned int j = 0; j < v.size(); ++j)
-      for (unsigned int i = 0; i < u.size(); ++i)
-        net.col(j * u.size() + i) = point(Eigen::Vector2d(u[i], v[j]));
-    return NurbsSurface(new_knots[0],
-                        new_knots[1],
-                        net,
-                        std::vector<double>(net.cols(), 1.));
+    const auto &u    = knot_vectors[0].breakpoints(),
+               &v    = knot_vectors[1].breakpoints();
+    const auto knots = [](std::vector<double> breakpoints) {
+      breakpoints.insert(breakpoints.begin(), 0.);
+      breakpoints.push_back(1.);
+      return KnotVector(1, breakpoints);
+    };
+    return unweighted(
+      knots(u), knots(v), u, v, [&](const double u, const double v) {
+        return point(Eigen::Vector2d(u, v));
+      });
   }
 
 

@@ -1,5 +1,9 @@
 #include <debond/geometry/surface_geometry.h>
 
+#include <deal.II/base/quadrature_lib.h>
+
+#include <Eigen/Geometry>
+
 namespace Debond
 {
   void
@@ -8,34 +12,23 @@ namespace Debond
            const bool          second_derivatives,
            SurfaceGeometry    &geometry)
   {
-    const double   *net = control_points.data();
-    Eigen::Vector3d y = Eigen::Vector3d::Zero(), a1 = y, a2 = y;
+    using Eigen::Vector3d;
+    Vector3d y = Vector3d::Zero(), a1 = y, a2 = y, a11 = y, a12 = y, a22 = y;
     for (unsigned int k = 0; k < basis.size; ++k)
       {
-        const Eigen::Map<const Eigen::Vector3d> p(net +
-                                                  3 * basis.control_point[k]);
+        const Vector3d p = control_points.col(basis.control_point[k]);
         y += basis.N[k] * p;
         a1 += basis.N_1[k] * p;
         a2 += basis.N_2[k] * p;
       }
-    geometry.y  = y;
-    geometry.a1 = a1;
-    geometry.a2 = a2;
-    if (!second_derivatives)
-      return;
-
-    Eigen::Vector3d a11 = Eigen::Vector3d::Zero(), a12 = a11, a22 = a11;
-    for (unsigned int k = 0; k < basis.size; ++k)
+    for (unsigned int k = 0; second_derivatives && k < basis.size; ++k)
       {
-        const Eigen::Map<const Eigen::Vector3d> p(net +
-                                                  3 * basis.control_point[k]);
+        const Vector3d p = control_points.col(basis.control_point[k]);
         a11 += basis.N_11[k] * p;
         a12 += basis.N_12[k] * p;
         a22 += basis.N_22[k] * p;
       }
-    geometry.a11 = a11;
-    geometry.a12 = a12;
-    geometry.a22 = a22;
+    geometry = {y, a1, a2, a11, a12, a22};
   }
 
 
@@ -47,5 +40,46 @@ namespace Debond
   {
     for (unsigned int a = 0; a < basis.size; ++a)
       control_points.col(basis.control_point[a]) += basis.N[a] * value;
+  }
+
+
+
+  std::vector<SurfaceQuadraturePoint>
+  element_quadrature(const NurbsSurface          &surface,
+                     const unsigned int           element,
+                     const dealii::Quadrature<2> &quadrature)
+  {
+    const auto            bounds = surface.element_bounds(element);
+    const Eigen::Vector2d size   = bounds[1] - bounds[0];
+    std::vector<SurfaceQuadraturePoint> points(quadrature.size());
+    for (unsigned int q = 0; q < quadrature.size(); ++q)
+      {
+        SurfaceQuadraturePoint &point = points[q];
+        point.element                 = element;
+        point.xi                      = bounds[0] +
+                   size.cwiseProduct(Eigen::Vector2d(quadrature.point(q)[0],
+                                                     quadrature.point(q)[1]));
+        surface.evaluate_in_element(element, point.xi, point.basis, false);
+        SurfaceGeometry geometry;
+        contract(point.basis, surface.control_points(), false, geometry);
+        point.X   = geometry.y;
+        point.JxW = geometry.a1.cross(geometry.a2).norm() * size.prod() *
+                    quadrature.weight(q);
+      }
+    return points;
+  }
+
+
+
+  std::vector<SurfaceQuadraturePoint>
+  surface_quadrature(const NurbsSurface &surface, const unsigned int n)
+  {
+    const dealii::QGauss<2>             gauss(n);
+    std::vector<SurfaceQuadraturePoint> points;
+    points.reserve(surface.n_elements() * gauss.size());
+    for (unsigned int element = 0; element < surface.n_elements(); ++element)
+      for (const auto &point : element_quadrature(surface, element, gauss))
+        points.push_back(point);
+    return points;
   }
 } // namespace Debond

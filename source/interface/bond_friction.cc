@@ -1,18 +1,11 @@
 #include <debond/interface/bond_friction.h>
 
-#include <algorithm>
-
 namespace Debond
 {
-  BondFriction::BondFriction(const double mu_broken, const double mu_unbroken)
-    : mu_b(mu_broken)
-    , mu_ub(mu_unbroken)
-    , drop(mu_unbroken - mu_broken)
-  {}
-
-
-
-  // Eq. (11), at the updated sliding distance.
+  // Eq. (11), mu = mu_b + phi (mu_ub - mu_b), with phi = phi_0 s(g_s). The law
+  // is implicit: g_s is the sliding distance at the end of the step, g_s^n plus
+  // what the point slides in it, Eq. (32). So softening follows the slip
+  // without the lag of a step, and Newton's method needs dmu/dg_s.
   FrictionCoefficient
   BondFriction::coefficient(const FrictionState &start,
                             const double         distance) const
@@ -27,12 +20,12 @@ namespace Debond
 
 
 
+  // int (mu - mu_b) dg_s, exactly: the work per pressure that goes into the
+  // bond.
   double
   BondFriction::adhesive_strength(const FrictionState &start,
                                   const double         distance) const
   {
-    if (drop == 0.)
-      return 0.;
     return start.phi_0 * drop *
            (integrated_decay(start.slip + distance) -
             integrated_decay(start.slip));
@@ -40,6 +33,7 @@ namespace Debond
 
 
 
+  // int mu dg_s: debonded friction, and the bond on top of it.
   double
   BondFriction::friction_strength(const FrictionState &start,
                                   const double         distance) const
@@ -49,6 +43,7 @@ namespace Debond
 
 
 
+  // A bond that strengthens as it breaks, mu_ub < mu_b, never falls.
   double
   BondFriction::steepest_fall(const FrictionState &start, double) const
   {

@@ -47,22 +47,19 @@ namespace Debond
       "Bonded fraction",
       bonded_fraction,
       Allowed::number_between(0, 1, ""),
-      "Bonded part f of the area, dimensionless, met exactly. Pattern disk: of "
-      "a coin r <= R sqrt(f); annulus: r >= R sqrt(1 - f); random: as said "
-      "there. Elements at the border of the fraction are partly bonded. Must "
-      "be 1 for other patterns.");
+      "Bonded part f of the area, dimensionless, met exactly: elements at its "
+      "border are partly bonded. Pattern disk: of a coin r <= R sqrt(f); "
+      "annulus: r >= R sqrt(1 - f). Must be 1 for patterns without it.");
     table.add("Seed",
               seed,
               Allowed::whole_number(0, std::numeric_limits<int>::max()),
-              "Pattern random: which of the random patterns. The same seed "
-              "gives the same pattern on every machine.");
+              "Pattern random: which one; the same on every machine.");
     table.add(
       "Correlation length",
       correlation_length,
       Allowed::number_between(1e-6, 1e6, "mm").or_number(0),
-      "Pattern random: distance l at which the correlation exp(-(d/l)^2) of "
-      "the random field whose highest places are bonded has fallen to 1/e: the "
-      "size of patches. 0: elements are drawn independently.");
+      "Pattern random: size l of patches, the highest places of a random field "
+      "with the correlation exp(-(d/l)^2). 0: independent elements.");
     declare_places(table);
     table.add(
       "Resolution",
@@ -83,11 +80,10 @@ namespace Debond
       "Expression",
       expression,
       Allowed::text("an expression in x, y, r, angle, pi, R"),
-      "Pattern expression: phi_0 as a function of the place (muParser): x, y "
-      "and the distance r from the axis in mm, angle from the x axis towards "
-      "the y axis in degrees, above -180 and up to 180, pi, and the radius R "
-      "of the implant in mm. Note that sin and cos expect radians: cos(angle * "
-      "pi / 180). Values outside [0, 1] are refused.");
+      "Pattern expression: phi_0 in [0, 1] as a function of the place "
+      "(muParser): x, y and the distance r from the axis in mm, angle from the "
+      "x axis towards the y axis in degrees, above -180 and up to 180, pi, and "
+      "the radius R of the implant in mm. sin and cos expect radians.");
     table.add(
       "File",
       file,
@@ -119,29 +115,30 @@ namespace Debond
     const bool is_disk    = pattern == Kind::disk || pattern == Kind::annulus;
     const bool reads_file = pattern == Kind::image || pattern == Kind::file;
     // it was set, so the pattern was meant to be another one
-    const auto refuse_unused = [&](const bool         is_set,
-                                   const std::string &entry,
-                                   const std::string &user) {
-      if (is_set)
-        throw EntryError(bonding_section + entry,
-                         "it is not used by Pattern = " + name_of(pattern) +
-                           ": it belongs to Pattern = " + user);
+    struct Row
+    {
+      bool              is_used, is_set;
+      const char *const entry, *const user;
     };
-    refuse_unused(!is_disk && !is_random && bonded_fraction != 1,
-                  "Bonded fraction",
-                  "disk, annulus or random (Initial bonding lowers the degree "
-                  "of bonding)");
-    refuse_unused(!is_random && seed != 1, "Seed", "random");
-    refuse_unused(!is_random && correlation_length != 0,
-                  "Correlation length",
-                  "random");
-    refuse_unused(pattern != Kind::expression && expression != "1",
-                  "Expression",
-                  "expression");
-    refuse_unused(!reads_file && !file.empty(), "File", "image or file");
-    refuse_unused(pattern != Kind::image && threshold != -1,
-                  "Threshold",
-                  "image");
+    for (const Row &row :
+         {Row{is_disk || is_random,
+              bonded_fraction != 1,
+              "Bonded fraction",
+              "disk, annulus or random (Initial bonding lowers the degree of "
+              "bonding)"},
+          Row{is_random, seed != 1, "Seed", "random"},
+          Row{
+            is_random, correlation_length != 0, "Correlation length", "random"},
+          Row{pattern == Kind::expression,
+              expression != "1",
+              "Expression",
+              "expression"},
+          Row{reads_file, !file.empty(), "File", "image or file"},
+          Row{pattern == Kind::image, threshold != -1, "Threshold", "image"}})
+      if (row.is_set && !row.is_used)
+        throw EntryError(bonding_section + row.entry,
+                         "it is not used by Pattern = " + name_of(pattern) +
+                           ": it belongs to Pattern = " + row.user);
     if (reads_file && file.empty())
       throw EntryError(bonding_section + "Pattern",
                        "it needs the name of a file: " + bonding_section +

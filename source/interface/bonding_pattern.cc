@@ -22,7 +22,17 @@ namespace Debond
     , n(n)
     , by_element(parameters.resolution == BondingResolution::element)
   {
-    make_parts();
+    const auto points = surface_quadrature(surface, n);
+    all_parts.resize(part_of(points.size() - 1) + 1);
+    for (unsigned int q = 0; q < points.size(); ++q)
+      {
+        Part &part = all_parts[part_of(q)];
+        part.area += points[q].JxW;
+        part.centre += points[q].JxW * points[q].X.head<2>();
+      }
+    for (Part &part : all_parts)
+      part.centre /= part.area;
+
     fill(parameters, implant);
     for (Part &part : all_parts)
       {
@@ -40,171 +50,89 @@ namespace Debond
 
 
 
-  void
-  BondingPattern::make_parts()
+  namespace
   {
-    const auto points = surface_quadrature(surface, n);
-    all_parts.resize(part_of(points.size() - 1) + 1);
-    for (unsigned int q = 0; q < points.size(); ++q)
-      {
-        Part &part = all_parts[part_of(q)];
-        part.area += points[q].JxW;
-        part.centre += points[q].JxW * points[q].X.head<2>();
-      }
-    for (Part &part : all_parts)
-      part.centre /= part.area;
-  }
+    /** Bonds the parts of smallest rank; ranks that differ by at most
+     *  @p tolerance are equal. */
+    void
+    bond_in_order(const std::vector<double>         &rank,
+                  const double                       tolerance,
+                  const double                       bonded_fraction,
+                  std::vector<BondingPattern::Part> &parts)
+    {
+      std::vector<unsigned int> order(parts.size());
+      std::iota(order.begin(), order.end(), 0);
+      std::stable_sort(order.begin(),
+                       order.end(),
+                       [&](const unsigned int a, const unsigned int b) {
+                         return rank[a] < rank[b];
+                       });
+      double remaining = 0.;
+      for (const BondingPattern::Part &part : parts)
+        remaining += bonded_fraction * part.area;
+      for (unsigned int first = 0; first < order.size();)
+        {
+          unsigned int last = first;
+          double       area = 0.;
+          for (; last < order.size() &&
+                 rank[order[last]] - rank[order[first]] <= tolerance;
+               ++last)
+            area += parts[order[last]].area;
+          const double share = std::clamp(remaining / area, 0., 1.);
+          for (; first < last; ++first)
+            parts[order[first]].phi_0 = share;
+          remaining -= area;
+        }
+    }
+  } // namespace
 
 
 
+  // Disks and annuli go by the radius; random patterns draw parts one by one,
+  // or take the highest places of a smooth random field.
   void
   BondingPattern::fill(const BondingParameters &parameters,
                        const BodyParameters    &implant)
   {
-    std::vector<double> radius;
+    using Kind                           = BondingPatternKind;
+    const Kind                   pattern = parameters.pattern;
+    std::vector<double>          values(all_parts.size(), 1.), rank(values);
+    std::vector<Eigen::Vector2d> centres;
     for (const Part &part : all_parts)
-      radius.push_back(part.centre.norm());
-    const double equal = 1e-9 * *std::max_element(radius.begin(), radius.end());
+      centres.push_back(part.centre);
 
-    switch (parameters.pattern)
+    double tolerance = 0.;
+    if (pattern == Kind::disk || pattern == Kind::annulus)
+      for (unsigned int i = 0; i < rank.size(); ++i)
+        {
+          const double radius = centres[i].norm();
+          rank[i]             = pattern == Kind::disk ? radius : -radius;
+          tolerance           = std::max(tolerance, 1e-9 * radius);
+        }
+    else if (pattern == Kind::random && parameters.correlation_length > 0.)
+      std::transform(centres.begin(),
+                     centres.end(),
+                     rank.begin(),
+                     [field = RandomField(parameters.seed,
+                                          parameters.correlation_length)](
+                       const auto &centre) { return -field(centre); });
+    else if (pattern == Kind::random)
       {
-        case BondingPatternKind::homogeneous:
-          for (Part &part : all_parts)
-            part.phi_0 = 1.;
-          break;
-        case BondingPatternKind::disk:
-          bond_in_order(radius, equal, parameters.bonded_fraction);
-          break;
-        case BondingPatternKind::annulus:
-          for (double &r : radius)
-            r = -r;
-          bond_in_order(radius, equal, parameters.bonded_fraction);
-          break;
-        case BondingPatternKind::random:
-          bond_at_random(parameters);
-          break;
-        case BondingPatternKind::expression:
-        case BondingPatternKind::image:
-          {
-            const auto values =
-              values_by_place(parameters, implant, surface, n, summary.remark);
-            for (unsigned int i = 0; i < all_parts.size(); ++i)
-              all_parts[i].phi_0 = values[i];
-          }
-          break;
-        case BondingPatternKind::file:
-          {
-            std::vector<Eigen::Vector2d> centres;
-            for (const Part &part : all_parts)
-              centres.push_back(part.centre);
-            const auto values = values_from_file(parameters, surface, centres);
-            for (unsigned int i = 0; i < all_parts.size(); ++i)
-              all_parts[i].phi_0 = values[i];
-          }
-          break;
-      }
-  }
-
-
-
-  void
-  BondingPattern::bond_in_order(const std::vector<double> &rank,
-                                const double               tolerance,
-                                const double               bonded_fraction)
-  {
-    std::vector<unsigned int> order(all_parts.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(),
-                     order.end(),
-                     [&](const unsigned int a, const unsigned int b) {
-                       return rank[a] < rank[b];
-                     });
-    double remaining = 0.;
-    for (const Part &part : all_parts)
-      remaining += bonded_fraction * part.area;
-    for (unsigned int first = 0; first < order.size();)
-      {
-        unsigned int last = first;
-        double       area = 0.;
-        for (; last < order.size() &&
-               rank[order[last]] - rank[order[first]] <= tolerance;
-             ++last)
-          area += all_parts[order[last]].area;
-        const double share = std::clamp(remaining / area, 0., 1.);
-        for (; first < last; ++first)
-          all_parts[order[first]].phi_0 = share;
-        remaining -= area;
-      }
-  }
-
-
-
-  // Parts drawn one by one, or the highest places of a smooth random field.
-  void
-  BondingPattern::bond_at_random(const BondingParameters &parameters)
-  {
-    std::vector<double> rank(all_parts.size());
-    if (parameters.correlation_length > 0.)
-      {
-        const RandomField field(parameters.seed, parameters.correlation_length);
-        for (unsigned int i = 0; i < rank.size(); ++i)
-          rank[i] = -field(all_parts[i].centre);
-      }
-    else
-      {
-        const auto order = random_order(all_parts.size(), parameters.seed);
+        const auto order = random_order(rank.size(), parameters.seed);
         for (unsigned int i = 0; i < rank.size(); ++i)
           rank[order[i]] = i;
       }
-    bond_in_order(rank, 0., parameters.bonded_fraction);
+    else
+      {
+        if (pattern != Kind::homogeneous)
+          values = bonding_from_source(
+            parameters, implant, surface, n, centres, summary.remark);
+        for (unsigned int i = 0; i < values.size(); ++i)
+          all_parts[i].phi_0 = values[i];
+        return;
+      }
+    bond_in_order(rank, tolerance, parameters.bonded_fraction, all_parts);
   }
-
-
-
-  namespace
-  {
-    /** Numbers of the parts of a patch, which form a grid, that share a side
-     *  with part @p i. */
-    class PartGrid
-    {
-    public:
-      /** @p n_elements per direction, each of @p n x @p n parts. */
-      PartGrid(const std::array<unsigned int, 2> &n_elements,
-               const unsigned int                 n)
-        : n(n)
-        , size{{n_elements[0] * n, n_elements[1] * n}}
-      {}
-
-      std::vector<unsigned int>
-      neighbours(const unsigned int part) const
-      {
-        const unsigned int element = part / (n * n), local = part % (n * n);
-        const unsigned int columns = size[0] / n;
-        const int          i       = element % columns * n + local % n;
-        const int          j       = element / columns * n + local / n;
-
-        std::vector<unsigned int> result;
-        for (const auto &[di, dj] : {std::pair(1, 0),
-                                     std::pair(-1, 0),
-                                     std::pair(0, 1),
-                                     std::pair(0, -1)})
-          if (i + di >= 0 && i + di < int(size[0]) && j + dj >= 0 &&
-              j + dj < int(size[1]))
-            result.push_back(number(i + di, j + dj));
-        return result;
-      }
-
-    private:
-      unsigned int
-      number(const unsigned int i, const unsigned int j) const
-      {
-        return (j / n * (size[0] / n) + i / n) * n * n + j % n * n + i % n;
-      }
-
-      const unsigned int                n;
-      const std::array<unsigned int, 2> size; ///< parts per direction
-    };
-  } // namespace
 
 
 
@@ -217,31 +145,43 @@ namespace Debond
     double best = 0.;
     for (const Part &part : all_parts)
       best = std::max(best, part.phi_0);
-    const PartGrid grid(surface.n_elements_per_direction(), by_element ? 1 : n);
-    std::vector<bool> to_visit;
-    for (const Part &part : all_parts)
-      to_visit.push_back(best > 0. && part.phi_0 >= 0.5 * best);
-
-    for (unsigned int seed = 0; seed < all_parts.size(); ++seed)
+    // the parts as they lie side by side, row by row
+    const unsigned int m = by_element ? 1 : n; // parts along an element
+    const unsigned int n_elements = surface.n_elements_per_direction()[0];
+    const unsigned int columns    = n_elements * m;
+    std::vector<const Part *> grid(all_parts.size());
+    std::vector<bool>         to_visit(grid.size());
+    for (unsigned int p = 0; p < grid.size(); ++p)
       {
-        if (!to_visit[seed])
-          continue;
-        ++summary.patches;
-        double                    area = 0.;
-        std::vector<unsigned int> front{seed};
-        to_visit[seed] = false;
-        while (!front.empty())
+        const unsigned int element = p / (m * m), local = p % (m * m);
+        const unsigned int cell =
+          (element / n_elements * m + local / m) * columns +
+          element % n_elements * m + local % m;
+        grid[cell]     = &all_parts[p];
+        to_visit[cell] = best > 0. && grid[cell]->phi_0 >= 0.5 * best;
+      }
+
+    for (unsigned int seed = 0; seed < grid.size(); ++seed)
+      {
+        std::vector<unsigned int> patch;
+        const auto visit = [&](const bool exists, const unsigned int cell) {
+          if (!exists || !to_visit[cell])
+            return;
+          to_visit[cell] = false;
+          patch.push_back(cell);
+        };
+        visit(true, seed);
+        double area = 0.;
+        for (unsigned int k = 0; k < patch.size(); ++k)
           {
-            const unsigned int part = front.back();
-            front.pop_back();
-            area += all_parts[part].area;
-            for (const unsigned int neighbour : grid.neighbours(part))
-              if (to_visit[neighbour])
-                {
-                  to_visit[neighbour] = false;
-                  front.push_back(neighbour);
-                }
+            const unsigned int cell = patch[k];
+            area += grid[cell]->area;
+            visit(cell % columns > 0, cell - 1);
+            visit((cell + 1) % columns > 0, cell + 1);
+            visit(cell >= columns, cell - columns);
+            visit(cell + columns < grid.size(), cell + columns);
           }
+        summary.patches += patch.empty() ? 0 : 1;
         summary.largest_patch = std::max(summary.largest_patch, area);
       }
   }
@@ -251,20 +191,16 @@ namespace Debond
   double
   BondingPattern::at(const Eigen::Vector2d &xi) const
   {
-    const unsigned int          element = surface.element_of(xi);
-    const auto                  bounds  = surface.element_bounds(element);
-    std::array<unsigned int, 2> index;
-    for (unsigned int d = 0; d < 2; ++d)
-      {
-        const double local =
-          (xi[d] - bounds[0][d]) / (bounds[1][d] - bounds[0][d]);
-        index[d] = std::min<unsigned int>(n - 1,
-                                          std::lower_bound(shares.begin(),
-                                                           shares.end(),
-                                                           local) -
-                                            shares.begin());
-      }
-    return at(element * n * n + index[1] * n + index[0]);
+    const unsigned int element = surface.element_of(xi);
+    const auto         bounds  = surface.element_bounds(element);
+    const auto         index   = [&](const unsigned int d) -> unsigned int {
+      const double local =
+        (xi[d] - bounds[0][d]) / (bounds[1][d] - bounds[0][d]);
+      // the last share is what the others leave
+      return std::lower_bound(shares.begin(), shares.end() - 1, local) -
+             shares.begin();
+    };
+    return at(element * n * n + index(1) * n + index(0));
   }
 
 
@@ -289,13 +225,12 @@ namespace Debond
   {
     std::string text = std::string(by_element ? "element" : "point") +
                        ",x_mm,y_mm,area_mm2,phi_0\n";
-    for (unsigned int i = 0; i < all_parts.size(); ++i)
+    unsigned int number = 0;
+    for (const Part &part : all_parts)
       {
-        text += std::to_string(i + 1);
-        for (const double value : {all_parts[i].centre[0],
-                                   all_parts[i].centre[1],
-                                   all_parts[i].area,
-                                   all_parts[i].phi_0})
+        text += std::to_string(++number);
+        for (const double value :
+             {part.centre[0], part.centre[1], part.area, part.phi_0})
           text += "," + to_text(value, 17);
         text += "\n";
       }

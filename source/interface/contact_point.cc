@@ -12,13 +12,15 @@ namespace Debond
   using Eigen::Vector2d;
   using Eigen::Vector3d;
 
+  // An open point carries nothing and forgets its xi_hat, but not how far it
+  // has slid: damage does not heal. The law may note that it has been open.
   void
   leave_open(const ContactPointLaw   &law,
              const ContactPointState &old_state,
              ContactPointResult      &result)
   {
     result.failed = result.negative_friction = false;
-    result.state                             = old_state; // damage stays
+    result.state                             = old_state;
     result.state.status                      = PointStatus::open;
     if (old_state.status != PointStatus::open)
       law.normal->open(result.state);
@@ -31,132 +33,11 @@ namespace Debond
 
 
 
-  namespace
-  {
-    // Columns of w = (x, y, a_1, a_2, y_n).
-    constexpr int at_x = 0, at_y = 3, at_a1 = 6;
-
-    // The friction of a point in a step of this mode. The state is that of the
-    // beginning, and so is the phi_0 that is left.
-    PointFriction
-    friction_of(const ContactPointLaw   &law,
-                const ContactPointState &start,
-                const double             phi_0,
-                const ContactPointMode  &mode)
-    {
-      return {*law.friction,
-              friction_state(start, phi_0, mode.duration),
-              mode.frictionless,
-              law.explicit_friction,
-              viscous_stiffness(law, mode),
-              mode.slip_direction};
-    }
-
-
-
-    // Gaps that are no more than rounding are no contact, so that rounding
-    // cannot wear a bond; but where all points stick they are one, so that
-    // touching bodies under a loaded chuck have a tangent.
-    bool
-    is_closed(const ContactPointLaw  &law,
-              const PointHistory     &history,
-              const ContactPointMode &mode,
-              const double            g_n)
-    {
-      const double reach = law.normal->reach(history);
-      return mode.stick_first ? g_n < reach + mode.touch_tolerance :
-                                g_n < reach - mode.touch_tolerance;
-    }
-
-
-
-    // The trial state: xi_hat stays at xi_hat^n, and all of the tangential gap
-    // is elastic, t = -p n + eps_t g_t, Eqs. (27) and (28).
-    void
-    set_stick(const ContactPointLaw   &law,
-              const ContactPointState &old_state,
-              const PointFriction     &friction,
-              const Vector3d          &gap,
-              const MasterNormal      &normal,
-              ContactPointResult      &result)
-    {
-      const Vector3d      &n        = normal.n;
-      const double         g_n      = n.dot(gap);
-      const NormalResponse response = law.normal->respond(g_n, old_state);
-      const double eps_n = response.stiffness, eps_t = law.tangential_penalty;
-      result.state        = old_state;
-      result.state.status = PointStatus::stick;
-      if (!friction.frictionless) // a state may age at rest
-        result.state.internal = friction.law.advance(friction.start, 0.);
-      result.normal_gap          = g_n;
-      result.pressure            = std::max(0., response.pressure);
-      result.softening           = 0.;
-      result.tangential_traction = eps_t * (gap - g_n * n);
-      result.traction = -response.pressure * n + result.tangential_traction;
-      result.energy   = response.energy +
-                      0.5 * result.tangential_traction.squaredNorm() / eps_t;
-      result.slip_increment = result.viscous_traction = Vector3d::Zero();
-      // dt = eps_t dg + (eps_n - eps_t) n dg_n - (p + eps_t g_n) dn
-      result.dxi.setZero();
-      result.dt.setZero();
-      const Matrix3d along_gap =
-        eps_t * Matrix3d::Identity() + (eps_n - eps_t) * n * n.transpose();
-      result.dt.middleCols<3>(at_x)        = along_gap;
-      result.dt.middleCols<3>(at_y)        = -along_gap;
-      const Eigen::Matrix<double, 3, 6> dn = normal.derivative();
-      result.dt.middleCols<6>(at_a1) =
-        (eps_n - eps_t) * (n * (gap.transpose() * dn)) -
-        (response.pressure + eps_t * g_n) * dn;
-    }
-
-
-
-    // A point that closes without an xi_hat^n of its own sticks where it is: it
-    // has no tangential gap, and xi_hat, its projection, moves with it as on a
-    // frictionless interface.
-    void
-    follow_projection(const ContactPointLaw   &law,
-                      const ContactPointState &start,
-                      const Vector3d          &x,
-                      const Vector3d          &y,
-                      const MasterSurface     &master,
-                      ContactPointResult      &result)
-    {
-      PointFriction none = friction_of(law, start, 0., ContactPointMode());
-      none.frictionless  = true;
-      ContactPointResult projected;
-      SlipProblem        problem(law, none, start, x, y, master);
-      if (problem.solve(start.xi, projected) != SlipOutcome::solved)
-        return;
-      problem.report(projected);
-      result.dt  = projected.dt;
-      result.dxi = projected.dxi;
-    }
-
-
-
-    // An open point beyond the edge of the master has no xi_hat^n: it starts
-    // where it is now, if it faces the master at all.
-    bool
-    find_partner(const Vector3d      &x,
-                 const MasterSurface &master,
-                 ContactPointState   &state)
-    {
-      if (state.has_partner)
-        return true;
-      const Projection projection = project(master, x, nullptr);
-      state.xi                    = projection.xi;
-      state.has_partner           = projection.faces;
-      return state.has_partner;
-    }
-  } // namespace
-
-
-
+  // The closest point of the master is where a point without a history starts
+  // to interact with it. It is no partner if it lies on the edge while x is
+  // beyond, nor if the surface has no proper normal there.
   Projection
-  project(const MasterSurface   &master,
-          const Eigen::Vector3d &x,
-          const Eigen::Vector2d *guess)
+  project(const MasterSurface &master, const Vector3d &x, const Vector2d *guess)
   {
     const ClosestPoint closest =
       closest_point(*master.surface, *master.positions, x, guess);
@@ -197,46 +78,159 @@ namespace Debond
 
   namespace
   {
-    // The point slides, or opens: with p = 0 the same equations project it, and
-    // the sign of the gap found there decides. @p y_old: y(xi_hat^n).
-    void
-    slide_or_open(const ContactPointLaw   &law,
-                  const ContactPointState &old_state,
-                  const ContactPointState &start,
-                  const PointFriction     &friction,
-                  const Vector3d          &x,
-                  const Vector3d          &y_old,
-                  const MasterSurface     &master,
-                  const ContactPointMode  &mode,
-                  ContactPointResult      &result)
+    // One point in one step: what is given, and the three ends that it may
+    // come to. `start' is the state of the beginning, with an xi_hat^n.
+    struct PointStep
     {
-      result.old_basis = result.basis;
-      SlipProblem problem(law, friction, start, x, y_old, master);
-      SlipOutcome outcome = problem.solve(start.xi, result);
-      if (outcome == SlipOutcome::not_found)
-        {
-          const Projection projection = project(master, x, &start.xi);
-          if (projection.converged)
-            outcome = projection.faces ? problem.solve(projection.xi, result) :
-                                         SlipOutcome::left_patch;
-        }
-      const double g_n = problem.at_end().g_n;
-      if (outcome == SlipOutcome::solved && is_closed(law, start, mode, g_n))
-        {
-          const Vector2d xi   = result.state.xi;
-          result.state        = start;
-          result.state.xi     = xi;
-          result.state.status = PointStatus::slip;
-          problem.report(result);
-          result.failed = result.negative_friction =
-            problem.at_end().coefficient.mu < 0.;
-          return;
-        }
-      leave_open(law, old_state, result);
-      result.failed = outcome == SlipOutcome::not_found;
-      if (!result.failed)
+      const ContactPointLaw   &law;
+      const ContactPointState &old_state;
+      const Vector3d          &x;
+      const MasterSurface     &master;
+      const ContactPointMode  &mode;
+      ContactPointResult      &result;
+      ContactPointState        start;
+
+      // An open point beyond the edge of the master has no xi_hat^n: it starts
+      // where it is now, if it faces the master at all.
+      bool
+      find_partner()
+      {
+        if (start.has_partner)
+          return true;
+        const Projection projection = project(master, x, nullptr);
+        start.xi                    = projection.xi;
+        start.has_partner           = projection.faces;
+        return start.has_partner;
+      }
+
+      // What the friction law is to know of the point: the state at the
+      // beginning, and with it the bond that is left.
+      PointFriction
+      friction(const double phi_0) const
+      {
+        return {*law.friction,
+                friction_state(start, phi_0, mode.duration),
+                mode.frictionless,
+                law.explicit_friction,
+                viscous_stiffness(law, mode),
+                mode.slip_direction};
+      }
+
+      // Contact is where g_n < 0, or less than the reach of a law with strength
+      // in tension. Gaps that are no more than rounding are no contact, so that
+      // rounding cannot wear a bond; but where all points stick they are one,
+      // so that touching bodies under a loaded chuck have a tangent.
+      bool
+      is_closed(const double g_n) const
+      {
+        const double reach = law.normal->reach(start);
+        return mode.stick_first ? g_n < reach + mode.touch_tolerance :
+                                  g_n < reach - mode.touch_tolerance;
+      }
+
+      void
+      open(const double g_n)
+      {
+        leave_open(law, old_state, result);
         result.normal_gap = g_n;
-    }
+      }
+
+      // The trial state: xi_hat stays at xi_hat^n, and all of the tangential
+      // gap of Eq. (27) is elastic. Eq. (28) has one penalty for both parts of
+      // the gap; here each has its own, t = -p n + eps_t g_t.
+      void
+      stick(const PointFriction &friction,
+            const Vector3d      &gap,
+            const MasterNormal  &normal)
+      {
+        const Vector3d      &n        = normal.n;
+        const double         g_n      = n.dot(gap);
+        const NormalResponse response = law.normal->respond(g_n, start);
+        const double eps_n = response.stiffness, eps_t = law.tangential_penalty;
+        result.state        = start;
+        result.state.status = PointStatus::stick;
+        if (!friction.frictionless) // a state may age at rest
+          result.state.internal = friction.law.advance(friction.start, 0.);
+        result.normal_gap          = g_n;
+        result.pressure            = std::max(0., response.pressure);
+        result.softening           = 0.;
+        result.tangential_traction = eps_t * (gap - g_n * n);
+        result.traction = -response.pressure * n + result.tangential_traction;
+        // the potential that Eq. (28) comes from
+        result.energy = response.energy +
+                        0.5 * result.tangential_traction.squaredNorm() / eps_t;
+        result.slip_increment = result.viscous_traction = Vector3d::Zero();
+
+        // The tangent follows from g = x - y and n(a_1, a_2) alone, since
+        // xi_hat does not move:
+        //   dt = eps_t dg + (eps_n - eps_t) n dg_n - (p + eps_t g_n) dn.
+        constexpr int at_x = 0, at_y = 3, at_a1 = 6; // columns of w
+        result.dxi.setZero();
+        result.dt.setZero();
+        const Matrix3d along_gap =
+          eps_t * Matrix3d::Identity() + (eps_n - eps_t) * n * n.transpose();
+        result.dt.middleCols<3>(at_x)        = along_gap;
+        result.dt.middleCols<3>(at_y)        = -along_gap;
+        const Eigen::Matrix<double, 3, 6> dn = normal.derivative();
+        result.dt.middleCols<6>(at_a1) =
+          (eps_n - eps_t) * (n * (gap.transpose() * dn)) -
+          (response.pressure + eps_t * g_n) * dn;
+      }
+
+      // A point that closes without an xi_hat^n of its own sticks where it is:
+      // it has no tangential gap, and xi_hat, its projection, moves with it as
+      // on a frictionless interface.
+      void
+      follow_projection(const Vector3d &y)
+      {
+        const PointFriction none{*law.friction,
+                                 friction_state(start, 0.),
+                                 true,
+                                 law.explicit_friction};
+        ContactPointResult  projected;
+        SlipProblem         problem(law, none, start, x, y, master);
+        if (problem.solve(start.xi, projected) != SlipOutcome::solved)
+          return;
+        problem.report(projected);
+        result.dt  = projected.dt;
+        result.dxi = projected.dxi;
+      }
+
+      // The point slides, or opens: with p = 0 the same equations project it,
+      // and the sign of the gap found there decides. @p y_old: y(xi_hat^n).
+      // Newton's method starts from xi_hat^n; if that fails, from the
+      // projection of the point, unless it has left the master.
+      void
+      slide_or_open(const PointFriction &friction, const Vector3d &y_old)
+      {
+        result.old_basis = result.basis;
+        SlipProblem problem(law, friction, start, x, y_old, master);
+        SlipOutcome outcome = problem.solve(start.xi, result);
+        if (outcome == SlipOutcome::not_found)
+          {
+            const Projection projection = project(master, x, &start.xi);
+            if (projection.converged)
+              outcome = projection.faces ?
+                          problem.solve(projection.xi, result) :
+                          SlipOutcome::left_patch;
+          }
+        const double g_n = problem.at_end().g_n;
+        if (outcome == SlipOutcome::solved && is_closed(g_n))
+          {
+            const Vector2d xi   = result.state.xi;
+            result.state        = start;
+            result.state.xi     = xi;
+            result.state.status = PointStatus::slip;
+            problem.report(result);
+            result.failed = result.negative_friction =
+              problem.at_end().coefficient.mu < 0.;
+            return;
+          }
+        const bool failed = outcome == SlipOutcome::not_found;
+        open(failed ? 0. : g_n);
+        result.failed = failed;
+      }
+    };
   } // namespace
 
 
@@ -254,41 +248,41 @@ namespace Debond
                        ContactPointResult      &result)
   {
     result.failed = result.negative_friction = false;
-    ContactPointState start                  = old_state;
-    if (!find_partner(x, master, start))
+    PointStep step{law, old_state, x, master, mode, result, old_state};
+    if (!step.find_partner())
       {
-        leave_open(law, old_state, result);
+        step.open(0.);
         return;
       }
 
-    // the gap at xi_hat^n, Eq. (26), with the normal of Eq. (24)
-    SurfaceGeometry geometry;
+    // The gap to the old interacting point, Eq. (26) at xi_hat^n, where that is
+    // now; and its normal part, Eq. (27), along the normal of Eq. (24).
+    const ContactPointState &start = step.start;
+    SurfaceGeometry          geometry;
     master.surface->evaluate(start.xi, result.basis, false);
     contract(result.basis, *master.positions, false, geometry);
     const Vector3d     gap = x - geometry.y;
     const MasterNormal normal(geometry, master.outward_sign);
     const double       g_n    = normal.n.dot(gap);
-    const bool         closed = is_closed(law, start, mode, g_n);
+    const bool         closed = step.is_closed(g_n);
 
-    // it sticks while eps_t |g_t| <= mu p, Eqs. (28) and (30), at g_s^n
-    const PointFriction friction = friction_of(law, start, phi_0, mode);
+    // If the point stuck, it would carry the trial traction eps_t |g_t|, Eq.
+    // (28). It does while that is no more than the mu p of Eq. (30), with mu at
+    // the sliding distance g_s^n that it comes with.
+    const PointFriction friction = step.friction(phi_0);
     const double        limit    = friction.after(0.).mu *
                          std::max(0., law.normal->respond(g_n, start).pressure);
     const double trial_traction =
       law.tangential_penalty * (gap - g_n * normal.n).norm();
     if (closed && (mode.stick_first || trial_traction <= limit))
       {
-        set_stick(law, start, friction, gap, normal, result);
+        step.stick(friction, gap, normal);
         if (!old_state.has_partner && g_n < 0.)
-          follow_projection(law, start, x, geometry.y, master, result);
+          step.follow_projection(geometry.y);
       }
     else if (mode.stick_first)
-      {
-        leave_open(law, old_state, result);
-        result.normal_gap = g_n;
-      }
+      step.open(g_n);
     else
-      slide_or_open(
-        law, old_state, start, friction, x, geometry.y, master, mode, result);
+      step.slide_or_open(friction, geometry.y);
   }
 } // namespace Debond

@@ -1,267 +1,250 @@
-#include <debond/bulk/chuck.h>
-#include <debond/interface/contact_tangent.h>
-#include <debond/interface/nodal_sums.h>
+#include <debond/interface/contact_interface.h>
 
 namespace Debond
 {
+  using Eigen::Matrix;
+  using Eigen::Vector3d;
+
   namespace
   {
-    // The local tangent of one point. Columns: x (slave nodes), y, a_1, a_2
-    // (master nodes at xi_hat), y_n (master nodes at xi_hat^n), chuck unknowns.
-    // It is assembled for all of them at once: [dt; dxi] = D * column.
-    class PointTangent
+    // The local unknowns of a point are w = (x, y, a_1, a_2, y_n), see
+    // ContactPointResult: five vectors, each of which is a sum over control
+    // points with the factors N_A of the slave, N_B, N_B,1 and N_B,2 of the
+    // master at xi_hat, and N_B of the master at xi_hat^n.
+    using LocalVector = Matrix<double, 15, 1>;
+
+    // dw when the control points of both surfaces move. While a point sticks
+    // its xi_hat stays, and y_n has no part.
+    LocalVector
+    local_motion(const SlavePoint &point,
+                 const Side        slave,
+                 const NodalSums  &moved)
+    {
+      const NodalSums::value_type &master = moved[other(slave)];
+      SurfaceGeometry              motion;
+      contract(point.trial.basis, master, false, motion);
+      LocalVector dw;
+      dw << interpolate(point.basis, moved[slave]), motion.y, motion.a1,
+        motion.a2, Vector3d::Zero();
+      if (point.trial.state.status == PointStatus::slip)
+        dw.tail<3>() = interpolate(point.trial.old_basis, master);
+      return dw;
+    }
+
+
+
+    // The transpose: what forces on w amount to at the control points.
+    void
+    spread_local(const SlavePoint  &point,
+                 const Side         slave,
+                 const LocalVector &force,
+                 NodalSums         &sums)
+    {
+      const SurfaceBasis &basis  = point.trial.basis;
+      ControlNet         &master = sums[other(slave)];
+      spread(point.basis, force.head<3>(), sums[slave]);
+      for (unsigned int b = 0; b < basis.size; ++b)
+        master.col(basis.control_point[b]) +=
+          basis.N[b] * force.segment<3>(3) +
+          basis.N_1[b] * force.segment<3>(6) +
+          basis.N_2[b] * force.segment<3>(9);
+      if (point.trial.state.status == PointStatus::slip)
+        spread(point.trial.old_basis, force.tail<3>(), master);
+    }
+
+
+
+    // A point exerts the nodal forces N_A t on the slave and -N_B(xi_hat) t on
+    // the master, Eq. (36). They change in two ways: t changes, and xi_hat
+    // moves along the master, where N_B becomes N_B + N_B,alpha dxi^alpha. As
+    // forces on w:
+    LocalVector
+    change_of_force(const SlavePoint      &point,
+                    const Vector3d        &dt,
+                    const Eigen::Vector2d &dxi)
+    {
+      const Vector3d &t = point.trial.traction;
+      LocalVector     force;
+      force << dt, -dt, -dxi[0] * t, -dxi[1] * t, Vector3d::Zero();
+      return point.JxW * force;
+    }
+
+
+
+    // How the unknowns of the coupled system move w: a column dw for each that
+    // does, control points of both surfaces in the frames of their bodies, and
+    // components of the chuck.
+    class UnknownMotions
     {
     public:
-      using Columns =
-        Eigen::Matrix<double, 5, Eigen::Dynamic, 0, 5, 3 * 27 + 6>;
-
-      PointTangent(const SlavePoint             &point,
-                   const InterfaceConfiguration &configuration,
-                   const Side                    slave)
-        : point(point)
-        , configuration(configuration)
-        , slave(slave)
+      UnknownMotions(const SlavePoint             &point,
+                     const Side                    slave,
+                     const InterfaceConfiguration &configuration)
       {
-        D.topRows<3>()             = point.trial.dt;
-        D.bottomRows<2>()          = point.trial.dxi;
-        const Eigen::Matrix3d &Q_s = configuration.side[slave].frame;
-        const Eigen::Matrix3d &Q_m = configuration.side[other(slave)].frame;
-        D_body.leftCols<3>()       = D.leftCols<3>() * Q_s;
-        for (unsigned int block = 1; block < 5; ++block)
-          D_body.middleCols<3>(3 * block) = D.middleCols<3>(3 * block) * Q_m;
-        const bool slips = point.trial.state.status == PointStatus::slip;
-        const bool same =
-          slips && point.trial.old_basis.element == point.trial.basis.element;
-        const unsigned int n_s = point.basis.size, n_m = point.trial.basis.size;
-        const unsigned int n_o =
-          slips && !same ? point.trial.old_basis.size : 0;
-        const unsigned int n_k = configuration.chuck_unknowns.size();
-        columns.resize(5, 3 * (n_s + n_m + n_o) + n_k);
-        add_slave_columns(point.basis);
-        add_master_columns(point.trial.basis,
-                           slips && same ? &point.trial.old_basis : nullptr);
-        if (n_o > 0)
-          add_old_master_columns(point.trial.old_basis);
-        for (const auto &[component, number] : configuration.chuck_unknowns)
-          {
-            columns.col(n_columns)        = D * chuck_direction(component);
-            number_of_column[n_columns++] = number;
-          }
-      }
-
-      // dw/dq_k: the implant's side of w moves with the chuck.
-      Eigen::Matrix<double, 15, 1>
-      chuck_direction(const unsigned int k) const
-      {
-        Eigen::Matrix<double, 15, 1> dw = Eigen::Matrix<double, 15, 1>::Zero();
-        const Chuck                 &chuck = *configuration.chuck;
-        if (slave == Side::implant)
-          dw.head<3>() = chuck.velocity(
-            k,
-            interpolate(point.basis,
-                        configuration.side[Side::implant].positions));
-        else
-          {
-            SurfaceGeometry geometry;
-            contract(point.trial.basis,
-                     configuration.side[Side::implant].positions,
-                     false,
-                     geometry);
-            dw.segment<3>(3) = chuck.velocity(k, geometry.y);
-            dw.segment<3>(6) = chuck.velocity_of_direction(k, geometry.a1);
-            dw.segment<3>(9) = chuck.velocity_of_direction(k, geometry.a2);
-            if (point.trial.state.status == PointStatus::slip)
-              dw.segment<3>(12) = chuck.velocity(
-                k,
-                interpolate(point.trial.old_basis,
-                            configuration.side[Side::implant].positions));
-          }
-        return dw;
+        const auto &master = configuration.side[other(slave)];
+        for (unsigned int a = 0; a < point.basis.size; ++a)
+          add(configuration.side[slave],
+              point.basis.control_point[a],
+              {{point.basis.N[a], 0., 0., 0., 0.}});
+        // y_n depends on the same control points as y, unless the point slid
+        // from one element of the master to another
+        const SurfaceBasis &now = point.trial.basis,
+                           &old = point.trial.old_basis;
+        const bool slips        = point.trial.state.status == PointStatus::slip;
+        const bool same         = slips && old.element == now.element;
+        for (unsigned int b = 0; b < now.size; ++b)
+          add(master,
+              now.control_point[b],
+              {{0., now.N[b], now.N_1[b], now.N_2[b], same ? old.N[b] : 0.}});
+        for (unsigned int b = 0; slips && !same && b < old.size; ++b)
+          add(master, old.control_point[b], {{0., 0., 0., 0., old.N[b]}});
       }
 
       void
-      add_to(Eigen::MatrixXd &matrix) const
+      add(const int unknown, const LocalVector &motion)
       {
-        const Eigen::Matrix3d &Q_s = configuration.side[slave].frame;
-        const Eigen::Matrix3d &Q_m = configuration.side[other(slave)].frame;
-        const auto             dt  = columns.topRows<3>().leftCols(n_columns);
-        const auto dxi = columns.bottomRows<2>().leftCols(n_columns);
-        using Rows = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3 * 27 + 6>;
-        const Rows            slave_rows  = point.JxW * Q_s.transpose() * dt;
-        const Rows            master_rows = -point.JxW * Q_m.transpose() * dt;
-        const Eigen::Vector3d t_m =
-          -point.JxW * Q_m.transpose() * point.trial.traction;
+        if (unknown < 0)
+          return;
+        dw.col(n)   = motion;
+        number[n++] = unknown;
+      }
 
-        const auto &slave_unknown = configuration.side[slave].unknown_of;
-        const auto &master_unknown =
-          configuration.side[other(slave)].unknown_of;
-        const SurfaceBasis &basis = point.trial.basis;
-        for (unsigned int j = 0; j < n_columns; ++j)
+      // A row is the force on w along the motion with the row's unknown, a
+      // column its change with the column's unknown, by the total derivatives
+      // of traction and xi_hat that the update of the point has left.
+      void
+      add_tangent(const SlavePoint &point, Eigen::MatrixXd &matrix) const
+      {
+        for (unsigned int j = 0; j < n; ++j)
           {
-            if (number_of_column[j] < 0)
-              continue;
-            double *column = &matrix(0, number_of_column[j]);
-            for (unsigned int a = 0; a < point.basis.size; ++a)
-              for (unsigned int c = 0; c < 3; ++c)
-                {
-                  const int row =
-                    slave_unknown[3 * point.basis.control_point[a] + c];
-                  if (row >= 0)
-                    column[row] += point.basis.N[a] * slave_rows(c, j);
-                }
-            for (unsigned int b = 0; b < basis.size; ++b)
-              {
-                const double along =
-                  basis.N_1[b] * dxi(0, j) + basis.N_2[b] * dxi(1, j);
-                for (unsigned int c = 0; c < 3; ++c)
-                  {
-                    const int row =
-                      master_unknown[3 * basis.control_point[b] + c];
-                    if (row >= 0)
-                      column[row] +=
-                        basis.N[b] * master_rows(c, j) + along * t_m[c];
-                  }
-              }
-            add_chuck_rows(j, column);
+            const LocalVector force =
+              change_of_force(point,
+                              point.trial.dt * dw.col(j),
+                              point.trial.dxi * dw.col(j));
+            // no force acts on y_n
+            const Rows rows =
+              dw.topLeftCorner(12, n).transpose() * force.head<12>();
+            for (unsigned int i = 0; i < n; ++i)
+              matrix(number[i], number[j]) += rows[i];
           }
       }
 
     private:
       void
-      add_columns(const Eigen::Matrix<double, 5, 3> &block,
-                  const Side                         side,
-                  const unsigned int                 control_point)
+      add(const InterfaceConfiguration::Surface &side,
+          const unsigned int                     control_point,
+          const std::array<double, 5>           &factors)
       {
         for (unsigned int c = 0; c < 3; ++c)
           {
-            columns.col(n_columns) = block.col(c);
-            number_of_column[n_columns++] =
-              configuration.side[side].unknown_of[3 * control_point + c];
+            LocalVector motion;
+            for (unsigned int k = 0; k < 5; ++k)
+              motion.segment<3>(3 * k) = factors[k] * side.frame.col(c);
+            add(side.unknown_of[3 * control_point + c], motion);
           }
       }
 
-      void
-      add_slave_columns(const SurfaceBasis &basis)
-      {
-        for (unsigned int a = 0; a < basis.size; ++a)
-          add_columns(basis.N[a] * D_body.leftCols<3>(),
-                      slave,
-                      basis.control_point[a]);
-      }
+      static constexpr int max_unknowns = 3 * 27 + 6;
+      using Rows = Matrix<double, Eigen::Dynamic, 1, 0, max_unknowns, 1>;
 
-      void
-      add_master_columns(const SurfaceBasis &basis, const SurfaceBasis *old)
-      {
-        for (unsigned int b = 0; b < basis.size; ++b)
-          {
-            Eigen::Matrix<double, 5, 3> block =
-              basis.N[b] * D_body.middleCols<3>(3) +
-              basis.N_1[b] * D_body.middleCols<3>(6) +
-              basis.N_2[b] * D_body.middleCols<3>(9);
-            if (old != nullptr)
-              block += old->N[b] * D_body.middleCols<3>(12);
-            add_columns(block, other(slave), basis.control_point[b]);
-          }
-      }
-
-      void
-      add_old_master_columns(const SurfaceBasis &basis)
-      {
-        for (unsigned int b = 0; b < basis.size; ++b)
-          add_columns(basis.N[b] * D_body.middleCols<3>(12),
-                      other(slave),
-                      basis.control_point[b]);
-      }
-
-      // r_k = sum over points of f . dx/dq_k, f acting on the implant
-      void
-      add_chuck_rows(const unsigned int j, double *column) const
-      {
-        for (const auto &[component, number] : configuration.chuck_unknowns)
-          {
-            const Eigen::Matrix<double, 15, 1> velocity =
-              chuck_direction(component);
-            if (slave == Side::implant)
-              column[number] +=
-                point.JxW * velocity.head<3>().dot(columns.col(j).head<3>());
-            else
-              column[number] -=
-                point.JxW *
-                (velocity.segment<3>(3).dot(columns.col(j).head<3>()) +
-                 point.trial.traction.dot(
-                   velocity.segment<3>(6) * columns(3, j) +
-                   velocity.segment<3>(9) * columns(4, j)));
-          }
-      }
-
-      const SlavePoint             &point;
-      const InterfaceConfiguration &configuration;
-      const Side                    slave;
-      Eigen::Matrix<double, 5, 15>  D, D_body;
-      Columns                       columns;
-      std::array<int, 3 * 27 + 6>   number_of_column;
-      unsigned int                  n_columns = 0;
+      Matrix<double, 15, max_unknowns> dw;
+      std::array<int, max_unknowns>    number;
+      unsigned int                     n = 0;
     };
-
-
-
-    // The forces of one point that change as the control points move.
-    void
-    add_change(const SlavePoint &point,
-               const Side        slave,
-               const NodalSums  &moved,
-               NodalSums        &sums)
-    {
-      if (point.trial.state.status == PointStatus::open)
-        return;
-      const Side                   master = other(slave);
-      const SurfaceBasis          &basis  = point.trial.basis;
-      Eigen::Matrix<double, 15, 1> dw;
-      SurfaceGeometry              master_change;
-      contract(basis, moved[master], false, master_change);
-      dw << interpolate(point.basis, moved[slave]), master_change.y,
-        master_change.a1, master_change.a2, Eigen::Vector3d::Zero();
-      if (point.trial.state.status == PointStatus::slip)
-        dw.tail<3>() = interpolate(point.trial.old_basis, moved[master]);
-      const Eigen::Vector3d dt  = point.JxW * (point.trial.dt * dw);
-      const Eigen::Vector2d dxi = point.trial.dxi * dw;
-      const Eigen::Vector3d t   = point.JxW * point.trial.traction;
-      spread(point.basis, dt, sums[slave]);
-      for (unsigned int b = 0; b < basis.size; ++b)
-        sums[master].col(basis.control_point[b]) -=
-          basis.N[b] * dt + (basis.N_1[b] * dxi[0] + basis.N_2[b] * dxi[1]) * t;
-    }
   } // namespace
 
 
 
+  // Points are independent, so the matrix is a sum of dense blocks. The chuck
+  // moves all control points of the implant at once: what that does to w of a
+  // point is found as for any other motion of the control points.
   void
-  add_contact_tangent(const std::vector<SlavePoint> &points,
-                      const Side                     slave,
-                      const InterfaceConfiguration  &configuration,
-                      Eigen::MatrixXd               &matrix)
+  ContactInterface::add_tangent(const InterfaceConfiguration &configuration,
+                                Eigen::MatrixXd              &matrix) const
   {
+    std::vector<std::pair<int, NodalSums>> chuck;
+    for (const auto &[component, number] : configuration.chuck_unknowns)
+      chuck.emplace_back(number,
+                         nodal_motion(Eigen::VectorXd::Unit(matrix.cols(),
+                                                            number),
+                                      configuration));
     for (const SlavePoint &point : points)
       if (point.trial.state.status != PointStatus::open)
-        PointTangent(point, configuration, slave).add_to(matrix);
+        {
+          UnknownMotions motions(point, slave, configuration);
+          for (const auto &[number, moved] : chuck)
+            motions.add(number, local_motion(point, slave, moved));
+          motions.add_tangent(point, matrix);
+        }
   }
 
 
 
+  // The same tangent without a matrix, for iterative solvers: the unknowns move
+  // the control points, these move w of every point, that changes its forces,
+  // which go back the other way.
   void
-  apply_contact_tangent(const std::vector<SlavePoint> &points,
-                        const Side                     slave,
-                        const InterfaceConfiguration  &configuration,
-                        const Eigen::VectorXd         &direction,
-                        Eigen::VectorXd               &result)
+  ContactInterface::apply_tangent(const InterfaceConfiguration &configuration,
+                                  const Eigen::VectorXd        &direction,
+                                  Eigen::VectorXd              &result) const
   {
     const NodalSums moved = nodal_motion(direction, configuration);
     const NodalSums change =
       sum_in_chunks(points.size(),
                     configuration,
                     [&](const unsigned int q, NodalSums &sums) {
-                      add_change(points[q], slave, moved, sums);
+                      const SlavePoint &point = points[q];
+                      if (point.trial.state.status == PointStatus::open)
+                        return;
+                      const auto dw = local_motion(point, slave, moved);
+                      spread_local(point,
+                                   slave,
+                                   change_of_force(point,
+                                                   point.trial.dt * dw,
+                                                   point.trial.dxi * dw),
+                                   sums);
                     });
     add_in_unknowns(change, configuration, 1., result);
+  }
+
+
+
+  // g_s grows by |y(xi_hat) - y(xi_hat^n)|, Eq. (32), whose change is that of
+  // the difference along its direction; xi_hat moves as the equations of the
+  // slip want it.
+  MeanSlip
+  ContactInterface::mean_slip(const InterfaceConfiguration &configuration) const
+  {
+    MeanSlip result;
+    result.gradient = zero_sums(configuration);
+    double area     = 0.;
+    for (const SlavePoint &point : points)
+      {
+        const ContactPointResult &trial = point.trial;
+        if (!point.faces_implant)
+          continue;
+        area += point.JxW;
+        result.value += point.JxW * trial.state.slip;
+        const double distance = trial.slip_increment.norm();
+        if (trial.state.status != PointStatus::slip || mode_now.frictionless ||
+            distance == 0.)
+          continue;
+        const Vector3d  direction = trial.slip_increment / distance;
+        SurfaceGeometry y;
+        contract(trial.basis,
+                 configuration.side[master_side()].positions,
+                 false,
+                 y);
+        LocalVector d =
+          trial.dxi.transpose() *
+          Eigen::Vector2d(direction.dot(y.a1), direction.dot(y.a2));
+        d.segment<3>(3) += direction;
+        d.segment<3>(12) -= direction;
+        spread_local(point, slave, point.JxW * d, result.gradient);
+      }
+    result.value /= area;
+    for (ControlNet &gradient : result.gradient)
+      gradient /= area;
+    return result;
   }
 } // namespace Debond

@@ -15,9 +15,8 @@ namespace Debond
       std::vector<bool>  result(surface.n_control_points(), false);
       const unsigned int n = (surface.degree() + 1) * (surface.degree() + 1);
       for (unsigned int element = 0; element < elements.size(); ++element)
-        if (elements[element])
-          for (unsigned int a = 0; a < n; ++a)
-            result[surface.element_control_points(element)[a]] = true;
+        for (unsigned int a = 0; elements[element] && a < n; ++a)
+          result[surface.element_control_points(element)[a]] = true;
       return result;
     }
 
@@ -54,15 +53,13 @@ namespace Debond
                                     const InterfaceConfiguration &configuration)
   {
     std::vector<bool> under(bone.n_elements(), false);
-    const auto        n = implant.n_elements_per_direction();
     // dense enough to meet every element of the bone that the edge crosses
-    const unsigned int finest  = std::max({n[0],
-                                           n[1],
-                                           bone.n_elements_per_direction()[0],
-                                           bone.n_elements_per_direction()[1]});
-    const unsigned int samples = 4 * finest;
-    SurfaceBasis       basis;
-    Eigen::Vector2d    guess(0.5, 0.5);
+    unsigned int samples = 0;
+    for (const NurbsSurface *surface : {&bone, &implant})
+      for (const unsigned int n : surface->n_elements_per_direction())
+        samples = std::max(samples, 4 * n);
+    SurfaceBasis    basis;
+    Eigen::Vector2d guess(0.5, 0.5);
     for (unsigned int j = 0; j <= samples; ++j)
       for (unsigned int i = 0; i <= samples; ++i)
         {
@@ -90,14 +87,15 @@ namespace Debond
   {
     std::vector<bool> touched(bone.n_elements(), false);
     for (const SlavePoint &point : points)
-      if (point.trial.state.status != PointStatus::open)
-        {
-          touched[slave == Side::bone ? point.element :
-                                        point.trial.basis.element] = true;
-          if (slave == Side::implant &&
-              point.trial.state.status == PointStatus::slip)
-            touched[point.trial.old_basis.element] = true;
-        }
+      {
+        const ContactPointResult &trial = point.trial;
+        if (trial.state.status == PointStatus::open)
+          continue;
+        const bool is_slave = slave == Side::bone;
+        touched[is_slave ? point.element : trial.basis.element] = true;
+        if (!is_slave && trial.state.status == PointStatus::slip)
+          touched[trial.old_basis.element] = true;
+      }
     return control_points_of(bone, touched);
   }
 } // namespace Debond

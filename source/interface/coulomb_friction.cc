@@ -17,7 +17,14 @@ namespace Debond
         , a_s(parameters.sliding_threshold)
         , b_s(parameters.transition_factor)
         , ends({a_s, a_s * (1. + 2. * b_s)})
+        , frictionless(parameters.frictionless)
       {}
+
+      bool
+      is_frictionless() const override
+      {
+        return frictionless;
+      }
 
       const std::vector<double> &
       kinks() const override
@@ -37,35 +44,10 @@ namespace Debond
         return "Sliding threshold or Transition factor";
       }
 
-      static std::vector<LawEntry>
-      entries()
-      {
-        return BondFriction::entries(
-          {{"",
-            "Sliding threshold",
-            "0.022",
-            Allowed::number_between(1e-9, 1e6, "mm"),
-            "Sliding distance a_s [mm] up to which a point stays fully bonded. "
-            "Only used by modified coulomb."},
-           {"",
-            "Transition factor",
-            "0.74",
-            Allowed::number_between(1e-9, 1e6, ""),
-            "Factor b_s, dimensionless: a point is fully debonded once it has "
-            "slid (1 + 2 b_s) a_s. Only used by modified coulomb."}});
-      }
-
-      /** What the entries say; laws that are special cases change it. */
-      static ModifiedCoulombParameters
-      parse(const FrictionLawChoice &choice)
-      {
-        return {choice.number("Friction coefficient broken"),
-                choice.number("Friction coefficient unbroken"),
-                choice.number("Sliding threshold"),
-                choice.number("Transition factor")};
-      }
-
     protected:
+      // Eq. (13), with s = g_s/a_s: the bond holds up to s = 1, is gone from s
+      // = 1 + 2 b_s on, and falls along half a sine in between, smoothly at
+      // both ends, so that dmu/dg_s is continuous.
       double
       decay(const double slip, double &slope) const override
       {
@@ -80,6 +62,8 @@ namespace Debond
         return 0.5 * (1. - std::sin(argument));
       }
 
+      // The integral of Eq. (13) in closed form: for the work of adhesion,
+      // which a trapezoid over a step would miss by the curvature of s.
       double
       integrated_decay(const double slip) const override
       {
@@ -104,21 +88,40 @@ namespace Debond
     private:
       const double              a_s, b_s;
       const std::vector<double> ends;
+      const bool                frictionless;
     };
 
 
 
-    class Frictionless : public ModifiedCoulomb
+    std::vector<LawEntry>
+    coulomb_entries()
     {
-    public:
-      using ModifiedCoulomb::ModifiedCoulomb;
+      return BondFriction::entries(
+        {{"",
+          "Sliding threshold",
+          "0.022",
+          Allowed::number_between(1e-9, 1e6, "mm"),
+          "Sliding distance a_s [mm] up to which a point stays fully bonded. "
+          "Only used by modified coulomb."},
+         {"",
+          "Transition factor",
+          "0.74",
+          Allowed::number_between(1e-9, 1e6, ""),
+          "Factor b_s, dimensionless: a point is fully debonded once it has "
+          "slid (1 + 2 b_s) a_s. Only used by modified coulomb."}});
+    }
 
-      bool
-      is_frictionless() const override
-      {
-        return true;
-      }
-    };
+
+
+    /** What the entries say; laws that are special cases change it. */
+    ModifiedCoulombParameters
+    coulomb_parameters(const FrictionLawChoice &choice)
+    {
+      return {choice.number("Friction coefficient broken"),
+              choice.number("Friction coefficient unbroken"),
+              choice.number("Sliding threshold"),
+              choice.number("Transition factor")};
+    }
   } // namespace
 
 
@@ -135,14 +138,6 @@ namespace Debond
   coulomb(const double mu)
   {
     return modified_coulomb({mu, mu});
-  }
-
-
-
-  FrictionLawPointer
-  frictionless()
-  {
-    return std::make_shared<Frictionless>(ModifiedCoulombParameters{0., 0.});
   }
 
 
@@ -168,12 +163,12 @@ namespace Debond
   {
     return {"frictionless",
             "no tangential traction",
-            ModifiedCoulomb::entries(),
+            coulomb_entries(),
             [](const FrictionLawChoice &choice) {
-              auto parameters      = ModifiedCoulomb::parse(choice);
+              auto parameters      = coulomb_parameters(choice);
               parameters.mu_broken = parameters.mu_unbroken = 0.;
-              return FrictionLawPointer(
-                std::make_shared<Frictionless>(parameters));
+              parameters.frictionless                       = true;
+              return modified_coulomb(parameters);
             }};
   }
 
@@ -184,9 +179,9 @@ namespace Debond
   {
     return {"coulomb",
             "the constant coefficient Friction coefficient broken",
-            ModifiedCoulomb::entries(),
+            coulomb_entries(),
             [](const FrictionLawChoice &choice) {
-              auto parameters        = ModifiedCoulomb::parse(choice);
+              auto parameters        = coulomb_parameters(choice);
               parameters.mu_unbroken = parameters.mu_broken;
               return modified_coulomb(parameters);
             }};
@@ -201,9 +196,9 @@ namespace Debond
             "the coefficient falls from its unbroken to its broken value as "
             "the accumulated sliding distance of a point grows (Eqs. 11 to 13 "
             "of the paper)",
-            ModifiedCoulomb::entries(),
+            coulomb_entries(),
             [](const FrictionLawChoice &choice) {
-              return modified_coulomb(ModifiedCoulomb::parse(choice));
+              return modified_coulomb(coulomb_parameters(choice));
             }};
   }
 } // namespace Debond

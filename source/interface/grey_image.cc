@@ -4,6 +4,7 @@
 #include <debond/support/number_text.h>
 
 #include <boost/crc.hpp>
+#include <boost/endian/conversion.hpp>
 
 #include <png.h>
 
@@ -23,16 +24,13 @@ namespace Debond
       std::vector<std::vector<std::pair<unsigned int, double>>> result(n_fine);
       const double size = double(n_fine) / n_coarse; // of a coarse pixel
       for (unsigned int i = 0; i < n_fine; ++i)
-        for (unsigned int k = static_cast<unsigned int>(i / size);
+        for (auto k = static_cast<unsigned int>(i / size);
              k < n_coarse && k * size < i + 1;
              ++k)
-          {
-            const double share = (std::min((k + 1) * size, i + 1.) -
+          result[i].emplace_back(k,
+                                 (std::min((k + 1) * size, i + 1.) -
                                   std::max(k * size, double(i))) /
-                                 size;
-            if (share > 0.)
-              result[i].emplace_back(k, share);
-          }
+                                   size);
       return result;
     }
   } // namespace
@@ -91,6 +89,9 @@ namespace Debond
 
   namespace
   {
+    using boost::endian::load_big_u16;
+    using boost::endian::load_big_u32;
+
     constexpr unsigned int largest_side = 10000; ///< pixels
 
 
@@ -119,13 +120,10 @@ namespace Debond
 
 
 
-    unsigned int
-    big_endian(const std::string &bytes, const std::size_t position)
+    const unsigned char *
+    bytes_at(const std::string &bytes, const std::size_t position)
     {
-      unsigned int number = 0;
-      for (std::size_t i = position; i < position + 4; ++i)
-        number = 256 * number + static_cast<unsigned char>(bytes[i]);
-      return number;
+      return reinterpret_cast<const unsigned char *>(bytes.data()) + position;
     }
 
 
@@ -142,19 +140,20 @@ namespace Debond
       std::size_t position = signature;
       for (std::string type; type != "IEND";)
         {
-          const std::size_t left = bytes.size() - position;
-          const std::size_t length =
-            left < around ? left : big_endian(bytes, position);
+          const auto number = [&](const std::size_t from) {
+            return load_big_u32(bytes_at(bytes, position + from));
+          };
+          const std::size_t left   = bytes.size() - position;
+          const std::size_t length = left < around ? left : number(0);
           if (left < around || length > left - around)
             file.refuse("this PNG file is cut off");
           type = bytes.substr(position + 4, 4);
           boost::crc_32_type sum;
-          sum.process_bytes(bytes.data() + position + 4, length + 4);
-          if (sum.checksum() != big_endian(bytes, position + 8 + length))
+          sum.process_bytes(bytes_at(bytes, position + 4), length + 4);
+          if (sum.checksum() != number(8 + length))
             file.refuse("this PNG file is damaged");
           if (type == "IHDR" && length == 13)
-            file.check_size(big_endian(bytes, position + 8),
-                            big_endian(bytes, position + 12));
+            file.check_size(number(8), number(12));
           for (const char *const wanted :
                {"IHDR", "PLTE", "tRNS", "IDAT", "IEND"})
             if (type == wanted)
@@ -166,26 +165,10 @@ namespace Debond
 
 
 
-    /** The level of a pixel of @p n channels: grey or red, green and blue, then
-     *  opacity if n is even; what is transparent is black. */
-    template <typename Channel>
-    float
-    level_of(const Channel *const pixel, const unsigned int n)
-    {
-      constexpr double white = std::numeric_limits<Channel>::max();
-      const double     level =
-        (n < 3 ? pixel[0] :
-                 (30. * pixel[0] + 59. * pixel[1] + 11. * pixel[2]) / 100.) /
-        white;
-      // libpng has multiplied channels of 16 bits by the opacity already
-      return n % 2 == 0 && sizeof(Channel) == 1 ? level * pixel[n - 1] / white :
-                                                  level;
-    }
-
-
-
-    /** False if libpng cannot read what png_image_begin_read_from_memory() has
-     *  found. */
+    /** The levels of pixels with one or more channels: grey or red, green and
+     *  blue, then opacity if their number is even; what is transparent is
+     *  black. False if libpng cannot read what
+     *  png_image_begin_read_from_memory() has found. */
     template <typename Channel>
     bool
     read_levels(png_image &png, std::vector<float> &levels)
@@ -194,10 +177,19 @@ namespace Debond
       if (png_image_finish_read(&png, nullptr, channels.data(), 0, nullptr) ==
           0)
         return false;
-      const unsigned int n = PNG_IMAGE_PIXEL_CHANNELS(png.format);
-      levels.reserve(channels.size() / n);
-      for (std::size_t i = 0; i < channels.size(); i += n)
-        levels.push_back(level_of(&channels[i], n));
+      constexpr double   white = std::numeric_limits<Channel>::max();
+      const unsigned int n     = PNG_IMAGE_PIXEL_CHANNELS(png.format);
+      // libpng has multiplied channels of 16 bits by the opacity already
+      const bool multiply = n % 2 == 0 && sizeof(Channel) == 1;
+      for (auto pixel = channels.cbegin(); pixel != channels.cend(); pixel += n)
+        {
+          const double level =
+            (n < 3 ?
+               pixel[0] :
+               (30. * pixel[0] + 59. * pixel[1] + 11. * pixel[2]) / 100.) /
+            white;
+          levels.push_back(multiply ? level * pixel[n - 1] / white : level);
+        }
       return true;
     }
 
@@ -234,20 +226,31 @@ namespace Debond
 
 
     /** The numbers in the header of a PGM file, or all of a plain one. */
-    class PgmNumbers
+    struct PgmNumbers
     {
-    public:
-      PgmNumbers(const ImageFile &file, const std::string &bytes)
-        : file(file)
-        , bytes(bytes)
-      {}
+      const ImageFile   &file;
+      const std::string &bytes;
+      std::size_t        position = 2; ///< after P2 or P5
 
-      /** The next number, at most @p largest; comments from # to the end of
-       *  the line are passed over. */
+      /** Passes over blanks, and over comments from # to the end of the line.
+       *  Returns whether nothing else is left. */
+      bool
+      at_end()
+      {
+        while (
+          position < bytes.size() &&
+          (std::isspace(*bytes_at(bytes, position)) || bytes[position] == '#'))
+          position = bytes[position] == '#' ?
+                       std::min(bytes.find('\n', position), bytes.size()) :
+                       position + 1;
+        return position == bytes.size();
+      }
+
+      /** The next number, at most @p largest. */
       unsigned int
       next(const std::string &what, const unsigned int largest)
       {
-        skip_blanks();
+        at_end();
         unsigned int      value = 0;
         const char *const first = bytes.data() + position;
         const auto [behind, error] =
@@ -260,37 +263,6 @@ namespace Debond
         position += behind - first;
         return value;
       }
-
-      /** Whether nothing but blanks and comments is left. */
-      bool
-      at_end()
-      {
-        skip_blanks();
-        return position == bytes.size();
-      }
-
-      /** Where the pixels of a raw file begin: after one white space. */
-      std::size_t
-      end_of_header() const
-      {
-        return position + 1;
-      }
-
-    private:
-      void
-      skip_blanks()
-      {
-        while (position < bytes.size() &&
-               (std::isspace(static_cast<unsigned char>(bytes[position])) ||
-                bytes[position] == '#'))
-          position = bytes[position] == '#' ?
-                       std::min(bytes.find('\n', position), bytes.size()) :
-                       position + 1;
-      }
-
-      const ImageFile   &file;
-      const std::string &bytes;
-      std::size_t        position = 2; ///< after P2 or P5
     };
 
 
@@ -301,7 +273,7 @@ namespace Debond
     GreyImage
     read_pgm(const ImageFile &file, const std::string &bytes)
     {
-      PgmNumbers numbers(file, bytes);
+      PgmNumbers numbers{file, bytes};
       GreyImage  image;
       image.width  = numbers.next("the width", 1000000);
       image.height = numbers.next("the height", 1000000);
@@ -314,32 +286,26 @@ namespace Debond
       const std::size_t n     = std::size_t(image.width) * image.height;
       const bool        plain = bytes[1] == '2';
       const std::size_t size  = largest > 255 ? 2 : 1; // bytes of a pixel
-      std::size_t       begin = numbers.end_of_header();
+      std::size_t       begin = numbers.position + 1;  // after a white space
       // one white space ends the header, but some write a carriage return more
       if (!plain && bytes.size() == begin + n * size + 1 &&
           bytes.compare(begin - 1, 2, "\r\n") == 0)
         ++begin;
-      if (plain ? bytes.size() < n : bytes.size() < begin + n * size)
+      if (bytes.size() < (plain ? n : begin + n * size))
         file.refuse("this PGM file is cut off: it has fewer pixels than its "
                     "header says");
-      if (!plain && bytes.size() > begin + n * size)
-        file.refuse("this PGM file has more pixels than its header says");
-      image.levels.reserve(n);
       for (std::size_t i = 0; i < n; ++i)
         {
-          unsigned int level = 0;
-          if (plain)
-            level = numbers.next("a level", largest);
-          else
-            for (std::size_t b = 0; b < size; ++b)
-              level = 256 * level +
-                      static_cast<unsigned char>(bytes[begin + i * size + b]);
+          const unsigned int level =
+            plain     ? numbers.next("a level", largest) :
+            size == 1 ? *bytes_at(bytes, begin + i) :
+                        load_big_u16(bytes_at(bytes, begin + 2 * i));
           if (level > largest)
             file.refuse("a level of this PGM file is more than its largest, " +
                         std::to_string(largest));
           image.levels.push_back(static_cast<float>(level) / largest);
         }
-      if (plain && !numbers.at_end())
+      if (plain ? !numbers.at_end() : bytes.size() > begin + n * size)
         file.refuse("this PGM file has more pixels than its header says");
       return image;
     }

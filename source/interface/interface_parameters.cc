@@ -11,8 +11,7 @@ namespace Debond
     table.add("Slave",
               slave,
               Allowed::choice("bone | implant"),
-              "The body whose contact face carries the quadrature points; they "
-              "are projected onto the face of the other.");
+              "The body whose contact face carries the quadrature points.");
     table.add("Quadrature points",
               quadrature_points,
               Allowed::whole_number(1, 64),
@@ -28,18 +27,15 @@ namespace Debond
               "Tangential stiffness eps_t [MPa/mm] of the interface. 0: the "
               "same as the normal one.");
     declare_friction_laws(table, friction_choice);
-    table.add(
-      "Friction starts at",
-      friction_starts_at,
-      Allowed::number("time"),
-      "Time before which the interface is frictionless, for instance to press "
-      "the implant in without locking tangential traction in.");
+    table.add("Friction starts at",
+              friction_starts_at,
+              Allowed::number("time"),
+              "Time before which the interface is frictionless.");
     table.add("Opening breaks bond",
               opening_breaks_bond,
               Allowed::choice("false | true"),
-              "Whether a bonded point that opens is debonded for good. `false' "
-              "is the law of the paper, which has no strength in tension and "
-              "forgets that the point was open.");
+              "Whether a bonded point that opens is debonded for good; in the "
+              "paper it is not.");
     declare_variants(table);
     bonding.declare(table);
     table.leave_subsection();
@@ -89,16 +85,14 @@ namespace Debond
       Allowed::choice("trial | previous gap"),
       "Direction in which a sliding point is pulled. `trial': that of the gap "
       "which it would have without sliding in this step. `previous gap': that "
-      "of the step before, Eq. (31) as printed, which can never turn; it is "
-      "there to show what that leads to.");
+      "of the step before, Eq. (31) as printed, which can never turn.");
     table.add(
       "Friction update",
       explicit_friction,
       Allowed::choice("implicit | explicit"),
       "`implicit': the friction coefficient belongs to the sliding distance at "
       "the end of the step. `explicit': to that at its beginning, so that a "
-      "softening bond lags behind by a step; it is there to show what that "
-      "costs.");
+      "softening bond lags behind by a step.");
   }
 
 

@@ -1,86 +1,49 @@
 #include <debond/interface/interface_summary.h>
 
-#include <algorithm>
+#include <cmath>
 
 namespace Debond
 {
-  namespace
+  // While a point slides it dissipates t_t . dy, a trapezoid between the
+  // accepted and the trial traction; the accepted one was kept in the frame of
+  // the master. Beside that stands the work that the law itself allows for this
+  // slip, with the exact integral of mu over the distance: a step in which the
+  // state jumps cannot dissipate more.
+  void
+  InterfaceWork::add(const SlavePoint       &point,
+                     const FrictionLaw      &law,
+                     const ContactPointMode &mode,
+                     const Eigen::Matrix3d  &frame)
   {
-    void
-    add_steepest_softening(const SlavePoint       &point,
-                           const ContactPointLaw  &law,
-                           const ContactPointMode &mode,
-                           InterfaceSummary       &summary)
-    {
-      const double slope = law.friction->steepest_fall(
-        friction_state(point.accepted, point.phi_0, mode.duration),
-        point.trial.state.slip - point.accepted.slip);
-      const double softening =
-        slope * point.trial.pressure /
-        (law.tangential_penalty + viscous_stiffness(law, mode));
-      if (softening > summary.steepest_softening)
-        {
-          summary.steepest_softening = softening;
-          summary.softening_pressure = point.trial.pressure;
-          summary.softening_slope    = slope;
-        }
-    }
-  } // namespace
+    const ContactPointResult &trial = point.trial;
+    const Eigen::Vector3d     slip  = point.JxW * trial.slip_increment;
+    step_dissipation += trial.tangential_traction.dot(slip);
+    dissipation +=
+      0.5 *
+      (frame * point.accepted_traction + trial.tangential_traction).dot(slip);
+    // the viscous traction is anything between its two ends
+    const double viscous_part =
+      0.5 * (frame * point.accepted_viscous_traction + trial.viscous_traction)
+              .dot(slip);
+    for (double *work : {&viscous, &friction, &friction_bound})
+      *work += viscous_part;
 
-
-
-  InterfaceSummary
-  summarise(const std::vector<SlavePoint> &points,
-            const ContactPointLaw         &law,
-            const ContactPointMode        &mode)
-  {
-    InterfaceSummary summary;
-    double           area = 0.;
-    for (const SlavePoint &point : points)
-      {
-        const ContactPointResult &trial = point.trial;
-        summary.normal_force += point.JxW * trial.pressure;
-        if (point.faces_implant)
-          {
-            area += point.JxW;
-            summary.phi_mean +=
-              point.JxW * point.friction(*law.friction, trial.state).phi;
-            switch (trial.state.status)
-              {
-                case PointStatus::open:
-                  summary.share_open += point.JxW;
-                  break;
-                case PointStatus::stick:
-                  summary.share_stick += point.JxW;
-                  break;
-                case PointStatus::slip:
-                  summary.share_slip += point.JxW;
-                  break;
-              }
-          }
-        if (trial.state.status == PointStatus::open)
-          {
-            // whether it was bonded: opening itself may have broken it
-            if (law.friction->has_bond() &&
-                point.accepted.status != PointStatus::open &&
-                point.friction(*law.friction, point.accepted).phi > 0.)
-              ++summary.bonded_opened;
-            continue;
-          }
-        ++summary.n_closed;
-        summary.energy += point.JxW * trial.energy;
-        summary.max_softening =
-          std::max(summary.max_softening, trial.softening);
-        if (!law.explicit_friction && !mode.frictionless)
-          add_steepest_softening(point, law, mode, summary);
-        summary.max_penetration =
-          std::max(summary.max_penetration, -trial.normal_gap);
-      }
-    for (double *share : {&summary.phi_mean,
-                          &summary.share_stick,
-                          &summary.share_slip,
-                          &summary.share_open})
-      *share /= area;
-    return summary;
+    const bool opens = trial.state.status == PointStatus::open;
+    if (opens)
+      friction_bound += point.JxW * point.accepted_energy;
+    if (opens || mode.frictionless)
+      return;
+    // the law is integrated over the distance that the point slides, from its
+    // accepted state, with the pressure between its two ends
+    const FrictionState start =
+      friction_state(point.accepted, point.phi_0, mode.duration);
+    const double distance = trial.state.slip - point.accepted.slip;
+    const double p = point.accepted_pressure, mean = 0.5 * (p + trial.pressure);
+    const double per_pressure =
+      point.JxW * law.friction_strength(start, distance);
+    adhesive += point.JxW * mean * law.adhesive_strength(start, distance);
+    friction += mean * per_pressure;
+    friction_bound += 0.5 * std::abs(p - trial.pressure) * per_pressure +
+                      mean * point.JxW * law.strength_bound(start, distance);
   }
 } // namespace Debond

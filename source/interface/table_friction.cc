@@ -1,3 +1,5 @@
+#include <math.h> // pchip expects isnan() outside of any namespace
+
 #include <debond/input/csv_table.h>
 #include <debond/interface/bond_friction.h>
 #include <debond/support/input_error.h>
@@ -5,16 +7,12 @@
 
 #include <boost/math/interpolators/pchip.hpp>
 
-#include <math.h> // pchip expects isnan() outside of any namespace
-
 #include <algorithm>
 
 namespace Debond
 {
   namespace
   {
-    constexpr const char *table_entry = "Friction table";
-
     /** s(g_s) through the points of a table: monotone cubics between them
      *  (Fritsch and Carlson), constant from the last one on. */
     class TableFriction : public BondFriction
@@ -49,8 +47,7 @@ namespace Debond
       double
       characteristic_distance() const override
       {
-        const double fall = *std::max_element(steepest.begin(), steepest.end());
-        return fall > 0. ? std::min(slip.back(), 1. / fall) : slip.back();
+        return std::min(slip.back(), 1. / steepest.front());
       }
 
       std::string
@@ -69,31 +66,29 @@ namespace Debond
       double
       decay(const double g_s, double &slope) const override
       {
-        slope = 0.;
-        if (g_s >= slip.back())
-          return last;
-        slope = curve.prime(g_s);
-        return curve(g_s);
+        const bool falls = g_s < slip.back();
+        slope            = falls ? curve.prime(g_s) : 0.;
+        return falls ? curve(g_s) : last;
       }
 
       double
       integrated_decay(const double g_s) const override
       {
-        if (g_s >= slip.back())
-          return integral.back() + last * (g_s - slip.back());
-        const std::size_t i = interval_of(g_s);
-        return integral[i] + integral_between(slip[i], g_s);
+        const std::size_t i = row_before(g_s);
+        return integral[i] + (g_s < slip.back() ?
+                                integral_between(slip[i], g_s) :
+                                last * (g_s - slip[i]));
       }
 
       double
       steepest_decay(const double g_s) const override
       {
-        return g_s >= slip.back() ? 0. : steepest[interval_of(g_s)];
+        return steepest[row_before(g_s)];
       }
 
     private:
       std::size_t
-      interval_of(const double g_s) const
+      row_before(const double g_s) const
       {
         return std::upper_bound(slip.begin(), slip.end(), g_s) - slip.begin() -
                1;
@@ -115,11 +110,10 @@ namespace Debond
         const double left = curve.prime(a), right = curve.prime(a + h);
         const double middle  = curve.prime(a + 0.5 * h);
         const double bending = 2. * (left - 2. * middle + right);
-        const double at =
-          bending != 0. ? 0.5 * (left - right + bending) / bending : 0.;
         const double vertex =
-          at > 0. && at < 1. ? curve.prime(a + at * h) : middle;
-        return -std::min({left, right, vertex});
+          bending != 0. ? 0.5 * (left - right + bending) / bending : 0.;
+        return -std::min(
+          {left, right, curve.prime(a + std::clamp(vertex, 0., 1.) * h)});
       }
 
       const std::string         filename;
@@ -133,51 +127,39 @@ namespace Debond
 
 
 
-    [[noreturn]] void
-    refuse_table(const std::string &filename, const std::string &why)
-    {
-      throw EntryError(std::string("Interface / ") + table_entry,
-                       why,
-                       filename);
-    }
-
-
-
     FrictionLawPointer
     read_table(const double       mu_broken,
                const double       mu_unbroken,
                const std::string &filename)
     {
-      const std::string place = std::string("Interface / ") + table_entry;
-      if (filename.empty())
-        refuse_table(filename,
-                     "Friction law = table needs the name of a CSV file");
+      const std::string         entry = "Interface / Friction table";
       std::vector<double>       slip, phi;
       std::vector<unsigned int> lines;
+      const auto expect = [&](const bool is_right, const std::string &why) {
+        if (!is_right)
+          throw EntryError(entry, why, filename);
+      };
+      expect(!filename.empty(),
+             "Friction law = table needs the name of a CSV file");
       for (const std::vector<double> &row :
-           read_csv_columns(filename, place, {"slip_mm", "phi"}, false, &lines))
+           read_csv_columns(filename, entry, {"slip_mm", "phi"}, false, &lines))
         {
           const std::string line =
             "line " + std::to_string(lines[slip.size()]) + ": ";
-          if (slip.empty() ? row[0] != 0. : !(row[0] > slip.back()))
-            refuse_table(filename,
-                         line + "slip_mm = " + to_text(row[0]) +
-                           ": expected distances that begin with 0 and ascend");
-          if (!(row[1] >= 0. && row[1] <= 1.))
-            refuse_table(filename,
-                         line + "phi = " + to_text(row[1]) +
-                           ": expected 0 to 1");
-          if (!phi.empty() && row[1] > phi.back())
-            refuse_table(filename,
-                         line + "phi = " + to_text(row[1]) + " is more than " +
-                           to_text(phi.back()) +
-                           " in the row before: a bond does not heal");
+          const std::string said = line + "phi = " + to_text(row[1]);
+          expect(slip.empty() ? row[0] == 0. : row[0] > slip.back(),
+                 line + "slip_mm = " + to_text(row[0]) +
+                   ": expected distances that begin with 0 and ascend");
+          expect(row[1] >= 0. && row[1] <= 1., said + ": expected 0 to 1");
+          const double before = phi.empty() ? 1. : phi.back();
+          expect(row[1] <= before,
+                 said + " is more than " + to_text(before) +
+                   " in the row before: a bond does not heal");
           slip.push_back(row[0]);
           phi.push_back(row[1]);
         }
-      if (slip.size() < 4)
-        refuse_table(filename,
-                     "expected at least four rows of slip_mm and phi");
+      expect(slip.size() >= 4,
+             "expected at least four rows of slip_mm and phi");
       return std::make_shared<TableFriction>(
         mu_broken, mu_unbroken, filename, slip, phi);
     }
@@ -193,7 +175,7 @@ namespace Debond
       "as modified coulomb, with the decay of the bond from Friction table",
       BondFriction::entries(
         {{"",
-          table_entry,
+          "Friction table",
           "",
           Allowed::optional_text("the name of a CSV file"),
           "CSV file with the columns slip_mm, the sliding distance g_s [mm], "
@@ -205,7 +187,7 @@ namespace Debond
       [](const FrictionLawChoice &choice) {
         return read_table(choice.number("Friction coefficient broken"),
                           choice.number("Friction coefficient unbroken"),
-                          choice.text(table_entry));
+                          choice.text("Friction table"));
       }};
   }
 } // namespace Debond

@@ -383,7 +383,7 @@ namespace Debond
     const ContactInterface    &interface = system.interface;
     const std::vector<double> &times     = scene.load_steps.times;
     out << unknowns_of(system) << '\n'
-        << interface.n_points() << " slave quadrature points on the "
+        << interface.get_points().size() << " slave quadrature points on the "
         << name_of(interface.slave_side()) << '\n'
         << "memory: some " << std::ceil(estimated_memory_MB(scene)) << " MB\n"
         << "initial bonding " << name_of(scene.interface.bonding.pattern)

@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 
-#include <array>
 #include <cassert>
 #include <vector>
 
@@ -12,14 +11,12 @@ namespace Debond
   /** Largest polynomial degree of a contact surface. */
   constexpr unsigned int max_degree = 2;
 
-  /** Values and first two derivatives, with respect to u, of the p+1 Bernstein
-   *  polynomials of degree p <= max_degree at u in [0,1]. */
+  /** Values and first two derivatives, with respect to u, of p+1 polynomials;
+   *  the others are zero. */
   struct BernsteinValues
   {
-    std::array<double, max_degree + 1> B, dB, ddB;
+    Eigen::Vector3d B, dB, ddB;
   };
-  BernsteinValues
-  bernstein(unsigned int degree, double u);
 
   /**
    * An open knot vector over [0,1] and the Bezier extraction operators of its
@@ -31,12 +28,10 @@ namespace Debond
     KnotVector() = default;
     /** @p knots: non-decreasing, first and last repeated degree+1 times. */
     KnotVector(unsigned int degree, const std::vector<double> &knots);
-    static KnotVector
-    uniform(unsigned int degree, unsigned int n_spans);
     /** Simple inner knots (1 + sign(s) |s|^g)/2 with g = @p grading and s
      *  equally spaced in [-1,1]: g > 1 makes the spans in the middle short. */
     static KnotVector
-    graded(unsigned int degree, unsigned int n_spans, double grading);
+    graded(unsigned int degree, unsigned int n_spans, double grading = 1);
 
     unsigned int
     degree() const
@@ -75,14 +70,6 @@ namespace Debond
       assert(span < n_spans());
       return first_function[span];
     }
-    /** C of Eq. (35): B-splines on the span = C * Bernstein, (p+1) x (p+1). */
-    const Eigen::Matrix3d &
-    extraction_operator(const unsigned int span) const
-    {
-      assert(span < n_spans());
-      return extraction[span];
-    }
-
     /** B-spline values and derivatives (with respect to the knot parameter) on
      *  a span; u need not lie inside the span. */
     BernsteinValues
@@ -92,8 +79,9 @@ namespace Debond
     unsigned int              p = 0;
     std::vector<double>       knot_values, breaks;
     std::vector<unsigned int> first_function;
-    std::vector<Eigen::Matrix3d>
-      extraction; // upper left (p+1)x(p+1) block used
+    /** C of Eq. (35): B-splines on the span = C * Bernstein, in the upper left
+     *  (p+1) x (p+1) block; zero elsewhere. */
+    std::vector<Eigen::Matrix3d> extraction;
   };
 } // namespace Debond
 #endif

@@ -24,10 +24,10 @@ namespace Debond
     unsigned int size    = 0; ///< (p+1)^2: 9 biquadratic, 4 bilinear
     unsigned int element = 0; ///< element index, first parameter fastest
     std::array<unsigned int, max_size> control_point; ///< global indices
-    std::array<double, max_size>       N;             ///< values
-    std::array<double, max_size>       N_1;           ///< d/dxi^1
-    std::array<double, max_size>       N_2;           ///< d/dxi^2
-    std::array<double, max_size>       N_11, N_12, N_22;
+
+    std::array<double, max_size> N;        ///< values
+    std::array<double, max_size> N_1, N_2; ///< d/dxi^1, d/dxi^2
+    std::array<double, max_size> N_11, N_12, N_22;
   };
 
   /**

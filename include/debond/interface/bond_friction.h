@@ -15,8 +15,10 @@ namespace Debond
   class BondFriction : public FrictionLaw
   {
   public:
-    /** mu_b and mu_ub. */
-    BondFriction(double mu_broken, double mu_unbroken);
+    BondFriction(const double mu_broken, const double mu_unbroken)
+      : mu_b(mu_broken)
+      , drop(mu_unbroken - mu_broken)
+    {}
 
     FrictionCoefficient
     coefficient(const FrictionState &start, double distance) const override;
@@ -55,7 +57,7 @@ namespace Debond
     steepest_decay(double slip) const = 0;
 
   private:
-    const double mu_b, mu_ub, drop; ///< mu_ub - mu_b
+    const double mu_b, drop; ///< mu_ub - mu_b
   };
 
 
@@ -67,16 +69,15 @@ namespace Debond
     double mu_unbroken       = 0.58;  ///< mu_ub
     double sliding_threshold = 0.022; ///< a_s [mm]
     double transition_factor = 0.74;  ///< b_s
+    bool   frictionless      = false; ///< what a law of this kind is called
   };
 
   FrictionLawPointer
   modified_coulomb(const ModifiedCoulombParameters &parameters = {});
 
-  /** Coulomb's law, whose @p mu no bond changes, and none. The bond is reported
-   *  as with the default of Eq. (13). */
+  /** Coulomb's law, whose @p mu no bond changes. The bond is reported as with
+   *  the default of Eq. (13). */
   FrictionLawPointer
   coulomb(double mu = ModifiedCoulombParameters().mu_broken);
-  FrictionLawPointer
-  frictionless();
 } // namespace Debond
 #endif

@@ -1,7 +1,7 @@
 #ifndef debond_interface_bonding_pattern_h
 #define debond_interface_bonding_pattern_h
 
-#include <debond/geometry/surface_quadrature.h>
+#include <debond/geometry/surface_geometry.h>
 #include <debond/interface/bonding_parameters.h>
 
 #include <string>
@@ -86,17 +86,7 @@ namespace Debond
       return by_element ? quadrature_point / (n * n) : quadrature_point;
     }
     void
-    make_parts();
-    void
     fill(const BondingParameters &parameters, const BodyParameters &implant);
-    /** Bonds the parts of smallest rank; ranks that differ by at most
-     *  @p tolerance are equal. */
-    void
-    bond_in_order(const std::vector<double> &rank,
-                  double                     tolerance,
-                  double                     bonded_fraction);
-    void
-    bond_at_random(const BondingParameters &parameters);
     void
     count_patches();
 

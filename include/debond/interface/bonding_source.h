@@ -10,27 +10,21 @@ namespace Debond
 {
   struct BodyParameters;
 
-  /** The patterns expression and image: area means over all elements or, with
-   *  that resolution, values at all points of surface_quadrature() with @p n
-   *  points per direction and element. Means of expressions take some 200
-   *  quadrature points across the face; pictures are first reduced to means
-   * over 256 x 256 parts, and then take two points in each direction for every
-   * part.
-   *  @p remark: what a user should know of it, if anything.
+  /** The patterns expression, image and file: phi_0 of all elements or, with
+   *  that resolution, of all points of surface_quadrature() with @p n points
+   *  per direction and element, whose places are the @p centres [mm].
    *
-   *  All functions of this file throw EntryError. */
+   *  Elements take area means. Those of expressions take some 200 quadrature
+   *  points across the face; pictures are first reduced to means over 256 x 256
+   *  parts, and then take two points in each direction for every part.
+   *  @p remark: what a user should know of it, if anything. Throws EntryError.
+   */
   std::vector<double>
-  values_by_place(const BondingParameters &parameters,
-                  const BodyParameters    &implant,
-                  const NurbsSurface      &surface,
-                  unsigned int             n,
-                  std::string             &remark);
-
-  /** The pattern file: a value for each of the @p centres of elements or, with
-   *  that resolution, quadrature points [mm]. */
-  std::vector<double>
-  values_from_file(const BondingParameters            &parameters,
-                   const NurbsSurface                 &surface,
-                   const std::vector<Eigen::Vector2d> &centres);
+  bonding_from_source(const BondingParameters            &parameters,
+                      const BodyParameters               &implant,
+                      const NurbsSurface                 &surface,
+                      unsigned int                        n,
+                      const std::vector<Eigen::Vector2d> &centres,
+                      std::string                        &remark);
 } // namespace Debond
 #endif

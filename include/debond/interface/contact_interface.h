@@ -4,8 +4,6 @@
 #include <debond/interface/bonding_pattern.h>
 #include <debond/interface/interface_parameters.h>
 #include <debond/interface/interface_summary.h>
-#include <debond/interface/interface_work.h>
-#include <debond/interface/mean_slip.h>
 
 #include <memory>
 #include <string>
@@ -19,9 +17,12 @@ namespace Debond
    * The interface: the slave quadrature points, their history, the forces they
    * exert on the control points of both surfaces, and the tangent.
    *
-   * evaluate() computes a *trial* result of every point from the accepted
-   * history and never changes that history; commit() is the only way to accept
-   * it. A rejected step therefore leaves no trace.
+   * A step goes as follows. Newton's method proposes an InterfaceConfiguration:
+   * where both surfaces are. evaluate() computes a *trial* result of every
+   * point from the accepted history and never changes that history; force() has
+   * the sums of Eq. (36), add_tangent() or apply_tangent() their derivatives.
+   * When the step has converged, and only then, commit() makes the trial states
+   * the accepted ones, so that a rejected step leaves no trace.
    */
   class ContactInterface
   {
@@ -30,20 +31,10 @@ namespace Debond
                      const BodyMesh            &bone,
                      const BodyMesh            &implant);
 
-    unsigned int
-    n_points() const
-    {
-      return points.size();
-    }
     Side
     slave_side() const
     {
       return slave;
-    }
-    Side
-    master_side() const
-    {
-      return other(slave);
     }
 
     /** Faces every point with its closest point on the master. */
@@ -63,10 +54,14 @@ namespace Debond
       return forces[side];
     }
 
-    /** Tangent of the last evaluate(), see add_contact_tangent(). */
+    /** Adds the tangent of the last evaluate() to a dense matrix: rows are
+     *  equations of control points in their bodies' frames and of chuck
+     *  components, d(force)/d(unknowns), without the terms that come from the
+     *  rotation of frames and lever arms (see CoupledTangent). */
     void
     add_tangent(const InterfaceConfiguration &configuration,
                 Eigen::MatrixXd              &matrix) const;
+    /** Adds the product of that tangent with a vector of unknowns. */
     void
     apply_tangent(const InterfaceConfiguration &configuration,
                   const Eigen::VectorXd        &direction,
@@ -107,7 +102,10 @@ namespace Debond
     }
     /** phi and mu of a point in its trial state. */
     FrictionCoefficient
-    friction(const SlavePoint &point) const;
+    friction(const SlavePoint &point) const
+    {
+      return point.friction(*law.friction, point.trial.state);
+    }
     /** The mean of phi_0 over the slave's quadrature points that face the
      *  implant at the start: that of the pattern if the implant is the slave.
      */
@@ -125,7 +123,7 @@ namespace Debond
       return parameters;
     }
 
-    /** Of the last evaluate(), see mean_slip.h. */
+    /** Of the last evaluate(). */
     MeanSlip
     mean_slip(const InterfaceConfiguration &configuration) const;
 
@@ -141,11 +139,11 @@ namespace Debond
       return area_of_implant;
     }
 
-    /** What has been spent up to the accepted state. */
+    /** The works up to the accepted state. */
     const InterfaceWork &
     work() const
     {
-      return spent;
+      return works;
     }
 
     /** Where the last evaluate() failed, for messages; empty if it did not. */
@@ -159,31 +157,27 @@ namespace Debond
     {
       for (SlavePoint &point : points)
         archive &point;
-      archive &forces &accepted_positions &spent;
+      archive &forces &accepted_positions &works;
     }
 
   private:
+    Side
+    master_side() const
+    {
+      return other(slave);
+    }
+    MasterSurface
+    master(const InterfaceConfiguration &configuration) const;
     void
     assign_bonding();
     void
-    update(SlavePoint                   &point,
-           const InterfaceConfiguration &configuration,
-           const MasterSurface          &surface,
-           double                        moved,
-           const ContactPointMode       &mode) const;
-    void
-    add_forces(const SlavePoint &point, NodalSums &sums) const;
-    void
     project_accepted(SlavePoint                   &point,
-                     const MasterSurface          &master,
                      const InterfaceConfiguration &configuration,
                      bool                          use_guess);
     /** Bound of how far points of the two surfaces have moved towards each
      *  other since the accepted configuration [mm]. */
     double
     motion(const InterfaceConfiguration &configuration) const;
-    MasterSurface
-    master(const InterfaceConfiguration &configuration) const;
 
     const InterfaceParameters             parameters;
     const ContactPointLaw                 law;
@@ -193,9 +187,9 @@ namespace Debond
     double                                area_of_implant = 0;
     std::unique_ptr<const BondingPattern> pattern;
     NodalSums                             forces, accepted_positions;
-    InterfaceWork                         spent;
-    unsigned int                          unprojected  = 0;
-    int                                   failed_point = -1;
+    InterfaceWork                         works;
+    unsigned int                          unprojected = 0;
+    const SlavePoint                     *failed      = nullptr;
     ContactPointMode                      mode_now; ///< of the last evaluate()
   };
 } // namespace Debond

@@ -2,10 +2,59 @@
 #define debond_interface_contact_law_h
 
 #include <debond/interface/friction_law.h>
-#include <debond/interface/normal_law.h>
+
+#include <memory>
 
 namespace Debond
 {
+  /** What an interface does to a normal gap g_n. */
+  struct NormalResponse
+  {
+    double pressure  = 0; ///< p [MPa]; negative where it pulls
+    double stiffness = 0; ///< -dp/dg_n [MPa/mm]
+    double energy    = 0; ///< stored per area [N/mm]
+  };
+
+  /**
+   * The law across the interface: pressure over the gap. An object does not
+   * change; what a point remembers is in its history.
+   */
+  class NormalLaw
+  {
+  public:
+    virtual ~NormalLaw() = default;
+
+    /** At the gap @p g_n [mm] of a point with this @p history. Points that are
+     *  closed ask for gaps below reach(); the response goes on smoothly for
+     *  larger ones, where Newton's method may look and where touching points
+     *  have their tangent. */
+    virtual NormalResponse
+    respond(double g_n, const PointHistory &history) const = 0;
+
+    /** The gap from which on nothing is carried [mm]: 0 unless the law has
+     *  strength in tension. Points open there. */
+    virtual double
+    reach(const PointHistory &) const
+    {
+      return 0.;
+    }
+
+    /** What a point remembers of being opened. */
+    virtual void
+    open(PointHistory &) const
+    {}
+
+    /** Stiffness of a point that has just closed [MPa/mm]: scales forces, and
+     *  is the spring that closed forms set the bodies in series with. */
+    virtual double
+    initial_stiffness() const = 0;
+  };
+
+  /** p = -eps_n g_n, with eps_n = @p stiffness > 0 [MPa/mm].
+   *  @p opening_breaks_bond: the entry of this name. */
+  std::shared_ptr<const NormalLaw>
+  penalty_law(double stiffness, bool opening_breaks_bond = false);
+
   /** What governs all points of an interface. */
   struct ContactPointLaw
   {

@@ -1,9 +1,8 @@
 #ifndef debond_interface_interface_summary_h
 #define debond_interface_interface_summary_h
 
+#include <debond/interface/interface_configuration.h>
 #include <debond/interface/slave_point.h>
-
-#include <vector>
 
 namespace Debond
 {
@@ -29,10 +28,55 @@ namespace Debond
     unsigned int n_closed = 0;
   };
 
-  /** @p mode: with which the points were evaluated. */
-  InterfaceSummary
-  summarise(const std::vector<SlavePoint> &points,
-            const ContactPointLaw         &law,
-            const ContactPointMode        &mode);
+  /** Area mean of the sliding distance g_s over the contact face [mm], and its
+   *  derivatives with respect to the positions of the control points of both
+   *  surfaces, in space. */
+  struct MeanSlip
+  {
+    double    value = 0;
+    NodalSums gradient;
+  };
+
+  /** The works of the interface up to the accepted state [N mm]. */
+  struct InterfaceWork
+  {
+    /** Dissipated work, a trapezoid in the traction. */
+    double dissipation = 0;
+    /** Slip of the last step times the tractions at its end. A trapezoid may be
+     *  negative where the slip reverses; this is so only where points slide
+     *  along their traction. */
+    double step_dissipation = 0;
+    /** The part of the dissipation that breaks the bond (D_adh, integral of (mu
+     *  - mu_b) p dg_s): the mean pressure times the exact integral over the
+     *  sliding distance. */
+    double adhesive = 0;
+    /** The part of the dissipation that the viscosity makes up. */
+    double viscous = 0;
+    /** Work of friction with the integral of the law over the sliding distance
+     *  instead of a trapezoid, and of viscosity: a step that jumps dissipates
+     *  no more than that. */
+    double friction = 0;
+    /** How far the work of friction and the stored energy may be wrong because
+     *  the pressure or the speed changes while a point slides, and because
+     *  points that open slide before they do; a bound of the sum over all
+     *  steps. */
+    double friction_bound = 0;
+
+    /** Adds the work of @p point from its accepted state to its trial state;
+     *  @p mode: of the step; @p frame: Q of the master. */
+    void
+    add(const SlavePoint       &point,
+        const FrictionLaw      &law,
+        const ContactPointMode &mode,
+        const Eigen::Matrix3d  &frame);
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &dissipation &adhesive &viscous &friction &friction_bound;
+    }
+  };
 } // namespace Debond
 #endif

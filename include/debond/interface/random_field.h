@@ -4,31 +4,10 @@
 #include <Eigen/Core>
 
 #include <cstdint>
-#include <random>
 #include <vector>
 
 namespace Debond
 {
-  /** Random numbers that are the same everywhere: the C++ standard fixes the
-   *  generator, but not its distributions. */
-  class PortableRandom
-  {
-  public:
-    explicit PortableRandom(const std::uint64_t seed)
-      : generator(seed)
-    {}
-
-    /** Evenly distributed in (0, 1). */
-    double
-    uniform();
-    /** A whole number in [0, @p n), all equally likely. */
-    std::uint64_t
-    index(std::uint64_t n);
-
-  private:
-    std::mt19937_64 generator;
-  };
-
   /** The numbers 0 ... n-1 in random order, every order equally likely. */
   std::vector<unsigned int>
   random_order(unsigned int n, std::uint64_t seed);

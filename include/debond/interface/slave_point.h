@@ -1,19 +1,15 @@
 #ifndef debond_interface_slave_point_h
 #define debond_interface_slave_point_h
 
+#include <debond/geometry/surface_geometry.h>
 #include <debond/interface/contact_point.h>
 
 namespace Debond
 {
   /** A quadrature point of the slave surface: where it lies, its history, and
    *  what it contributes in the trial state. */
-  struct SlavePoint
+  struct SlavePoint : SurfaceQuadraturePoint
   {
-    unsigned int      element = 0;
-    Eigen::Vector2d   xi; ///< on the slave
-    Eigen::Vector3d   X;  ///< reference position [mm]
-    SurfaceBasis      basis;
-    double            JxW   = 0; ///< reference area [mm^2]
     double            phi_0 = 0;
     ContactPointState accepted;
     /** For points beyond the master's edge: how far the surfaces may still

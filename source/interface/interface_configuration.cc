@@ -1,5 +1,5 @@
 #include <debond/bulk/chuck.h>
-#include <debond/interface/nodal_sums.h>
+#include <debond/interface/interface_configuration.h>
 
 namespace Debond
 {
@@ -11,6 +11,23 @@ namespace Debond
       sums[side].setZero(3, configuration.side[side].positions.cols());
     return sums;
   }
+
+
+
+  namespace
+  {
+    /** The velocities of the implant's control points with a component of the
+     *  chuck. */
+    ControlNet
+    velocities(const InterfaceConfiguration &configuration,
+               const unsigned int            component)
+    {
+      ControlNet result = configuration.side[Side::implant].positions;
+      for (auto x : result.colwise())
+        x = configuration.chuck->velocity(component, x);
+      return result;
+    }
+  } // namespace
 
 
 
@@ -27,11 +44,9 @@ namespace Debond
             moved[s](i % 3, i / 3) = unknowns[side.unknown_of[i]];
         moved[s] = (side.frame * moved[s]).eval();
       }
-    const auto &x = configuration.side[Side::implant].positions;
     for (const auto &[component, number] : configuration.chuck_unknowns)
-      for (unsigned int A = 0; A < x.cols(); ++A)
-        moved[Side::implant].col(A) +=
-          unknowns[number] * configuration.chuck->velocity(component, x.col(A));
+      moved[Side::implant] +=
+        unknowns[number] * velocities(configuration, component);
     return moved;
   }
 
@@ -51,11 +66,10 @@ namespace Debond
           if (side.unknown_of[i] >= 0)
             result[side.unknown_of[i]] += factor * in_frame(i % 3, i / 3);
       }
-    const auto &x = configuration.side[Side::implant].positions;
     for (const auto &[component, number] : configuration.chuck_unknowns)
-      for (unsigned int A = 0; A < x.cols(); ++A)
-        result[number] +=
-          factor * sums[Side::implant].col(A).dot(
-                     configuration.chuck->velocity(component, x.col(A)));
+      result[number] +=
+        factor * sums[Side::implant]
+                   .cwiseProduct(velocities(configuration, component))
+                   .sum();
   }
 } // namespace Debond

@@ -20,9 +20,12 @@ using namespace Debond;
 void
 move(CoupledSystem &system, const Eigen::VectorXd &dv)
 {
-  system.correct_bodies(dv);
-  for (const auto &[component, number] : system.configuration.chuck_unknowns)
-    system.chuck.correct(component, dv[number]);
+  const unsigned int n = system.bone.n_unknowns();
+  system.correct(
+    {dv,
+     {{system.bone.correction(dv.head(n), {}),
+       system.implant.correction(dv.segment(n, system.implant.n_unknowns()),
+                                 {})}}});
 }
 
 void

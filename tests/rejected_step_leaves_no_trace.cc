@@ -41,10 +41,10 @@ public:
        const unsigned int max_iterations = 25)
   {
     NewtonOptions options;
-    options.residual_tolerance = 1e-12;
-    options.touch_tolerance    = 1e-12 * system.R;
-    options.stick_first        = !extrapolate;
-    options.max_iterations     = max_iterations;
+    options.residual_tolerance     = 1e-12;
+    options.points.touch_tolerance = 1e-12 * system.R;
+    options.points.stick_first     = !extrapolate;
+    options.max_iterations         = max_iterations;
     system.predict(time, extrapolate);
     const bool converged = solve_newton(system, options).converged;
     if (converged)

@@ -9,11 +9,12 @@ namespace Debond
 {
   Body::Body(const BodyParameters &parameters,
              const Side            side,
-             const bool            has_bulk)
+             const StressLaw       law)
     : body_mesh(parameters, side)
-    , own_bulk(has_bulk ? make_bulk(body_mesh) : nullptr)
+    , own_bulk(law ? make_bulk(body_mesh) : nullptr)
     , v(Eigen::VectorXd::Zero(3 * body_mesh.n_nodes()))
     , accepted(v)
+    , law(law)
     , unknown_numbers(3 * body_mesh.surface().n_control_points(), -1)
     , is_contact(body_mesh.surface().n_control_points(), false)
   {}
@@ -28,12 +29,14 @@ namespace Debond
     if (!own_bulk || (contact == is_contact && linearised_at_rest &&
                       v.isZero(0.) && accepted.value.isZero(0.)))
       return;
+    const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(v.size());
     complete_surface(); // what was interior may become an unknown
     number_unknowns(contact);
-    // The reference is always there to fall back on, for a Neo-Hookean body
-    // this matrix being an operator and not the solution.
-    if (!linearise(linearisation_point()) &&
-        !linearise(Eigen::VectorXd::Zero(v.size())))
+    // A Neo-Hookean body is linearised at the accepted state: it is near, and
+    // the trial state may be anything. The reference is always there to fall
+    // back on: the matrix only leads to the solution and does not define it.
+    if (!linearise(has_constant_stiffness() ? at_rest : accepted.value) &&
+        !linearise(at_rest))
       throw EntryError(
         std::string(body_mesh.side() == Side::bone ? "Bone" : "Implant") +
           " / Cells",
@@ -53,6 +56,11 @@ namespace Debond
     for (unsigned int k = 0; k < unknown_dofs.size(); ++k)
       if (unknown_dofs[k] >= first)
         unknown_numbers[unknown_dofs[k] - first] = k;
+    beside_unknowns = false;
+    for (unsigned int i = 0; i < unknown_numbers.size(); ++i)
+      if (unknown_numbers[i] < 0 &&
+          !body_mesh.is_fixed(body_mesh.control_point_node(i / 3), i % 3))
+        beside_unknowns = true;
   }
 
 
@@ -82,6 +90,22 @@ namespace Debond
 
 
 
+  Body::Residual
+  Body::residual(const ControlNet &) const
+  {
+    return {};
+  }
+
+
+
+  Eigen::VectorXd
+  Body::correction(const Eigen::VectorXd &, const Residual &) const
+  {
+    return Eigen::VectorXd::Zero(v.size());
+  }
+
+
+
   Eigen::Map<const ControlNet>
   Body::contact_displacement() const
   {
@@ -92,12 +116,16 @@ namespace Debond
 
 
 
+  // A linear body carries its contact unknowns only from iteration to
+  // iteration. The rest of its surface is in equilibrium with them, and costs a
+  // solve with K_ii to know: that is done if an open point may face it.
   void
   Body::commit(const double time, const bool surface_is_seen)
   {
-    if (surface_is_condensed() && surface_is_seen)
+    const bool is_behind = has_constant_stiffness() && beside_unknowns;
+    if (is_behind && surface_is_seen)
       v = full_displacement(v);
-    surface_is_stale = surface_is_condensed() && !surface_is_seen;
+    surface_is_stale = is_behind && !surface_is_seen;
     accepted.commit(v, time);
   }
 
@@ -119,6 +147,25 @@ namespace Debond
     Eigen::VectorXd full = state;
     body_mesh.distribute(full);
     return full;
+  }
+
+
+
+  std::vector<Eigen::Matrix3d>
+  Body::vertex_stress(const Eigen::VectorXd &state) const
+  {
+    if (own_bulk)
+      return own_bulk->vertex_stress(state, law);
+    return std::vector<Eigen::Matrix3d>(body_mesh.n_vertices(),
+                                        Eigen::Matrix3d::Zero());
+  }
+
+
+
+  Eigen::Matrix<double, 6, 1>
+  Body::reaction_about_origin(const Residual &) const
+  {
+    return Eigen::Matrix<double, 6, 1>::Zero(); // nobody asks a rigid body
   }
 
 

@@ -43,15 +43,15 @@ namespace Debond
             for (auto i = numbers.begin(); i != numbers.end(); ++i)
               pattern.add_entries(*i, i, numbers.end(), true);
           }
-        tangent.n = free_dofs.size();
-        tangent.column_start.push_back(0);
-        tangent.row.reserve(pattern.n_nonzero_elements());
-        for (int column = 0; column < tangent.n; ++column)
+        tangent.resize(free_dofs.size(), free_dofs.size());
+        tangent.reserve(pattern.n_nonzero_elements());
+        for (int column = 0; column < tangent.cols(); ++column)
           {
+            tangent.startVec(column);
             for (unsigned int k = 0; k < pattern.row_length(column); ++k)
-              tangent.row.push_back(pattern.column_number(column, k));
-            tangent.column_start.push_back(tangent.row.size());
+              tangent.insertBack(pattern.column_number(column, k), column) = 0.;
           }
+        tangent.finalize();
       }
 
       std::vector<unsigned int>
@@ -75,23 +75,16 @@ namespace Debond
       bool
       linearise(const Eigen::VectorXd &v) override
       {
-        tangent.value.assign(tangent.row.size(), 0.);
+        tangent.coeffs().setZero();
         Eigen::MatrixXd K;
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
           {
             const auto numbers = free_numbers(cell);
             cells.tangent(cell, v, K);
             for (unsigned int j = 0; j < numbers.size(); ++j)
-              if (numbers[j] >= 0)
-                {
-                  const auto start = tangent.row.begin();
-                  const auto begin = start + tangent.column_start[numbers[j]];
-                  const auto end = start + tangent.column_start[numbers[j] + 1];
-                  for (unsigned int i = 0; i < numbers.size(); ++i)
-                    if (numbers[i] >= numbers[j])
-                      tangent.value[std::lower_bound(begin, end, numbers[i]) -
-                                    start] += K(i, j);
-                }
+              for (unsigned int i = 0; i < numbers.size(); ++i)
+                if (numbers[j] >= 0 && numbers[i] >= numbers[j])
+                  tangent.coeffRef(numbers[i], numbers[j]) += K(i, j);
           }
         Condensation attempt;
         if (!attempt.factorise(tangent, contact))
@@ -124,17 +117,12 @@ namespace Debond
       Bulk::Residual
       condense(const Eigen::VectorXd &r) const override
       {
-        Eigen::VectorXd free(free_dofs.size());
-        for (unsigned int i = 0; i < free_dofs.size(); ++i)
-          free[i] = r[free_dofs[i]];
-        Residual result;
-        result.norm_squared = result.interior_squared = free.squaredNorm();
-        for (const int k : contact)
-          result.interior_squared -= free[k] * free[k];
-        auto parts       = condensation.forward(free);
-        result.condensed = std::move(parts.condensed);
-        result.interior  = std::move(parts.interior);
-        return result;
+        const Eigen::VectorXd free  = r(free_dofs);
+        auto                  parts = condensation.forward(free);
+        return {std::move(parts.condensed),
+                std::move(parts.interior),
+                free.squaredNorm(),
+                free.squaredNorm() - free(contact).squaredNorm()};
       }
 
       // backward() solves K_ii x_i = r_i - K_ic x_c; with x = -dv this is what
@@ -142,10 +130,8 @@ namespace Debond
       Eigen::VectorXd
       correction(const Eigen::VectorXd &dv_c, const Residual &r) const override
       {
-        const Eigen::VectorXd x  = condensation.backward(-dv_c, r.interior);
-        Eigen::VectorXd       dv = Eigen::VectorXd::Zero(free_number.size());
-        for (unsigned int i = 0; i < free_dofs.size(); ++i)
-          dv[free_dofs[i]] = -x[i];
+        Eigen::VectorXd dv = Eigen::VectorXd::Zero(free_number.size());
+        dv(free_dofs)      = -condensation.backward(-dv_c, r.interior);
         return dv;
       }
 

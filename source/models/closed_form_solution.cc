@@ -2,7 +2,6 @@
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 #include <debond/system/energy_balance.h>
-#include <debond/system/load_stepping.h>
 
 #include <algorithm>
 #include <cmath>
@@ -87,9 +86,8 @@ namespace Debond
     : scene(scene)
   {
     check_scene_is_simple(scene);
-    const LoadStepping stepping(scene.load_steps);
-    for (unsigned int step = 0; step <= stepping.n_steps(); ++step)
-      loads.push_back(load_at(stepping.time(step)));
+    for (const double time : scene.load_steps.planned_times())
+      loads.push_back(load_at(time));
     check_loads();
     find_stiffness();
     make_model();
@@ -367,12 +365,13 @@ namespace Debond
     EnergyBalance energy;
     for (unsigned int step = 0; step < loads.size(); ++step)
       {
-        TorqueRow      next  = row(step);
-        Chuck::Vector6 force = Chuck::Vector6::Zero(), position = force;
-        force[twist]    = next.torque_Nmm;
-        position[twist] = angle_of_disk(loads[step]);
-        energy.add(
-          force, position, 0., next.energy_interface_Nmm, next.dissipation_Nmm);
+        TorqueRow   next = row(step);
+        EnergyState state;
+        state.forces[twist]   = next.torque_Nmm;
+        state.position[twist] = angle_of_disk(loads[step]);
+        state.stored          = next.energy_interface_Nmm;
+        state.dissipated      = next.dissipation_Nmm;
+        energy.add(state);
         next.work_Nmm            = energy.work();
         next.energy_defect       = energy.defect();
         next.energy_defect_bound = energy.defect_bound();

@@ -243,7 +243,7 @@ namespace Debond
     std::ostringstream message;
     message << "Step " << all_rows.size();
     if (scene.load_steps.rows_are_planned())
-      message << " of " << LoadStepping(scene.load_steps).n_steps();
+      message << " of " << scene.load_steps.n_steps();
     message << " failed at time "
             << (step.by_slip() ? coupled_system.time() : step.whole_time)
             << ", angle "
@@ -273,7 +273,7 @@ namespace Debond
         spent.shortest_step =
           std::fmin(spent.shortest_step, std::abs(to - from));
         if (scene.has_friction() && scene.has_friction_after(from))
-          state_checks.add_way(row, coupled_system.chuck, from, to);
+          state_checks.add_path(row, coupled_system.chuck, from, to);
       }
     solver.commit();
     state_checks.add(row, coupled_system, result.interface, reaction_defect);

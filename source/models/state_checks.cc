@@ -9,7 +9,7 @@ namespace Debond
 {
   StateChecks::StateChecks(const ModelParameters &parameters)
     : parameters(parameters)
-    , way(parameters.chuck)
+    , path(parameters.chuck)
   {}
 
 
@@ -20,23 +20,21 @@ namespace Debond
                    const InterfaceSummary &summary,
                    const double            reaction_defect)
   {
-    const bool           is_first        = !energy_balance.has_state();
-    const Chuck::Vector6 forces_before   = energy_balance.forces();
-    const Chuck::Vector6 position_before = energy_balance.position();
-    last_reaction_defect                 = reaction_defect;
-    energy_balance.add(system.chuck_forces(),
-                       system.chuck.position(),
-                       system.bulk_energy(),
-                       summary.energy,
-                       system.interface.work().dissipation);
+    const bool        is_first = !energy_balance.has_state();
+    const EnergyState before   = energy_balance.state();
+    last_reaction_defect       = reaction_defect;
+    energy_balance.add({system.chuck_forces(),
+                        system.chuck.position(),
+                        system.bulk_energy() + summary.energy,
+                        system.interface.work().dissipation});
     const std::string where = "step " + std::to_string(step) + ": ";
-    // the explicit law does not spend what InterfaceWork::friction says
+    // the explicit law does not dissipate what InterfaceWork::friction says
     if (!parameters.interface.explicit_friction)
-      check_for_jump(where, forces_before, system, summary);
+      check_for_jump(where, before.forces, system, summary);
     check_interface(where, system, summary);
     if (!is_first)
       check_turn(where,
-                 (system.chuck.position() - position_before).tail<3>().norm());
+                 (system.chuck.position() - before.position).tail<3>().norm());
     check_reaction(where);
     check_energy_balance(where, system.interface.work().step_dissipation);
   }
@@ -45,18 +43,18 @@ namespace Debond
 
   // What slides does so by less than it should.
   void
-  StateChecks::add_way(const unsigned int step,
-                       const Chuck       &chuck,
-                       const double       from,
-                       const double       to)
+  StateChecks::add_path(const unsigned int step,
+                        const Chuck       &chuck,
+                        const double       from,
+                        const double       to)
   {
-    way.add(chuck, from, to);
-    if (way.missed_share() > ChuckWay::largest_missed_share)
+    path.add(chuck, from, to);
+    if (path.missed_share() > ChuckPath::largest_missed_share)
       note_violation("way",
                      "step " + std::to_string(step) +
                        ": steps go straight from state to state, and have "
                        "missed " +
-                       way.describe() +
+                       path.describe() +
                        " so far: what turns back or goes along a curve needs "
                        "shorter steps, or Load steps / Times where it turns");
   }
@@ -140,15 +138,14 @@ namespace Debond
                               const InterfaceSummary &summary)
   {
     const ContactInterface &interface = system.interface;
-    ReleasedEnergy::State   now;
-    now.forces   = system.chuck_forces();
-    now.position = system.chuck.machine_position();
-    now.stored =
-      system.chuck.machine_energy() + system.bulk_energy() + summary.energy;
-    now.spent                  = interface.work().friction;
-    now.bound                  = interface.work().friction_bound;
-    const double      released = released_energy.add(now);
-    const std::string change =
+    const EnergyState       now{system.chuck_forces(),
+                          system.chuck.machine_position(),
+                          system.chuck.machine_energy() + system.bulk_energy() +
+                            summary.energy,
+                          interface.work().friction,
+                          interface.work().friction_bound};
+    const double            released = released_energy.add(now);
+    const std::string       change =
       describe_change(forces_before, now.forces, system.R);
     if (released > 0.)
       {
@@ -228,11 +225,12 @@ namespace Debond
     if (turn > 1.001 * largest_turn && parameters.has_friction())
       {
         std::ostringstream text;
-        text << where << "the implant turned by " << turn * 180. / M_PI
-             << " degrees in one step: sliding points are pulled along the "
-                "chords of their ways, and friction is too small by 1 - cos of "
-                "half the angle, "
-             << 1. - std::cos(0.5 * turn) << " of itself";
+        text
+          << where << "the implant turned by " << turn * 180. / M_PI
+          << " degrees in one step: sliding points are pulled along the "
+             "chords of their paths, and friction is too small by 1 - cos of "
+             "half the angle, "
+          << 1. - std::cos(0.5 * turn) << " of itself";
         note_violation("turn", text.str());
       }
   }
@@ -269,7 +267,8 @@ namespace Debond
       note_violation("dissipation falls",
                      where + "sliding gives energy back: points slide along "
                              "their traction instead of against it");
-    if (energy_balance.is_out_of_balance())
+    if (std::abs(energy_balance.defect()) >
+        energy_balance.defect_bound() + 1e-9)
       {
         std::ostringstream text;
         text << where << "of the chuck's work, " << energy_balance.defect()

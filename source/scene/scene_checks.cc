@@ -3,7 +3,6 @@
 #include <debond/interface/bonding_pattern.h>
 #include <debond/scene/scene.h>
 #include <debond/support/number_text.h>
-#include <debond/system/load_stepping.h>
 
 #include <algorithm>
 #include <cmath>
@@ -138,9 +137,8 @@ namespace Debond
                              "expected");
           return;
         }
-      const LoadStepping stepping(load_steps);
-      for (unsigned int step = 0; step <= stepping.n_steps(); ++step)
-        if (std::abs(stepping.time(step) - interface.friction_starts_at) <=
+      for (const double time : load_steps.planned_times())
+        if (std::abs(time - interface.friction_starts_at) <=
             1e-9 * (times.back() - times.front()))
           return;
       throw EntryError(entry,

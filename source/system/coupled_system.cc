@@ -24,6 +24,7 @@ namespace Debond
                            std::make_shared<BodyPair>(parameters))
     , bone(*both_bodies->bone)
     , implant(*both_bodies->implant)
+    , body{{&bone, &implant}}
     , chuck(parameters.chuck,
             Eigen::Vector3d(0, 0, parameters.implant.thickness()),
             parameters.implant.characteristic_radius())
@@ -32,7 +33,7 @@ namespace Debond
     , timer(timer)
     , force_floor(parameters.interface.law().normal->initial_stiffness() *
                   interface.implant_area() * 1e-6 * R)
-    , matrix(bone, implant, interface, configuration, path)
+    , matrix(body, interface, configuration, path)
   {
     configuration.chuck = &chuck;
     path.follow         = parameters.load_steps.follow_path;
@@ -63,8 +64,7 @@ namespace Debond
   void
   CoupledSystem::number_unknowns()
   {
-    const std::array<const Body *, 2> body{{&bone, &implant}};
-    unsigned int                      first = 0;
+    unsigned int first = 0;
     for (const Side side : both_sides)
       {
         configuration.side[side].unknown_of = body[side]->unknown_of();
@@ -107,7 +107,7 @@ namespace Debond
   bool
   CoupledSystem::extend_contact_unknowns()
   {
-    if (!bone.deformable())
+    if (!bone.bulk())
       return false;
     std::vector<bool>       wanted = bone.contact_control_points();
     const std::vector<bool> touched =
@@ -183,9 +183,7 @@ namespace Debond
           if (numbers[3 * A + c] >= 0)
             dv[numbers[3 * A + c]] = back[c];
       }
-    // the interior follows as if nothing else acted
-    implant.correct(dv,
-                    implant.residual(ControlNet::Zero(3, reference.cols())));
+    implant.correct(implant.correction(dv, {}));
   }
 
 
@@ -252,21 +250,20 @@ namespace Debond
     unsigned int       first = 0;
     for (const Side side : both_sides)
       {
-        const Body     &body = (side == Side::bone ? bone : implant);
         Body::Residual &part = bulk_residual[side];
         // Q^T turns the forces into the body's frame
-        part = body.residual(configuration.side[side].frame.transpose() *
-                             interface.force(side));
+        part = body[side]->residual(configuration.side[side].frame.transpose() *
+                                    interface.force(side));
         if (!part.valid)
           {
             result.why = std::string("a cell of the ") + name_of(side) +
                          " is turned inside out";
             return result;
           }
-        residual.segment(first, body.n_unknowns()) = part.condensed;
+        residual.segment(first, body[side]->n_unknowns()) = part.condensed;
         norm_squared += part.norm_squared;
         interior_squared += part.interior_squared;
-        first += body.n_unknowns();
+        first += body[side]->n_unknowns();
       }
 
     // A residual is small compared with the contact force, or, where bodies
@@ -325,70 +322,61 @@ namespace Debond
 
 
 
-  // One Newton correction: (S + Q^T (df/dx) Q) dv = r, and v - dv.
-  std::optional<std::string>
-  CoupledSystem::solve_and_correct(const double relative_tolerance)
+  // One Newton correction: (S + Q^T (df/dx) Q) dv = -r. Each body then says how
+  // its interior follows.
+  CoupledSystem::Correction
+  CoupledSystem::solve(const double relative_tolerance)
   {
-    Eigen::VectorXd &correction = last_correction;
+    Correction result;
     {
       const TimedSection t(timer, "dense solve");
-      correction = solver.solve(matrix, residual, relative_tolerance);
+      result.unknowns = -solver.solve(matrix, residual, relative_tolerance);
     }
-    if (!correction.allFinite())
+    if (!result.unknowns.allFinite())
+      result.why = "the system of equations is singular";
+    else
+      for (const auto &[component, number] : configuration.chuck_unknowns)
+        if (!chuck.is_prescribed(component) &&
+            chuck.machine_stiffness(component) == 0. &&
+            std::abs(result.unknowns[number]) >
+              (is_rotation(component) ? 1. : 10. * R))
+          result.why = std::string("the loaded chuck component ") +
+                       ChuckParameters::names[component] +
+                       " meets no resistance";
+    if (!result.why.empty())
       {
         solver.forget();
-        return "the system of equations is singular";
+        return result;
       }
-    for (const auto &[component, number] : configuration.chuck_unknowns)
-      if (!chuck.is_prescribed(component) &&
-          chuck.machine_stiffness(component) == 0. &&
-          std::abs(correction[number]) >
-            (is_rotation(component) ? 1. : 10. * R))
-        {
-          solver.forget();
-          return std::string("the loaded chuck component ") +
-                 ChuckParameters::names[component] + " meets no resistance";
-        }
     const TimedSection t(timer, "bulk");
-    correct_bodies(-correction);
-    correct_chuck(-1.);
-    return std::nullopt;
+    unsigned int       first = 0;
+    for (const Side side : both_sides)
+      {
+        const unsigned int n = body[side]->n_unknowns();
+        result.bodies[side] =
+          body[side]->correction(result.unknowns.segment(first, n),
+                                 bulk_residual[side]);
+        first += n;
+      }
+    return result;
   }
 
 
 
+  // Prescribed components of the chuck follow the time.
   void
-  CoupledSystem::correct_bodies(const Eigen::VectorXd &dv)
+  CoupledSystem::correct(const Correction &correction, const double fraction)
   {
-    const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
-    bone.correct(dv.head(n_b), bulk_residual[Side::bone]);
-    implant.correct(dv.segment(n_b, n_i), bulk_residual[Side::implant]);
-  }
-
-
-
-  void
-  CoupledSystem::correct_chuck(const double factor)
-  {
+    for (const Side side : both_sides)
+      body[side]->correct(fraction * correction.bodies[side]);
     for (const auto &[component, number] : configuration.chuck_unknowns)
       if (!chuck.is_prescribed(component))
-        chuck.correct(component, factor * last_correction[number]);
+        chuck.correct(component, fraction * correction.unknowns[number]);
     if (path.follow)
       {
-        trial_time += factor * last_correction[path.number];
+        trial_time += fraction * correction.unknowns[path.number];
         chuck.prescribe(trial_time);
       }
-  }
-
-
-
-  void
-  CoupledSystem::shorten_correction(const double fraction)
-  {
-    bone.shorten_correction(fraction);
-    implant.shorten_correction(fraction);
-    correct_chuck(1. - fraction);
-    last_correction *= fraction;
   }
 
 
@@ -434,63 +422,68 @@ namespace Debond
 
 
 
-  Chuck::Vector6
-  CoupledSystem::chuck_forces() const
+  namespace
   {
-    Chuck::Vector6 result = Chuck::Vector6::Zero();
-    const auto    &x      = configuration.side[Side::implant].positions;
-    for (unsigned int A = 0; A < x.cols(); ++A)
-      for (unsigned int k = 0; k < 6; ++k)
-        result[k] += interface.force(Side::implant)
-                       .col(A)
-                       .dot(chuck.velocity(k, x.col(A)));
-    return result;
-  }
+    /** Sum of forces [N] and of their moments at the given lever arms [N mm].
+     */
+    Chuck::Vector6
+    resultant(const ControlNet &force, const ControlNet &arm)
+    {
+      Chuck::Vector6 result = Chuck::Vector6::Zero();
+      for (unsigned int A = 0; A < force.cols(); ++A)
+        {
+          const Eigen::Vector3d f = force.col(A), r = arm.col(A);
+          result.head<3>() += f;
+          result.tail<3>() += r.cross(f);
+        }
+      return result;
+    }
+  } // namespace
 
 
 
   Chuck::Vector6
   CoupledSystem::chuck_resultant() const
   {
-    Chuck::Vector6 result = Chuck::Vector6::Zero();
-    const auto    &x      = configuration.side[Side::implant].positions;
-    for (unsigned int A = 0; A < x.cols(); ++A)
-      {
-        const Eigen::Vector3d f = interface.force(Side::implant).col(A);
-        const Eigen::Vector3d r = x.col(A) - chuck.centre();
-        result.head<3>() += f;
-        result.tail<3>() += r.cross(f);
-      }
+    return resultant(interface.force(Side::implant),
+                     configuration.side[Side::implant].positions.colwise() -
+                       chuck.centre());
+  }
+
+
+
+  // A rotation about the axis b_k moves x by b_k x (x - C - u), and
+  // f . (b_k x r) = b_k . (r x f).
+  Chuck::Vector6
+  CoupledSystem::chuck_forces() const
+  {
+    const Chuck::Vector6 total  = chuck_resultant();
+    Chuck::Vector6       result = total;
+    for (unsigned int k = 3; k < 6; ++k)
+      result[k] = chuck.axis(k).dot(total.tail<3>());
     return result;
   }
 
 
 
+  // In the implant's frame. A linear body balances moments with reference lever
+  // arms only.
   double
   CoupledSystem::reaction_defect() const
   {
-    if (!implant.deformable())
+    if (!implant.bulk())
       return 0.;
-    // in the implant's frame; a linear body balances moments with reference
-    // lever arms only
-    const Eigen::Vector3d C         = chuck.reference_centre();
-    const auto           &reference = implant.surface().control_points();
-    const auto            v         = implant.contact_displacement();
-    Chuck::Vector6        contact   = Chuck::Vector6::Zero();
-    for (unsigned int A = 0; A < reference.cols(); ++A)
-      {
-        const Eigen::Vector3d f =
-          chuck.rotation().transpose() * interface.force(Side::implant).col(A);
-        Eigen::Vector3d arm = reference.col(A) - C;
-        if (implant.has_current_lever_arms())
-          arm += v.col(A);
-        contact.head<3>() += f;
-        contact.tail<3>() += arm.cross(f);
-      }
+    const Eigen::Vector3d C = chuck.reference_centre();
+    ControlNet arm          = implant.surface().control_points().colwise() - C;
+    if (implant.has_current_lever_arms())
+      arm += implant.contact_displacement();
+    Chuck::Vector6 contact =
+      resultant(chuck.rotation().transpose() * interface.force(Side::implant),
+                arm);
     Chuck::Vector6 support    = support_reaction(Side::implant, C);
     Chuck::Vector6 difference = contact - support;
-    for (Chuck::Vector6 *resultant : {&contact, &support, &difference})
-      resultant->tail<3>() /= R;
+    for (Chuck::Vector6 *forces : {&contact, &support, &difference})
+      forces->tail<3>() /= R;
     return difference.norm() /
            std::max({contact.norm(), support.norm(), force_floor});
   }

@@ -4,24 +4,50 @@
 
 namespace Debond
 {
-  CoupledTangent::CoupledTangent(const Body                   &bone,
-                                 const Body                   &implant,
-                                 const ContactInterface       &interface,
-                                 const InterfaceConfiguration &configuration,
-                                 const PathEquation           &path)
-    : bone(bone)
-    , implant(implant)
-    , interface(interface)
-    , configuration(configuration)
-    , path(path)
-  {}
+  // The time is what it should be, or the mean slip has grown by what it
+  // should.
+  double
+  PathEquation::evaluate(const ContactInterface       &interface,
+                         const InterfaceConfiguration &configuration,
+                         const double                  time,
+                         const double                  reference)
+  {
+    gradient.setZero(number + 1);
+    rates = configuration.chuck->rates(time);
+    if (slip == 0.)
+      {
+        gradient[number] = reference;
+        return 0.;
+      }
+    const MeanSlip mean   = interface.mean_slip(configuration);
+    const double   weight = reference / slip;
+    add_in_unknowns(mean.gradient, configuration, weight, gradient);
+    return weight * (mean.value - old_slip - slip);
+  }
+
+
+
+  void
+  PathEquation::apply(const InterfaceConfiguration &configuration,
+                      const Eigen::VectorXd        &x,
+                      Eigen::Ref<Eigen::VectorXd>   y) const
+  {
+    const Chuck &chuck = *configuration.chuck;
+    const double dt    = x[number];
+    for (const auto &[k, row] : configuration.chuck_unknowns)
+      if (chuck.is_prescribed(k))
+        y[row] = stiffness[k] * (x[row] - rates[k] * dt);
+      else
+        y[row] -= chuck.machine_load_per_value(k) * rates[k] * dt;
+    y[number] = gradient.dot(x);
+  }
 
 
 
   unsigned int
   CoupledTangent::size() const
   {
-    return bone.n_unknowns() + implant.n_unknowns() +
+    return bodies[0]->n_unknowns() + bodies[1]->n_unknowns() +
            configuration.chuck_unknowns.size() + (path.follow ? 1 : 0);
   }
 
@@ -81,12 +107,10 @@ namespace Debond
   Eigen::VectorXd
   CoupledTangent::product(const Eigen::VectorXd &x) const
   {
-    const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
-    Eigen::VectorXd    y = interface_product(x);
-    if (bone.bulk() != nullptr)
-      y.head(n_b) += bone.bulk()->product(x.head(n_b));
-    if (implant.bulk() != nullptr)
-      y.segment(n_b, n_i) += implant.bulk()->product(x.segment(n_b, n_i));
+    Eigen::VectorXd y = interface_product(x);
+    for_each_bulk([&](const Bulk &bulk, const int first, const int n) {
+      y.segment(first, n) += bulk.product(x.segment(first, n));
+    });
     return y;
   }
 
@@ -95,17 +119,10 @@ namespace Debond
   bool
   CoupledTangent::can_be_assembled() const
   {
-    return (!bone.deformable() || bone.bulk()->is_dense()) &&
-           (!implant.deformable() || implant.bulk()->is_dense());
-  }
-
-
-
-  // The bulk does not resist the chuck.
-  bool
-  CoupledTangent::bulk_is_regular() const
-  {
-    return configuration.chuck_unknowns.empty();
+    bool result = true;
+    for_each_bulk(
+      [&](const Bulk &bulk, int, int) { result = result && bulk.is_dense(); });
+    return result;
   }
 
 
@@ -113,12 +130,10 @@ namespace Debond
   Eigen::VectorXd
   CoupledTangent::solve_bulk(const Eigen::VectorXd &b) const
   {
-    const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
-    Eigen::VectorXd    x = b;
-    if (bone.bulk() != nullptr)
-      x.head(n_b) = bone.bulk()->solve(b.head(n_b));
-    if (implant.bulk() != nullptr)
-      x.segment(n_b, n_i) = implant.bulk()->solve(b.segment(n_b, n_i));
+    Eigen::VectorXd x = b;
+    for_each_bulk([&](const Bulk &bulk, const int first, const int n) {
+      x.segment(first, n) = bulk.solve(b.segment(first, n));
+    });
     return x;
   }
 
@@ -127,26 +142,25 @@ namespace Debond
   void
   CoupledTangent::assemble(Eigen::MatrixXd &matrix) const
   {
-    const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
     matrix.setZero(size(), size());
-    if (n_b > 0)
-      matrix.topLeftCorner(n_b, n_b) = bone.bulk()->dense_stiffness();
-    if (n_i > 0)
-      matrix.block(n_b, n_b, n_i, n_i) = implant.bulk()->dense_stiffness();
+    for_each_bulk([&](const Bulk &bulk, const int first, const int n) {
+      matrix.block(first, first, n, n) = bulk.dense_stiffness();
+    });
     interface.add_tangent(configuration, matrix);
-    Eigen::VectorXd unit = Eigen::VectorXd::Zero(size()), column(size());
+    const unsigned int n_v = bodies[0]->n_unknowns() + bodies[1]->n_unknowns();
+    Eigen::VectorXd    column(size());
     for (const auto &[k, number] : configuration.chuck_unknowns)
       {
-        unit[number] = 1.;
         column.setZero();
-        add_geometric_part(unit, column);
+        add_geometric_part(Eigen::VectorXd::Unit(size(), number), column);
         matrix.col(number) += column;
         // the v-part of the border is symmetric
-        matrix.row(number).head(n_b + n_i) +=
-          column.head(n_b + n_i).transpose();
-        unit[number] = 0.;
+        matrix.row(number).head(n_v) += column.head(n_v).transpose();
       }
     if (path.follow)
-      path.assemble(configuration, matrix);
+      for (unsigned int j = 0; j < size(); ++j)
+        path.apply(configuration,
+                   Eigen::VectorXd::Unit(size(), j),
+                   matrix.col(j));
   }
 } // namespace Debond

@@ -15,11 +15,6 @@ namespace Debond
   {
     using DealVector = dealii::Vector<double>;
 
-    Eigen::Map<Eigen::VectorXd>
-    as_eigen(DealVector &v)
-    {
-      return {v.begin(), static_cast<Eigen::Index>(v.size())};
-    }
     Eigen::Map<const Eigen::VectorXd>
     as_eigen(const DealVector &v)
     {
@@ -34,7 +29,8 @@ namespace Debond
       void
       vmult(DealVector &y, const DealVector &x) const
       {
-        as_eigen(y) = product(as_eigen(x));
+        const Eigen::VectorXd result = product(as_eigen(x));
+        std::copy(result.begin(), result.end(), y.begin());
       }
     };
 
@@ -53,19 +49,6 @@ namespace Debond
       return std::clamp(n / 50, 6u, 40u);
     }
   } // namespace
-
-
-
-  Eigen::VectorXd
-  DenseSolver::factorise_and_solve(const SplitMatrix     &A,
-                                   const Eigen::VectorXd &b)
-  {
-    A.assemble(matrix);
-    lu.compute(matrix);
-    preconditioner = Preconditioner::factorisation;
-    ++factorisations;
-    return lu.solve(b);
-  }
 
 
 
@@ -95,9 +78,8 @@ namespace Debond
     dealii::SolverGMRES<DealVector> gmres(
       control,
       dealii::SolverGMRES<DealVector>::AdditionalData(max_iterations + 2));
-    DealVector y(b.size()), right_hand_side(b.size());
-    as_eigen(right_hand_side) = b;
-    bool converged            = true;
+    DealVector       y(b.size());
+    const DealVector right_hand_side(b.begin(), b.end());
     try
       {
         gmres.solve(preconditioned,
@@ -107,12 +89,10 @@ namespace Debond
       }
     catch (const dealii::SolverControl::NoConvergence &)
       {
-        converged = false;
+        return false;
       }
-    iterations += control.last_step();
-    if (converged)
-      x = with_bulk ? A.solve_bulk(as_eigen(y)) : lu.solve(as_eigen(y)).eval();
-    return converged;
+    x = with_bulk ? A.solve_bulk(as_eigen(y)) : lu.solve(as_eigen(y)).eval();
+    return true;
   }
 
 
@@ -132,6 +112,10 @@ namespace Debond
       return x;
     if (!A.can_be_assembled())
       return Eigen::VectorXd::Constant(b.size(), std::nan(""));
-    return factorise_and_solve(A, b);
+    A.assemble(matrix);
+    lu.compute(matrix);
+    preconditioner = Preconditioner::factorisation;
+    ++factorisations;
+    return lu.solve(b);
   }
 } // namespace Debond

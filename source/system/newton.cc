@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <sstream>
 
 namespace Debond
@@ -63,19 +62,6 @@ namespace Debond
 
 
 
-    ContactPointMode
-    mode_of(const NewtonOptions &options, const unsigned int iteration)
-    {
-      ContactPointMode mode;
-      mode.frictionless    = options.frictionless;
-      mode.stick_first     = options.stick_first && iteration == 0;
-      mode.touch_tolerance = options.touch_tolerance;
-      mode.duration        = options.duration;
-      return mode;
-    }
-
-
-
     // Recognises that points change between stick, slip and open without an
     // end: all of them are in states that they were in before with a residual
     // not much larger, or the residual has grown for the second time.
@@ -103,12 +89,13 @@ namespace Debond
 
 
 
-    // Halves the last correction until the residual has become smaller; returns
-    // the residual where this ends.
+    // Halves the correction until the residual has become smaller; returns the
+    // residual where this ends.
     CoupledSystem::Residual
-    evaluate_shortened(CoupledSystem          &system,
-                       const ContactPointMode &mode,
-                       const double            norm_before)
+    evaluate_shortened(CoupledSystem                   &system,
+                       const CoupledSystem::Correction &correction,
+                       const ContactPointMode          &mode,
+                       const double                     norm_before)
     {
       constexpr double   shortest = 1. / 32., descent = 0.1;
       const unsigned int n_unknowns = system.n_unknowns();
@@ -119,8 +106,8 @@ namespace Debond
              (!residual.valid ||
               residual.norm > (1. - descent * fraction) * norm_before))
         {
-          system.shorten_correction(0.5);
           fraction *= 0.5;
+          system.correct(correction, -fraction);
           residual = system.evaluate(mode);
         }
       return residual;
@@ -128,25 +115,28 @@ namespace Debond
 
 
 
-    // Solves for a correction and applies it. Returns why, if that is
-    // impossible.
-    std::optional<std::string>
-    correct(CoupledSystem                 &system,
-            const NewtonOptions           &options,
-            const ContactPointMode        &mode,
-            const CoupledSystem::Residual &residual,
-            const std::vector<double>     &history)
+    // The next correction, with a new tangent of the bulk if the old one is
+    // stale.
+    CoupledSystem::Correction
+    find_correction(CoupledSystem                 &system,
+                    const NewtonOptions           &options,
+                    const ContactPointMode        &mode,
+                    const CoupledSystem::Residual &residual,
+                    const std::vector<double>     &history)
     {
+      CoupledSystem::Correction none;
       if (bulk_contracts_poorly(history, residual.interior_share))
         {
+          none.why = "the stiffness of a body is not positive definite";
           if (!system.refactor_bulk())
-            return "the stiffness of a body is not positive definite";
+            return none;
           system.evaluate(mode); // condensed with the new factor
         }
+      none.why = "a loaded chuck has nothing to act against: the bodies are "
+                 "not in contact";
       if (system.is_unsupported())
-        return "a loaded chuck has nothing to act against: the bodies are "
-               "not in contact";
-      return system.solve_and_correct(
+        return none;
+      return system.solve(
         linear_tolerance(history.back(), options.residual_tolerance));
     }
   } // namespace
@@ -156,8 +146,9 @@ namespace Debond
   NewtonResult
   solve_newton(CoupledSystem &system, const NewtonOptions &options)
   {
-    NewtonResult  result;
-    CycleDetector cycle_detector;
+    NewtonResult              result;
+    CycleDetector             cycle_detector;
+    CoupledSystem::Correction correction;
     // iteration from which on corrections are shortened; 0: none
     std::size_t cautious_from = 0;
     double      last_norm     = 0.;
@@ -165,15 +156,15 @@ namespace Debond
       {
         // The residual r = S v_c + Q^T f(v_c) of the state that the last
         // correction led to.
-        const ContactPointMode mode     = mode_of(options, iteration);
-        const auto             residual = cautious_from > 0 ?
-                                            evaluate_shortened(system, mode, last_norm) :
-                                            system.evaluate(mode);
+        ContactPointMode mode = options.points;
+        mode.stick_first      = mode.stick_first && iteration == 0;
+        const auto residual =
+          cautious_from > 0 ?
+            evaluate_shortened(system, correction, mode, last_norm) :
+            system.evaluate(mode);
+        result.why = residual.why;
         if (!residual.valid)
-          {
-            result.why = residual.why;
-            return result;
-          }
+          return result;
         const double error = residual.norm / residual.reference;
         last_norm          = residual.norm;
         result.history.push_back(error);
@@ -185,7 +176,7 @@ namespace Debond
             result.converged = true;
             return result;
           }
-        // Give up early: the step is tried in another way, or halved.
+        // Give up early: another attempt at the step is made, or it is halved.
         if (iteration == options.max_iterations ||
             hopeless(
               {result.history.begin() + cautious_from, result.history.end()}))
@@ -201,12 +192,12 @@ namespace Debond
             cycle_detector.sees_cycle(system.interface.statuses(), error))
           cautious_from = iteration;
         // (S + Q^T (df/dx) Q) dv = -r
-        if (const auto failure =
-              correct(system, options, mode, residual, result.history))
-          {
-            result.why = *failure;
-            return result;
-          }
+        correction =
+          find_correction(system, options, mode, residual, result.history);
+        result.why = correction.why;
+        if (!result.why.empty())
+          return result;
+        system.correct(correction);
         ++result.iterations;
       }
   }

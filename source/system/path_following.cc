@@ -1,20 +1,10 @@
-#include <debond/system/path_following.h>
+#include <debond/system/step_control.h>
 
 #include <algorithm>
 #include <sstream>
 
 namespace Debond
 {
-  PathFollowing::PathFollowing(const LoadSteppingParameters &parameters,
-                               const double                  largest_slip,
-                               const double                  end_slip)
-    : StepControl(parameters)
-    , largest_slip(largest_slip)
-    , end_slip(end_slip)
-  {}
-
-
-
   void
   PathFollowing::begin_phase(const StepState &accepted)
   {
@@ -52,7 +42,7 @@ namespace Debond
 
 
 
-  // Where time falls, and where much slides on the way to the end.
+  // Where time falls, and where much slides until the end.
   bool
   PathFollowing::prefers_slip(const Step &step) const
   {
@@ -128,7 +118,7 @@ namespace Debond
   std::string
   PathFollowing::reason_to_end() const
   {
-    if (!has_ended())
+    if (mean_slip < end_slip)
       return StepControl::reason_to_end();
     std::ostringstream reason;
     reason << "the mean sliding distance has reached " << end_slip

@@ -120,14 +120,14 @@ namespace Debond
     NewtonOptions   options;
     options.residual_tolerance = parameters.load_steps.residual_tolerance;
     // points that stick would pull back at once all of a relaxed machine
-    options.stick_first =
+    options.points.stick_first =
       !attempt.relaxes_machine &&
       (predictor == Predictor::stick_first ||
        (predictor == Predictor::extrapolate && !attempt.extrapolates));
-    options.duration          = step.time - accepted_time;
-    options.shorten_in_cycles = !attempt.jumps;
-    options.touch_tolerance   = 1e-12 * system.R;
-    options.frictionless      = !parameters.has_friction_after(accepted_time);
+    options.points.duration        = step.time - accepted_time;
+    options.shorten_in_cycles      = !attempt.jumps;
+    options.points.touch_tolerance = 1e-12 * system.R;
+    options.points.frictionless = !parameters.has_friction_after(accepted_time);
     return options;
   }
 

@@ -2,7 +2,7 @@
 #define debond_models_state_checks_h
 
 #include <debond/interface/contact_interface.h>
-#include <debond/system/chuck_way.h>
+#include <debond/system/chuck_path.h>
 #include <debond/system/energy_balance.h>
 
 #include <set>
@@ -39,11 +39,11 @@ namespace Debond
     /** Keeps a reference. */
     explicit StateChecks(const ModelParameters &parameters);
 
-    /** Notes the way of the chuck in a step with friction from time @p from to
+    /** Notes the path of the chuck in a step with friction from time @p from to
      *  time @p to, that is about to be accepted as a part of the planned @p
-     * step. Throws InputError if a value on the way is not finite. */
+     * step. Throws InputError if a value in it is not finite. */
     void
-    add_way(unsigned int step, const Chuck &chuck, double from, double to);
+    add_path(unsigned int step, const Chuck &chuck, double from, double to);
 
     /** Notes a state that has just been accepted in a planned step. @p summary
      *  and @p reaction_defect are those of the state before commit(). A check
@@ -85,7 +85,7 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &energy_balance &released_energy &way &last_reaction_defect;
+      archive &energy_balance &released_energy &path &last_reaction_defect;
     }
 
   private:
@@ -110,7 +110,7 @@ namespace Debond
     const ModelParameters &parameters;
     EnergyBalance          energy_balance;
     ReleasedEnergy         released_energy;
-    ChuckWay               way;
+    ChuckPath              path;
     std::set<std::string>  violated; ///< since the last row
     std::vector<Warning>   found;    ///< since they were taken
     double                 last_reaction_defect = 0;

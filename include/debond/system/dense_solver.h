@@ -68,18 +68,13 @@ namespace Debond
     {
       return factorisations;
     }
-    unsigned int
-    n_iterations() const
-    {
-      return iterations;
-    }
 
     /** See serialization.h. */
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &preconditioner &factorisations &iterations;
+      archive &preconditioner &factorisations;
       if (preconditioner == Preconditioner::factorisation)
         {
           archive &matrix;
@@ -99,13 +94,11 @@ namespace Debond
             const Eigen::VectorXd &b,
             double                 relative_tolerance,
             Eigen::VectorXd       &x);
-    Eigen::VectorXd
-    factorise_and_solve(const SplitMatrix &A, const Eigen::VectorXd &b);
 
     Preconditioner                       preconditioner = Preconditioner::bulk;
     Eigen::MatrixXd                      matrix;
     Eigen::PartialPivLU<Eigen::MatrixXd> lu;
-    unsigned int                         factorisations = 0, iterations = 0;
+    unsigned int                         factorisations = 0;
   };
 } // namespace Debond
 #endif

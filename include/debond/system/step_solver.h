@@ -11,7 +11,7 @@
 namespace Debond
 {
   /** Largest rotation in a step [rad]. A sliding point is pulled along the
-   * chord of its way, at half this angle to its direction at the end: 5 degrees
+   * chord of its path, at half this angle to its direction at the end: 5 degrees
    * cost a thousandth of the friction. */
   constexpr double largest_turn = 5. * M_PI / 180.;
 

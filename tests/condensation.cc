@@ -91,7 +91,7 @@ compare(const MatrixXd &K, const std::vector<int> &c, Deviation &deviation)
 {
   Condensation condensation;
   if (!condensation.factorise(sparse(K), c) ||
-      condensation.n_condensed() != c.size())
+      condensation.schur_complement().rows() != int(c.size()))
     {
       std::cout << "  NO factorisation" << std::endl;
       return;

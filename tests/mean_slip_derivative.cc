@@ -126,10 +126,10 @@ check(const std::string &slave)
 
   // a correction that is shortened: the time is one of what it corrects, and
   // prescribed components follow the time
-  system.evaluate(mode);
+  const auto           residual   = system.evaluate(mode);
   const double         time       = system.time();
   const Chuck::Vector6 start      = system.chuck.position();
-  const auto           correction = system.solve(1e-9);
+  const auto           correction = system.solve(residual, 1e-9);
   system.correct(correction);
   const double         full_time = system.time();
   const Chuck::Vector6 full      = system.chuck.position();

@@ -21,6 +21,9 @@ namespace Debond
 
 
 
+  // Choosing the unknowns is what makes a body ready: K is formed, factorised
+  // and condensed. Bodies that several variants of a study share come here
+  // again with the same unknowns, at rest, and need nothing.
   void
   Body::set_contact_control_points(const std::vector<bool> &contact)
   {
@@ -35,7 +38,7 @@ namespace Debond
     // A Neo-Hookean body is linearised at the accepted state: it is near, and
     // the trial state may be anything. The reference is always there to fall
     // back on: the matrix only leads to the solution and does not define it.
-    if (!linearise(has_constant_stiffness() ? at_rest : accepted.value) &&
+    if (!linearise(has_small_strains() ? at_rest : accepted.value) &&
         !linearise(at_rest))
       throw EntryError(
         std::string(body_mesh.side() == Side::bone ? "Bone" : "Implant") +
@@ -46,6 +49,8 @@ namespace Debond
 
 
 
+  // The bulk says which degrees of freedom it leaves to the coupled system; the
+  // interface needs those of the control points by their place.
   void
   Body::number_unknowns(const std::vector<bool> &contact)
   {
@@ -65,6 +70,8 @@ namespace Debond
 
 
 
+  // K and S at a state, which is remembered: a resumed run has to go on with
+  // the same matrix, down to the last digit.
   bool
   Body::linearise(const Eigen::VectorXd &state)
   {
@@ -90,22 +97,6 @@ namespace Debond
 
 
 
-  Body::Residual
-  Body::residual(const ControlNet &) const
-  {
-    return {};
-  }
-
-
-
-  Eigen::VectorXd
-  Body::correction(const Eigen::VectorXd &, const Residual &) const
-  {
-    return Eigen::VectorXd::Zero(v.size());
-  }
-
-
-
   Eigen::Map<const ControlNet>
   Body::contact_displacement() const
   {
@@ -122,7 +113,7 @@ namespace Debond
   void
   Body::commit(const double time, const bool surface_is_seen)
   {
-    const bool is_behind = has_constant_stiffness() && beside_unknowns;
+    const bool is_behind = has_small_strains() && beside_unknowns;
     if (is_behind && surface_is_seen)
       v = full_displacement(v);
     surface_is_stale = is_behind && !surface_is_seen;
@@ -131,6 +122,9 @@ namespace Debond
 
 
 
+  // The same later, when a point that has opened looks at the surface beside
+  // the contact unknowns. States before it get their shape as well: the line
+  // through them is the next prediction.
   void
   Body::complete_surface()
   {
@@ -141,6 +135,8 @@ namespace Debond
 
 
 
+  // Vertices of the contact face follow the control points, v_vertex = sum_A
+  // N_A(vertex) v_A (theory.md, section 2).
   Eigen::VectorXd
   Body::full_displacement(const Eigen::VectorXd &state) const
   {
@@ -162,14 +158,7 @@ namespace Debond
 
 
 
-  Eigen::Matrix<double, 6, 1>
-  Body::reaction_about_origin(const Residual &) const
-  {
-    return Eigen::Matrix<double, 6, 1>::Zero(); // nobody asks a rigid body
-  }
-
-
-
+  // Moved from the origin to the centre: M_C = M_O - C x F.
   Eigen::Matrix<double, 6, 1>
   Body::support_reaction(const Eigen::Vector3d &centre,
                          const Residual        &residual) const

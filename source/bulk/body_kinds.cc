@@ -15,8 +15,11 @@ namespace Debond
         : Body(parameters, side, &NeoHookean::linear_stress)
       {}
 
+      // r_c = S v_c + f_c.
+      //
       // R = K v, of which the condensed part is S v_c: the interior is in
-      // equilibrium, whatever v_c.
+      // equilibrium, whatever v_c, and has no residual. The energy follows from
+      // the work of the surface, 1/2 v_c . S v_c.
       Residual
       residual(const ControlNet &contact_force) const override
       {
@@ -33,6 +36,8 @@ namespace Debond
         return result;
       }
 
+      // The contact unknowns are enough: nobody asks where the interior is
+      // before the end of the step.
       Eigen::VectorXd
       correction(const Eigen::VectorXd &dv, const Residual &) const override
       {
@@ -41,14 +46,9 @@ namespace Debond
         return change;
       }
 
-      bool
-      has_current_lever_arms() const override
-      {
-        return false;
-      }
-
     protected:
-      // v_i = -K_ii^-1 K_ic v_c
+      // The equilibrium shape, v_i = -K_ii^-1 K_ic v_c, for pictures and for
+      // the part of the surface that is not in contact.
       Eigen::VectorXd
       full_displacement(const Eigen::VectorXd &state) const override
       {
@@ -57,8 +57,9 @@ namespace Debond
                              state);
       }
 
-      // The resultants of the supports are m . K v; condensing the row m K
-      // gives them per unit of v_c.
+      // The resultants of the supports are m . K v, m the rigid modes of the
+      // fixed degrees of freedom; condensing the row m K gives them per unit of
+      // v_c. Six solves here, and none in the steps to come.
       bool
       linearise(const Eigen::VectorXd &state) override
       {
@@ -98,7 +99,10 @@ namespace Debond
         : Body(parameters, side, &NeoHookean::cauchy_stress)
       {}
 
-      // r~_c = R_c + f - K_ci K_ii^-1 R_i
+      // r~_c = R_c + f - K_ci K_ii^-1 R_i, with the true internal forces
+      // R = int P : dF/dv dV (Eq. 1), and K of the state that was condensed
+      // last: what the interior is still out of balance is handed on to the
+      // surface. The work of the contact forces is theirs, not the body's.
       Residual
       residual(const ControlNet &contact_force) const override
       {
@@ -114,7 +118,14 @@ namespace Debond
         return result;
       }
 
-      // dv_i = -K_ii^-1 (R_i + K_ic dv_c)
+      bool
+      has_small_strains() const override
+      {
+        return false;
+      }
+
+      // dv_i = -K_ii^-1 (R_i + K_ic dv_c): with every correction of the surface
+      // the interior moves to where its balance would be if it were linear.
       Eigen::VectorXd
       correction(const Eigen::VectorXd &dv,
                  const Residual        &residual) const override
@@ -123,12 +134,6 @@ namespace Debond
       }
 
     protected:
-      bool
-      has_constant_stiffness() const override
-      {
-        return false;
-      }
-
       Eigen::Matrix<double, 6, 1>
       reaction_about_origin(const Residual &residual) const override
       {

@@ -130,6 +130,11 @@ namespace Debond
 
 
 
+  // K_cc - K_ci K_ii^-1 K_ic is what Gaussian elimination of the interior
+  // leaves of K_cc. So if the condensed unknowns are eliminated last, S never
+  // has to be formed by solving with K_ii for each of its columns: its Cholesky
+  // factor L_cc is the last block of that of K. All that takes is an ordering
+  // in which they are last and the others as good as they can be.
   bool
   Condensation::factorise(const SymmetricSparseMatrix &K,
                           const std::vector<int>      &condensed)
@@ -137,6 +142,7 @@ namespace Debond
     n_total = K.rows();
     n_c     = condensed.size();
 
+    // The interior, in ascending order.
     std::vector<int> interior_index(n_total, 0), interior;
     for (const int c : condensed)
       interior_index[c] = -1;
@@ -146,6 +152,7 @@ namespace Debond
           interior_index[i] = interior.size();
           interior.push_back(i);
         }
+    // Nested dissection of the interior alone, then the condensed unknowns.
     permutation.clear();
     if (!interior.empty())
       {
@@ -156,6 +163,7 @@ namespace Debond
       }
     permutation.insert(permutation.end(), condensed.begin(), condensed.end());
 
+    // P K P^T = L L^T in that order.
     const auto next = std::make_shared<Cholmod>();
     cholmod         = next;
     L_cc.resize(0, 0);
@@ -180,6 +188,7 @@ namespace Debond
 
 
 
+  // L_cc, which begins within a supernode.
   void
   Condensation::extract_trailing_block()
   {
@@ -198,6 +207,7 @@ namespace Debond
 
 
 
+  // S = L_cc L_cc^T
   Eigen::MatrixXd
   Condensation::schur_complement() const
   {
@@ -262,6 +272,7 @@ namespace Debond
 
 
 
+  // S x = L_cc (L_cc^T x), without S
   Eigen::VectorXd
   Condensation::schur_product(const Eigen::VectorXd &x) const
   {
@@ -273,6 +284,8 @@ namespace Debond
 
 
 
+  // S^-1 b = L_cc^-T (L_cc^-1 b): in every iteration of the linear solver, and
+  // most of its time.
   Eigen::VectorXd
   Condensation::schur_solve(const Eigen::VectorXd &b) const
   {
@@ -309,7 +322,8 @@ namespace Debond
 
 
 
-  // L_ii^T x_i = y_i - L_ci^T x_c
+  // L_ii^T x_i = y_i - L_ci^T x_c, from the last supernode to the first: the
+  // rows below a supernode are known when its turn comes.
   Eigen::VectorXd
   Condensation::backward(const Eigen::VectorXd &x_c,
                          const Eigen::VectorXd &interior) const

@@ -26,12 +26,14 @@ namespace Debond
         , cells(mesh, material)
         , free_number(3 * mesh.n_nodes(), -1)
       {
+        // the unknowns of K: what no boundary condition fixes
         for (unsigned int dof = 0; dof < free_number.size(); ++dof)
           if (!mesh.is_tied(dof / 3) && !mesh.is_fixed(dof / 3, dof % 3))
             {
               free_number[dof] = free_dofs.size();
               free_dofs.push_back(dof);
             }
+        // the pattern of K, which is made once
         dealii::DynamicSparsityPattern pattern(free_dofs.size());
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
           {
@@ -54,6 +56,8 @@ namespace Debond
         tangent.finalize();
       }
 
+      // c: the free components of these control points. Three numberings meet
+      // here: degrees of freedom 3 node + component, free ones, and unknowns.
       std::vector<unsigned int>
       set_contact(const std::vector<bool> &control_points) override
       {
@@ -72,6 +76,9 @@ namespace Debond
         return dofs;
       }
 
+      // Assembles the lower triangle of K from the cells' tangents and
+      // condenses it, in another object: a K that is not positive definite
+      // leaves the old one as it is.
       bool
       linearise(const Eigen::VectorXd &v) override
       {
@@ -114,6 +121,7 @@ namespace Debond
         return condensation.schur_complement();
       }
 
+      // r_c - K_ci K_ii^-1 r_i, the forward half of a solve with K.
       Bulk::Residual
       condense(const Eigen::VectorXd &r) const override
       {
@@ -125,8 +133,8 @@ namespace Debond
                 free.squaredNorm() - free(contact).squaredNorm()};
       }
 
-      // backward() solves K_ii x_i = r_i - K_ic x_c; with x = -dv this is what
-      // a correction is to fulfil.
+      // The other half. backward() solves K_ii x_i = r_i - K_ic x_c; with x =
+      // -dv this is what a correction is to fulfil.
       Eigen::VectorXd
       correction(const Eigen::VectorXd &dv_c, const Residual &r) const override
       {
@@ -143,6 +151,9 @@ namespace Debond
         return cells.internal_forces(v, force, energy);
       }
 
+      // K x cell by cell, with the rows of the supports, which the factorised K
+      // does not have. Cells that x leaves at rest, and that is most of them,
+      // are passed over.
       Eigen::MatrixXd
       product_at_rest(const Eigen::MatrixXd &x) const override
       {
@@ -166,6 +177,8 @@ namespace Debond
         return y;
       }
 
+      // From the Gauss points to the corners of each cell, and there the mean
+      // over the cells.
       std::vector<Eigen::Matrix3d>
       vertex_stress(const Eigen::VectorXd &v,
                     const StressLaw        law) const override
@@ -179,11 +192,7 @@ namespace Debond
             cells.displacement_gradients(cell, v, H);
             std::array<Eigen::Matrix3d, EnrichedCells::n_q> at_points;
             for (unsigned int q = 0; q < EnrichedCells::n_q; ++q)
-              {
-                double sigma[3][3];
-                (cells.material().*law)(H[q], sigma);
-                at_points[q] = Eigen::Map<Eigen::Matrix3d>(&sigma[0][0]);
-              }
+              at_points[q] = (cells.material().*law)(H[q]);
             for (unsigned int a = 0; a < n_corners; ++a)
               {
                 const unsigned int vertex = mesh.cells()[cell].vertices[a];

@@ -61,9 +61,16 @@ namespace Debond
 
 
   double
-  AdaptiveStepping::relative_to_tolerance(const Forces &difference,
-                                          const Forces &forces) const
+  AdaptiveStepping::error(const StepState &state) const
   {
+    // How far the curve is from the straight line through the step before, or,
+    // in the first step, from the chord of this one.
+    const Forces &forces     = state.forces;
+    Forces        difference = middle - 0.5 * (current + forces);
+    if (has_previous)
+      difference =
+        forces - current -
+        (target_time() - time) / (time - previous_time) * (current - previous);
     // moments are forces at the distance of the radius
     Forces unit;
     unit << 1., 1., 1., radius, radius, radius;
@@ -73,31 +80,18 @@ namespace Debond
     // Small reactions to patterns beside the axis have a kink wherever a few
     // points begin to slide: in proportion to themselves they would take three
     // times as many steps as the torque.
-    double error = 0;
+    double deviation = 0;
     for (unsigned int k = 0; k < 6; ++k)
       {
         const double floor = (drive_change[k] > 0. ? 1e-3 : 0.1) * of_all;
         const double scale = std::max(largest[k], floor * unit[k]);
         if (scale > 0.)
-          error = std::max(error, std::abs(difference[k]) / scale);
+          deviation =
+            std::max(deviation,
+                     std::abs(difference[k]) / scale / parameters.tolerance);
       }
-    return error / parameters.tolerance;
-  }
-
-
-
-  double
-  AdaptiveStepping::error(const StepState &state) const
-  {
-    const Forces &forces = state.forces;
     if (!has_previous) // twice: the curve need not be a parabola
-      return 2. *
-             relative_to_tolerance(middle - 0.5 * (current + forces), forces);
-    // from the straight line through the step before
-    const Forces line = current + (target_time() - time) /
-                                    (time - previous_time) *
-                                    (current - previous);
-    const double deviation = relative_to_tolerance(forces - line, forces);
+      return 2. * deviation;
     // A parabola that begins to bend with this step would leave its chord by a
     // quarter of that. Where the curve was straight before it may have a kink
     // anywhere in this step, and leave its chord by nearly all of it.

@@ -25,30 +25,23 @@ namespace Debond
   void
   ChuckPath::add(const Chuck &chuck, const double from, const double to)
   {
-    constexpr unsigned int n_parts = 32;
-    const Chuck::Vector6   start   = chuck.values(from);
+    constexpr unsigned int n_parts  = 32;
+    constexpr double       rounding = 1e-9;
+    const Chuck::Vector6   start    = chuck.values(from);
     Chuck::Vector6         here = start, next = start;
-    length_now.setZero();
+    Lengths                length_now = Lengths::Zero();
     for (unsigned int i = 1; i <= n_parts; ++i, here = next)
       {
         next =
           chuck.values(i < n_parts ? from + i * (to - from) / n_parts : to);
         length_now += distances(here, next);
       }
-    missed_now = length_now - distances(start, next);
+    const Lengths missed_now = length_now - distances(start, next);
     length += length_now;
     missed += missed_now;
-  }
-
-
-
-  ChuckPath::Lengths
-  ChuckPath::missed_shares() const
-  {
-    constexpr double rounding = 1e-9;
-    return (missed_now.array() >
-            largest_missed_share * length_now.array() + rounding)
-      .select(missed.cwiseQuotient(length), Lengths::Zero());
+    missed_shares = (missed_now.array() >
+                     largest_missed_share * length_now.array() + rounding)
+                      .select(missed.cwiseQuotient(length), Lengths::Zero());
   }
 
 
@@ -57,7 +50,7 @@ namespace Debond
   ChuckPath::describe() const
   {
     Eigen::Index       k;
-    const double       share = missed_shares().maxCoeff(&k);
+    const double       share = missed_shares.maxCoeff(&k);
     std::ostringstream text;
     text.precision(3);
     text << 100. * share << " % of the path of ";

@@ -4,8 +4,14 @@
 
 namespace Debond
 {
-  // The time is what it should be, or the mean slip has grown by what it
-  // should.
+  // Along a path the time is unknown, and something else is given instead: the
+  // step's growth of the mean sliding distance, which, unlike the time, grows
+  // even where the path snaps back,
+  //
+  //   r_t = (g_mean - g_mean^n - slip) F / slip,
+  //
+  // F the reference force. With slip = 0 the time is given after all, and dt =
+  // 0 follows from r_t = 0 and the gradient F.
   double
   PathEquation::evaluate(const ContactInterface       &interface,
                          const InterfaceConfiguration &configuration,
@@ -27,6 +33,9 @@ namespace Debond
 
 
 
+  // Rows of prescribed components: dq_k = (d value_k / dt) dt, times a
+  // stiffness that gives them the size of the other rows. Rows of loaded ones:
+  // the load changes with the time, too.
   void
   PathEquation::apply(const InterfaceConfiguration &configuration,
                       const Eigen::VectorXd        &x,
@@ -53,9 +62,10 @@ namespace Debond
 
 
 
-  // Terms of the tangent that come from the rotation of the implant's frame and
-  // of lever arms with the unknown rotations of the chuck:
-  // (dQ^T/dq_k) f, f . (b_k x dx) and f . d^2x/dq_k dq_l.
+  // A row of a body is Q^T f, one of the chuck f . dx/dq_k. Their derivatives
+  // with f at rest are the terms of the tangent that come from the rotation of
+  // the implant's frame and of lever arms with the unknown rotations of the
+  // chuck: (dQ^T/dq_k) f, f . (b_k x dx) and f . d^2x/dq_k dq_l.
   void
   CoupledTangent::add_geometric_part(const Eigen::VectorXd &x,
                                      Eigen::VectorXd       &y) const
@@ -64,12 +74,15 @@ namespace Debond
     const auto  &side  = configuration.side[Side::implant];
     for (const auto &[k, row] : configuration.chuck_unknowns)
       {
+        // the load of a spring falls as the chuck gives way
         y[row] -= chuck.machine_stiffness(k) * x[row];
         if (!is_rotation(k))
           continue;
         for (unsigned int A = 0; A < side.positions.cols(); ++A)
           {
             const Eigen::Vector3d f = interface.force(Side::implant).col(A);
+            // (dQ^T/dq_k) f = Q^T (f x b_k), and the same number couples the
+            // row of q_k with the displacement in the moving frame
             const Eigen::Vector3d turned =
               side.frame.transpose() * f.cross(chuck.axis(k));
             for (unsigned int c = 0; c < 3; ++c)
@@ -91,6 +104,8 @@ namespace Debond
 
 
 
+  // C x, all of the tangent but the bodies: what the points contribute by their
+  // total derivatives df/dx, turned into the frames, then the geometric part.
   Eigen::VectorXd
   CoupledTangent::interface_product(const Eigen::VectorXd &x) const
   {
@@ -104,6 +119,7 @@ namespace Debond
 
 
 
+  // (B + C) x, B = diag(S_bone, S_implant, 0).
   Eigen::VectorXd
   CoupledTangent::product(const Eigen::VectorXd &x) const
   {
@@ -116,6 +132,7 @@ namespace Debond
 
 
 
+  // A bulk that is not condensed has no S to write down.
   bool
   CoupledTangent::can_be_assembled() const
   {
@@ -127,6 +144,7 @@ namespace Debond
 
 
 
+  // B^-1 b, body by body: the preconditioner.
   Eigen::VectorXd
   CoupledTangent::solve_bulk(const Eigen::VectorXd &b) const
   {
@@ -139,6 +157,8 @@ namespace Debond
 
 
 
+  // The same as a matrix, for a factorisation where the bulk alone is no good
+  // preconditioner.
   void
   CoupledTangent::assemble(Eigen::MatrixXd &matrix) const
   {

@@ -60,17 +60,16 @@ namespace Debond
                        const double           relative_tolerance,
                        Eigen::VectorXd       &x)
   {
-    const bool     with_bulk = preconditioner == Preconditioner::bulk;
     const Operator preconditioned{
       [&](const Eigen::VectorXd &y) -> Eigen::VectorXd {
-        if (with_bulk)
-          return y + A.interface_product(A.solve_bulk(y));
-        return A.product(lu.solve(y));
+        if (is_factorised)
+          return A.product(lu.solve(y));
+        return y + A.interface_product(A.solve_bulk(y));
       }};
     const unsigned int max_iterations =
       !A.can_be_assembled() ? b.size() :
-      with_bulk             ? max_bulk_iterations :
-                              affordable_iterations(b.size());
+      is_factorised         ? affordable_iterations(b.size()) :
+                              max_bulk_iterations;
     dealii::SolverControl           control(max_iterations,
                                   relative_tolerance * b.norm(),
                                   false,
@@ -91,7 +90,8 @@ namespace Debond
       {
         return false;
       }
-    x = with_bulk ? A.solve_bulk(as_eigen(y)) : lu.solve(as_eigen(y)).eval();
+    x =
+      is_factorised ? lu.solve(as_eigen(y)).eval() : A.solve_bulk(as_eigen(y));
     return true;
   }
 
@@ -105,17 +105,15 @@ namespace Debond
     if (b.size() == 0 || b.isZero(0.))
       return Eigen::VectorXd::Zero(b.size());
     Eigen::VectorXd x;
-    const bool      can_iterate = preconditioner == Preconditioner::bulk ?
-                                    A.bulk_is_regular() :
-                                    lu.rows() == b.size();
+    const bool      can_iterate =
+      is_factorised ? lu.rows() == b.size() : A.bulk_is_regular();
     if (can_iterate && iterate(A, b, relative_tolerance, x))
       return x;
     if (!A.can_be_assembled())
       return Eigen::VectorXd::Constant(b.size(), std::nan(""));
     A.assemble(matrix);
     lu.compute(matrix);
-    preconditioner = Preconditioner::factorisation;
-    ++factorisations;
+    is_factorised = true;
     return lu.solve(b);
   }
 } // namespace Debond

@@ -122,34 +122,38 @@ namespace Debond
   void
   LoadSteppingParameters::check() const
   {
+    const auto refuse = [](const bool         is_mistake,
+                           const std::string &entry,
+                           const std::string &message) {
+      if (is_mistake)
+        throw EntryError("Load steps / " + entry, message);
+    };
     for (std::size_t i = 1; i < times.size(); ++i)
-      if (!(times[i] > times[i - 1]))
-        throw EntryError("Load steps / Times",
-                         to_text(times[i]) + " after " + to_text(times[i - 1]) +
-                           ": times must increase");
-    if (steps.size() + 1 != times.size())
-      throw EntryError("Load steps / Steps",
-                       "one number fewer than in Times is expected: " +
-                         std::to_string(times.size() - 1) + ", not " +
-                         std::to_string(steps.size()));
+      refuse(!(times[i] > times[i - 1]),
+             "Times",
+             to_text(times[i]) + " after " + to_text(times[i - 1]) +
+               ": times must increase");
+    refuse(steps.size() + 1 != times.size(),
+           "Steps",
+           "one number fewer than in Times is expected: " +
+             std::to_string(times.size() - 1) + ", not " +
+             std::to_string(steps.size()));
     const double n_planned = std::accumulate(steps.begin(), steps.end(), 0.);
-    if (n_planned > 1e7)
-      throw EntryError("Load steps / Steps",
-                       to_text(n_planned) +
-                         " steps are more than the 1e7 allowed");
+    refuse(n_planned > 1e7,
+           "Steps",
+           to_text(n_planned) + " steps are more than the 1e7 allowed");
     for (std::size_t i = 1; i < times.size(); ++i)
-      if ((times[i] - times[i - 1]) / steps[i - 1] <
-          1e-9 * std::max(std::abs(times[i]), std::abs(times[i - 1])))
-        throw EntryError(
-          "Load steps / Times",
-          std::to_string(steps[i - 1]) + " steps from " +
-            to_text(times[i - 1], 17) + " to " + to_text(times[i], 17) +
-            " are too small to tell their times apart: let the times begin at "
-            "0");
-    if (adaptive && follow_path)
-      throw EntryError("Load steps / Path following",
-                       "it chooses its steps itself: expected Load steps / "
-                       "Adaptive = false");
+      refuse((times[i] - times[i - 1]) / steps[i - 1] <
+               1e-9 * std::max(std::abs(times[i]), std::abs(times[i - 1])),
+             "Times",
+             std::to_string(steps[i - 1]) + " steps from " +
+               to_text(times[i - 1], 17) + " to " + to_text(times[i], 17) +
+               " are too small to tell their times apart: let the times begin "
+               "at 0");
+    refuse(adaptive && follow_path,
+           "Path following",
+           "it chooses its steps itself: expected Load steps / Adaptive = "
+           "false");
   }
 
 

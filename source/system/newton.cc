@@ -8,16 +8,11 @@ namespace Debond
 {
   namespace
   {
-    // Linear systems need no more digits than the step to the tolerance asks
-    // for, and no fewer than quadratic convergence shows.
-    double
-    linear_tolerance(const double error, const double tolerance)
-    {
-      return std::clamp(0.1 * tolerance / error, 1e-9, 1e-3);
-    }
-
-
-
+    // S belongs to the state in which a body was condensed last. For a linear
+    // body that is all there is. For a Neo-Hookean one it is an approximation,
+    // with which the residual of its interior contracts about the strain, a
+    // factor of 1e-3 in each iteration (theory.md, section 4).
+    //
     // The bulk's tangent is stale if the interior's residual, which an exact
     // tangent would reduce quadratically, is what is left of the residual and
     // has not become a tenth of what it was.
@@ -44,20 +39,6 @@ namespace Debond
       const double before =
         *std::min_element(history.begin(), history.end() - 8);
       return recent > 0.5 * before;
-    }
-
-
-
-    std::string
-    describe_failure(const CoupledSystem &system,
-                     const unsigned int   iterations,
-                     const double         error)
-    {
-      std::ostringstream why;
-      why << "no convergence in " << iterations
-          << " iterations, relative residual " << error << ", largest "
-          << system.describe_worst_point();
-      return why.str();
     }
 
 
@@ -89,6 +70,10 @@ namespace Debond
 
 
 
+    // A line search, for a law with corners: between stick and slip the
+    // residual is continuous, but its slope is not, and the tangent of one side
+    // may overshoot on the other for ever.
+    //
     // Halves the correction until the residual has become smaller; returns the
     // residual where this ends.
     CoupledSystem::Residual
@@ -103,7 +88,7 @@ namespace Debond
       auto               residual   = system.evaluate(mode);
       // with new contact unknowns the old correction means nothing
       while (fraction > shortest && system.n_unknowns() == n_unknowns &&
-             (!residual.valid ||
+             (!residual.why.empty() ||
               residual.norm > (1. - descent * fraction) * norm_before))
         {
           fraction *= 0.5;
@@ -115,34 +100,35 @@ namespace Debond
 
 
 
-    // The next correction, with a new tangent of the bulk if the old one is
-    // stale.
+    // Solves (S + Q^T (df/dx) Q) dv = -r for the next correction, with a new
+    // tangent of the bulk if the old one is stale.
     CoupledSystem::Correction
-    find_correction(CoupledSystem                 &system,
-                    const NewtonOptions           &options,
-                    const ContactPointMode        &mode,
-                    const CoupledSystem::Residual &residual,
-                    const std::vector<double>     &history)
+    find_correction(CoupledSystem             &system,
+                    const NewtonOptions       &options,
+                    const ContactPointMode    &mode,
+                    CoupledSystem::Residual    residual,
+                    const std::vector<double> &history)
     {
-      CoupledSystem::Correction none;
       if (bulk_contracts_poorly(history, residual.interior_share))
         {
-          none.why = "the stiffness of a body is not positive definite";
           if (!system.refactor_bulk())
-            return none;
-          system.evaluate(mode); // condensed with the new factor
+            return {{}, {}, "the stiffness of a body is not positive definite"};
+          residual = system.evaluate(mode); // condensed with the new factor
         }
-      none.why = "a loaded chuck has nothing to act against: the bodies are "
-                 "not in contact";
-      if (system.is_unsupported())
-        return none;
-      return system.solve(
-        linear_tolerance(history.back(), options.residual_tolerance));
+      // Linear systems need no more digits than the step to the tolerance asks
+      // for, and no fewer than quadratic convergence shows.
+      return system.solve(residual,
+                          std::clamp(0.1 * options.residual_tolerance /
+                                       history.back(),
+                                     1e-9,
+                                     1e-3));
     }
   } // namespace
 
 
 
+  // Newton's method for r(v_c, q) = 0. Each round is a residual, four reasons
+  // to stop, and a correction.
   NewtonResult
   solve_newton(CoupledSystem &system, const NewtonOptions &options)
   {
@@ -155,16 +141,23 @@ namespace Debond
     for (unsigned int iteration = 0; true; ++iteration)
       {
         // The residual r = S v_c + Q^T f(v_c) of the state that the last
-        // correction led to.
+        // correction led to, by the law of each point (station 7 of
+        // doc/walk.md). In the very first round closed points may have to
+        // stick, whatever their traction: with the tangent of sticking points
+        // the first correction cannot make them cycle.
         ContactPointMode mode = options.points;
         mode.stick_first      = mode.stick_first && iteration == 0;
         const auto residual =
           cautious_from > 0 ?
             evaluate_shortened(system, correction, mode, last_norm) :
             system.evaluate(mode);
+        // No residual: a cell is turned inside out, or a point has found no
+        // solution of its equations.
         result.why = residual.why;
-        if (!residual.valid)
+        if (!result.why.empty())
           return result;
+        // Forces are measured by the contact force, so that the tolerance means
+        // the same for a light touch and a heavy load.
         const double error = residual.norm / residual.reference;
         last_norm          = residual.norm;
         result.history.push_back(error);
@@ -181,7 +174,11 @@ namespace Debond
             hopeless(
               {result.history.begin() + cautious_from, result.history.end()}))
           {
-            result.why = describe_failure(system, iteration, error);
+            std::ostringstream why;
+            why << "no convergence in " << iteration
+                << " iterations, relative residual " << error << ", largest "
+                << system.describe_worst_point(residual);
+            result.why = why.str();
             return result;
           }
         // The tangent is exact, but only for the present state of each point.
@@ -191,7 +188,9 @@ namespace Debond
             options.shorten_in_cycles &&
             cycle_detector.sees_cycle(system.interface.statuses(), error))
           cautious_from = iteration;
-        // (S + Q^T (df/dx) Q) dv = -r
+        // Otherwise v <- v + dv. What the correction does to the interior of
+        // the bodies belongs to it, so that a part of it can be taken back
+        // above.
         correction =
           find_correction(system, options, mode, residual, result.history);
         result.why = correction.why;

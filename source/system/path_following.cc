@@ -30,7 +30,10 @@ namespace Debond
           step.ratio = std::min(step.ratio, planned / last_time_step);
         step.slip = step.ratio * last_slip_step;
         step.time = time + step.ratio * last_time_step;
-        if (time_failed || prefers_slip(step))
+        // where time falls, and where much slides until the end
+        if (time_failed ||
+            (!slip_failed && step.time < end &&
+             (last_time_step <= 0. || step.slip >= 0.25 * largest_slip)))
           return step;
       }
     step.slip  = 0.;
@@ -38,16 +41,6 @@ namespace Debond
     step.ratio = last_time_step > 0. ? (step.time - time) / last_time_step : 0.;
     step.whole_time = step.time;
     return step;
-  }
-
-
-
-  // Where time falls, and where much slides until the end.
-  bool
-  PathFollowing::prefers_slip(const Step &step) const
-  {
-    return !slip_failed && step.time < end &&
-           (last_time_step <= 0. || step.slip >= 0.25 * largest_slip);
   }
 
 

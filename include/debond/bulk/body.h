@@ -45,6 +45,15 @@ namespace Debond
       return own_bulk.get();
     }
 
+    /** Whether its strains are small, if it has any: its tangent is the same in
+     *  every state, and moments balance with the lever arms of the reference
+     *  configuration instead of X + v. */
+    virtual bool
+    has_small_strains() const
+    {
+      return true;
+    }
+
     /** @name What it brings into the coupled system */
     //@{
     /** Makes the given control points (by index) contact unknowns. Does nothing
@@ -86,12 +95,18 @@ namespace Debond
     /** Of the trial state under the nodal contact forces @p contact_force
      *  (3 x control points, in the body's frame, [N]). */
     virtual Residual
-    residual(const ControlNet &contact_force) const;
+    residual(const ControlNet & /*contact_force*/) const
+    {
+      return {};
+    }
     /** The change of the displacement that moves the unknowns by @p dv, and the
      *  interior by what equilibrium asks for according to the @p residual of
      *  the trial state; an empty one: as if it were in equilibrium. */
     virtual Eigen::VectorXd
-    correction(const Eigen::VectorXd &dv, const Residual &residual) const;
+    correction(const Eigen::VectorXd & /*dv*/, const Residual &) const
+    {
+      return Eigen::VectorXd::Zero(v.size());
+    }
     /** Adds such a change, or a part of it, to the trial state. */
     void
     correct(const Eigen::VectorXd &change)
@@ -103,7 +118,7 @@ namespace Debond
     bool
     refactor()
     {
-      return has_constant_stiffness() || linearise(v);
+      return has_small_strains() || linearise(v);
     }
     //@}
 
@@ -145,13 +160,6 @@ namespace Debond
 
     /** @name What is reported */
     //@{
-    /** Whether moments balance with the lever arms X + v, or, in a linear body,
-     *  with those of the reference configuration. */
-    virtual bool
-    has_current_lever_arms() const
-    {
-      return true;
-    }
     /** What the supports exert on the body in its frame, by the @p residual of
      *  the trial state: force [N] and moment about @p centre [N mm]. */
     Eigen::Matrix<double, 6, 1>
@@ -183,17 +191,14 @@ namespace Debond
     }
 
   protected:
-    /** Whether its tangent is the same in every state. */
-    virtual bool
-    has_constant_stiffness() const
-    {
-      return true;
-    }
     virtual Eigen::VectorXd
     full_displacement(const Eigen::VectorXd &state) const;
     /** Force and moment of the supports about the origin. */
     virtual Eigen::Matrix<double, 6, 1>
-    reaction_about_origin(const Residual &residual) const;
+    reaction_about_origin(const Residual &) const
+    {
+      return Eigen::Matrix<double, 6, 1>::Zero(); // nobody asks a rigid body
+    }
     /** Gives the bulk its tangent at @p state, whatever the trial state is.
      *  False if it is not positive definite. */
     virtual bool

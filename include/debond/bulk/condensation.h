@@ -33,12 +33,6 @@ namespace Debond
     factorise(const SymmetricSparseMatrix &K,
               const std::vector<int>      &condensed);
 
-    unsigned int
-    n_condensed() const
-    {
-      return n_c;
-    }
-
     /** S, n_c x n_c; formed at every call. */
     Eigen::MatrixXd
     schur_complement() const;

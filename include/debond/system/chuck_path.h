@@ -33,7 +33,7 @@ namespace Debond
     double
     missed_share() const
     {
-      return missed_shares().maxCoeff();
+      return missed_shares.maxCoeff();
     }
     /** That share and whose it is, for messages. */
     std::string
@@ -56,12 +56,11 @@ namespace Debond
 
     Lengths
     distances(const Chuck::Vector6 &from, const Chuck::Vector6 &to) const;
-    Lengths
-    missed_shares() const;
 
     const ChuckParameters &parameters;
     Lengths                length = Lengths::Zero(), missed = Lengths::Zero();
-    Lengths length_now = Lengths::Zero(), missed_now = Lengths::Zero();
+    /** Of those of which the last step missed too much, else 0. */
+    Lengths missed_shares = Lengths::Zero();
   };
 } // namespace Debond
 #endif

@@ -102,26 +102,21 @@ namespace Debond
 
     struct Residual
     {
-      bool valid = false; ///< false: no residual could be formed, see why
-      std::string why;
-      double      norm      = 0; ///< Euclidean norm of the whole residual [N]
-      double      reference = 0; ///< norm of the contact forces [N]
-      double      interior_share =
-        0; ///< part of norm^2 that the bulk's interior makes up
+      std::string why; ///< no residual could be formed; else empty
+      /** In the contact unknowns of the bone, those of the implant and the
+       *  unknown chuck components [N, N mm]. */
+      Eigen::VectorXd unknowns;
+      double          norm = 0; ///< Euclidean norm of the whole residual [N]
+      double          reference = 0; ///< norm of the contact forces [N]
+      /** Part of norm^2 that the bulk's interior makes up. */
+      double interior_share = 0;
     };
     /** Contact forces and residual of the trial state. Makes control points
      *  contact unknowns where contact has spread to new ones. */
     Residual
     evaluate(const ContactPointMode &mode);
 
-    /** Residual of the last evaluate() in the contact unknowns of the bone,
-     *  those of the implant and the unknown chuck components [N, N mm]. */
-    const Eigen::VectorXd &
-    residual_vector() const
-    {
-      return residual;
-    }
-    /** Its derivative. */
+    /** Derivative of the residual of the last evaluate(). */
     const CoupledTangent &
     tangent() const
     {
@@ -136,10 +131,10 @@ namespace Debond
       std::array<Eigen::VectorXd, 2> bodies;
       std::string                    why; ///< there is none; else empty
     };
-    /** Newton's correction of the state of the last evaluate(), solved for to
-     *  @p relative_tolerance. */
+    /** Newton's correction for the @p residual of the last evaluate(), solved
+     *  for to @p relative_tolerance. */
     Correction
-    solve(double relative_tolerance);
+    solve(const Residual &residual, double relative_tolerance);
     /** Adds @p fraction of a correction to the trial state. */
     void
     correct(const Correction &correction, double fraction = 1.);
@@ -149,10 +144,6 @@ namespace Debond
     {
       return trial_time;
     }
-    /** True if a loaded chuck component has nothing to act against because no
-     *  point is in contact. */
-    bool
-    is_unsupported() const;
     /** Forms and condenses the bulk tangents at the trial state. False if one
      *  is not positive definite. */
     bool
@@ -166,9 +157,9 @@ namespace Debond
       return path.follow ? interface.mean_slip(configuration).value : 0.;
     }
 
-    /** Where the residual of the last evaluate() is largest, for messages. */
+    /** Where a residual of the present state is largest, for messages. */
     std::string
-    describe_worst_point() const;
+    describe_worst_point(const Residual &residual) const;
 
     /** Generalised forces sum_A f_A . dx_A/dq_k of the trial state: what the
      *  chuck exerts on the implant, conjugate to its six components [N, N mm].
@@ -228,7 +219,7 @@ namespace Debond
     void
     update_configuration();
     double
-    evaluate_chuck(double &reference);
+    evaluate_chuck(Residual &residual);
     void
     number_unknowns();
     bool
@@ -244,7 +235,6 @@ namespace Debond
     dealii::TimerOutput *const timer;
     unsigned int               unknowns    = 0;
     double                     force_floor = 0; ///< [N]
-    Eigen::VectorXd            residual;
     /** Of each body in the last evaluate(). */
     std::array<Body::Residual, 2> bulk_residual;
     DenseSolver                   solver;

@@ -32,7 +32,11 @@ namespace Debond
   };
 
   /**
-   * Newton's method on the trial state of @p system from where it is. The
+   * Newton's method on the trial state of @p system from where it is, for
+   *
+   *   r(v_c, q) = S v_c + Q^T f(v_c, q) = 0,
+   *
+   * and the rows of the chuck, see CoupledSystem. The
    * interface's tangent is exact; for Neo-Hookean bodies the bulk's is the one
    * that was condensed last, and is formed anew when the bulk's residual
    * shrinks too slowly with it. Where points change between stick and slip

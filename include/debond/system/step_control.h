@@ -216,8 +216,6 @@ namespace Debond
     target_time() const;
     double
     error(const StepState &state) const;
-    double
-    relative_to_tolerance(const Forces &difference, const Forces &forces) const;
     void
     set_size(double new_size);
 
@@ -286,8 +284,6 @@ namespace Debond
     }
 
   private:
-    bool
-    prefers_slip(const Step &step) const;
     bool
     reject_time(const Step &step);
 

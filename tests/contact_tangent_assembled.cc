@@ -20,12 +20,14 @@ using namespace Debond;
 void
 move(CoupledSystem &system, const Eigen::VectorXd &dv)
 {
-  const unsigned int n = system.bone.n_unknowns();
-  system.correct(
-    {dv,
-     {{system.bone.correction(dv.head(n), {}),
+  const unsigned int        n = system.bone.n_unknowns();
+  CoupledSystem::Correction correction;
+  correction.unknowns = dv;
+  correction.bodies   = {
+      {system.bone.correction(dv.head(n), {}),
        system.implant.correction(dv.segment(n, system.implant.n_unknowns()),
-                                 {})}}});
+                               {})}};
+  system.correct(correction);
 }
 
 void

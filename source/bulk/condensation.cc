@@ -313,6 +313,8 @@ namespace Debond
         if (node.n == 0)
           break;
         solve_lower(node.diagonal, "N", &x[node.first]);
+        if (node.n_below == 0)
+          continue; // BLAS refuses empty matrices
         change.noalias() = node.below * x.segment(node.first, node.n);
         for (int k = 0; k < node.n_below; ++k)
           x[node.rows[node.n + k]] -= change[k];
@@ -334,11 +336,14 @@ namespace Debond
     for (std::size_t s = n_total > 0 ? cholmod->factor->nsuper : 0; s-- > 0;)
       {
         const Supernode node(*cholmod->factor, s, n_total - n_c);
+        if (node.n == 0)
+          continue; // all of it is condensed
         known.resize(node.n_below);
         for (int k = 0; k < node.n_below; ++k)
           known[k] = x[node.rows[node.n + k]];
-        x.segment(node.first, node.n).noalias() -=
-          node.below.transpose() * known;
+        if (node.n_below > 0)
+          x.segment(node.first, node.n).noalias() -=
+            node.below.transpose() * known;
         solve_lower(node.diagonal, "T", &x[node.first]);
       }
     Eigen::VectorXd result(n_total);

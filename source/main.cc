@@ -7,7 +7,6 @@
 #include <debond/scene/scene.h>
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
-#include <debond/support/run_error.h>
 #include <debond/support/runtime.h>
 
 #include <deal.II/base/config.h>

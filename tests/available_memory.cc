@@ -1,7 +1,7 @@
 // Memory limits of control groups, of both versions: the least that a group or
 // one that holds it leaves, cached files not counted.
 
-#include <debond/support/available_memory.h>
+#include <debond/support/runtime.h>
 
 #include <filesystem>
 #include <fstream>

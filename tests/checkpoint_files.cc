@@ -7,7 +7,6 @@
 #include <debond/output/checkpoint.h>
 #include <debond/output/result_files.h>
 #include <debond/support/input_error.h>
-#include <debond/support/run_error.h>
 #include <debond/support/runtime.h>
 
 #include <sys/resource.h>

@@ -250,6 +250,10 @@ main()
         set Bonded fraction = 0.5
       end
     end)");
+  check("Rate and state friction", linear + R"(
+    subsection Interface
+      set Friction law = rate and state
+    end)");
   check("An interface a hundred times as stiff", R"(
     subsection Interface
       set Penalty stiffness = 58500

@@ -3,7 +3,7 @@
 // by area and averaged over the angles; the interpolation is exact for
 // parabolas and of third order for smooth fields; references along a radius.
 
-#include <debond/output/profile_comparison.h>
+#include <debond/output/profile_output.h>
 #include <debond/support/input_error.h>
 
 #include <cmath>

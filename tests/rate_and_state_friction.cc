@@ -146,8 +146,8 @@ check_rest()
 void
 check_derivative(const FrictionLawPointer &law)
 {
-  double slope = 0, work = 0;
-  for (const double psi : {-3., 0., 5.})
+  double slope = 0, work = 0, faster = 0;
+  for (const double psi : {-3., 0., 5., 20.})
     for (const double duration : {1e-3, 1., 1e4})
       for (double distance = 1e-9; distance < 10. * D; distance *= 3.)
         {
@@ -157,6 +157,9 @@ check_derivative(const FrictionLawPointer &law)
           const auto mu  = [&](const double d) {
             return law->coefficient(state, d).mu;
           };
+          grow(faster,
+               D * (-law->coefficient(state, distance).dmu -
+                    law->steepest_fall(state, distance)));
           const double h = 1e-4 * distance;
           grow(slope,
                std::abs(distance * law->coefficient(state, distance).dmu -
@@ -183,6 +186,7 @@ check_derivative(const FrictionLawPointer &law)
         }
   report("slope and differences, deviation of d dmu/dd", slope, 1e-10);
   report("work and Simpson's rule, deviation per distance", work, 1e-7);
+  report("mu falls faster than promised by, per D", faster, 1e-14);
 }
 
 
@@ -310,6 +314,85 @@ check_growth(const std::string &evolution, const double ratio)
 
 
 
+// A point that has aged far beyond what sliding leaves of its state: mu falls
+// more steeply than the point is stiff, and there may be more than one state.
+// What is found is never one that slides against the pull or carries more than
+// friction allows.
+void
+check_aged_point()
+{
+  const NurbsSurface surface   = NurbsSurface::rectangle(4., 1., 1, 1);
+  const ControlNet   positions = surface.control_points();
+  ContactPointLaw    law;
+  law.normal             = penalty_law(500.);
+  law.tangential_penalty = 585.;
+  law.friction           = law_of_text("set Friction law = rate and state\n"
+                                       "subsection Rate and state\n"
+                                       "  set Direct effect = 0.02\n"
+                                       "  set Evolution effect = 0.035\n"
+                                       "  set Reference speed = 1e-3\n"
+                                       "  set Sliding distance = 1e-4\n"
+                                       "  set Initial state = 1e3\nend\n");
+  ContactPointState state;
+  state.status      = PointStatus::stick;
+  state.has_partner = true;
+  state.xi          = Eigen::Vector2d(0.1, 0.5);
+  state.internal    = law.friction->initial_variables();
+  SurfaceBasis    basis;
+  SurfaceGeometry geometry;
+  surface.evaluate(state.xi, basis, false);
+  contract(basis, positions, false, geometry);
+  const MasterSurface master{&surface, &positions, 1.};
+  const double        p      = 2.8665;
+  double              beyond = 0, against = 0;
+  unsigned int        n_slips = 0;
+  for (const double duration : {1., 0.1, 0.01})
+    for (double pulled = 1e-4; pulled < 0.02; pulled *= 1.1)
+      {
+        ContactPointMode mode;
+        mode.duration = duration;
+        ContactPointResult    result;
+        const Eigen::Vector3d x =
+          geometry.y + Eigen::Vector3d(pulled, 0, -p / 500.);
+        update_contact_point(law, state, 1., x, master, mode, result);
+        if (result.failed)
+          continue;
+        n_slips += result.state.status == PointStatus::slip;
+        const double limit =
+          p *
+          law.friction->coefficient(friction_state(state, 1., duration), 0.).mu;
+        const double direct = p * 0.02 * std::log1p(pulled / (1e-3 * duration));
+        grow(beyond, result.tangential_traction.norm() - limit - direct);
+        grow(against, -result.tangential_traction.dot(result.slip_increment));
+      }
+  report("an aged point: more than friction allows by", beyond, 1e-12);
+  report("  slides against the pull by", against, 1e-15);
+  report("  it slips", n_slips > 50);
+}
+
+
+
+// In a short step the direct effect makes traction of the rounding of
+// positions, A p/(V dt) of it; the point is found all the same.
+void
+check_short_steps()
+{
+  double deviation = 0;
+  bool   slides    = true;
+  for (const double duration : {1e-4, 1e-6, 1e-8})
+    {
+      PulledPoint point("ageing", 1., 0.);
+      grow(deviation, std::abs(point.step(duration) - duration));
+      slides = slides && point.slides;
+    }
+  report("short steps of steady sliding, deviation of the distance [mm]",
+         deviation,
+         2e-15);
+  report("  they slide", slides);
+}
+
+
+
 int
 main()
 {
@@ -321,6 +404,8 @@ main()
       check_derivative(law_with(evolution));
     }
   check_rest();
+  check_short_steps();
+  check_aged_point();
   for (const std::string evolution : {"ageing", "slip"})
     for (const double ratio : {0.7, 0.9, 1.1, 1.4})
       check_growth(evolution, ratio);

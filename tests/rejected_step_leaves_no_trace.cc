@@ -2,6 +2,7 @@
 // forces right afterwards are bit for bit those before, and small steps from
 // there lead to the same states as in a run without failures.
 
+#include <debond/scene/scene.h>
 #include <debond/support/runtime.h>
 #include <debond/system/newton.h>
 
@@ -45,6 +46,7 @@ public:
     options.points.touch_tolerance = 1e-12 * system.R;
     options.points.stick_first     = !extrapolate;
     options.max_iterations         = max_iterations;
+    options.points.duration        = time - accepted_time;
     system.predict(time, extrapolate);
     const bool converged = solve_newton(system, options).converged;
     if (converged)
@@ -95,7 +97,8 @@ bool
 same_history(const ContactPointState &a, const ContactPointState &b)
 {
   return a.status == b.status && a.has_partner == b.has_partner &&
-         a.broken == b.broken && a.xi == b.xi && a.slip == b.slip;
+         a.broken == b.broken && a.xi == b.xi && a.slip == b.slip &&
+         a.internal == b.internal;
 }
 
 /** Bit for bit: history, position, forces, and the surfaces where they may
@@ -233,13 +236,17 @@ main()
       set Slave = bone
     end)";
   // a failing step that ends beyond the elements that contact has reached
-  const std::string shear  = R"(
+  const std::string shear          = R"(
     subsection Chuck
       subsection Translation x
         set Value = 0.06 * max(t - 1, 0)
       end
     end)";
-  const std::string loaded = R"(
+  const std::string rate_and_state = R"(
+    subsection Interface
+      set Friction law = rate and state
+    end)";
+  const std::string loaded         = R"(
     subsection Chuck
       subsection Translation y
         set Control = force
@@ -256,4 +263,5 @@ main()
   check("Neo-Hookean bodies, shear", shear);
   check("The bone is the slave, shear", linear + shear + bone_is_slave);
   check("Under a force and a moment", linear + loaded);
+  check("Rate and state friction", linear + rate_and_state);
 }

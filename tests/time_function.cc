@@ -1,6 +1,6 @@
 // Expressions in t know pi and R; those without a value are refused.
 
-#include <debond/input/time_function.h>
+#include <debond/input/expression_parser.h>
 #include <debond/support/input_error.h>
 
 #include <iostream>
@@ -12,7 +12,7 @@ namespace
   {
     try
       {
-        const Debond::TimeFunction function(expression, 2.5);
+        const auto function = Debond::read_time_function(expression, 2.5);
         std::cout << expression << " at " << t << ": " << function(t) << '\n';
       }
     catch (const Debond::InputError &error)

@@ -336,12 +336,12 @@ show_files()
   const ResultDirectory directory(output, "");
 
   std::cout << "torque.csv" << std::endl;
-  TorqueCurveWriter writer(directory);
-  auto              rows    = make_rows(triangle());
+  GrowingFile writer(directory.file("torque.csv"), torque_table({}));
+  auto        rows          = make_rows(triangle());
   rows[2].torque_Nmm        = 50. / 3.;
   rows[2].chuck_reaction[5] = -1e-7;
-  writer.write(rows[1]);
-  writer.write(rows[2]);
+  writer.append(torque_line(rows[1]));
+  writer.append(torque_line(rows[2]));
   std::cout << contents("results/torque.csv"); // while it is still open
   write_text("own.csv", contents("results/torque.csv"));
   check("it can be a reference itself",

@@ -54,7 +54,11 @@ namespace Debond
                     (rotation ? "degrees for angle, N mm for moment" :
                                 "mm for displacement, N for force") +
                     ". Note that sin and cos expect radians: sin(2 * pi * t).");
-        table.reserve("File", "", "Reserved: a CSV table instead of Value.");
+        table.add("File",
+                  "",
+                  nullptr,
+                  Allowed::reserved(""),
+                  "Reserved: a CSV table instead of Value.");
         table.add(
           "Stiffness",
           component[c].stiffness,

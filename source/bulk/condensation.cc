@@ -1,5 +1,4 @@
 #include <debond/bulk/condensation.h>
-#include <debond/support/chunks.h>
 #include <debond/support/runtime.h>
 
 #include <deal.II/base/exceptions.h>

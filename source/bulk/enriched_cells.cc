@@ -1,5 +1,5 @@
 #include <debond/bulk/enriched_cells.h>
-#include <debond/support/chunks.h>
+#include <debond/support/runtime.h>
 
 #include <Eigen/LU>
 

@@ -5,14 +5,12 @@
 #include <debond/models/closed_form_results.h>
 #include <debond/models/debonding_problem.h>
 #include <debond/output/console.h>
-#include <debond/output/earlier_results.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
-#include <debond/support/run_error.h>
-
-#include <nlohmann/json.hpp>
 
 #include <deal.II/base/timer.h>
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -163,7 +161,7 @@ namespace Debond
     ModelChoice           choice(scene);
     Console               console(scene.output.console, std::cout);
     const ResultDirectory directory(scene.output, scene.completed_parameters);
-    remove_rungs(directory.path());
+    remove_results(directory.path(), true);
     if (!scene.title.empty())
       console.headline(scene.title);
     choice.climb([&](Rung &rung) { run_rung(choice, rung); },

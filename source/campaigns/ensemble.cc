@@ -37,31 +37,6 @@ namespace Debond
           rows.push_back(row);
       return rows;
     }
-
-
-
-    /** Torque at an angle, linear between rows in ascending order; NaN beside
-     *  them. */
-    double
-    torque_at(const ReferenceCurve &rows,
-              const double          angle,
-              const double          tolerance)
-    {
-      if (angle < rows.front().first - tolerance ||
-          angle > rows.back().first + tolerance)
-        return SampleStatistics::undefined;
-      const auto above = std::lower_bound(rows.begin(),
-                                          rows.end(),
-                                          std::make_pair(angle, -HUGE_VAL));
-      if (above == rows.begin())
-        return rows.front().second;
-      if (above == rows.end())
-        return rows.back().second;
-      const auto &[angle_0, torque_0] = *(above - 1);
-      const auto &[angle_1, torque_1] = *above;
-      const double part               = (angle - angle_0) / (angle_1 - angle_0);
-      return part == 1. ? torque_1 : torque_0 + part * (torque_1 - torque_0);
-    }
   } // namespace
 
 

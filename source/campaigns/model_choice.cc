@@ -4,7 +4,6 @@
 #include <debond/models/memory_estimate.h>
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
-#include <debond/support/run_error.h>
 
 #include <deal.II/base/timer.h>
 

@@ -6,7 +6,7 @@
 #include <debond/input/csv_table.h>
 #include <debond/input/parameter_loop.h>
 #include <debond/output/torque_curve.h>
-#include <debond/support/directory_lock.h>
+#include <debond/support/written_files.h>
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
 #include <debond/support/number_text.h>
@@ -110,7 +110,7 @@ namespace Debond
 
 
   // Refuses before anything runs, and finds what is there already.
-  std::shared_ptr<const DirectoryLock>
+  DirectoryLock
   Study::prepare(const bool force)
   {
     std::error_code error;
@@ -119,7 +119,7 @@ namespace Debond
       throw EntryError("Output / Directory",
                        "this directory cannot be created: " + error.message(),
                        directory);
-    const auto lock = DirectoryLock::take(directory);
+    const auto lock = lock_directory(directory);
     for (Variant &variant : variants)
       {
         OutputParameters &output       = variant.scene.output;

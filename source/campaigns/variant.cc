@@ -154,21 +154,29 @@ namespace Debond
     if (compared)
       return;
     compared = done && other.done;
-    CurveMeasures   curve;
-    ProfileMeasures local;
+    RunSummary distances;
     if (compared)
       {
         const std::string own       = scene.output.directory + "/",
                           reference = other.scene.output.directory + "/";
-        curve = compare_curves(own + "torque.csv", reference + "torque.csv");
+        distances.measures =
+          compare_curves(own + "torque.csv", reference + "torque.csv");
         if (std::filesystem::exists(own + "profiles.csv") &&
             std::filesystem::exists(reference + "profiles.csv"))
-          local = compare_profiles(read_profiles(own + "profiles.csv"),
-                                   read_profiles(reference + "profiles.csv"));
+          distances.profile_measures =
+            compare_profiles(read_profiles(own + "profiles.csv"),
+                             read_profiles(reference + "profiles.csv"));
       }
-    for (const auto &measures : {error_measures(curve), error_measures(local)})
-      for (const auto &[name, value] : measures)
-        if (summary.contains(name))
-          summary[name] = value;
+    const nlohmann::ordered_json json = distances;
+    for (const char *const name : {"e_mp",
+                                   "e_rel",
+                                   "difference_max",
+                                   "difference_mean",
+                                   "reference_rows_used",
+                                   "pressure_difference_rms",
+                                   "slip_difference_rms",
+                                   "reference_angles_used"})
+      if (summary.contains(name))
+        summary[name] = json[name];
   }
 } // namespace Debond

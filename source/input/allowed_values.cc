@@ -4,34 +4,31 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <boost/algorithm/string.hpp>
+
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
-#include <utility>
 
 namespace Debond
 {
-  AllowedValues::AllowedValues(Test                     test,
-                               std::string              description,
-                               std::vector<std::string> names)
-    : test(std::move(test))
-    , words(std::move(description))
-    , choices(std::move(names))
-  {}
+  using dealii::Utilities::trim;
 
 
 
   std::string
   AllowedValues::refusal(const std::string &text) const
   {
-    const std::optional<std::string> hint = test(dealii::Utilities::trim(text));
-    if (!hint)
+    const std::string trimmed = trim(text);
+    if (test(trimmed))
       return "";
-    const std::string special = remark_on_special_character(text);
-    const std::string remark  = special.empty() ? *hint : special;
-    return "expected " + words + (remark.empty() ? "" : "; " + remark);
+    std::string remark = remark_on_special_character(text);
+    if (remark.empty() && hint)
+      remark = hint(trimmed);
+    return "expected " + description + (remark.empty() ? "" : "; " + remark);
   }
 
 
@@ -39,59 +36,42 @@ namespace Debond
   AllowedValues
   AllowedValues::or_number(const double number) const
   {
-    const auto or_this =
-      [test = test,
-       number](const std::string &text) -> std::optional<std::string> {
-      double value = 0;
-      if (read_number(text, value) && value == number)
-        return std::nullopt;
-      return test(text);
-    };
-    return {or_this, exact_text(number) + ", or " + words};
+    return {[test = test, number](const std::string &text) {
+              return read_number(text) == number || test(text);
+            },
+            exact_text(number) + ", or " + description,
+            hint};
   }
 
 
 
-  bool
-  AllowedValues::match(const std::string &text) const
+  std::optional<double>
+  read_number(const std::string &text)
   {
-    return refusal(text).empty();
-  }
-
-
-
-  std::string
-  AllowedValues::description(const OutputStyle) const
-  {
-    return words;
-  }
-
-
-
-  std::unique_ptr<dealii::Patterns::PatternBase>
-  AllowedValues::clone() const
-  {
-    return std::make_unique<AllowedValues>(*this);
-  }
-
-
-
-  bool
-  read_number(const std::string &text, double &value)
-  {
-    const std::string trimmed = dealii::Utilities::trim(text);
+    const std::string trimmed = trim(text);
     // strtod also takes hexadecimal numbers, "nan" and "infinity".
     if (trimmed.empty() ||
         trimmed.find_first_not_of("0123456789+-.eE") != std::string::npos)
-      return false;
+      return std::nullopt;
     char *end           = nullptr;
     errno               = 0;
     const double result = std::strtod(trimmed.c_str(), &end);
     // infinite, or so small that it has lost digits
     if (*end != '\0' || errno == ERANGE)
-      return false;
-    value = result;
-    return true;
+      return std::nullopt;
+    return result;
+  }
+
+
+
+  std::vector<std::string>
+  split(const std::string &text, const std::string &separator)
+  {
+    std::vector<std::string> items;
+    boost::iter_split(items, text, boost::first_finder(separator));
+    for (std::string &item : items)
+      item = trim(item);
+    return items;
   }
 
 
@@ -99,19 +79,7 @@ namespace Debond
   std::vector<std::string>
   split_list(const std::string &text)
   {
-    std::vector<std::string> items;
-    if (dealii::Utilities::trim(text).empty())
-      return items;
-    std::string::size_type begin = 0;
-    while (true)
-      {
-        const std::string::size_type comma = text.find(',', begin);
-        items.push_back(
-          dealii::Utilities::trim(text.substr(begin, comma - begin)));
-        if (comma == std::string::npos)
-          return items;
-        begin = comma + 1;
-      }
+    return trim(text).empty() ? std::vector<std::string>() : split(text, ",");
   }
 
 
@@ -147,44 +115,41 @@ namespace Debond
 
 
 
-    /** What may be wrong with something that is no number. */
+    /** What may be wrong with something that is no number; nothing of one. */
     std::string
     why_no_number(const std::string &text)
     {
-      const std::vector<std::string> items  = split_list(text);
-      double                         number = 0;
+      if (read_number(text))
+        return "";
+      const std::vector<std::string> items = split_list(text);
       if (items.empty())
         return "a value is missing";
-      if (items.size() == 2 && read_number(items[0], number) &&
+      if (items.size() == 2 && read_number(items[0]) &&
           consists_of(items[1], "0123456789"))
         return "decimals are written with a point, and nothing stands between "
                "thousands";
       const std::string beginning =
         text.substr(0, text.find_first_not_of("0123456789+-."));
-      if (read_number(beginning, number) &&
-          !consists_of(text, "0123456789+-.eE"))
+      if (read_number(beginning) && !consists_of(text, "0123456789+-.eE"))
         return "give the number alone, without unit or formula";
       return "'" + shortened(text) + "' cannot be read as a number";
     }
 
 
 
-    /** One number that passes @p test. */
-    template <typename Predicate>
+    /** One number in [@p lower, @p upper], in words @p range. */
     AllowedValues
-    number_that(const Predicate   &is_allowed,
-                const std::string &range,
-                const std::string &unit)
+    number_in(const double       lower,
+              const double       upper,
+              const std::string &range,
+              const std::string &unit)
     {
-      const auto test =
-        [is_allowed](const std::string &text) -> std::optional<std::string> {
-        double value = 0;
-        if (!read_number(text, value))
-          return why_no_number(text);
-        return is_allowed(value) ? std::nullopt : std::make_optional("");
-      };
-      return {test,
-              "a number" + range + (unit.empty() ? "" : " [" + unit + "]")};
+      return {[=](const std::string &text) {
+                const auto x = read_number(text);
+                return x && *x >= lower && *x <= upper;
+              },
+              "a number" + range + (unit.empty() ? "" : " [" + unit + "]"),
+              why_no_number};
     }
   } // namespace
 
@@ -195,7 +160,7 @@ namespace Debond
     AllowedValues
     number(const std::string &unit)
     {
-      return number_that([](const double) { return true; }, "", unit);
+      return number_in(-infinity, infinity, "", unit);
     }
 
 
@@ -203,9 +168,8 @@ namespace Debond
     AllowedValues
     number_above(const double bound, const std::string &unit)
     {
-      return number_that([bound](const double x) { return x > bound; },
-                         " > " + exact_text(bound),
-                         unit);
+      const double least = std::nextafter(bound, infinity);
+      return number_in(least, infinity, " > " + exact_text(bound), unit);
     }
 
 
@@ -213,9 +177,7 @@ namespace Debond
     AllowedValues
     number_from(const double bound, const std::string &unit)
     {
-      return number_that([bound](const double x) { return x >= bound; },
-                         " >= " + exact_text(bound),
-                         unit);
+      return number_in(bound, infinity, " >= " + exact_text(bound), unit);
     }
 
 
@@ -225,10 +187,9 @@ namespace Debond
                    const double       upper,
                    const std::string &unit)
     {
-      return number_that(
-        [=](const double x) { return x >= lower && x <= upper; },
-        " from " + exact_text(lower) + " to " + exact_text(upper),
-        unit);
+      const std::string range =
+        " from " + exact_text(lower) + " to " + exact_text(upper);
+      return number_in(lower, upper, range, unit);
     }
 
 
@@ -236,19 +197,13 @@ namespace Debond
     AllowedValues
     whole_number(const unsigned int lower, const unsigned int upper)
     {
-      const auto test =
-        [=](const std::string &text) -> std::optional<std::string> {
-        double value = 0;
-        if (!read_number(text, value))
-          return why_no_number(text);
-        return consists_of(text, "+0123456789") && value >= lower &&
-                   value <= upper ?
-                 std::nullopt :
-                 std::make_optional("");
-      };
-      return {test,
+      return {[=](const std::string &text) {
+                return consists_of(text, "+0123456789") &&
+                       number_in(lower, upper, "", "").test(text);
+              },
               "a whole number from " + std::to_string(lower) + " to " +
-                std::to_string(upper)};
+                std::to_string(upper),
+              why_no_number};
     }
 
 
@@ -258,26 +213,26 @@ namespace Debond
          const unsigned int   min_count,
          const unsigned int   max_count)
     {
-      const auto test =
-        [=](const std::string &text) -> std::optional<std::string> {
-        const std::vector<std::string> items  = split_list(text);
-        double                         number = 0;
+      const unsigned int most = max_count == 0 ? unsigned(-1) : max_count;
+      const auto         test = [=](const std::string &text) {
+        const auto items = split_list(text);
+        return items.size() >= min_count && items.size() <= most &&
+               std::all_of(items.begin(), items.end(), each.test);
+      };
+      const auto hint = [=](const std::string &text) -> std::string {
+        const auto items = split_list(text);
         for (const std::string &item : items)
-          if (!read_number(item, number))
+          if (!read_number(item))
             return text.find(';') != std::string::npos ||
                        (!item.empty() &&
                         consists_of(item, "0123456789+-.eE \t")) ?
                      "values are separated by commas" :
                      why_no_number(item);
-          else if (!each.match(item))
+          else if (!each.test(item))
             return "'" + item + "' is not";
-        if (items.size() < min_count ||
-            (max_count > 0 && items.size() > max_count))
-          return "here are " + std::to_string(items.size()) +
-                 (max_count > 0 && items.size() > max_count ?
-                    " (decimals are written with a point)" :
-                    "");
-        return std::nullopt;
+        return "here are " + std::to_string(items.size()) +
+               (items.size() > most ? " (decimals are written with a point)" :
+                                      "");
       };
       const std::string how_many =
         std::to_string(min_count) +
@@ -286,7 +241,8 @@ namespace Debond
                                   " to " + std::to_string(max_count));
       return {test,
               how_many + " values separated by commas, each " +
-                each.description()};
+                each.description,
+              hint};
     }
 
 
@@ -294,23 +250,13 @@ namespace Debond
     AllowedValues
     choice(const std::string &choices)
     {
-      const std::vector<std::string> names =
-        dealii::Utilities::split_string_list(choices, '|');
-      const auto test =
-        [names](const std::string &text) -> std::optional<std::string> {
-        return std::find(names.begin(), names.end(), text) != names.end() ?
-                 std::nullopt :
-                 std::make_optional("");
-      };
-      return {test, choices, names};
-    }
-
-
-
-    AllowedValues
-    yes_or_no()
-    {
-      return choice("false | true");
+      const std::vector<std::string> names = split(choices, "|");
+      return {[names](const std::string &text) {
+                return std::count(names.begin(), names.end(), text) > 0;
+              },
+              choices,
+              nullptr,
+              names};
     }
 
 
@@ -318,10 +264,9 @@ namespace Debond
     AllowedValues
     text(const std::string &what)
     {
-      return {[](const std::string &text) {
-                return text.empty() ? std::make_optional("") : std::nullopt;
-              },
-              what};
+      return {[](const std::string &text) { return !text.empty(); },
+              what,
+              nullptr};
     }
 
 
@@ -329,7 +274,7 @@ namespace Debond
     AllowedValues
     optional_text(const std::string &what)
     {
-      return {[](const std::string &) { return std::nullopt; }, what};
+      return {[](const std::string &) { return true; }, what, nullptr};
     }
 
 
@@ -337,17 +282,16 @@ namespace Debond
     AllowedValues
     directory()
     {
-      const auto test =
-        [](const std::string &text) -> std::optional<std::string> {
-        if (!text.empty() && text[0] != '~' && text[0] != '$' &&
-            text.find_first_of("\"'`\\") == std::string::npos &&
-            text.find("\xE2\x80") == std::string::npos && // typographic ones
-            std::filesystem::path(text).lexically_normal() != "/")
-          return std::nullopt;
-        return "it is taken as it is: without quotes and backslashes, without "
-               "~ or $ at its beginning, and not /";
+      const auto test = [](const std::string &text) {
+        return !text.empty() && text[0] != '~' && text[0] != '$' &&
+               text.find_first_of("\"'`\\") == std::string::npos &&
+               text.find("\xE2\x80") == std::string::npos && // typographic ones
+               std::filesystem::path(text).lexically_normal() != "/";
       };
-      return {test, "the name of a directory"};
+      return {test, "the name of a directory", [](const std::string &) {
+                return "it is taken as it is: without quotes and backslashes, "
+                       "without ~ or $ at its beginning, and not /";
+              }};
     }
 
 
@@ -355,13 +299,10 @@ namespace Debond
     AllowedValues
     reserved(const std::string &value)
     {
-      const auto test =
-        [value](const std::string &text) -> std::optional<std::string> {
-        return text == value ? std::nullopt : std::make_optional("");
-      };
-      return {test,
+      return {[value](const std::string &text) { return text == value; },
               (value.empty() ? "no value" : value) +
-                " (nothing else in this version)"};
+                " (nothing else in this version)",
+              nullptr};
     }
   } // namespace Allowed
 } // namespace Debond

@@ -1,9 +1,11 @@
 #include <debond/input/entry_table.h>
-#include <debond/support/input_error.h>
 
 #include <deal.II/base/utilities.h>
 
+#include <boost/algorithm/string/compare.hpp>
+
 #include <algorithm>
+#include <iomanip>
 #include <numeric>
 #include <sstream>
 
@@ -13,7 +15,6 @@ namespace Debond
   EntryTable::enter_subsection(const std::string &name)
   {
     path.push_back(name);
-    prm.enter_subsection(name);
   }
 
 
@@ -22,7 +23,6 @@ namespace Debond
   EntryTable::leave_subsection()
   {
     path.pop_back();
-    prm.leave_subsection();
   }
 
 
@@ -34,27 +34,16 @@ namespace Debond
                   const AllowedValues                            &allowed,
                   const std::string                              &documentation)
   {
+    const SceneEntry  entry{path, name, value, ""};
     const std::string refusal = allowed.refusal(value);
     if (!refusal.empty())
-      throw EntryError(full_entry_name(path, name), refusal, value);
-    rows.push_back({path, name, allowed, documentation});
-    prm.declare_entry(name, value, allowed, documentation);
-    prm.add_action(name, set);
-  }
-
-
-
-  void
-  EntryTable::reserve(const std::string &name,
-                      const std::string &value,
-                      const std::string &documentation)
-  {
-    add(
-      name,
-      value,
-      [](const std::string &) {},
-      Allowed::reserved(value),
-      documentation);
+      entry.refuse(refusal);
+    const auto last =
+      std::find_if(rows.rbegin(), rows.rend(), [this](const Row &row) {
+        return row.entry.subsections == path;
+      });
+    rows.insert(last == rows.rend() ? rows.end() : last.base(),
+                {entry, set, allowed, documentation});
   }
 
 
@@ -62,34 +51,28 @@ namespace Debond
   void
   EntryTable::set(const SceneEntry &entry)
   {
-    const auto refuse = [&entry](const std::string &why) {
-      throw EntryError(entry.full_name(), why, entry.value, entry.place);
-    };
     const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row &r) {
-      return r.name == entry.name && r.subsections == entry.subsections;
+      return r.entry.full_name() == entry.full_name();
     });
     if (row == rows.end())
       {
         const std::string special =
           remark_on_special_character(entry.full_name());
         const std::string likely = likely_name(entry);
-        refuse(
+        entry.refuse(
           "there is no such entry" +
           (!special.empty() ? "; " + special :
            likely.empty()   ? " (debond --print-parameters lists all entries)" :
                               "; did you mean " + likely + "?"));
       }
     if (entry.value.find("{{") != std::string::npos)
-      refuse("several values make a study: expected one value here");
+      entry.refuse("several values make a study: expected one value here");
     const std::string refusal = row->allowed.refusal(entry.value);
     if (!refusal.empty())
-      refuse(refusal);
-
-    for (const std::string &subsection : entry.subsections)
-      prm.enter_subsection(subsection);
-    prm.set(entry.name, entry.value);
-    for (std::size_t i = 0; i < entry.subsections.size(); ++i)
-      prm.leave_subsection();
+      entry.refuse(refusal);
+    row->entry.value = entry.value;
+    if (row->set)
+      row->set(entry.value);
   }
 
 
@@ -103,17 +86,14 @@ namespace Debond
     {
       std::vector<unsigned int> row(b.size() + 1);
       std::iota(row.begin(), row.end(), 0);
-      for (std::size_t i = 0; i < a.size(); ++i)
+      for (const char letter : a)
         {
-          unsigned int diagonal = row[0];
-          row[0]                = i + 1;
+          unsigned int diagonal = row[0]++;
           for (std::size_t j = 0; j < b.size(); ++j)
             {
-              const bool is_same =
-                std::tolower(static_cast<unsigned char>(a[i])) ==
-                std::tolower(static_cast<unsigned char>(b[j]));
-              const unsigned int changed = diagonal + (is_same ? 0 : 1);
-              diagonal                   = row[j + 1];
+              const unsigned int changed =
+                diagonal + (boost::is_iequal()(letter, b[j]) ? 0 : 1);
+              diagonal   = row[j + 1];
               row[j + 1] = std::min({changed, row[j] + 1, row[j + 1] + 1});
             }
         }
@@ -149,15 +129,16 @@ namespace Debond
     unsigned int smallest = std::max<std::size_t>(3, name.size() / 3 + 1);
     for (const Row &row : rows)
       {
-        const bool contains =
-          name.size() > 3 && row.name.find(name) != std::string::npos;
+        const SceneEntry &other = row.entry;
+        const bool        contains =
+          name.size() > 3 && other.name.find(name) != std::string::npos;
         const unsigned int distance =
-          std::min(edit_distance(row.name, name), contains ? 1U : 1000U) +
-          (row.subsections == entry.subsections ? 0 : 1);
+          std::min(edit_distance(other.name, name), contains ? 1U : 1000U) +
+          (other.subsections == entry.subsections ? 0 : 1);
         if (distance < smallest)
           {
             smallest = distance;
-            likely   = full_entry_name(row.subsections, row.name);
+            likely   = other.full_name();
           }
       }
     return likely;
@@ -169,46 +150,53 @@ namespace Debond
   EntryTable::text() const
   {
     std::ostringstream out;
-    prm.print_parameters(out,
-                         dealii::ParameterHandler::ShortPRM |
-                           dealii::ParameterHandler::KeepDeclarationOrder);
+    print(out, false);
     return out.str();
   }
 
 
 
   void
-  EntryTable::print(std::ostream &out) const
+  EntryTable::print(std::ostream &out, const bool documented) const
   {
+    const std::string        between_entries = documented ? "\n" : "";
     std::vector<std::string> open;
     std::string              separator; // before all but the first in a block
     const auto               close = [&] {
       open.pop_back();
       out << std::string(2 * open.size(), ' ') << "end\n";
-      separator = "\n";
+      separator = between_entries;
     };
 
-    for (const Row &row : rows)
+    for (const auto &[entry, set, allowed, documentation] : rows)
       {
-        const std::vector<std::string> &path = row.subsections;
+        const std::vector<std::string> &path = entry.subsections;
         while (open.size() > path.size() ||
                !std::equal(open.begin(), open.end(), path.begin()))
           close();
-        while (open.size() < path.size())
+        for (; open.size() < path.size(); separator.clear())
           {
             out << separator << std::string(2 * open.size(), ' ')
                 << "subsection " << path[open.size()] << '\n';
             open.push_back(path[open.size()]);
-            separator.clear();
           }
         const std::string indent(2 * open.size(), ' ');
-        const std::string value = prm.get(path, row.name);
-        out << separator;
-        print_comment(row.documentation, indent, out);
-        print_comment("Allowed: " + row.allowed.description(), indent, out);
-        out << indent << "set " << row.name << " ="
-            << (value.empty() ? "" : " " + value) << '\n';
-        separator = "\n";
+        std::size_t width = 0; // the values of a subsection stand in a column
+        if (documented)
+          {
+            out << separator;
+            print_comment(documentation, indent, out);
+            print_comment("Allowed: " + allowed.description, indent, out);
+          }
+        else
+          for (const Row &row : rows)
+            if (row.entry.subsections == path)
+              width = std::max(width, row.entry.name.size());
+        out << indent << "set " << std::left << std::setw(width) << entry.name
+            << " ="
+            << (entry.value.empty() && documented ? "" : " " + entry.value)
+            << '\n';
+        separator = between_entries;
       }
     while (!open.empty())
       close();

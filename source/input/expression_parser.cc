@@ -1,6 +1,7 @@
 #include <debond/input/allowed_values.h>
 #include <debond/input/expression_parser.h>
 #include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
 
 #include <deal.II/base/mu_parser_internal.h>
 #include <deal.II/base/numbers.h>
@@ -11,6 +12,7 @@
 #include <muParser.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <regex>
@@ -107,13 +109,6 @@ namespace Debond
       return expression;
     }
 
-
-
-    struct ParserOfVariables
-    {
-      mu::Parser          parser;
-      std::vector<double> values; ///< of the variables
-    };
   } // namespace
 
 
@@ -133,11 +128,12 @@ namespace Debond
 
     std::vector<std::string> names =
       dealii::Utilities::split_string_list(variables);
-    const auto  shared = std::make_shared<ParserOfVariables>();
-    mu::Parser &parser = shared->parser;
-    shared->values.resize(names.size());
+    const auto shared = std::make_shared<mu::Parser>();
+    const auto variables_at =
+      std::make_shared<std::vector<double>>(names.size());
+    mu::Parser &parser = *shared;
     for (std::size_t i = 0; i < names.size(); ++i)
-      parser.DefineVar(names[i], &shared->values[i]);
+      parser.DefineVar(names[i], &(*variables_at)[i]);
     parser.DefineConst("pi", dealii::numbers::PI);
     parser.DefineConst("R", radius);
     define_functions(parser);
@@ -159,9 +155,31 @@ namespace Debond
     if (parser.GetNumResults() > 1)
       refuse("decimals are written with a point");
 
-    return [shared](const std::initializer_list<double> &values) {
-      std::copy(values.begin(), values.end(), shared->values.begin());
-      return shared->parser.Eval();
+    return [shared, variables_at](const std::initializer_list<double> &values) {
+      std::copy(values.begin(), values.end(), variables_at->begin());
+      return shared->Eval();
     };
+  }
+
+
+
+  TimeFunction
+  with_finite_values(const TimeFunction &function)
+  {
+    return [function](const double t) {
+      const double value = function(t);
+      if (!std::isfinite(value))
+        throw InputError("it has no finite value at t = " + to_text(t));
+      return value;
+    };
+  }
+
+
+
+  TimeFunction
+  read_time_function(const std::string &expression, const double radius)
+  {
+    const Expression in_t = read_expression("t", expression, radius);
+    return with_finite_values([in_t](const double t) { return in_t({t}); });
   }
 } // namespace Debond

@@ -1,5 +1,7 @@
 #include <debond/input/input_file.h>
 
+#include <boost/algorithm/string/replace.hpp>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -67,14 +69,9 @@ namespace Debond
     if (std::any_of(bytes.begin(), bytes.end(), is_binary))
       refuse("this is not a text file");
 
-    std::string text;
-    text.reserve(bytes.size());
-    for (std::size_t i = begins_with("\xEF\xBB\xBF") ? 3 : 0; i < bytes.size();
-         ++i)
-      if (bytes[i] != '\r')
-        text += bytes[i];
-      else if (i + 1 == bytes.size() || bytes[i + 1] != '\n')
-        text += '\n';
+    std::string text = bytes.substr(begins_with("\xEF\xBB\xBF") ? 3 : 0);
+    boost::replace_all(text, "\r\n", "\n");
+    std::replace(text.begin(), text.end(), '\r', '\n');
     return text;
   }
 } // namespace Debond

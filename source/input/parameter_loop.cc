@@ -1,13 +1,14 @@
+#include <debond/input/allowed_values.h>
 #include <debond/input/parameter_loop.h>
 #include <debond/support/input_error.h>
 
 #include <deal.II/base/utilities.h>
 
-#include <boost/algorithm/string.hpp>
-
 #include <algorithm>
-#include <map>
+#include <iterator>
 #include <regex>
+#include <string>
+#include <utility>
 
 namespace Debond
 {
@@ -23,22 +24,10 @@ namespace Debond
 
 
 
-    std::vector<std::string>
-    split_at(const std::string &text, const std::string &separator)
+    bool
+    is_varied(const SceneEntry &entry)
     {
-      std::vector<std::string> items;
-      boost::iter_split(items, text, boost::first_finder(separator));
-      for (std::string &item : items)
-        item = trim(item);
-      return items;
-    }
-
-
-
-    [[noreturn]] void
-    refuse(const SceneEntry &entry, const std::string &why)
-    {
-      throw EntryError(entry.full_name(), why, entry.value, entry.place);
+      return entry.value.find("{{") != std::string::npos;
     }
 
 
@@ -46,10 +35,20 @@ namespace Debond
     /** The values of one varied entry. */
     struct Choice
     {
+      SceneEntry               entry;
       std::vector<std::string> values;
       std::string              name;           ///< of {{name: ...}}, or empty
-      std::string              axis;           ///< the name, or the entry
       bool                     by_run = false; ///< {{a||b}}
+      unsigned int             stride = 1;     ///< variants between two values
+      /** Whether the entry is the first one with this name, or has none. */
+      bool is_factor = true;
+
+      /** Of the value that the entry takes in a variant. */
+      std::size_t
+      index(const unsigned int variant) const
+      {
+        return variant / stride % values.size();
+      }
     };
 
 
@@ -63,41 +62,24 @@ namespace Debond
       if (dots == std::string::npos ||
           item.find_first_not_of("0123456789+-.eE \t") != std::string::npos)
         return {item};
-      const std::string       ends[] = {trim(item.substr(0, dots)),
-                                        trim(item.substr(dots + 2))};
-      static const std::regex whole("[+-]?[0-9]{1,9}");
-      for (const std::string &end : ends)
-        if (end.size() > 10 || !std::regex_match(end, whole))
-          refuse(entry,
-                 "'" + shortened(item) +
-                   "' is no range: expected FIRST..LAST with whole numbers of "
-                   "at most nine digits");
-      const int first = std::stoi(ends[0]), last = std::stoi(ends[1]);
+      static const std::regex range(
+        "([+-]?[0-9]{1,9})[ \t]*\\.\\.[ \t]*([+-]?[0-9]{1,9})");
+      std::smatch ends;
+      // matching is recursive: long texts would overflow the stack
+      if (item.size() > 100 || !std::regex_match(item, ends, range))
+        entry.refuse("'" + shortened(item) +
+                     "' is no range: expected FIRST..LAST with whole numbers "
+                     "of at most nine digits");
+      const int first = std::stoi(ends[1]), last = std::stoi(ends[2]);
       if (first > last)
-        refuse(entry,
-               "the range '" + item +
-                 "' is empty: expected FIRST..LAST with FIRST <= LAST");
+        entry.refuse("the range '" + item +
+                     "' is empty: expected FIRST..LAST with FIRST <= LAST");
       if (unsigned(last - first) >= most_variants)
-        refuse(entry, too_many);
+        entry.refuse(too_many);
       std::vector<std::string> numbers;
       for (int i = first; i <= last; ++i)
         numbers.push_back(std::to_string(i));
       return numbers;
-    }
-
-
-
-    /** The name in `name: a|b|c`, letters first; nothing if there is none. */
-    std::string
-    name_of_choice(const std::string &inside)
-    {
-      static const std::regex name("[A-Za-z][A-Za-z0-9_ -]*");
-      const std::string       before = trim(inside.substr(0, inside.find(':')));
-      // matching is recursive: long texts would overflow the stack
-      return before.size() < 100 && inside.find(':') != std::string::npos &&
-                 std::regex_match(before, name) ?
-               before :
-               "";
     }
 
 
@@ -110,26 +92,30 @@ namespace Debond
       if (end == std::string::npos || end < begin ||
           value.find("{{", begin + 2) != std::string::npos ||
           value.find("}}", end + 2) != std::string::npos)
-        refuse(entry,
-               "the braces of several values do not match: expected "
-               "{{a|b|c}}, {{a||b||c}} or {{name: a|b|c}}, once");
+        entry.refuse("the braces of several values do not match: expected "
+                     "{{a|b|c}}, {{a||b||c}} or {{name: a|b|c}}, once");
       const std::string prefix = value.substr(0, begin);
       const std::string suffix = value.substr(end + 2);
       std::string       inside = value.substr(begin + 2, end - begin - 2);
 
       Choice choice;
-      choice.name = name_of_choice(inside);
-      if (!choice.name.empty())
-        inside.erase(0, inside.find(':') + 1);
-      choice.axis   = choice.name.empty() ? entry.full_name() : choice.name;
+      choice.entry = entry;
+      static const std::regex name("[A-Za-z][A-Za-z0-9_ -]*");
+      const auto              colon  = inside.find(':');
+      const std::string       before = trim(inside.substr(0, colon));
+      if (colon != std::string::npos && before.size() < 100 &&
+          std::regex_match(before, name))
+        {
+          choice.name = before;
+          inside.erase(0, colon + 1);
+        }
       choice.by_run = inside.find("||") != std::string::npos;
       if (choice.by_run && !choice.name.empty())
-        refuse(entry, "a named choice takes | between its values, not ||");
-      for (const std::string &item :
-           split_at(inside, choice.by_run ? "||" : "|"))
+        entry.refuse("a named choice takes | between its values, not ||");
+      for (const std::string &item : split(inside, choice.by_run ? "||" : "|"))
         {
           if (item.find('|') != std::string::npos)
-            refuse(entry, "either | or || between all values");
+            entry.refuse("either | or || between all values");
           for (const std::string &one : expand_range(entry, item))
             choice.values.push_back(trim(prefix + one + suffix));
         }
@@ -137,85 +123,58 @@ namespace Debond
         for (auto value = choice.values.begin(); value != choice.values.end();
              ++value)
           if (std::find(choice.values.begin(), value, *value) != value)
-            refuse(entry, "'" + *value + "' is there twice");
+            entry.refuse("'" + *value + "' is there twice");
       return choice;
     }
 
 
 
-    /** Number of variants, and which value an entry takes in one of them. */
-    class Axes
+    /** Says which variants take which value of each choice, the first choice
+     *  varying fastest; returns the number of variants. */
+    unsigned int
+    combine(std::vector<Choice> &choices)
     {
-    public:
-      void
-      add(const SceneEntry &entry, const Choice &choice)
-      {
-        const unsigned int n = choice.values.size();
-        if (n > most_variants)
-          refuse(entry, too_many);
+      unsigned int n_combinations = 1;
+      for (auto choice = choices.begin(); choice != choices.end(); ++choice)
+        {
+          const std::size_t n = choice->values.size();
+          const auto        same =
+            std::find_if(choices.begin(), choice, [&](const Choice &other) {
+              return !other.name.empty() && other.name == choice->name;
+            });
+          if (same != choice)
+            {
+              choice->stride    = same->stride;
+              choice->is_factor = false;
+              if (n != same->values.size())
+                choice->entry.refuse(std::to_string(n) +
+                                     " values, but an entry before has " +
+                                     std::to_string(same->values.size()) +
+                                     " for '" + choice->name + "'");
+            }
+          else if (n > most_variants / (choice->by_run ? 1 : n_combinations))
+            choice->entry.refuse(too_many);
+          else if (!choice->by_run)
+            {
+              choice->stride = n_combinations;
+              n_combinations *= n;
+            }
+        }
+
+      for (const Choice &choice : choices)
         if (choice.by_run)
           {
-            by_run.emplace_back(entry, n);
-            return;
+            // entries {{a||b}} alone set the number of variants
+            const std::size_t n = choice.values.size();
+            if (n_combinations == 1)
+              n_combinations = n;
+            if (n != n_combinations)
+              choice.entry.refuse(std::to_string(n) + " values for " +
+                                  std::to_string(n_combinations) +
+                                  " variants: {{a||b}} needs one for each");
           }
-        const auto [axis, is_new] =
-          strides.emplace(choice.axis, std::make_pair(n_combinations, n));
-        if (!is_new && axis->second.second != n)
-          refuse(entry,
-                 std::to_string(n) + " values, but an entry before has " +
-                   std::to_string(axis->second.second) + " for '" +
-                   choice.name + "'");
-        if (is_new && n > most_variants / n_combinations)
-          refuse(entry, too_many);
-        n_combinations *= is_new ? n : 1;
-      }
-
-      /** Variants of all; with entries {{a||b}} alone their number of values.
-       */
-      unsigned int
-      n_variants() const
-      {
-        const unsigned int n = n_combinations == 1 && !by_run.empty() ?
-                                 by_run.front().second :
-                                 n_combinations;
-        for (const auto &[entry, n_values] : by_run)
-          if (n_values != n)
-            refuse(entry,
-                   std::to_string(n_values) + " values for " +
-                     std::to_string(n) +
-                     " variants: {{a||b}} needs one for each");
-        return n;
-      }
-
-      unsigned int
-      index(const Choice &choice, const unsigned int variant) const
-      {
-        if (choice.by_run)
-          return variant;
-        const auto [stride, n] = strides.at(choice.axis);
-        return variant / stride % n;
-      }
-
-      /** Number of factors, that is entries or named groups of entries, that
-       *  differ from their first value. */
-      unsigned int
-      n_changed(const unsigned int variant) const
-      {
-        return std::count_if(strides.begin(),
-                             strides.end(),
-                             [variant](const auto &axis) {
-                               const auto [stride, n] = axis.second;
-                               return variant / stride % n != 0;
-                             });
-      }
-
-    private:
-      unsigned int n_combinations = 1;
-      /** Name of the axis -> {variants between two values, number of values}.
-       */
-      std::map<std::string, std::pair<unsigned int, unsigned int>> strides;
-      std::vector<std::pair<SceneEntry, unsigned int>>             by_run;
-    };
+      return n_combinations;
+    }
   } // namespace
 
 
@@ -232,9 +191,10 @@ namespace Debond
   varied_entries(const std::vector<SceneEntry> &entries)
   {
     std::vector<SceneEntry> result;
-    for (const SceneEntry &entry : entries)
-      if (entry.value.find("{{") != std::string::npos)
-        result.push_back(entry);
+    std::copy_if(entries.begin(),
+                 entries.end(),
+                 std::back_inserter(result),
+                 is_varied);
     return result;
   }
 
@@ -244,37 +204,37 @@ namespace Debond
   study_variants(const std::vector<SceneEntry> &entries,
                  const unsigned int             factors_at_once)
   {
-    std::map<std::string, Choice> choices;
-    Axes                          axes;
+    std::vector<Choice> choices;
     for (const SceneEntry &entry : varied_entries(entries))
       {
-        const Choice &choice = choices[entry.full_name()] = read_choice(entry);
-        if (choice.by_run && factors_at_once > 0)
-          refuse(entry,
-                 "{{a||b}} has a value for every variant and cannot be one of "
-                 "the factors of Study / Factors varied at once: expected "
-                 "{{a|b|c}} or {{name: a|b|c}}");
-        axes.add(entry, choice);
+        choices.push_back(read_choice(entry));
+        if (choices.back().by_run && factors_at_once > 0)
+          entry.refuse(
+            "{{a||b}} has a value for every variant and cannot be one of "
+            "the factors of Study / Factors varied at once: expected "
+            "{{a|b|c}} or {{name: a|b|c}}");
       }
 
     std::vector<StudyVariant> variants;
-    const unsigned int        n_combinations = axes.n_variants();
+    const unsigned int        n_combinations = combine(choices);
     for (unsigned int i = 0; i < n_combinations; ++i)
       {
-        if (factors_at_once > 0 && axes.n_changed(i) > factors_at_once)
+        const auto is_changed = [i](const Choice &choice) {
+          return choice.is_factor && choice.index(i) != 0;
+        };
+        if (factors_at_once > 0 &&
+            std::count_if(choices.begin(), choices.end(), is_changed) >
+              factors_at_once)
           continue;
-        StudyVariant variant;
-        for (SceneEntry entry : entries)
-          {
-            const auto choice = choices.find(entry.full_name());
-            if (choice != choices.end())
-              {
-                entry.value =
-                  choice->second.values[axes.index(choice->second, i)];
-                variant.values.push_back(entry.value);
-              }
-            variant.entries.push_back(entry);
-          }
+        StudyVariant variant{entries, {}};
+        auto         choice = choices.begin();
+        for (SceneEntry &entry : variant.entries)
+          if (is_varied(entry))
+            {
+              entry.value = choice->values[choice->index(i)];
+              variant.values.push_back(entry.value);
+              ++choice;
+            }
         variants.push_back(std::move(variant));
       }
     return variants;

@@ -6,11 +6,13 @@
 #include <deal.II/base/utilities.h>
 
 #include <boost/algorithm/string/case_conv.hpp>
+#include <boost/algorithm/string/trim_all.hpp>
 
 #include <algorithm>
 #include <filesystem>
 #include <map>
 #include <sstream>
+#include <utility>
 
 namespace Debond
 {
@@ -19,8 +21,7 @@ namespace Debond
 
 
   std::string
-  full_entry_name(const std::vector<std::string> &subsections,
-                  const std::string              &name)
+  SceneEntry::full_name() const
   {
     std::string result;
     for (const std::string &subsection : subsections)
@@ -30,10 +31,10 @@ namespace Debond
 
 
 
-  std::string
-  SceneEntry::full_name() const
+  void
+  SceneEntry::refuse(const std::string &why) const
   {
-    return full_entry_name(subsections, name);
+    throw EntryError(full_name(), why, value, place);
   }
 
 
@@ -44,11 +45,7 @@ namespace Debond
     std::string
     single_blanks(const std::string &text)
     {
-      std::istringstream words(text);
-      std::string        result, word;
-      while (words >> word)
-        result += (result.empty() ? "" : " ") + word;
-      return result;
+      return boost::trim_fill_copy(text, " ");
     }
 
 
@@ -72,192 +69,161 @@ namespace Debond
     {
     public:
       void
-      read(const std::string &text, const std::string &name);
+      read(const std::string &text, const std::string &name)
+      {
+        files.push_back(name);
+        const std::size_t n_outer_before = std::exchange(n_outer, path.size());
+
+        std::istringstream lines(plain_text(text, refusal_at(name)));
+        std::string        line, statement;
+        for (unsigned int number = 1; std::getline(lines, line); ++number)
+          {
+            if (statement.empty())
+              place = name + ":" + std::to_string(number);
+            line                    = trim(line.substr(0, line.find('#')));
+            const bool is_continued = !line.empty() && line.back() == '\\';
+            if (is_continued)
+              line.pop_back();
+            statement += line;
+            if (is_continued)
+              continue;
+            read_statement(trim(statement));
+            statement.clear();
+          }
+        // A backslash at the very end continues nothing.
+        read_statement(trim(statement));
+
+        if (path.size() > n_outer)
+          throw InputError(path_places.back() + ": the subsection '" +
+                           path.back() +
+                           "' that begins here is not closed by 'end'");
+        n_outer = n_outer_before;
+        files.pop_back();
+      }
 
       /** In the order of reading. */
       std::vector<SceneEntry> entries;
 
     private:
       void
-      read_statement(const std::string &statement, const std::string &place);
-      void
-      read_set(const std::string &rest, const std::string &place);
-      void
-      read_include(const std::string &filename, const std::string &place);
-      void
-      open_subsection(const std::string &name, const std::string &place);
-      void
-      close_subsection(const std::string &rest, const std::string &place);
+      read_statement(const std::string &statement)
+      {
+        if (statement.empty())
+          return;
+        const auto        blank = statement.find_first_of(" \t");
+        const std::string keyword =
+          boost::to_lower_copy(statement.substr(0, blank));
+        const std::string rest =
+          blank == std::string::npos ? "" : trim(statement.substr(blank));
 
+        if (keyword == "subsection" && !rest.empty())
+          open_subsection(rest);
+        else if (keyword == "end")
+          close_subsection(rest);
+        else if (keyword == "set")
+          read_set(rest);
+        else if (keyword == "include" && !rest.empty())
+          read_include(rest);
+        else
+          {
+            const std::string remark = remark_on_special_character(keyword);
+            refuse("cannot read '" + shortened(statement) +
+                   "': expected 'subsection NAME', 'set NAME = VALUE', 'end' "
+                   "or 'include FILE'" +
+                   (remark.empty() ? "" : "; " + remark));
+          }
+      }
+
+      void
+      read_set(const std::string &rest)
+      {
+        const auto        equal = rest.find('=');
+        const std::string name  = single_blanks(rest.substr(0, equal));
+        if (equal == std::string::npos || name.empty())
+          refuse("cannot read 'set " + shortened(rest) +
+                 "': expected 'set NAME = VALUE'");
+        const SceneEntry entry{path, name, trim(rest.substr(equal + 1)), place};
+        const auto [position, is_new] =
+          known.try_emplace(entry.full_name(), entries.size(), files);
+        if (is_new)
+          {
+            entries.push_back(entry);
+            return;
+          }
+        auto &[index, earlier] = position->second;
+        const bool was_included =
+          earlier.size() > files.size() &&
+          std::equal(files.begin(), files.end(), earlier.begin());
+        if (!was_included)
+          entry.refuse("it is set a second time (first in " +
+                       entries[index].place + ")");
+        entries[index] = entry;
+        earlier        = files;
+      }
+
+      void
+      read_include(const std::string &filename)
+      {
+        namespace fs           = std::filesystem;
+        const auto refuse_file = refusal_at(place + ": '" + filename + "'");
+        constexpr unsigned int most_files = 1000;
+        if (++n_included > most_files)
+          refuse_file("more than " + std::to_string(most_files) +
+                      " files are included");
+        std::error_code unknown;
+        if (!fs::exists(filename, unknown))
+          refuse_file("there is no such file (names of files stand without "
+                      "quotes and are looked for in the working directory)");
+        const std::string text =
+          read_input_text(filename, refuse_file, largest_MB);
+        for (const std::string &file : files)
+          if (fs::equivalent(file, filename, unknown))
+            refuse_file("this file includes itself, directly or through "
+                        "others");
+        read(text, filename);
+      }
+
+      void
+      open_subsection(const std::string &name)
+      {
+        constexpr std::size_t deepest = 20; // that of a scene is 2
+        if (path.size() == deepest)
+          refuse("more than " + std::to_string(deepest) +
+                 " subsections are open: is an 'end' missing?");
+        path.push_back(single_blanks(name));
+        path_places.push_back(place);
+      }
+
+      void
+      close_subsection(const std::string &rest)
+      {
+        if (!rest.empty())
+          refuse("cannot read 'end " + shortened(rest) +
+                 "': 'end' stands alone in its line");
+        if (path.size() <= n_outer)
+          refuse("this 'end' closes nothing: no subsection is open");
+        path.pop_back();
+        path_places.pop_back();
+      }
+
+      [[noreturn]] void
+      refuse(const std::string &why) const
+      {
+        throw InputError(place + ": " + why);
+      }
+
+      std::string              place; ///< of the statement that is read
       std::vector<std::string> files; ///< that are open, outermost first
       std::vector<std::string> path;  ///< subsections that are open
       std::vector<std::string> path_places;
       /** Number of subsections that were open when the current file began. */
-      std::size_t outer_subsections = 0;
+      std::size_t  n_outer    = 0;
+      unsigned int n_included = 0;
       /** Name of an entry -> its index, and its file with those that include
        *  it. */
-      std::map<std::string, std::size_t>    index_of;
-      std::vector<std::vector<std::string>> files_of;
-      unsigned int                          n_included = 0;
+      std::map<std::string, std::pair<std::size_t, std::vector<std::string>>>
+        known;
     };
-
-
-
-    void
-    SceneReader::read(const std::string &text, const std::string &name)
-    {
-      files.push_back(name);
-      const std::size_t outer_subsections_before = outer_subsections;
-      outer_subsections                          = path.size();
-
-      std::istringstream lines(plain_text(text, refusal_at(name)));
-      std::string        line, statement, place;
-      unsigned int       line_number = 0;
-      while (std::getline(lines, line))
-        {
-          ++line_number;
-          if (statement.empty())
-            place = name + ":" + std::to_string(line_number);
-          line                    = trim(line.substr(0, line.find('#')));
-          const bool is_continued = !line.empty() && line.back() == '\\';
-          if (is_continued)
-            line.pop_back();
-          statement += line;
-          if (is_continued)
-            continue;
-          read_statement(trim(statement), place);
-          statement.clear();
-        }
-      // A backslash at the very end continues nothing.
-      read_statement(trim(statement), place);
-
-      if (path.size() > outer_subsections)
-        throw InputError(path_places.back() + ": the subsection '" +
-                         path.back() +
-                         "' that begins here is not closed by 'end'");
-      outer_subsections = outer_subsections_before;
-      files.pop_back();
-    }
-
-
-
-    void
-    SceneReader::read_statement(const std::string &statement,
-                                const std::string &place)
-    {
-      if (statement.empty())
-        return;
-      const auto        blank = statement.find_first_of(" \t");
-      const std::string keyword =
-        boost::to_lower_copy(statement.substr(0, blank));
-      const std::string rest =
-        blank == std::string::npos ? "" : trim(statement.substr(blank));
-
-      if (keyword == "subsection" && !rest.empty())
-        open_subsection(rest, place);
-      else if (keyword == "end")
-        close_subsection(rest, place);
-      else if (keyword == "set")
-        read_set(rest, place);
-      else if (keyword == "include" && !rest.empty())
-        read_include(rest, place);
-      else
-        {
-          const std::string remark = remark_on_special_character(keyword);
-          throw InputError(
-            place + ": cannot read '" + shortened(statement) +
-            "': expected 'subsection NAME', 'set NAME = VALUE', 'end' or "
-            "'include FILE'" +
-            (remark.empty() ? "" : "; " + remark));
-        }
-    }
-
-
-
-    void
-    SceneReader::read_set(const std::string &rest, const std::string &place)
-    {
-      const auto        equal = rest.find('=');
-      const std::string name  = single_blanks(rest.substr(0, equal));
-      if (equal == std::string::npos || name.empty())
-        throw InputError(place + ": cannot read 'set " + shortened(rest) +
-                         "': expected 'set NAME = VALUE'");
-      const SceneEntry entry{path, name, trim(rest.substr(equal + 1)), place};
-      const auto [position, is_new] =
-        index_of.emplace(entry.full_name(), entries.size());
-      const std::size_t index = position->second;
-      if (is_new)
-        {
-          entries.push_back(entry);
-          files_of.push_back(files);
-          return;
-        }
-      const std::vector<std::string> &earlier = files_of[index];
-      const bool                      was_included =
-        earlier.size() > files.size() &&
-        std::equal(files.begin(), files.end(), earlier.begin());
-      if (!was_included)
-        throw EntryError(entry.full_name(),
-                         "it is set a second time (first in " +
-                           entries[index].place + ")",
-                         entry.value,
-                         place);
-      entries[index]  = entry;
-      files_of[index] = files;
-    }
-
-
-
-    void
-    SceneReader::read_include(const std::string &filename,
-                              const std::string &place)
-    {
-      namespace fs             = std::filesystem;
-      const FileRefusal refuse = refusal_at(place + ": '" + filename + "'");
-      constexpr unsigned int most_files = 1000;
-      if (++n_included > most_files)
-        refuse("more than " + std::to_string(most_files) +
-               " files are included");
-      std::error_code unknown;
-      if (!fs::exists(filename, unknown))
-        refuse("there is no such file (names of files stand without quotes and "
-               "are looked for in the working directory)");
-      const std::string text = read_input_text(filename, refuse, largest_MB);
-      for (const std::string &file : files)
-        if (fs::equivalent(file, filename, unknown))
-          refuse("this file includes itself, directly or through others");
-      read(text, filename);
-    }
-
-
-
-    void
-    SceneReader::open_subsection(const std::string &name,
-                                 const std::string &place)
-    {
-      constexpr std::size_t deepest = 20; // that of a scene is 2
-      if (path.size() == deepest)
-        throw InputError(place + ": more than " + std::to_string(deepest) +
-                         " subsections are open: is an 'end' missing?");
-      path.push_back(single_blanks(name));
-      path_places.push_back(place);
-    }
-
-
-
-    void
-    SceneReader::close_subsection(const std::string &rest,
-                                  const std::string &place)
-    {
-      if (!rest.empty())
-        throw InputError(place + ": cannot read 'end " + shortened(rest) +
-                         "': 'end' stands alone in its line");
-      if (path.size() <= outer_subsections)
-        throw InputError(place +
-                         ": this 'end' closes nothing: no subsection is open");
-      path.pop_back();
-      path_places.pop_back();
-    }
   } // namespace
 
 
@@ -323,16 +289,11 @@ namespace Debond
       refuse("a value holds no '#' and no line end, and does not end in a "
              "backslash");
 
-    SceneEntry         entry{{}, "", value, "--set"};
-    std::istringstream parts(trim(text.substr(0, equal)));
-    std::string        part;
-    bool               is_complete = equal != std::string::npos;
-    while (std::getline(parts, part, '/'))
-      {
-        entry.subsections.push_back(single_blanks(part));
-        is_complete = is_complete && !entry.subsections.back().empty();
-      }
-    if (!is_complete || entry.subsections.empty())
+    SceneEntry entry{split(text.substr(0, equal), "/"), "", value, "--set"};
+    for (std::string &name : entry.subsections)
+      name = single_blanks(name);
+    if (equal == std::string::npos ||
+        std::count(entry.subsections.begin(), entry.subsections.end(), "") > 0)
       refuse("expected \"SUBSECTION/ENTRY=VALUE\"");
     entry.name = entry.subsections.back();
     entry.subsections.pop_back();

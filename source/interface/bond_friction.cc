@@ -50,7 +50,7 @@ namespace Debond
 
 
   double
-  BondFriction::steepest_fall(const FrictionState &start) const
+  BondFriction::steepest_fall(const FrictionState &start, double) const
   {
     return drop > 0. ? steepest_decay(start.slip) * start.phi_0 * drop : 0.;
   }

@@ -19,7 +19,7 @@ namespace Debond
   name_of(const BondingPatternKind pattern)
   {
     return Allowed::choice(pattern_names)
-      .names()[static_cast<unsigned int>(pattern)];
+      .names[static_cast<unsigned int>(pattern)];
   }
 
 

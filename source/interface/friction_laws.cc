@@ -37,9 +37,7 @@ namespace Debond
   double
   FrictionLawChoice::number(const std::string &entry) const
   {
-    double value = 0.;
-    read_number(text(entry), value);
-    return value;
+    return read_number(text(entry)).value_or(0.);
   }
 
 

@@ -36,7 +36,7 @@ namespace Debond
       "the implant in without locking tangential traction in.");
     table.add("Opening breaks bond",
               opening_breaks_bond,
-              Allowed::yes_or_no(),
+              Allowed::choice("false | true"),
               "Whether a bonded point that opens is debonded for good. `false' "
               "is the law of the paper, which has no strength in tension and "
               "forgets that the point was open.");

@@ -13,7 +13,8 @@ namespace Debond
                            InterfaceSummary       &summary)
     {
       const double slope = law.friction->steepest_fall(
-        friction_state(point.accepted, point.phi_0, mode.duration));
+        friction_state(point.accepted, point.phi_0, mode.duration),
+        point.trial.state.slip - point.accepted.slip);
       const double softening =
         slope * point.trial.pressure /
         (law.tangential_penalty + viscous_stiffness(law, mode));

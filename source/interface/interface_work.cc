@@ -58,6 +58,7 @@ namespace Debond
       point.JxW * law.friction_strength(start, distance);
     adhesive += point.JxW * mean * law.adhesive_strength(start, distance);
     friction += mean * per_pressure;
-    friction_bound += 0.5 * std::abs(p - trial.pressure) * per_pressure;
+    friction_bound += 0.5 * std::abs(p - trial.pressure) * per_pressure +
+                      mean * point.JxW * law.strength_bound(start, distance);
   }
 } // namespace Debond

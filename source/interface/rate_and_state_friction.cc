@@ -86,12 +86,36 @@ namespace Debond
                             mu_at, 0., 1.);
       }
 
-      // On a spring that is softer than p (B - A)/D small disturbances of
-      // steady sliding grow (Ruina 1983).
+      // A point that slows down had a higher speed than that of the step.
       double
-      steepest_fall(const FrictionState &) const override
+      strength_bound(const FrictionState &start,
+                     const double         distance) const override
       {
-        return std::max(0., B - A) / D;
+        const double dt = start.duration;
+        if (dt == 0.)
+          return 0.;
+        return distance * A *
+               std::max(0.,
+                        std::log((V_0 + start.internal[1]) /
+                                 (V_0 + distance / dt)));
+      }
+
+      // The direct effect rises by A/(V_0 dt + d) at least. psi falls by 1/D at
+      // most with the ageing law, from below the steady state, and by 1 +
+      // ln(V theta/D) over D with the slip law. As the direct effect of a step
+      // grows like 1/dt, there is one solution in steps that are short enough.
+      double
+      steepest_fall(const FrictionState &start,
+                    const double         distance) const override
+      {
+        const double dt = start.duration;
+        if (dt == 0. || distance == 0.)
+          return 0.;
+        const double from_steady =
+          ageing ? 0. : start.internal[0] + std::log(distance / (V_0 * dt));
+        return std::max(0.,
+                        B / D * (1. + std::max(0., from_steady)) -
+                          A / (V_0 * dt + distance));
       }
 
       std::string

@@ -12,6 +12,9 @@ namespace Debond
   using Eigen::Vector2d;
   using Eigen::Vector3d;
 
+  // The tangents a_1 and a_2 follow from the parametrisation, Eq. (23), and so
+  // does the side to which their cross product points. The normal, Eq. (24), is
+  // to point to the slave whatever that is: on the disk's side it is turned.
   MasterNormal::MasterNormal(const SurfaceGeometry &geometry,
                              const double           outward_sign)
     : geometry(geometry)
@@ -23,16 +26,21 @@ namespace Debond
 
 
 
+  // What changes along a_1 x a_2 only makes it longer, and a unit vector has no
+  // part in that: dn = (1 - n n^T) dm / |m| with m = a_1 x a_2.
   Vector3d
   MasterNormal::change(const Vector3d &da1, const Vector3d &da2) const
   {
     const Vector3d dm =
       scale * (da1.cross(geometry.a2) + geometry.a1.cross(da2));
-    return dm - n * n.dot(dm); // a unit vector turns, no more
+    return dm - n * n.dot(dm);
   }
 
 
 
+  // The same as a matrix, for all six components of the tangents at once. With
+  // skew(a) b = a x b the change of a_1 x a_2 is -skew(a_2) da_1 + skew(a_1)
+  // da_2.
   Eigen::Matrix<double, 3, 6>
   MasterNormal::derivative() const
   {
@@ -43,10 +51,21 @@ namespace Debond
 
 
 
-  // A sliding point obeys two equations, for the two parameters of its xi_hat.
-  // First the gap g = x - y, Eq. (26), is split along the normal there, Eqs.
-  // (24) and (27), which gives the pressure; then comes the direction of slip;
-  // then the traction that friction allows.
+  // The equations of a sliding point.
+  //
+  // While a point sticks its interacting point xi_hat is known, and so is all
+  // that follows from it. While it slides xi_hat moves along the master, and
+  // two equations, one for each parameter of the surface, say where to: the
+  // tangential gap is as long as the elastic interface is stretched by what
+  // friction can carry, and it points where the slip goes,
+  //
+  //     a_alpha . (g - t_t / eps_t) = 0,  alpha = 1, 2,     Eqs. (29), (30)
+  //     t_t = (mu(g_s) p + eta V) tau.
+  //
+  // All of it is asked at one trial place, in the order in which one thing
+  // needs the other. First comes the gap g = x - y, Eq. (26), and its part
+  // along the normal there, Eq. (27), which gives the pressure; then the
+  // direction of slip; then the traction that friction allows.
   SlipEquations::SlipEquations(const ContactPointLaw &law,
                                const PointFriction   &friction,
                                const PointHistory    &history,
@@ -55,7 +74,7 @@ namespace Debond
                                const SurfaceGeometry &geometry,
                                const double           outward_sign)
     : slip(geometry.y - y_old)
-    , distance(slip.norm())
+    , distance(slip.norm()) // the last term of the sum in Eq. (32)
     , law(law)
     , geometry(geometry)
     , friction(friction)
@@ -65,24 +84,30 @@ namespace Debond
   {
     g_n             = normal.n.dot(gap);
     normal_response = law.normal->respond(g_n, history);
-    pressure        = std::max(0., normal_response.pressure);
+    // tension, where a law has any, does not press the faces together
+    pressure = std::max(0., normal_response.pressure);
     find_direction();
     find_traction();
   }
 
 
 
-  // tau is the direction of the trial gap x - y(xi_hat^n) in the tangent plane
-  // at xi_hat. Eq. (31) as printed has the previous gap there; it comes as the
-  // given direction.
+  // tau is the direction in which the point is pulled: that of the trial gap
+  // x - y(xi_hat^n), from where its interacting point was to where the point is
+  // now, without its part along the normal at xi_hat. Eq. (31) as printed has
+  // the gap of the step before in its place. Then the new gap is parallel to
+  // the old one, and slip never turns away from the direction in which it once
+  // began, say that of the push-in; for comparison that gap can be given.
   void
   SlipEquations::find_direction()
   {
     direction_is_given = !friction.slip_direction.isZero(0.);
     pull             = direction_is_given ? friction.slip_direction : trial_gap;
     pull_along_n     = normal.n.dot(pull);
-    const Vector3d u = pull - pull_along_n * normal.n;
+    const Vector3d u = pull - pull_along_n * normal.n; // in the tangent plane
     pull_along_surface = u.norm();
+    // a point right under its old partner is pulled nowhere: it has no tau, and
+    // no tangential traction
     has_direction = pull_along_surface > std::numeric_limits<double>::min();
     tau           = Vector3d::Zero();
     if (has_direction)
@@ -91,23 +116,38 @@ namespace Debond
 
 
 
-  // The law is asked at the updated sliding distance, Eq. (32): the traction is
-  // t_t = (mu p + eta V) tau, Eq. (30). What the gap is more than the elastic
-  // t_t / eps_t must have no part in the surface, Eq. (29).
+  // The sliding distance is updated with the length of the path of the
+  // interacting point in this step, both of its ends on the surface as it is
+  // now, Eq. (32):
+  //
+  //     g_s = g_s^n + |y(xi_hat) - y(xi_hat^n)|.
+  //
+  // The law is asked there, at the end of the step. Asked at g_s^n it would lag
+  // behind, by 8 % of the torque in the softening branch with 50 steps. The
+  // traction is the limit t_t = (mu p + eta V) tau, Eq. (30), V being that
+  // length over the duration of the step. What the gap is more than the elastic
+  // t_t / eps_t, its excess, must have no part in the surface, Eq. (29).
   void
   SlipEquations::find_traction()
   {
-    // where slip only just begins y - y_n has no direction but the limit tau
+    // The length of y - y_n has a derivative along its own direction; where
+    // slip only just begins it has none yet, but the limit tau.
     forward =
       distance > 1e-14 * trial_gap.norm() ? Vector3d(slip / distance) : tau;
     // A point cannot slide against what pulls it. Where Newton's method looks
-    // there, mu goes on along its tangent: the distance alone would have a
-    // second solution there, where friction rises with the speed.
+    // there, mu goes on along its tangent, but never rises: the distance alone
+    // would have a second solution there where friction rises with the speed, a
+    // rise one where it falls steeply.
     const bool backwards = !direction_is_given && slip.dot(tau) < 0.;
     sense                = backwards ? -1. : 1.;
     coefficient          = friction.after(backwards ? 0. : distance);
     if (backwards)
-      coefficient.mu -= coefficient.dmu * distance;
+      {
+        coefficient.dmu = std::max(0., coefficient.dmu);
+        coefficient.mu -= coefficient.dmu * distance;
+      }
+    // the viscous part resists as fast as the point moves, and it pulls where
+    // a trial moves backwards
     const double resistance =
       pressure > 0. ? sense * friction.viscous * distance : 0.;
     limit = coefficient.mu * pressure + resistance;
@@ -121,6 +161,18 @@ namespace Debond
 
 
 
+  // Their derivatives.
+  //
+  // Newton's method for xi_hat needs dh/dxi_hat; the Newton's method of the
+  // whole system needs dt/dw and dh/dw, w being what the control points of both
+  // bodies move, see ContactPointResult. Both are the same chain rule. It
+  // starts with the changes of four things, each a matrix with a column for
+  // each of the N changes that are looked at at once: of the gap x - y, of the
+  // trial gap x - y_n, of the normal n, and of the tangents as far as they
+  // change h while the excess stays as it is.
+  //
+  // It follows the evaluation above line by line: g_n, limit, tau, t_t, excess,
+  // and in the end the traction t = -p n + t_t and h.
   template <int N>
   SlipEquations::Derivative<N>
   SlipEquations::along(const Eigen::Matrix<double, 3, N> &dgap,
@@ -131,19 +183,21 @@ namespace Debond
     using Vectors     = Eigen::Matrix<double, 3, N>;
     using Numbers     = Eigen::Matrix<double, 1, N>;
     const Vector3d &n = normal.n;
-    // g_n = n . g, and with it p
+    // g_n = n . g, so that both the gap and the normal change it, and p with
+    // it: dp = -stiffness dg_n
     const Numbers dg_n = n.transpose() * dgap + gap.transpose() * dn;
 
-    // the limit changes with the sliding distance, y - y_n = (x - y_n) - (x -
-    // y), and with the pressure
-    const double along_slip =
-      sense * (coefficient.dmu * pressure +
-               (pressure > 0. ? friction.viscous : 0.));
-    Numbers dlimit = (along_slip * forward).transpose() * (dtrial - dgap);
+    // The limit changes with the sliding distance and with the pressure. The
+    // path in this step is y - y_n = (x - y_n) - (x - y): the difference of the
+    // two gaps.
+    Numbers dlimit =
+      (sense * resistance_slope() * forward).transpose() * (dtrial - dgap);
     if (pressure > 0.)
       dlimit -= coefficient.mu * normal_response.stiffness * dg_n;
     Vectors dt_t = tau * dlimit;
-    // tau turns with the pull, unless it is given, and with the tangent plane
+    // Then tau, u / |u| with u = (1 - n n^T) pull: it turns with the pull,
+    // unless that is given, and with the tangent plane. The limit times the
+    // change of tau is what makes the tangent unsymmetric besides the pressure.
     if (has_direction)
       {
         const Vectors dpull =
@@ -153,6 +207,7 @@ namespace Debond
         dt_t +=
           limit / pull_along_surface * (du - tau * (tau.transpose() * du));
       }
+    // what is left of the gap, and the parts of its change in the surface
     const Vectors dexcess = dgap - dt_t / law.tangential_penalty;
 
     Derivative<N> result;
@@ -166,7 +221,12 @@ namespace Debond
 
 
 
-  // x moves both gaps, y the gap, y_n the trial gap, the tangents the normal.
+  // With respect to w = (x, y, a_1, a_2, y_n), at fixed xi_hat. x moves both
+  // gaps, y the gap alone, y_n the trial gap alone, the tangents the normal and
+  // what of the excess lies along them. The chain rule is run for the changes
+  // of (x - y, x - y_n, a_1, a_2), 12 numbers instead of 15, and its columns
+  // are then dealt out: x gets those of both gaps, y and y_n theirs with the
+  // opposite sign.
   SlipEquations::Derivative<15>
   SlipEquations::along_w() const
   {
@@ -193,6 +253,8 @@ namespace Debond
 
 
 
+  // With respect to xi_hat: y moves along the tangents, and the tangents change
+  // with the second derivatives of the surface, a_alpha,beta. x and y_n stay.
   SlipEquations::Derivative<2>
   SlipEquations::along_surface() const
   {
@@ -208,6 +270,7 @@ namespace Debond
 
 
 
+  // Finding the interacting point.
   SlipProblem::SlipProblem(const ContactPointLaw &law,
                            const PointFriction   &friction,
                            const PointHistory    &history,
@@ -224,8 +287,12 @@ namespace Debond
 
 
 
-  // Newton's method with a line search on |h|. The parameters stay in the
-  // patch; an iteration that keeps pushing against the border has left it.
+  // Newton's method for the two parameters, with a line search on |h|. As long
+  // as a step does not slide over kinks of the law or of the surface it takes
+  // two or three iterations. The parameters stay in the patch [0, 1]^2: an
+  // iteration that keeps pushing against its border has left the master, and
+  // the point opens. What is not found is said, never guessed: the caller tries
+  // another start, and then the step fails and is made smaller.
   SlipOutcome
   SlipProblem::solve(const Vector2d &start, ContactPointResult &result)
   {
@@ -233,9 +300,14 @@ namespace Debond
     Vector2d               xi             = start;
     evaluate(xi, result.basis);
     // |h|/|a| is a distance: it cannot be smaller than the rounding of
-    // positions, which are of the size of the surface
-    const double round_off =
+    // positions, which are of the size of the surface, and of the sliding
+    // distance found from them, which moves the traction
+    const double rounding =
       1e-16 * (x.norm() + geometry.a1.norm() + geometry.a2.norm());
+    const auto round_off = [&] {
+      return rounding * (1. + std::abs(equations->resistance_slope()) /
+                                law.tangential_penalty);
+    };
     unsigned int pushes = 0;
     for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
       {
@@ -244,16 +316,17 @@ namespace Debond
           -equations->along_surface().h.inverse() * equations->h;
         if (!step.allFinite())
           return SlipOutcome::not_found;
-        if (step.cwiseAbs().maxCoeff() < 1e-15 || error <= round_off)
+        if (step.cwiseAbs().maxCoeff() < 1e-15 || error <= round_off())
           break;
         const Vector2d target = (xi + step).cwiseMax(0.).cwiseMin(1.);
         if (target != xi + step && ++pushes > 5)
           return SlipOutcome::left_patch;
-        // no descent: fine at the level of rounding, else give up
+        // no descent: at the level of rounding there is none to be had, and
+        // the test below says whether this is it
         if (!search_along(target - xi, error, xi, result.basis))
           break;
       }
-    if (distance_error() > 100. * round_off)
+    if (distance_error() > 100. * round_off())
       return SlipOutcome::not_found;
     result.state.xi = xi;
     return SlipOutcome::solved;
@@ -261,6 +334,8 @@ namespace Debond
 
 
 
+  // Halves the step until |h| becomes smaller: the law has kinks where the bond
+  // begins and ends to break, behind which the linearisation may overshoot.
   // False, and nothing has moved, if no part of the step makes |h| smaller.
   bool
   SlipProblem::search_along(const Vector2d &step,
@@ -283,8 +358,20 @@ namespace Debond
 
 
 
-  // With h(xi_hat, w) = 0 the implicit function theorem gives the motion of
-  // xi_hat, dxi = -(dh/dxi)^-1 dh/dw, and the total derivative of the traction.
+  // The point as the rest of the program sees it. xi_hat is no unknown of the
+  // whole system: with h(xi_hat, w) = 0 the implicit function theorem gives its
+  // motion,
+  //
+  //     dxi_hat = -(dh/dxi_hat)^-1 dh/dw dw,
+  //
+  // and the total derivative of the traction,
+  //
+  //     dt/dw = (dt/dw at fixed xi_hat) + dt/dxi_hat dxi_hat/dw,
+  //
+  // with which Newton's method converges quadratically also where points slide,
+  // soften and turn. The stored energy is that of the normal and of the
+  // tangential gap; what friction dissipates is summed up elsewhere, from
+  // traction and slip.
   void
   SlipProblem::report(ContactPointResult &result) const
   {
@@ -299,6 +386,8 @@ namespace Debond
     result.energy =
       e.normal_response.energy +
       0.5 * e.tangential_traction.squaredNorm() / law.tangential_penalty;
+    // g_s = g_s^n + |y - y_n|, Eq. (32), and what else the law remembers; it is
+    // the history of the point once the step is accepted
     if (!friction.frictionless)
       {
         result.state.slip = friction.start.slip + e.distance;
@@ -313,6 +402,8 @@ namespace Debond
 
 
 
+  // Second derivatives of the surface are needed for along_surface() only, but
+  // there in every iteration.
   void
   SlipProblem::evaluate(const Vector2d &xi, SurfaceBasis &basis)
   {
@@ -324,6 +415,8 @@ namespace Debond
 
 
 
+  // h has the unit of a_alpha times a length. Over |a_alpha| it is the distance
+  // in the surface by which the gap misses what is asked of it [mm].
   double
   SlipProblem::distance_error() const
   {

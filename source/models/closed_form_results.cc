@@ -1,3 +1,4 @@
+#include <debond/interface/contact_point_state.h>
 #include <debond/models/closed_form_results.h>
 #include <debond/output/console.h>
 #include <debond/output/profile_output.h>
@@ -29,15 +30,16 @@ namespace Debond
           const double r     = R * (i + 0.5) / n;
           const auto   point = model.point(r, theta);
           points.push_back(
-            {r,
-             0.,
-             model.disk.pressure,
-             std::abs(point.traction),
-             point.slip,
-             point.phi,
-             point.mu,
-             point.sticks ? PointStatus::stick : PointStatus::slip,
-             2. * M_PI * r * R / n});
+            {{r,
+              0.,
+              r,
+              model.disk.pressure,
+              std::abs(point.traction),
+              point.slip,
+              point.phi,
+              point.mu,
+              double(point.sticks ? PointStatus::stick : PointStatus::slip),
+              2. * M_PI * r * R / n}});
         }
       return points;
     }
@@ -124,7 +126,7 @@ namespace Debond
                                      row.angle_deg * M_PI / 180.);
         });
       }
-    TorqueCurveWriter(directory, rows).finish();
+    write_file(directory.file("torque.csv"), torque_table(rows));
     console.warn("profile", profiles.finish());
     warn_of_jumps(solution, console);
 
@@ -136,7 +138,7 @@ namespace Debond
     summary.steps               = rows.size() - 1;
     summary.converged           = true;
     summary.reason              = "all planned steps are done";
-    summary.warnings            = console.warnings();
+    summary.warnings            = console.warnings;
     summary.wall_seconds        = clock.wall_time();
     summary.seconds             = {{"before steps", seconds_before_steps},
                                    {"stepping",

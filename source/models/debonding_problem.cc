@@ -95,20 +95,20 @@ namespace Debond
         earlier_seconds = so_far;
     }
 
-    const Scene                     &scene;
-    std::string                      parameters; ///< as in the directory
-    dealii::TimerOutput              timer;
-    dealii::Timer                    wall_clock;
-    double                           seconds_before_steps = 0;
-    std::map<std::string, double>    earlier_seconds; ///< before a checkpoint
-    const ResultDirectory            directory;
-    CheckpointFiles                  checkpoints;
-    const ReferenceCurve             reference;
-    ProfileOutput                    profiles;
-    Console                          console;
-    Simulation                       simulation;
-    FieldOutput                      fields;
-    std::optional<TorqueCurveWriter> torque_curve;
+    const Scene                  &scene;
+    std::string                   parameters; ///< as in the directory
+    dealii::TimerOutput           timer;
+    dealii::Timer                 wall_clock;
+    double                        seconds_before_steps = 0;
+    std::map<std::string, double> earlier_seconds; ///< before a checkpoint
+    const ResultDirectory         directory;
+    CheckpointFiles               checkpoints;
+    const ReferenceCurve          reference;
+    ProfileOutput                 profiles;
+    Console                       console;
+    Simulation                    simulation;
+    FieldOutput                   fields;
+    std::optional<GrowingFile>    torque_curve;
 
   private:
     void
@@ -183,7 +183,8 @@ namespace Debond
         write_file(directory.file("bonding.csv"), bonding.table());
         console.headline("Initial bonding: " + bonding.description());
       }
-    torque_curve.emplace(directory, simulation.rows());
+    torque_curve.emplace(directory.file("torque.csv"),
+                         torque_table(simulation.rows()));
     if (!simulation.rows().empty())
       {
         const TorqueRow   &last = simulation.rows().back();
@@ -191,7 +192,7 @@ namespace Debond
         text << "Going on after step " << last.step << ", time " << last.time
              << ", angle " << last.angle_deg << " deg";
         console.headline(text.str());
-        console.go_on_after(last.step);
+        console.first_step = last.step;
         stop_if_interrupted();
       }
     seconds_before_steps = wall_clock.wall_time();
@@ -216,7 +217,7 @@ namespace Debond
     const bool              are_planned = scene.load_steps.rows_are_planned();
     {
       const TimedSection t(&timer, "output");
-      torque_curve->write(row);
+      torque_curve->append(torque_line(row));
       console.row(row, are_planned ? scene.load_steps.n_steps() : 0);
       profiles.write(row.angle_deg, [&] {
         return profile_points(simulation.system().interface);
@@ -344,7 +345,7 @@ namespace Debond
                    warning_about_reference(summary.measures, settings));
     summary.converged = converged;
     summary.reason    = reason;
-    summary.warnings  = console.warnings();
+    summary.warnings  = console.warnings;
 
     nlohmann::ordered_json json = summary;
     add_facts(simulation, json);
@@ -388,7 +389,7 @@ namespace Debond
       }
     text << "Results are in " << directory.path();
     console.headline(text.str());
-    if (!console.quiet())
+    if (!console.quiet)
       timer.print_summary();
   }
 

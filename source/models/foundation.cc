@@ -1,7 +1,6 @@
 #include <debond/models/foundation.h>
 #include <debond/models/simulation.h>
 #include <debond/support/input_error.h>
-#include <debond/support/run_error.h>
 
 #include <algorithm>
 #include <cmath>

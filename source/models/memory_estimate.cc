@@ -1,7 +1,7 @@
 #include <debond/interface/contact_interface.h>
 #include <debond/models/memory_estimate.h>
 #include <debond/scene/scene.h>
-#include <debond/support/available_memory.h>
+#include <debond/support/runtime.h>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include <debond/models/memory_estimate.h>
 #include <debond/models/simulation.h>
+#include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
-#include <debond/support/run_error.h>
 #include <debond/support/timed_section.h>
 
 #include <algorithm>

@@ -121,6 +121,10 @@ namespace Debond
     {
       if (parameters.interface.viscosity > 0.)
         return "Smaller steps follow the viscous motion";
+      if (parameters.interface.friction->depends_on_rate())
+        return "Friction falls with the speed faster than the springs pull: "
+               "there is no quasi-static solution. Interface / Viscosity "
+               "limits the speed";
       if (parameters.load_steps.follow_path)
         return "A smaller Load steps / Largest slip step follows the path "
                "between";

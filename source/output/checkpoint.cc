@@ -1,22 +1,14 @@
 #include <debond/output/checkpoint.h>
 #include <debond/output/result_files.h>
-#include <debond/support/input_error.h>
+#include <debond/support/written_files.h>
 
 #include <boost/crc.hpp>
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <fstream>
+#include <iomanip>
 #include <sstream>
 
 namespace Debond
 {
-  const std::array<const char *, 2> CheckpointFiles::names{
-    {"checkpoint-1", "checkpoint-2"}};
-
-
-
   namespace
   {
     const std::string first_line = "debond checkpoint\n";
@@ -25,16 +17,14 @@ namespace Debond
 
     /** The second line of a file that continues with @p text. */
     std::string
-    crc_line(const std::string &text, const std::size_t begin = 0)
+    crc_line(const std::string &text)
     {
       boost::crc_32_type crc;
-      crc.process_bytes(text.data() + begin, text.size() - begin);
-      char line[32];
-      std::snprintf(line,
-                    sizeof(line),
-                    "CRC-32 %08lx\n",
-                    static_cast<unsigned long>(crc.checksum()));
-      return line;
+      crc.process_bytes(text.data(), text.size());
+      std::ostringstream line;
+      line << "CRC-32 " << std::hex << std::setw(8) << std::setfill('0')
+           << crc.checksum() << '\n';
+      return line.str();
     }
 
 
@@ -42,71 +32,50 @@ namespace Debond
     std::string
     text_of(const Checkpoint &checkpoint)
     {
-      std::ostringstream header;
-      header << "format " << CheckpointFiles::format << "\nprogram "
-             << DEBOND_VERSION << "\nstep " << checkpoint.step
-             << "\nparameters " << checkpoint.parameters.size() << "\nstate "
-             << checkpoint.state.size() << '\n';
-      const std::string text =
-        header.str() + checkpoint.parameters + checkpoint.state;
-      return first_line + crc_line(text) + text;
+      std::ostringstream text;
+      text << "format " << CheckpointFiles::format << "\nprogram "
+           << DEBOND_VERSION << "\nstep " << checkpoint.step << "\nparameters "
+           << checkpoint.parameters.size() << "\nstate "
+           << checkpoint.state.size() << '\n'
+           << checkpoint.parameters << checkpoint.state;
+      return first_line + crc_line(text.str()) + text.str();
     }
 
 
 
-    /** What a file says of itself, and where the rest begins. */
+    /** What is in a file, and what wrote it. */
     struct FileContent
     {
-      std::string  text;
-      std::string  format, program;
-      unsigned int step         = 0;
-      std::size_t  n_parameters = 0, n_state = 0;
-      std::size_t  begin             = 0;
-      bool         has_known_members = false;
+      Checkpoint  checkpoint;
+      std::string format, program;
     };
 
 
 
-    /** Nothing if there is no such file. Throws InputError if it cannot be
-     *  read. */
-    std::optional<std::string>
-    bytes_of(const std::string &filename)
-    {
-      std::ifstream file(filename, std::ios::binary);
-      if (!file && errno == ENOENT)
-        return std::nullopt;
-      if (!file)
-        throw InputError("cannot read '" + filename +
-                         "': " + std::strerror(errno));
-      std::ostringstream bytes;
-      bytes << file.rdbuf();
-      return bytes.str();
-    }
-
-
-
-    /** Nothing if these bytes of a file are damaged. */
+    /** Nothing if these bytes of a file are damaged; no more than the versions
+     *  if they are of another format. */
     std::optional<FileContent>
     read(const std::string &bytes)
     {
-      FileContent content;
-      content.text = bytes;
       // all CRC lines are equally long
       const std::size_t begin = first_line.size() + crc_line("").size();
-      if (content.text.size() < begin ||
-          content.text.compare(0,
-                               begin,
-                               first_line + crc_line(content.text, begin)) != 0)
+      if (bytes.size() < begin)
         return std::nullopt;
-      std::istringstream lines(content.text.substr(begin, 1000));
+      const std::string text = bytes.substr(begin);
+      if (bytes.compare(0, begin, first_line + crc_line(text)) != 0)
+        return std::nullopt;
+      FileContent        content;
+      std::istringstream lines(text.substr(0, 1000));
       std::string        word;
+      std::size_t        n_parameters = 0, n_state = 0;
       lines >> word >> content.format >> word >> content.program;
       if (content.format != std::to_string(CheckpointFiles::format))
         return content;
-      lines >> word >> content.step >> word >> content.n_parameters >> word >>
-        content.n_state;
-      content.begin             = begin + std::size_t(lines.tellg()) + 1;
-      content.has_known_members = true;
+      auto &[step, parameters, state] = content.checkpoint;
+      lines >> word >> step >> word >> n_parameters >> word >> n_state;
+      const std::size_t end_of_lines = std::size_t(lines.tellg()) + 1;
+      parameters                     = text.substr(end_of_lines, n_parameters);
+      state = text.substr(end_of_lines + n_parameters, n_state);
       return content;
     }
   } // namespace
@@ -114,10 +83,8 @@ namespace Debond
 
 
   CheckpointFiles::CheckpointFiles(const ResultDirectory &directory)
-  {
-    for (unsigned int i = 0; i < 2; ++i)
-      files[i] = directory.file(names[i]);
-  }
+    : files{{directory.file("checkpoint-1"), directory.file("checkpoint-2")}}
+  {}
 
 
 
@@ -136,13 +103,13 @@ namespace Debond
     std::optional<FileContent> newest;
     for (unsigned int i = 0; i < 2; ++i)
       {
-        const auto bytes = bytes_of(files[i]);
+        const auto bytes = read_whole_file(files[i]);
         if (!bytes)
           continue;
         auto content = read(*bytes);
         if (!content)
           remarks.push_back("'" + files[i] + "' is damaged");
-        else if (!newest || content->step >= newest->step)
+        else if (!newest || content->checkpoint.step >= newest->checkpoint.step)
           {
             newest = std::move(content);
             next   = 1 - i;
@@ -150,16 +117,14 @@ namespace Debond
       }
     if (!newest)
       return std::nullopt;
-    if (!newest->has_known_members || newest->program != DEBOND_VERSION)
+    if (newest->format != std::to_string(format) ||
+        newest->program != DEBOND_VERSION)
       throw OtherProgram("'" + files[1 - next] + "' was written by debond " +
                          newest->program + ", format " + newest->format +
                          ", and this is debond " DEBOND_VERSION ", format " +
                          std::to_string(format) +
                          ": only the same program can go on with the run");
-    return Checkpoint{newest->step,
-                      newest->text.substr(newest->begin, newest->n_parameters),
-                      newest->text.substr(newest->begin + newest->n_parameters,
-                                          newest->n_state)};
+    return std::move(newest->checkpoint);
   }
 
 

@@ -10,7 +10,7 @@
 namespace Debond
 {
   Console::Console(const ConsoleKind kind, std::ostream &out)
-    : kind(kind)
+    : quiet(kind == ConsoleKind::quiet)
     , out(out)
     , on_terminal(&out == &std::cout && isatty(STDOUT_FILENO))
     , start(std::chrono::steady_clock::now())
@@ -31,7 +31,7 @@ namespace Debond
   void
   Console::headline(const std::string &text)
   {
-    if (!quiet())
+    if (!quiet)
       out << text << std::endl;
   }
 
@@ -42,7 +42,7 @@ namespace Debond
   {
     // of very many planned steps some hundred lines tell as much
     const unsigned int stride = std::max(1U, n_steps / 100);
-    if (quiet() || (row.step % stride != 0 && row.step != n_steps))
+    if (quiet || (row.step % stride != 0 && row.step != n_steps))
       return;
     erase_progress();
     if (!columns_named)
@@ -64,36 +64,17 @@ namespace Debond
                   100. * row.share_slip,
                   row.newton_iterations);
     out << line;
-    if (on_terminal && n_steps > 0)
-      show_progress(row.step, n_steps);
-  }
-
-
-
-  void
-  Console::go_on_after(const unsigned int step)
-  {
-    first_step = step;
-  }
-
-
-
-  void
-  Console::show_progress(const unsigned int step, const unsigned int n_steps)
-  {
-    const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
-        .count();
-    if (step <= first_step || step == n_steps)
+    if (!on_terminal || row.step <= first_step || row.step >= n_steps)
       return;
-    const double left = seconds * (n_steps - step) / (step - first_step);
-    char         line[120];
+    const std::chrono::duration<double> seconds =
+      std::chrono::steady_clock::now() - start;
     std::snprintf(line,
                   sizeof(line),
                   "%5.1f %% done, %.0f s so far, about %.0f s to go",
-                  100. * step / n_steps,
-                  seconds,
-                  left);
+                  100. * row.step / n_steps,
+                  seconds.count(),
+                  seconds.count() * (n_steps - row.step) /
+                    (row.step - first_step));
     out << line << std::flush;
     progress_shown = true;
   }
@@ -108,7 +89,7 @@ namespace Debond
           warning_keys.end())
       return;
     warning_keys.push_back(key);
-    warning_texts.push_back(text);
+    warnings.push_back(text);
     erase_progress();
     out << "warning: " << text << std::endl;
   }

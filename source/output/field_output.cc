@@ -1,7 +1,5 @@
 #include <debond/interface/contact_interface.h>
-#include <debond/output/bulk_fields.h>
 #include <debond/output/field_output.h>
-#include <debond/output/interface_fields.h>
 #include <debond/output/result_files.h>
 
 #include <deal.II/base/utilities.h>
@@ -24,54 +22,55 @@ namespace Debond
 
 
 
+  namespace
+  {
+    const std::string all_series[] = {"bulk", "interface"};
+
+
+
+    std::string
+    file_name(const std::string &series, const unsigned int number)
+    {
+      return series + "-" + dealii::Utilities::int_to_string(number, 4) +
+             ".vtu";
+    }
+  } // namespace
+
+
+
   void
   FieldOutput::write(const double time)
   {
-    append(bulk_series, time, bulk_vtu(bodies, chuck));
-    append(interface_series,
-           time,
-           interface_vtu(*bodies[interface.slave_side()], interface, chuck));
+    const Body       &slave  = *bodies[interface.slave_side()];
+    const std::string vtus[] = {bulk_vtu(bodies, chuck),
+                                interface_vtu(slave, interface, chuck)};
+    for (unsigned int i = 0; i < 2; ++i)
+      write_file(directory.file(file_name(all_series[i], times.size())),
+                 vtus[i]);
+    times.push_back(time);
+    write_series();
   }
 
 
 
   void
-  FieldOutput::append(Series            &series,
-                      const double       time,
-                      const std::string &vtu) const
+  FieldOutput::write_series() const
   {
-    const std::string name = file_name(series, series.files.size());
-    write_file(directory.file(name), vtu);
-    series.files.emplace_back(time, name);
-    write_series(series);
-  }
-
-
-
-  std::string
-  FieldOutput::file_name(const Series &series, const unsigned int number) const
-  {
-    return series.name + "-" + dealii::Utilities::int_to_string(number, 4) +
-           ".vtu";
-  }
-
-
-
-  void
-  FieldOutput::write_series(const Series &series) const
-  {
-    // deal.II's write_pvd_record() would add the date
-    std::ostringstream record;
-    record.precision(12);
-    record << "<?xml version=\"1.0\"?>\n"
-              "<VTKFile type=\"Collection\" version=\"0.1\">\n"
-              "  <Collection>\n";
-    for (const auto &[file_time, file] : series.files)
-      record << "    <DataSet timestep=\"" << file_time << "\" file=\"" << file
-             << "\"/>\n";
-    record << "  </Collection>\n"
-              "</VTKFile>\n";
-    write_file(directory.file(series.name + ".pvd"), record.str());
+    for (const std::string &series : all_series)
+      {
+        // deal.II's write_pvd_record() would add the date
+        std::ostringstream record;
+        record.precision(12);
+        record << "<?xml version=\"1.0\"?>\n"
+                  "<VTKFile type=\"Collection\" version=\"0.1\">\n"
+                  "  <Collection>\n";
+        for (unsigned int i = 0; i < times.size(); ++i)
+          record << "    <DataSet timestep=\"" << times[i] << "\" file=\""
+                 << file_name(series, i) << "\"/>\n";
+        record << "  </Collection>\n"
+                  "</VTKFile>\n";
+        write_file(directory.file(series + ".pvd"), record.str());
+      }
   }
 
 
@@ -80,20 +79,20 @@ namespace Debond
   FieldOutput::forget_later_files()
   {
     std::string missing;
-    for (const Series *series : {&bulk_series, &interface_series})
-      {
-        unsigned int    number = series->files.size();
-        std::error_code none;
-        while (
-          std::filesystem::remove(directory.file(file_name(*series, number)),
-                                  none))
-          ++number;
-        write_series(*series);
-        for (const auto &file : series->files)
-          if (!std::filesystem::exists(directory.file(file.second)))
-            missing += (missing.empty() ? "" : ", ") + file.second;
-      }
-    n_on_disk = bulk_series.files.size();
+    for (const std::string &series : all_series)
+      for (unsigned int i = 0;; ++i)
+        {
+          const std::string name = file_name(series, i);
+          std::error_code   none;
+          if (i >= times.size() &&
+              !std::filesystem::remove(directory.file(name), none))
+            break;
+          if (i < times.size() &&
+              !std::filesystem::exists(directory.file(name)))
+            missing += (missing.empty() ? "" : ", ") + name;
+        }
+    write_series();
+    n_on_disk = times.size();
     return missing.empty() ?
              "" :
              "VTU files from before the checkpoint are missing, "
@@ -106,8 +105,8 @@ namespace Debond
   void
   FieldOutput::put_on_disk()
   {
-    for (; n_on_disk < bulk_series.files.size(); ++n_on_disk)
-      for (const Series *series : {&bulk_series, &interface_series})
-        Debond::put_on_disk(directory.file(series->files[n_on_disk].second));
+    for (; n_on_disk < times.size(); ++n_on_disk)
+      for (const std::string &series : all_series)
+        Debond::put_on_disk(directory.file(file_name(series, n_on_disk)));
   }
 } // namespace Debond

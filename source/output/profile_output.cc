@@ -1,6 +1,14 @@
 #include <debond/input/csv_table.h>
+#include <debond/interface/contact_interface.h>
 #include <debond/output/profile_output.h>
+#include <debond/output/result_files.h>
+#include <debond/scene/scene.h>
 #include <debond/support/number_text.h>
+
+#include <deal.II/base/point.h>
+#include <deal.II/numerics/rtree.h>
+
+#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
@@ -59,16 +67,19 @@ namespace Debond
     for (const SlavePoint &point : interface.get_points())
       if (point.faces_implant)
         {
-          const auto coefficient = interface.friction(point);
-          points.push_back({point.X[0],
-                            point.X[1],
-                            point.trial.pressure,
-                            point.trial.tangential_traction.norm(),
-                            point.trial.state.slip,
-                            coefficient.phi,
-                            coefficient.mu,
-                            point.trial.state.status,
-                            point.JxW});
+          const auto &X           = point.X;
+          const auto &trial       = point.trial;
+          const auto  coefficient = interface.friction(point);
+          points.push_back({{X[0],
+                             X[1],
+                             std::hypot(X[0], X[1]),
+                             trial.pressure,
+                             trial.tangential_traction.norm(),
+                             trial.state.slip,
+                             coefficient.phi,
+                             coefficient.mu,
+                             double(trial.state.status),
+                             point.JxW}});
         }
     return points;
   }
@@ -90,18 +101,12 @@ namespace Debond
       return;
     angles_to_come.erase(angles_to_come.begin(), first_to_come);
     has_points = true;
-    for (const InterfacePoint &p : points())
-      table += csv_line({angle_deg,
-                         p.x,
-                         p.y,
-                         std::hypot(p.x, p.y),
-                         p.pressure,
-                         p.traction,
-                         p.slip,
-                         p.phi,
-                         p.mu,
-                         double(p.status),
-                         p.area});
+    for (const InterfacePoint &point : points())
+      {
+        std::vector<double> columns{angle_deg};
+        columns.insert(columns.end(), point.begin(), point.end());
+        table += csv_line(columns);
+      }
   }
 
 
@@ -127,5 +132,124 @@ namespace Debond
       return {};
     return compare_profiles(read_profiles(directory.file("profiles.csv")),
                             reference);
+  }
+
+
+
+  namespace
+  {
+    using Position = dealii::Point<2>;
+
+    /** Pressure [MPa] and sliding distance [mm] between scattered points. */
+    class LocalFields
+    {
+    public:
+      explicit LocalFields(const std::vector<ProfilePoint> &points)
+        : points(points)
+        , is_radial(std::all_of(points.begin(),
+                                points.end(),
+                                [](const ProfilePoint &p) { return p.y == 0; }))
+      {
+        std::vector<Entry> entries;
+        for (unsigned int i = 0; i < points.size(); ++i)
+          entries.emplace_back(position(points[i]), i);
+        tree = dealii::pack_rtree(entries);
+      }
+
+      /** {pressure, slip} at a position. */
+      Eigen::Array2d
+      at(const ProfilePoint &point) const
+      {
+        namespace bgi                    = boost::geometry::index;
+        constexpr unsigned int n_nearest = 20;
+        const Position         centre    = position(point);
+        std::vector<Entry>     nearest;
+        tree.query(bgi::nearest(centre, n_nearest),
+                   std::back_inserter(nearest));
+        double radius = 0;
+        for (const Entry &entry : nearest)
+          radius = std::max(radius, centre.distance(entry.first));
+
+        const unsigned int n = nearest.size();
+        Eigen::MatrixXd    A(n, is_radial ? 3 : 6);
+        Eigen::MatrixXd    b(n, 2);
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            const ProfilePoint &neighbour = points[nearest[i].second];
+            const double        x = (nearest[i].first[0] - centre[0]) / radius;
+            const double        y = (nearest[i].first[1] - centre[1]) / radius;
+            // smooth, and small but not zero at the farthest point
+            const double weight =
+              std::pow(1. - 0.95 * std::min(1., x * x + y * y), 2);
+            if (is_radial)
+              A.row(i) << 1., x, x * x;
+            else
+              A.row(i) << 1., x, y, x * x, x * y, y * y;
+            A.row(i) *= weight;
+            b.row(i) << weight * neighbour.pressure, weight * neighbour.slip;
+          }
+        const Eigen::MatrixXd c = A.colPivHouseholderQr().solve(b);
+        return c.row(0).transpose();
+      }
+
+    private:
+      using Entry = std::pair<Position, unsigned int>;
+
+      Position
+      position(const ProfilePoint &point) const
+      {
+        return is_radial ? Position(std::hypot(point.x, point.y), 0.) :
+                           Position(point.x, point.y);
+      }
+
+      const std::vector<ProfilePoint> &points;
+      const bool                       is_radial;
+      dealii::RTree<Entry>             tree;
+    };
+
+
+
+    /** Mean square of the differences over the square of the reference's mean,
+     *  of {pressure, slip}, at one angle. */
+    Eigen::Array2d
+    relative_mean_square(const std::vector<ProfilePoint> &points,
+                         const LocalFields               &reference)
+    {
+      double         area = 0;
+      Eigen::Array2d sum(0, 0), sum_of_squares(0, 0);
+      for (const ProfilePoint &point : points)
+        {
+          const Eigen::Array2d expected = reference.at(point);
+          const Eigen::Array2d actual(point.pressure, point.slip);
+          area += point.area;
+          sum += point.area * expected;
+          sum_of_squares += point.area * (actual - expected).square();
+        }
+      return sum_of_squares / area / (sum / area).square();
+    }
+  } // namespace
+
+
+
+  ProfileMeasures
+  compare_profiles(const Profiles &profiles, const Profiles &reference)
+  {
+    ProfileMeasures measures;
+    Eigen::Array2d  sum(0, 0);
+    for (const auto &[angle_deg, expected] : reference)
+      for (const auto &[own_angle_deg, points] : profiles)
+        // angles go from degrees to radians and back
+        if (std::abs(own_angle_deg - angle_deg) <=
+            1e-9 * std::max(1., std::abs(angle_deg)))
+          {
+            sum += relative_mean_square(points, LocalFields(expected));
+            ++measures.angles_used;
+          }
+    if (measures.angles_used > 0)
+      {
+        measures.pressure_difference = std::sqrt(sum[0] / measures.angles_used);
+        measures.slip_difference     = std::sqrt(sum[1] / measures.angles_used);
+      }
+    return measures;
   }
 } // namespace Debond

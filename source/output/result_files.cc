@@ -1,14 +1,12 @@
-#include <debond/output/earlier_results.h>
 #include <debond/output/result_files.h>
-#include <debond/support/directory_lock.h>
 #include <debond/support/input_error.h>
 
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <fstream>
-#include <limits>
-#include <sstream>
+#include <regex>
+#include <vector>
 
 namespace Debond
 {
@@ -16,14 +14,32 @@ namespace Debond
   content_of_result_directory(const OutputParameters &output,
                               const std::string      &completed_parameters)
   {
-    std::ifstream file(output.directory + "/parameters.prm", std::ios::binary);
-    if (!file)
-      return DirectoryContent::no_results;
-    std::ostringstream existing;
-    existing << file.rdbuf();
-    return existing.str() == completed_parameters ?
-             DirectoryContent::same_scene :
-             DirectoryContent::other_scene;
+    const auto existing = read_whole_file(output.directory + "/parameters.prm");
+    return !existing                         ? DirectoryContent::no_results :
+           *existing == completed_parameters ? DirectoryContent::same_scene :
+                                               DirectoryContent::other_scene;
+  }
+
+
+
+  void
+  remove_results(const std::string &directory, const bool rungs_only)
+  {
+    namespace fs = std::filesystem;
+    static const std::regex rung("rung-[0-9]+"),
+      file("(summary|repetition-[0-9]+)\\.json|checkpoint-[12]|"
+           "(torque|auto|bonding|profiles|friction_law)\\.csv|"
+           "(bulk|interface)(-[0-9]+\\.vtu|\\.pvd)");
+    const fs::directory_iterator entries(directory);
+    for (const fs::path &path :
+         std::vector<fs::path>(fs::begin(entries), fs::end(entries)))
+      {
+        const std::string name = path.filename().string();
+        const bool        is_rung =
+          std::regex_match(name, rung) && fs::exists(path / "parameters.prm");
+        if (is_rung || (!rungs_only && std::regex_match(name, file)))
+          fs::remove_all(path);
+      }
   }
 
 
@@ -33,7 +49,7 @@ namespace Debond
   {
     while (directory.size() > 1 && directory.back() == '/')
       directory.pop_back();
-    lock = DirectoryLock::take(directory);
+    lock = lock_directory(directory);
   }
 
 
@@ -50,7 +66,7 @@ namespace Debond
     if (error)
       refuse("this directory cannot be created: " + error.message());
     if (!lock) // there was no directory yet
-      lock = DirectoryLock::take(directory);
+      lock = lock_directory(directory);
 
     const bool is_of_other_scene =
       content_of_result_directory(output, completed_parameters) ==

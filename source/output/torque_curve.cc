@@ -1,74 +1,58 @@
 #include <debond/input/csv_table.h>
-#include <debond/output/result_files.h>
 #include <debond/output/torque_curve.h>
-#include <debond/support/input_error.h>
 
 #include <deal.II/base/numbers.h>
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
+#include <regex>
 
 namespace Debond
 {
-  namespace
+  std::string
+  torque_line(TorqueRow row)
   {
-    std::string
-    header()
-    {
-      std::vector<std::string> names;
-      TorqueRow().for_each_column(
-        [&](const std::string &name, double) { names.push_back(name); });
-      return csv_line(names);
-    }
-
-
-
-    std::string
-    line_of(TorqueRow row)
-    {
-      std::vector<double> values;
-      row.for_each_column([&](const std::string &, const double value) {
-        values.push_back(value);
-      });
-      return csv_line(values);
-    }
-
-
-
-    std::string
-    table_of(const std::vector<TorqueRow> &rows)
-    {
-      std::string table = header();
-      for (const TorqueRow &row : rows)
-        table += line_of(row);
-      return table;
-    }
-  } // namespace
-
-
-
-  TorqueCurveWriter::TorqueCurveWriter(const ResultDirectory        &directory,
-                                       const std::vector<TorqueRow> &rows)
-    : file(directory.file("torque.csv"), table_of(rows))
-  {}
-
-
-
-  void
-  TorqueCurveWriter::write(const TorqueRow &row)
-  {
-    file.append(line_of(row));
+    std::vector<double> values;
+    row.for_each_column([&](const std::string &, const double value) {
+      values.push_back(value);
+    });
+    return csv_line(values);
   }
 
 
 
-  void
-  TorqueCurveWriter::finish()
+  std::string
+  torque_table(const std::vector<TorqueRow> &rows)
   {
-    file.finish();
+    std::vector<std::string> names;
+    TorqueRow().for_each_column(
+      [&](const std::string &name, double) { names.push_back(name); });
+    std::string table = csv_line(names);
+    for (const TorqueRow &row : rows)
+      table += torque_line(row);
+    return table;
+  }
+
+
+
+  double
+  torque_at(const ReferenceCurve &curve, double angle, const double tolerance)
+  {
+    for (const double end : {curve.front().first, curve.back().first})
+      if (std::abs(angle - end) <= tolerance)
+        angle = end;
+    for (std::size_t i = 0; i + 1 < curve.size(); ++i)
+      {
+        const auto &[begin, torque_begin] = curve[i];
+        const auto &[end, torque_end]     = curve[i + 1];
+        if (begin <= angle && angle <= end && begin != end)
+          return angle == end ? torque_end :
+                                torque_begin + (angle - begin) / (end - begin) *
+                                                 (torque_end - torque_begin);
+      }
+    return CurveMeasures::undefined;
   }
 
 
@@ -98,17 +82,18 @@ namespace Debond
       {
         if (rows.empty())
           return;
-        const double start  = rows.front().angle_deg;
-        double       lowest = start, highest = start;
-        for (const TorqueRow &row : rows)
-          {
-            lowest  = std::min(lowest, row.angle_deg);
-            highest = std::max(highest, row.angle_deg);
-          }
-        tolerance = 1e-9 * std::max(1., highest - lowest);
-        if (!(highest - lowest > tolerance))
+        const auto [least, most] =
+          std::minmax_element(rows.begin(),
+                              rows.end(),
+                              [](const TorqueRow &a, const TorqueRow &b) {
+                                return a.angle_deg < b.angle_deg;
+                              });
+        const double range = most->angle_deg - least->angle_deg;
+        tolerance          = 1e-9 * std::max(1., range);
+        if (!(range > tolerance))
           return;
 
+        const double start = rows.front().angle_deg;
         while (std::abs(rows[first_row].angle_deg - start) <= tolerance)
           ++first_row;
         direction       = (rows[first_row].angle_deg > start ? 1. : -1.);
@@ -186,29 +171,6 @@ namespace Debond
 
 
 
-    /** Torque at an angle, linear between rows of a rotation that does not
-     *  reverse; NaN outside. */
-    double
-    torque_at(const Rows &rows, const Rotation &rotation, double angle_deg)
-    {
-      const double s = rotation.direction;
-      // the last row's angle went from degrees to radians and back
-      if (std::abs(angle_deg - rows.back().angle_deg) <= rotation.tolerance)
-        angle_deg = rows.back().angle_deg;
-      for (unsigned int i = 0; i + 1 < rows.size(); ++i)
-        {
-          const double begin = rows[i].angle_deg, end = rows[i + 1].angle_deg;
-          if (s * begin <= s * angle_deg && s * angle_deg <= s * end &&
-              begin != end)
-            return rows[i].torque_Nmm +
-                   (angle_deg - begin) / (end - begin) *
-                     (rows[i + 1].torque_Nmm - rows[i].torque_Nmm);
-        }
-      return CurveMeasures::undefined;
-    }
-
-
-
     /** Eqs. (19) and (50). Rows of the reference with next to no torque would
      *  dominate a relative error and are left out. */
     void
@@ -217,6 +179,9 @@ namespace Debond
                    const ReferenceCurve &reference,
                    CurveMeasures        &measures)
     {
+      ReferenceCurve curve; // in ascending order
+      for (const TorqueRow &row : rows)
+        curve.emplace_back(rotation.direction * row.angle_deg, row.torque_Nmm);
       double largest = 0;
       for (const auto &[angle_deg, torque_Nmm] : reference)
         largest = std::max(largest, std::abs(torque_Nmm));
@@ -225,9 +190,11 @@ namespace Debond
       unsigned int n = 0;
       for (const auto &[angle_deg, T_reference] : reference)
         {
-          const double T = torque_at(rows, rotation, angle_deg);
-          if (rotation.direction * angle_deg > 0. &&
-              std::abs(T_reference) > 0.01 * largest && std::isfinite(T))
+          const double turned = rotation.direction * angle_deg;
+          // angles go from degrees to radians and back
+          const double T = torque_at(curve, turned, rotation.tolerance);
+          if (turned > 0. && std::abs(T_reference) > 0.01 * largest &&
+              std::isfinite(T))
             {
               const double difference = std::abs(T - T_reference);
               sum_mp += difference / std::abs(T_reference);
@@ -325,23 +292,6 @@ namespace Debond
 
 
 
-  namespace
-  {
-    /** Makes a name that programs can use: "set-up" becomes "set_up". */
-    std::string
-    with_underscores(std::string name)
-    {
-      std::replace_if(
-        name.begin(),
-        name.end(),
-        [](const unsigned char c) { return std::isalnum(c) == 0; },
-        '_');
-      return name;
-    }
-  } // namespace
-
-
-
   std::string
   warning_about_reference(const CurveMeasures &measures,
                           const CurveSettings &settings)
@@ -353,22 +303,11 @@ namespace Debond
 
 
 
-  std::vector<std::pair<std::string, double>>
-  error_measures(const CurveMeasures &measures)
-  {
-    return {{"e_mp", measures.e_mp},
-            {"e_rel", measures.e_rel},
-            {"difference_max", measures.difference_max},
-            {"difference_mean", measures.difference_mean},
-            {"reference_rows_used", measures.reference_rows_used}};
-  }
-
-
-
   void
   to_json(nlohmann::ordered_json &json, const RunSummary &summary)
   {
-    const CurveMeasures &m = summary.measures;
+    const CurveMeasures   &m = summary.measures;
+    const ProfileMeasures &p = summary.profile_measures;
 
     json = {{"T_max_Nmm", m.T_max_Nmm},
             {"theta_max_deg", m.theta_max_deg},
@@ -406,10 +345,12 @@ namespace Debond
             {"largest_energy_defect", m.largest_energy_defect},
             {"largest_reaction_defect", m.largest_reaction_defect},
             {"viscous_dissipation_Nm", m.viscous_dissipation_Nm},
-            {"smallest_step", summary.smallest_step}};
-    for (const auto &[name, value] : error_measures(summary.profile_measures))
-      json[name] = value;
+            {"smallest_step", summary.smallest_step},
+            {"pressure_difference_rms", p.pressure_difference},
+            {"slip_difference_rms", p.slip_difference},
+            {"reference_angles_used", p.angles_used}};
+    static const std::regex others("[^A-Za-z0-9]");
     for (const auto &[name, seconds] : summary.seconds)
-      json["seconds_" + with_underscores(name)] = seconds;
+      json["seconds_" + std::regex_replace(name, others, "_")] = seconds;
   }
 } // namespace Debond

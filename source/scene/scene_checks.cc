@@ -1,12 +1,14 @@
 #include <debond/input/entry_table.h>
-#include <debond/input/time_function.h>
+#include <debond/input/expression_parser.h>
 #include <debond/interface/bonding_pattern.h>
+#include <debond/scene/reference_data.h>
 #include <debond/scene/scene.h>
 #include <debond/support/number_text.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 namespace Debond
 {
@@ -126,24 +128,23 @@ namespace Debond
 
       if (interface.friction_starts_at <= times.front())
         return;
-      if (load_steps.adaptive || load_steps.follow_path)
+      const bool is_planned = !load_steps.adaptive && !load_steps.follow_path;
+      std::vector<double> ends      = times; // of what has friction or has none
+      double              tolerance = 0.;
+      if (is_planned)
         {
-          if (std::find(times.begin(),
-                        times.end(),
-                        interface.friction_starts_at) == times.end())
-            throw EntryError(entry,
-                             "this is inside a phase: with adaptive steps or "
-                             "Path following one of Load steps / Times is "
-                             "expected");
-          return;
+          ends      = load_steps.planned_times();
+          tolerance = 1e-9 * (times.back() - times.front());
         }
-      for (const double time : load_steps.planned_times())
-        if (std::abs(time - interface.friction_starts_at) <=
-            1e-9 * (times.back() - times.front()))
+      for (const double end : ends)
+        if (std::abs(end - interface.friction_starts_at) <= tolerance)
           return;
       throw EntryError(entry,
-                       "this is inside a planned step: expected the end of a "
-                       "step (Load steps / Times and Steps)");
+                       is_planned ?
+                         "this is inside a planned step: expected the end of a "
+                         "step (Load steps / Times and Steps)" :
+                         "this is inside a phase: with adaptive steps or Path "
+                         "following one of Load steps / Times is expected");
     }
 
 
@@ -154,19 +155,28 @@ namespace Debond
     {
       if (!scene.interface.friction->depends_on_rate())
         return;
-      const auto refuse = [](const std::string &entry) {
-        throw EntryError(entry,
-                         "it does not go with this Friction law, whose "
-                         "coefficient depends on the sliding speed");
-      };
-      if (scene.load_steps.follow_path)
-        refuse("Load steps / Path following");
-      if (scene.interface.explicit_friction)
-        refuse("Interface / Friction update");
-      if (scene.output.friction_law_curve)
-        refuse("Output / Friction law curve");
-      if (scene.model != ModelKind::finite_elements)
-        refuse("Model");
+      const std::pair<bool, const char *> without_rate[] = {
+        {scene.load_steps.follow_path, "Load steps / Path following"},
+        {scene.interface.explicit_friction, "Interface / Friction update"},
+        {scene.output.friction_law_curve, "Output / Friction law curve"},
+        {scene.model != ModelKind::finite_elements, "Model"}};
+      for (const auto &[is_wanted, entry] : without_rate)
+        if (is_wanted)
+          throw EntryError(entry,
+                           "it does not go with this Friction law, whose "
+                           "coefficient depends on the sliding speed");
+    }
+
+
+
+    void
+    check_references(const OutputParameters &output)
+    {
+      read_reference_curve(output.reference_curve);
+      read_profiles(output.reference_profiles);
+      if (!output.reference_profiles.empty() && output.profile_angles.empty())
+        throw EntryError("Output / Reference profiles",
+                         "it needs Output / Profile angles to compare at");
     }
 
 
@@ -226,7 +236,7 @@ namespace Debond
     check_rate(*this);
     check_chuck(*this);
     check_path_following(*this);
-    output.check();
+    check_references(output);
     check_bonding_file(interface.bonding.file, output.directory);
   }
 } // namespace Debond

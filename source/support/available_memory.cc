@@ -1,4 +1,4 @@
-#include <debond/support/available_memory.h>
+#include <debond/support/runtime.h>
 
 #include <sys/resource.h>
 #include <unistd.h>

@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstring>
 
 namespace Debond
 {
@@ -76,17 +77,7 @@ namespace Debond
   std::string
   signal_name(const int signal)
   {
-    switch (signal)
-      {
-        case SIGINT:
-          return "SIGINT";
-        case SIGTERM:
-          return "SIGTERM";
-        case SIGHUP:
-          return "SIGHUP";
-        default:
-          return "signal " + std::to_string(signal);
-      }
+    return "SIG" + std::string(sigabbrev_np(signal));
   }
 
 

@@ -1,7 +1,6 @@
 #include <debond/support/runtime.h>
 
 #include <deal.II/base/exceptions.h>
-#include <deal.II/base/multithread_info.h>
 #include <deal.II/base/utilities.h>
 
 #include <csignal>

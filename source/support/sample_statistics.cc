@@ -1,32 +1,17 @@
 #include <debond/support/sample_statistics.h>
 
+#include <boost/range/algorithm_ext/erase.hpp>
+
 #include <algorithm>
 #include <cmath>
 
 namespace Debond
 {
-  double
-  quantile(const std::vector<double> &sorted, const double p)
-  {
-    if (sorted.empty())
-      return SampleStatistics::undefined;
-    const double      position = p * (sorted.size() - 1);
-    const std::size_t below    = std::floor(position);
-    const std::size_t above    = std::min(below + 1, sorted.size() - 1);
-    return sorted[below] + (position - below) * (sorted[above] - sorted[below]);
-  }
-
-
-
   SampleStatistics
   sample_statistics(std::vector<double> values)
   {
-    values.erase(std::remove_if(values.begin(),
-                                values.end(),
-                                [](const double x) {
-                                  return !std::isfinite(x);
-                                }),
-                 values.end());
+    boost::remove_erase_if(values,
+                           [](const double x) { return !std::isfinite(x); });
     std::sort(values.begin(), values.end());
 
     SampleStatistics result;
@@ -43,9 +28,17 @@ namespace Debond
       squares += std::pow(x - result.mean, 2);
     if (result.n > 1)
       result.sd = std::sqrt(squares / (result.n - 1));
-    result.p05 = quantile(values, 0.05);
-    result.p50 = quantile(values, 0.50);
-    result.p95 = quantile(values, 0.95);
+
+    const auto quantile = [&values](const double p) {
+      const double      position = p * (values.size() - 1);
+      const std::size_t below    = std::floor(position);
+      const std::size_t above    = std::min(below + 1, values.size() - 1);
+      return values[below] +
+             (position - below) * (values[above] - values[below]);
+    };
+    result.p05 = quantile(0.05);
+    result.p50 = quantile(0.50);
+    result.p95 = quantile(0.95);
     return result;
   }
 } // namespace Debond

@@ -1,7 +1,8 @@
-#include <debond/support/run_error.h>
+#include <debond/support/input_error.h>
 #include <debond/support/written_files.h>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -9,6 +10,10 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <map>
+#include <mutex>
+#include <sstream>
 #include <utility>
 
 namespace Debond
@@ -29,62 +34,37 @@ namespace Debond
 
 
 
-    /** Closes a file at the end of its scope, if not before. */
-    struct OpenFile
-    {
-      OpenFile(const std::string &filename, const int flags)
-        : descriptor(open(filename.c_str(), flags | O_CLOEXEC, 0666))
-      {}
-      ~OpenFile()
-      {
-        if (descriptor >= 0)
-          close(descriptor);
-      }
-      /** False if that fails, which may be how a network's file system says
-       * that the disk is full. */
-      bool
-      is_closed()
-      {
-        return close(std::exchange(descriptor, -1)) == 0;
-      }
-      int descriptor;
-    };
-
-
-
-    /** False if not all of it can be written; errno says why. */
+    /** Whether what was written into a file or, with O_DIRECTORY in @p flags,
+     *  the names in a directory could be put on the disk; else errno says why
+     *  not. */
     bool
-    write_all(const int descriptor, const std::string &text)
+    is_on_disk(const std::string &filename, const int flags)
     {
-      const char *next = text.data();
-      for (std::size_t left = text.size(); left > 0;)
-        {
-          const ssize_t written = write(descriptor, next, left);
-          if (written < 0 && errno != EINTR)
-            return false;
-          if (written > 0)
-            {
-              next += written;
-              left -= written;
-            }
-        }
-      return true;
-    }
-
-
-
-    void
-    put_directory_on_disk(const std::string &filename)
-    {
-      const auto     parent = std::filesystem::path(filename).parent_path();
-      const OpenFile directory(parent.empty() ? "." : parent.string(),
-                               O_RDONLY | O_DIRECTORY);
-      // some file systems cannot do that with a directory
-      if (directory.descriptor < 0 || (fsync(directory.descriptor) != 0 &&
-                                       errno != EINVAL && errno != ENOTSUP))
-        fail(filename);
+      const int descriptor = open(filename.c_str(), flags | O_CLOEXEC);
+      if (descriptor < 0)
+        return false;
+      const int reason = fsync(descriptor) == 0 ? 0 : errno;
+      close(descriptor);
+      errno = reason;
+      return reason == 0;
     }
   } // namespace
+
+
+
+  std::optional<std::string>
+  read_whole_file(const std::string &filename)
+  {
+    std::ifstream file(filename, std::ios::binary);
+    if (!file && (errno == ENOENT || errno == ENOTDIR))
+      return std::nullopt;
+    if (!file)
+      throw InputError("cannot read '" + filename +
+                       "': " + std::strerror(errno));
+    std::ostringstream bytes;
+    bytes << file.rdbuf();
+    return bytes.str();
+  }
 
 
 
@@ -95,21 +75,24 @@ namespace Debond
   {
     const std::string temporary = filename + partial;
     const bool        on_disk   = durability == Durability::on_disk;
-    bool              written   = false;
-    {
-      OpenFile file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
-      written = file.descriptor >= 0 && write_all(file.descriptor, text) &&
-                (!on_disk || fsync(file.descriptor) == 0) && file.is_closed();
-    }
-    if (!written || std::rename(temporary.c_str(), filename.c_str()) != 0)
+    std::ofstream     file(temporary, std::ios::binary);
+    file << text;
+    file.close();
+    if (!file || (on_disk && !is_on_disk(temporary, O_RDONLY)) ||
+        std::rename(temporary.c_str(), filename.c_str()) != 0)
       {
         const int reason = errno;
         unlink(temporary.c_str()); // what there is of it is of no use
         errno = reason;
         fail(filename);
       }
-    if (on_disk)
-      put_directory_on_disk(filename);
+    const auto parent = std::filesystem::path(filename).parent_path();
+    // some file systems cannot do that with a directory
+    if (on_disk &&
+        !is_on_disk(parent.empty() ? "." : parent.string(),
+                    O_RDONLY | O_DIRECTORY) &&
+        errno != EINVAL && errno != ENOTSUP)
+      fail(filename);
   }
 
 
@@ -127,8 +110,7 @@ namespace Debond
   void
   put_on_disk(const std::string &filename)
   {
-    const OpenFile file(filename, O_RDONLY);
-    if (file.descriptor < 0 || fsync(file.descriptor) != 0)
+    if (!is_on_disk(filename, O_RDONLY))
       fail(filename);
   }
 
@@ -138,25 +120,9 @@ namespace Debond
     : filename(filename)
   {
     write_file(filename, text);
-    descriptor = open(filename.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-    if (descriptor < 0)
-      fail(filename);
-  }
-
-
-
-  GrowingFile::~GrowingFile()
-  {
-    if (descriptor >= 0)
-      close(descriptor);
-  }
-
-
-
-  void
-  GrowingFile::finish()
-  {
-    if (close(std::exchange(descriptor, -1)) != 0)
+    file.rdbuf()->pubsetbuf(nullptr, 0); // nothing is kept back
+    file.open(filename, std::ios::binary | std::ios::app);
+    if (!file)
       fail(filename);
   }
 
@@ -165,14 +131,62 @@ namespace Debond
   void
   GrowingFile::append(const std::string &text)
   {
-    struct stat before;
-    if (fstat(descriptor, &before) == 0 && write_all(descriptor, text))
+    std::error_code ignored;
+    const auto      before = std::filesystem::file_size(filename, ignored);
+    if (file << text)
       return;
     const int reason = errno;
     // no part of a text may stay; if this fails as well, it does
-    const int ignored = ftruncate(descriptor, before.st_size);
-    static_cast<void>(ignored);
+    std::filesystem::resize_file(filename, before, ignored);
     errno = reason;
     fail(filename);
   }
+
+
+
+  void
+  GrowingFile::finish()
+  {
+    file.close();
+    if (!file)
+      fail(filename);
+  }
+
+
+
+  DirectoryLock
+  lock_directory(const std::string &directory)
+  {
+    // two descriptors of one process would exclude each other
+    static std::mutex                                                  mutex;
+    static std::map<std::pair<dev_t, ino_t>, std::weak_ptr<const int>> locks;
+    const std::lock_guard<std::mutex> guard(mutex);
+
+    const int descriptor =
+      open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0)
+      return nullptr;
+    const DirectoryLock lock(new int(descriptor), [](const int *const locked) {
+      close(*locked);
+      delete locked;
+    });
+    struct stat         identity;
+    if (fstat(descriptor, &identity) != 0)
+      return nullptr;
+    auto &known = locks[{identity.st_dev, identity.st_ino}];
+    if (auto own = known.lock())
+      return own;
+    int result = 0;
+    do
+      result = flock(descriptor, LOCK_EX | LOCK_NB);
+    while (result != 0 && errno == EINTR);
+    if (result != 0 && errno == EWOULDBLOCK)
+      throw InputError("another run of debond is at work in " + directory +
+                       ": wait for it, or choose another Output / Directory");
+    if (result != 0)
+      return nullptr;
+    known = lock;
+    return lock;
+  }
+
 } // namespace Debond

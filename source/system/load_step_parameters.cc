@@ -95,7 +95,7 @@ namespace Debond
       "chords of their paths.");
     table.add("Adaptive",
               adaptive,
-              Allowed::yes_or_no(),
+              Allowed::choice("false | true"),
               "Let the program choose the steps of each phase, at most as "
               "large as the planned ones, such that torque and forces drawn as "
               "straight lines between the rows keep the Tolerance, relative to "

@@ -161,9 +161,10 @@ namespace Debond
     static_cast<NewtonResult &>(result) = solve_newton(system, options);
     result.interface                    = system.interface.summarise();
     result.unique = result.interface.steepest_softening < 1.;
-    // smaller steps help a viscous interface only
+    // smaller steps help only where friction resists the speed
     result.hopeless = result.converged && !result.unique &&
-                      parameters.interface.viscosity == 0.;
+                      parameters.interface.viscosity == 0. &&
+                      !parameters.interface.friction->depends_on_rate();
     // a step that failed has failed already; this may be why
     if (!result.unique)
       result.why +=

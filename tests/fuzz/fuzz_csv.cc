@@ -3,7 +3,7 @@
 
 #include <debond/bulk/body_mesh.h>
 #include <debond/interface/bonding_pattern.h>
-#include <debond/output/profile_comparison.h>
+#include <debond/output/profile_output.h>
 #include <debond/output/torque_curve.h>
 
 #include "fuzz_target.h"

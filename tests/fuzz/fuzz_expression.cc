@@ -1,7 +1,6 @@
 // Fuzz target: expressions in time and in place, read and evaluated.
 
 #include <debond/input/expression_parser.h>
-#include <debond/input/time_function.h>
 
 #include "fuzz_target.h"
 
@@ -10,7 +9,7 @@ LLVMFuzzerTestOneInput(const std::uint8_t *data, const std::size_t size)
 {
   const std::string expression(reinterpret_cast<const char *>(data), size);
   must_read_or_refuse([&expression]() {
-    const Debond::TimeFunction value(expression, 2.5);
+    const auto value = Debond::read_time_function(expression, 2.5);
     for (const double t : {0., 0.5, 1., 2.})
       value(t);
   });

@@ -15,11 +15,8 @@ namespace
     for (const Debond::SceneEntry &entry : entries)
       if (entry.name == "Cells" || entry.name == "Steps")
         for (const std::string &item : Debond::split_list(entry.value))
-          {
-            double number = 0.;
-            if (Debond::read_number(item, number) && number > 100.)
-              return false;
-          }
+          if (Debond::read_number(item).value_or(0.) > 100.)
+            return false;
     return true;
   }
 

@@ -5,7 +5,7 @@
 // the process, so each case needs more than the one before.
 
 #include <debond/models/memory_estimate.h>
-#include <debond/support/available_memory.h>
+#include <debond/support/runtime.h>
 
 #include <sys/resource.h>
 

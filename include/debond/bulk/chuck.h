@@ -1,7 +1,7 @@
 #ifndef debond_bulk_chuck_h
 #define debond_bulk_chuck_h
 
-#include <debond/input/time_function.h>
+#include <debond/input/expression_parser.h>
 #include <debond/support/accepted_state.h>
 
 #include <Eigen/Geometry>
@@ -58,7 +58,8 @@ namespace Debond
     TimeFunction
     value_over_time(double radius) const
     {
-      return function ? TimeFunction(function) : TimeFunction(value, radius);
+      return function ? with_finite_values(function) :
+                        read_time_function(value, radius);
     }
   };
 

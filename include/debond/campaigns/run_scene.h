@@ -1,7 +1,7 @@
 #ifndef debond_campaigns_run_scene_h
 #define debond_campaigns_run_scene_h
 
-#include <debond/support/run_error.h>
+#include <debond/support/input_error.h>
 
 #include <iosfwd>
 #include <memory>

@@ -2,7 +2,7 @@
 #define debond_campaigns_study_h
 
 #include <debond/campaigns/variant.h>
-#include <debond/support/run_error.h>
+#include <debond/support/input_error.h>
 
 #include <deal.II/base/timer.h>
 
@@ -60,7 +60,7 @@ namespace Debond
     std::string
     describe(unsigned int variant) const;
     /** Returns what keeps others out of the directory of the study. */
-    std::shared_ptr<const DirectoryLock>
+    DirectoryLock
     prepare(bool force);
     void
     report(unsigned int variant, std::ostream &out) const;

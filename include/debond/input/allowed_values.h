@@ -1,8 +1,6 @@
 #ifndef debond_input_allowed_values_h
 #define debond_input_allowed_values_h
 
-#include <deal.II/base/patterns.h>
-
 #include <functional>
 #include <optional>
 #include <string>
@@ -10,23 +8,18 @@
 
 namespace Debond
 {
-  /**
-   * What an entry of a scene accepts, together with the words that tell a user
-   * so. deal.II's own patterns accept `nan`, and describe themselves in a
-   * notation made for programs.
-   */
-  class AllowedValues : public dealii::Patterns::PatternBase
+  /** What an entry of a scene accepts, together with the words that tell a user
+   *  so. */
+  struct AllowedValues
   {
-  public:
-    /** Nothing if the trimmed text of a value is allowed, else a hint what may
-     *  be wrong with it, which may be empty. */
-    using Test = std::function<std::optional<std::string>(const std::string &)>;
-
-    /** @p description ends the sentence "expected ...". @p names: of a choice.
-     */
-    AllowedValues(Test                     test,
-                  std::string              description,
-                  std::vector<std::string> names = {});
+    /** Whether the trimmed text of a value is allowed. */
+    std::function<bool(const std::string &)> test;
+    /** Ends the sentence "expected ...". */
+    std::string description;
+    /** What may be wrong with a text that is not allowed; may be empty. */
+    std::function<std::string(const std::string &)> hint;
+    /** What one may choose from, if the entry is a choice. */
+    std::vector<std::string> names = {};
 
     /** "expected ..." with a hint, or nothing if @p text is allowed. */
     std::string
@@ -35,27 +28,6 @@ namespace Debond
     /** The same values and this number. */
     AllowedValues
     or_number(double number) const;
-
-    /** What one may choose from, if the entry is a choice. */
-    const std::vector<std::string> &
-    names() const
-    {
-      return choices;
-    }
-
-    bool
-    match(const std::string &text) const override;
-
-    std::string
-    description(const OutputStyle style = Machine) const override;
-
-    std::unique_ptr<dealii::Patterns::PatternBase>
-    clone() const override;
-
-  private:
-    Test                     test;
-    std::string              words;
-    std::vector<std::string> choices;
   };
 
   /** The kinds of values that occur in a scene. The unit is part of the words
@@ -89,13 +61,9 @@ namespace Debond
          unsigned int         min_count,
          unsigned int         max_count);
 
-    /** One of the choices "a | b | c". */
+    /** One of the choices "a | b | c", for a bool "false | true". */
     AllowedValues
     choice(const std::string &choices);
-
-    /** `true` or `false`. */
-    AllowedValues
-    yes_or_no();
 
     /** Text that is not empty; @p what says what it is. */
     AllowedValues
@@ -117,10 +85,13 @@ namespace Debond
   } // namespace Allowed
 
   /** Reads a whole text as one decimal number, surrounding blanks ignored, that
-   *  is finite and not so small that digits are lost. Returns false, and leaves
-   * @p value alone, if it is none. */
-  bool
-  read_number(const std::string &text, double &value);
+   *  is finite and not so small that digits are lost; nothing if it is none. */
+  std::optional<double>
+  read_number(const std::string &text);
+
+  /** Splits a text at @p separator into trimmed items. */
+  std::vector<std::string>
+  split(const std::string &text, const std::string &separator);
 
   /** Splits a list at its commas into trimmed items; an empty text has none. */
   std::vector<std::string>

@@ -5,8 +5,6 @@
 #include <debond/input/scene_file.h>
 #include <debond/support/number_text.h>
 
-#include <deal.II/base/parameter_handler.h>
-
 #include <algorithm>
 #include <functional>
 #include <ostream>
@@ -53,19 +51,13 @@ namespace Debond
         const AllowedValues &allowed,
         const std::string   &documentation);
 
-    /** A row whose text is interpreted by @p set. */
+    /** A row whose text is interpreted by @p set, or means nothing yet. */
     void
     add(const std::string                              &name,
         const std::string                              &value,
         const std::function<void(const std::string &)> &set,
         const AllowedValues                            &allowed,
         const std::string                              &documentation);
-
-    /** An entry that can only have this value yet. */
-    void
-    reserve(const std::string &name,
-            const std::string &value,
-            const std::string &documentation);
 
     /** Sets an entry, and the member that belongs to it. Throws EntryError if
      *  it is unknown or its value not allowed. */
@@ -76,17 +68,17 @@ namespace Debond
     std::string
     text() const;
 
-    /** The same with documentation and what the entries allow. */
+    /** The same; @p documented: with what the entries mean and allow. */
     void
-    print(std::ostream &out) const;
+    print(std::ostream &out, bool documented = true) const;
 
   private:
     struct Row
     {
-      std::vector<std::string> subsections;
-      std::string              name;
-      AllowedValues            allowed;
-      std::string              documentation;
+      SceneEntry                               entry;
+      std::function<void(const std::string &)> set;
+      AllowedValues                            allowed;
+      std::string                              documentation;
     };
 
     /** What an unknown entry may have been meant to be, or nothing. */
@@ -94,19 +86,20 @@ namespace Debond
     likely_name(const SceneEntry &entry) const;
 
     std::vector<std::string> path; ///< the subsections that are open
-    std::vector<Row>         rows;
-    dealii::ParameterHandler prm; ///< the values
+    std::vector<Row>         rows; ///< those of a subsection before its own
   };
 
 
 
-  /** A value as a scene has it. */
+  /** A value as a scene has it. @p names: of the values of an enumeration. */
   template <typename T>
   std::string
-  entry_text(const T &value)
+  entry_text(const T &value, const std::vector<std::string> &names = {})
   {
     if constexpr (std::is_same_v<T, std::string>)
       return value;
+    else if constexpr (std::is_enum_v<T> || std::is_same_v<T, bool>)
+      return names.at(static_cast<unsigned int>(value));
     else if constexpr (std::is_floating_point_v<T>)
       return exact_text(value);
     else if constexpr (std::is_integral_v<T>)
@@ -125,16 +118,17 @@ namespace Debond
   /** The opposite, for texts that are allowed. */
   template <typename T>
   void
-  read_entry(const std::string &text, T &value)
+  read_entry(const std::string              &text,
+             T                              &value,
+             const std::vector<std::string> &names = {})
   {
     if constexpr (std::is_same_v<T, std::string>)
       value = text;
+    else if constexpr (std::is_enum_v<T> || std::is_same_v<T, bool>)
+      value = static_cast<T>(std::find(names.begin(), names.end(), text) -
+                             names.begin());
     else if constexpr (std::is_arithmetic_v<T>)
-      {
-        double number = 0;
-        read_number(text, number);
-        value = static_cast<T>(number);
-      }
+      value = static_cast<T>(read_number(text).value());
     else
       {
         const std::vector<std::string> items = split_list(text);
@@ -154,26 +148,14 @@ namespace Debond
                   const AllowedValues &allowed,
                   const std::string   &documentation)
   {
-    if constexpr (std::is_enum_v<T> || std::is_same_v<T, bool>)
-      {
-        const std::vector<std::string> names = allowed.names();
-        add(
-          name,
-          names.at(static_cast<unsigned int>(member)),
-          [&member, names](const std::string &text) {
-            member = static_cast<T>(
-              std::find(names.begin(), names.end(), text) - names.begin());
-          },
-          allowed,
-          documentation);
-      }
-    else
-      add(
-        name,
-        entry_text(member),
-        [&member](const std::string &text) { read_entry(text, member); },
-        allowed,
-        documentation);
+    add(
+      name,
+      entry_text(member, allowed.names),
+      [&member, names = allowed.names](const std::string &text) {
+        read_entry(text, member, names);
+      },
+      allowed,
+      documentation);
   }
 } // namespace Debond
 #endif

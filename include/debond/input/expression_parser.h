@@ -23,5 +23,17 @@ namespace Debond
   read_expression(const std::string &variables,
                   const std::string &expression,
                   double             radius);
+
+  /** A function of time. */
+  using TimeFunction = std::function<double(double)>;
+
+  /** The same function; throws InputError where it has no finite value. */
+  TimeFunction
+  with_finite_values(const TimeFunction &function);
+
+  /** That of an expression in `t`, see read_expression(), with finite values.
+   */
+  TimeFunction
+  read_time_function(const std::string &expression, double radius);
 } // namespace Debond
 #endif

@@ -17,12 +17,11 @@ namespace Debond
     /** "Interface / Bonding / Pattern". */
     std::string
     full_name() const;
-  };
 
-  /** Joins subsections and name as messages show them. */
-  std::string
-  full_entry_name(const std::vector<std::string> &subsections,
-                  const std::string              &name);
+    /** Throws an EntryError: what is wrong with the value, and where it is. */
+    [[noreturn]] void
+    refuse(const std::string &why) const;
+  };
 
   /**
    * Reads the text of a scene: `subsection NAME`, `set NAME = VALUE`, `end`,

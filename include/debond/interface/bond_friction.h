@@ -27,7 +27,7 @@ namespace Debond
     adhesive_strength(const FrictionState &start,
                       double               distance) const override;
     double
-    steepest_fall(const FrictionState &start) const override;
+    steepest_fall(const FrictionState &start, double) const override;
     bool
     has_bond() const override
     {

@@ -80,6 +80,13 @@ namespace Debond
     virtual double
     friction_strength(const FrictionState &start, double distance) const = 0;
 
+    /** How much more that may be if the speed changes within the step. */
+    virtual double
+    strength_bound(const FrictionState &, double) const
+    {
+      return 0.;
+    }
+
     /** The part of it that the bond accounts for: integral of mu - mu_b. */
     virtual double
     adhesive_strength(const FrictionState &, double) const
@@ -90,10 +97,12 @@ namespace Debond
 
     /** @name Uniqueness */
     //@{
-    /** Bound of -d mu/d g_s [1/mm] >= 0 for all that is still to come: there is
-     *  one solution while it is less than eps_t / p. */
+    /** Bound of -d mu/d(distance) [1/mm] >= 0 up to the @p distance in this
+     *  step, and for a law that does not depend on the rate for all that is
+     *  still to come: what has been found is the first solution, and unique,
+     *  while this is less than eps_t / p. */
     virtual double
-    steepest_fall(const FrictionState &start) const = 0;
+    steepest_fall(const FrictionState &start, double distance = 0.) const = 0;
 
     /** The entries that make it less, for messages. */
     virtual std::string

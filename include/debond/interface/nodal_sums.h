@@ -2,7 +2,7 @@
 #define debond_interface_nodal_sums_h
 
 #include <debond/interface/interface_configuration.h>
-#include <debond/support/chunks.h>
+#include <debond/support/runtime.h>
 
 #include <utility>
 

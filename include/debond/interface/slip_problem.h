@@ -94,6 +94,14 @@ namespace Debond
              (law.tangential_penalty + friction.viscous);
     }
 
+    /** d(mu p + eta / dt * distance)/d(distance) [MPa/mm]. */
+    double
+    resistance_slope() const
+    {
+      return coefficient.dmu * pressure +
+             (pressure > 0. ? friction.viscous : 0.);
+    }
+
     Eigen::Vector2d     h;
     double              g_n;
     NormalResponse      normal_response;

@@ -3,7 +3,7 @@
 
 #include <debond/output/torque_curve.h>
 #include <debond/scene/scene.h>
-#include <debond/support/run_error.h>
+#include <debond/support/input_error.h>
 
 #include <iosfwd>
 #include <memory>

@@ -4,7 +4,7 @@
 #include <debond/models/state_checks.h>
 #include <debond/output/torque_curve.h>
 #include <debond/scene/scene.h>
-#include <debond/support/run_error.h>
+#include <debond/support/input_error.h>
 #include <debond/system/coupled_system.h>
 #include <debond/system/step_control.h>
 #include <debond/system/step_solver.h>

@@ -40,7 +40,7 @@ namespace Debond
   {
   public:
     /** To be raised when the state of any class has other members. */
-    static constexpr unsigned int format = 2;
+    static constexpr unsigned int format = 3;
 
     explicit CheckpointFiles(const ResultDirectory &directory);
 
@@ -58,9 +58,6 @@ namespace Debond
     /** Removes both. Throws WriteError. */
     void
     remove() const;
-
-    /** The names of the two files in a directory. */
-    static const std::array<const char *, 2> names;
 
   private:
     std::array<std::string, 2> files;

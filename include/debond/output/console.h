@@ -24,50 +24,33 @@ namespace Debond
      *  number is not known). */
     void
     row(const TorqueRow &row, unsigned int n_steps);
-    /** The steps up to this one were not this run's: its pace is that of those
-     *  that follow. */
-    void
-    go_on_after(unsigned int step);
     /** Printed the first time only; kept for the summary. An empty text is no
      *  warning. */
     void
     warn(const std::string &key, const std::string &text);
-    const std::vector<std::string> &
-    warnings() const
-    {
-      return warning_texts;
-    }
-    std::ostream &
-    stream()
-    {
-      return out;
-    }
-    bool
-    quiet() const
-    {
-      return kind == ConsoleKind::quiet;
-    }
+
+    const bool quiet; ///< warnings only
+    /** The steps up to this one were not this run's: its pace is that of those
+     *  that follow. */
+    unsigned int             first_step = 0;
+    std::vector<std::string> warnings; ///< those printed
 
     /** See serialization.h. */
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &warning_keys &warning_texts;
+      archive &warning_keys &warnings;
     }
 
   private:
     void
     erase_progress();
-    void
-    show_progress(unsigned int step, unsigned int n_steps);
 
-    const ConsoleKind        kind;
     std::ostream            &out;
     const bool               on_terminal;
     bool                     progress_shown = false, columns_named = false;
-    unsigned int             first_step = 0; ///< from which this run goes on
-    std::vector<std::string> warning_keys, warning_texts;
+    std::vector<std::string> warning_keys;
     const std::chrono::steady_clock::time_point start;
   };
 } // namespace Debond

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace Debond
@@ -76,31 +75,32 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &bulk_series.files &interface_series.files;
+      archive &times;
     }
 
   private:
-    /** Files of one kind and their times. */
-    struct Series
-    {
-      std::string                                 name;
-      std::vector<std::pair<double, std::string>> files;
-    };
-    std::string
-    file_name(const Series &series, unsigned int number) const;
-    /** Writes the next file of a series, and the series. */
     void
-    append(Series &series, double time, const std::string &vtu) const;
-    void
-    write_series(const Series &series) const;
+    write_series() const;
 
     const ResultDirectory            &directory;
     const std::array<const Body *, 2> bodies; ///< bone, implant
     const ContactInterface           &interface;
     const Chuck                      &chuck;
-    Series                            bulk_series{"bulk", {}};
-    Series                            interface_series{"interface", {}};
+    std::vector<double>               times;         ///< of the files
     std::size_t                       n_on_disk = 0; ///< files of each series
   };
+
+  /** The text of a VTU file with the fields of both bodies, bone and implant,
+   *  in the trial state; class FieldOutput says which. */
+  std::string
+  bulk_vtu(const std::array<const Body *, 2> &bodies, const Chuck &chuck);
+
+  /** The text of a VTU file with the fields of the interface in the trial state
+   *  on the surface of the body @p slave; class FieldOutput says which, and how
+   *  they are interpolated. */
+  std::string
+  interface_vtu(const Body             &slave,
+                const ContactInterface &interface,
+                const Chuck            &chuck);
 } // namespace Debond
 #endif

@@ -1,33 +1,59 @@
 #ifndef debond_output_profile_output_h
 #define debond_output_profile_output_h
 
-#include <debond/interface/contact_interface.h>
-#include <debond/output/profile_comparison.h>
-#include <debond/output/result_files.h>
-#include <debond/scene/scene.h>
+#include <debond/scene/reference_data.h>
 
+#include <array>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
 namespace Debond
 {
-  /** A point of the interface in profiles.csv. */
-  struct InterfacePoint
-  {
-    double      x = 0, y = 0; ///< reference position [mm]
-    double      pressure = 0; ///< [MPa]
-    double      traction = 0; ///< magnitude of the tangential one [MPa]
-    double      slip     = 0; ///< accumulated sliding distance g_s [mm]
-    double      phi      = 0; ///< bonding state
-    double      mu       = 0; ///< friction coefficient
-    PointStatus status   = PointStatus::open;
-    double      area     = 0; ///< that the point stands for [mm^2]
-  };
+  class ContactInterface;
+  class ResultDirectory;
+  struct Scene;
+
+  /** A point of the interface in profiles.csv, by the columns behind the angle:
+   *  reference position x, y and distance r from the axis [mm], pressure and
+   *  magnitude of the tangential traction [MPa], accumulated sliding distance
+   *  g_s [mm], bonding state phi, friction coefficient mu, PointStatus, area
+   *  that the point stands for [mm^2]. */
+  using InterfacePoint = std::array<double, 10>;
 
   /** Those of the slave points that face the implant, in the trial state. */
   std::vector<InterfacePoint>
   profile_points(const ContactInterface &interface);
+
+
+
+  /** Distance of local values from those of a reference; NaN where undefined.
+   */
+  struct ProfileMeasures
+  {
+    /** Root mean square of the difference over all points, weighted by their
+     *  areas, relative to the area mean of the reference, and then over the
+     *  angles that both have. */
+    double       pressure_difference = std::numeric_limits<double>::quiet_NaN();
+    double       slip_difference     = std::numeric_limits<double>::quiet_NaN();
+    unsigned int angles_used         = 0;
+  };
+
+  /**
+   * Compares local values at the points of @p profiles with those of a
+   * reference, whose points lie elsewhere: at each point a parabola in x and y
+   * is fitted to the 20 nearest points of the reference, the nearer the more
+   * weight (moving least squares, Lancaster and Salkauskas 1981). The error of
+   * this interpolation falls with the third power of the distance of the
+   * reference's points, which therefore should lie more densely.
+   *
+   * A reference whose points all have y = 0, as those of closed forms, holds at
+   * that radius in every direction. Angles that only one of both has are left
+   * out.
+   */
+  ProfileMeasures
+  compare_profiles(const Profiles &profiles, const Profiles &reference);
 
 
 

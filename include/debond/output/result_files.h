@@ -1,12 +1,11 @@
 #ifndef debond_output_result_files_h
 #define debond_output_result_files_h
 
-#include <debond/scene/output_parameters.h>
+#include <debond/scene/scene.h>
 #include <debond/support/written_files.h>
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,7 +24,13 @@ namespace Debond
   content_of_result_directory(const OutputParameters &output,
                               const std::string      &completed_parameters);
 
-  class DirectoryLock;
+  /** Removes what debond has written into a directory, but for parameters.prm;
+   *  images that others made of the results stay. @p rungs_only: nothing but
+   * the directories rung-NUMBER of Model = auto; what else has such a name is
+   * not ours. Throws std::filesystem::filesystem_error if that is impossible.
+   */
+  void
+  remove_results(const std::string &directory, bool rungs_only = false);
 
   /** The directory that a run writes to. No other process can open it while
    * this object or a copy of it lives; that process gets an InputError. */
@@ -57,8 +62,8 @@ namespace Debond
     }
 
   private:
-    std::string                          directory;
-    std::shared_ptr<const DirectoryLock> lock;
+    std::string   directory;
+    DirectoryLock lock;
   };
 
   /** Writes a JSON object with its members in their order and every digit;

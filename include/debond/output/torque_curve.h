@@ -1,8 +1,7 @@
 #ifndef debond_output_torque_curve_h
 #define debond_output_torque_curve_h
 
-#include <debond/output/profile_comparison.h>
-#include <debond/support/written_files.h>
+#include <debond/output/profile_output.h>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -14,8 +13,6 @@
 
 namespace Debond
 {
-  class ResultDirectory;
-
   /** One row of torque.csv: the accepted state at the end of a planned step.
    *  All figures are what the chuck exerts on the implant. */
   struct TorqueRow
@@ -102,31 +99,22 @@ namespace Debond
 
 
 
-  /**
-   * Writes torque.csv: a line with the names of the columns, then one row per
-   * call with twelve significant digits. Every row is with the system when
-   * write() returns, so that an interrupted run leaves all of them, and no part
-   * of one.
-   */
-  class TorqueCurveWriter
-  {
-  public:
-    /** Begins the file anew with the rows that there are already. Throws
-     *  WriteError. */
-    explicit TorqueCurveWriter(const ResultDirectory        &directory,
-                               const std::vector<TorqueRow> &rows = {});
+  /** A row of torque.csv, with twelve significant digits. */
+  std::string
+  torque_line(TorqueRow row);
 
-    /** Appends a row. Throws WriteError. */
-    void
-    write(const TorqueRow &row);
+  /** The text of torque.csv: a line with the names of the columns, then the
+   *  rows. */
+  std::string
+  torque_table(const std::vector<TorqueRow> &rows);
 
-    /** After the last row. Throws WriteError. */
-    void
-    finish();
 
-  private:
-    GrowingFile file;
-  };
+
+  /** Torque at an angle, linear between the points of a curve whose angles do
+   *  not fall; NaN beside them. Differences of angles up to @p tolerance are
+   *  rounding errors. */
+  double
+  torque_at(const ReferenceCurve &curve, double angle, double tolerance);
 
 
 
@@ -203,12 +191,6 @@ namespace Debond
   std::string
   warning_about_reference(const CurveMeasures &measures,
                           const CurveSettings &settings);
-
-  /** The members of summary.json that measure the distance from a reference
-   *  curve: e_mp, e_rel, difference_max, difference_mean,
-   *  reference_rows_used. */
-  std::vector<std::pair<std::string, double>>
-  error_measures(const CurveMeasures &measures);
 
 
 

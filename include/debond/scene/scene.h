@@ -2,8 +2,6 @@
 #define debond_scene_scene_h
 
 #include <debond/input/scene_file.h>
-#include <debond/scene/closed_form_parameters.h>
-#include <debond/scene/output_parameters.h>
 #include <debond/support/input_error.h>
 #include <debond/system/model_parameters.h>
 
@@ -13,6 +11,8 @@
 
 namespace Debond
 {
+  class EntryTable;
+
   /** What is solved: two bodies of finite elements, one of the closed forms of
    *  closed_forms.h, or the cheapest of these models that is accurate enough.
    */
@@ -25,13 +25,23 @@ namespace Debond
     automatic ///< `auto`
   };
 
+  /** The subsection `Closed form` of a scene: what the models foundation,
+   *  analytical and mathieu need besides the other entries. */
+  struct ClosedFormParameters
+  {
+    double pressure            = 0;    ///< p [MPa], 0: from the push-in
+    double normal_stiffness    = 0;    ///< p / d [MPa/mm], 0: from the bulk
+    double torsional_stiffness = 0;    ///< lambda [MPa/mm], 0: from the bulk
+    double linear_limit        = 0.13; ///< theta_lin [deg]
+    double full_sliding        = 1.13; ///< theta_max [deg]
+    double shear_modulus       = 40.4; ///< G [MPa]
+    double adhesion_energy     = 22.2; ///< w_adh [N/m]
+  };
+
   /** The subsection `Auto`, for `Model = auto`. */
   struct AutoParameters
   {
     unsigned int largest_number_of_unknowns = 250000;
-
-    void
-    declare(EntryTable &table);
   };
 
   /** The subsection `Study`, for scenes whose entries hold several values. */
@@ -40,9 +50,37 @@ namespace Debond
     unsigned int reference_variant = 0; ///< 0: none
     unsigned int factors_at_once   = 0; ///< 0: all combinations
     unsigned int repetitions       = 1; ///< runs of each variant
+  };
 
-    void
-    declare(EntryTable &table);
+  /** steps: lines about the steps, progress and timings; quiet: warnings and
+   * errors only. */
+  enum class ConsoleKind
+  {
+    steps,
+    quiet
+  };
+
+  /** The subsection `Output` of a scene. */
+  struct OutputParameters
+  {
+    std::string  directory = "output/coin";
+    unsigned int fields_every =
+      50;                        ///< planned steps between VTU files, 0: none
+    std::string reference_curve; ///< CSV angle_deg,torque_Nmm, or empty
+    std::string reference_profiles;     ///< a profiles.csv, or empty
+    double      full_sliding_angle = 0; ///< [deg], 0: from the curve
+    double      observed_bonding   = 0; ///< mean phi_0 of w_adh, 0: the scene's
+    std::vector<double> profile_angles; ///< [deg]
+    bool                friction_law_curve = false; ///< write friction_law.csv
+    unsigned int        checkpoint_every = 0; ///< rows; 0: if interrupted only
+    ConsoleKind         console          = ConsoleKind::steps;
+    /** Use a directory that holds results of another scene, or the checkpoint
+     * of an interrupted run. No entry of the scene: the option --force of the
+     *  program. */
+    bool overwrite_other_results = false;
+    /** Whether a run leaves a checkpoint when it is interrupted. No entry of
+     *  the scene: false for runs that are part of a larger one. */
+    bool resumable = true;
   };
 
   /** Everything a `.prm` file says. A plain value: make one, copy it, change

@@ -1,6 +1,8 @@
 #ifndef debond_support_accepted_state_h
 #define debond_support_accepted_state_h
 
+#include <limits>
+
 namespace Debond
 {
   /** The last two accepted values of something and their times: what a step
@@ -17,12 +19,10 @@ namespace Debond
     void
     commit(const Vector &new_value, const double new_time)
     {
-      has_rate    = has_value && new_time > time;
       before      = value;
       time_before = time;
       value       = new_value;
       time        = new_time;
-      has_value   = true;
     }
 
     /** The line through both at @p new_time; the last value if there is only
@@ -30,7 +30,7 @@ namespace Debond
     Vector
     extrapolated(const double new_time) const
     {
-      if (!has_rate)
+      if (!(time > time_before)) // one of them may not be a number
         return value;
       return value +
              (new_time - time) / (time - time_before) * (value - before);
@@ -43,12 +43,11 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &value &before &time &time_before &has_value &has_rate;
+      archive &value &before &time &time_before;
     }
 
   private:
-    double time = 0, time_before = 0;
-    bool   has_value = false, has_rate = false;
+    double time = std::numeric_limits<double>::quiet_NaN(), time_before = time;
   };
 } // namespace Debond
 #endif

@@ -23,11 +23,11 @@ namespace Debond
   inline std::string
   exact_text(const double number)
   {
-    const auto written = [number](const std::chars_format format) {
-      char buffer[400];
-      return std::string(
-        buffer,
-        std::to_chars(buffer, buffer + sizeof(buffer), number, format).ptr);
+    char       buffer[400];
+    const auto written = [&](const std::chars_format format) {
+      char *const end = buffer + sizeof(buffer);
+      return std::string(buffer,
+                         std::to_chars(buffer, end, number, format).ptr);
     };
     const std::string fixed      = written(std::chars_format::fixed);
     std::string       scientific = written(std::chars_format::scientific);

@@ -6,16 +6,6 @@
 
 namespace Debond
 {
-  /**
-   * Quantile of a sample that is sorted in ascending order, linear between the
-   * order statistics: the smallest value belongs to @p p = 0, the largest to
-   * 1, and those between to equal distances (type 7 of Hyndman and Fan,
-   * American Statistician 50 (1996) 361-365; the default of R and NumPy). NaN
-   * if the sample is empty.
-   */
-  double
-  quantile(const std::vector<double> &sorted, double p);
-
   /** What a sample amounts to, in the unit of its values. */
   struct SampleStatistics
   {
@@ -28,7 +18,10 @@ namespace Debond
     double       p05 = undefined, p50 = undefined, p95 = undefined;
   };
 
-  /** Leaves out values that are not finite. */
+  /** Leaves out values that are not finite. A quantile p is linear between the
+   *  order statistics: the smallest value belongs to p = 0, the largest to 1,
+   *  and those between to equal distances (type 7 of Hyndman and Fan, American
+   *  Statistician 50 (1996) 361-365; the default of R and NumPy). */
   SampleStatistics
   sample_statistics(std::vector<double> values);
 } // namespace Debond

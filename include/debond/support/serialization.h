@@ -14,7 +14,6 @@
 #include <boost/serialization/array_wrapper.hpp>
 #include <boost/serialization/map.hpp>
 #include <boost/serialization/set.hpp>
-#include <boost/serialization/split_free.hpp>
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
@@ -25,45 +24,23 @@ namespace boost
 {
   namespace serialization
   {
-    template <class Archive, typename T, int R, int C, int O, int MR, int MC>
-    void
-    save(Archive                                 &archive,
-         const Eigen::Matrix<T, R, C, O, MR, MC> &matrix,
-         const unsigned int)
-    {
-      const Eigen::Index rows = matrix.rows(), columns = matrix.cols();
-      archive << rows << columns << make_array(matrix.data(), matrix.size());
-    }
-
-
-
     /** Throws boost::archive::archive_exception if a size that is known at
      *  compile time is another one. */
     template <class Archive, typename T, int R, int C, int O, int MR, int MC>
     void
-    load(Archive                           &archive,
-         Eigen::Matrix<T, R, C, O, MR, MC> &matrix,
-         const unsigned int)
+    serialize(Archive                           &archive,
+              Eigen::Matrix<T, R, C, O, MR, MC> &matrix,
+              const unsigned int)
     {
-      Eigen::Index rows, columns;
-      archive >> rows >> columns;
+      Eigen::Index   rows = matrix.rows(), columns = matrix.cols();
+      archive &rows &columns;
       if ((R != Eigen::Dynamic && R != rows) ||
           (C != Eigen::Dynamic && C != columns))
         throw boost::archive::archive_exception(
           boost::archive::archive_exception::input_stream_error);
-      matrix.resize(rows, columns);
-      archive >> make_array(matrix.data(), matrix.size());
-    }
-
-
-
-    template <class Archive, typename T, int R, int C, int O, int MR, int MC>
-    void
-    serialize(Archive                           &archive,
-              Eigen::Matrix<T, R, C, O, MR, MC> &matrix,
-              const unsigned int                 version)
-    {
-      split_free(archive, matrix, version);
+      matrix.resize(rows, columns); // changes nothing in one that is saved
+      auto     values = make_array(matrix.data(), matrix.size());
+      archive &values;
     }
   } // namespace serialization
 } // namespace boost

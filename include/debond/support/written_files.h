@@ -1,10 +1,18 @@
 #ifndef debond_support_written_files_h
 #define debond_support_written_files_h
 
+#include <fstream>
+#include <memory>
+#include <optional>
 #include <string>
 
 namespace Debond
 {
+  /** What is in a file; nothing if there is no such file. Throws InputError if
+   *  it cannot be read. */
+  std::optional<std::string>
+  read_whole_file(const std::string &filename);
+
   /** on_disk: a loss of power does not undo it either. */
   enum class Durability
   {
@@ -36,10 +44,6 @@ namespace Debond
   public:
     /** Begins the file anew with this text. Throws WriteError. */
     GrowingFile(const std::string &filename, const std::string &text);
-    ~GrowingFile();
-    GrowingFile(const GrowingFile &) = delete;
-    GrowingFile &
-    operator=(const GrowingFile &) = delete;
 
     /** Appends all of @p text, which is then with the system, or nothing:
      *  throws WriteError. */
@@ -53,7 +57,18 @@ namespace Debond
 
   private:
     const std::string filename;
-    int               descriptor = -1;
+    std::ofstream     file;
   };
+
+  /** Keeps other processes out of a directory of results as long as it lives.
+   *  Children of the process inherit it, programs that it starts do not; it
+   *  ends with the last of them, however they end. */
+  using DirectoryLock = std::shared_ptr<const int>;
+
+  /** The lock of this process on @p directory: one that it has already, or a
+   *  new one. None where there is no such directory or the file system knows
+   *  no locks. Throws InputError if another process has it. */
+  DirectoryLock
+  lock_directory(const std::string &directory);
 } // namespace Debond
 #endif

@@ -2,12 +2,14 @@
 """Checks of this solver that need no other program."""
 import os
 import sys
+from types import SimpleNamespace
 
 os.environ.setdefault('OPENBLAS_NUM_THREADS', '1')
 sys.dont_write_bytecode = True
 
 import numpy as np  # noqa: E402
 
+import friction  # noqa: E402
 import interface  # noqa: E402
 import nurbs  # noqa: E402
 import scene_file  # noqa: E402
@@ -75,19 +77,20 @@ def points_on_a_disk():
 def closed_form_traction(law, r, depth, normal, tangential, angle):
     """Traction at radii r (m,) between rigid bodies: r angle = g_s + mu(g_s) p / eps_t, by bisection."""
     pressure = normal * depth
+    history = SimpleNamespace(slid=0., bonded=1.)
     low, high = np.zeros_like(r), r * angle
     for _ in range(200):
         middle = (low + high) / 2
-        mu, _ = law.coefficient(middle, np.ones_like(r))
+        mu, _ = law.coefficient(history, middle)
         far = middle + mu * pressure / tangential > r * angle
         low, high = np.where(far, low, middle), np.where(far, middle, high)
-    sticks = tangential * r * angle <= law.coefficient(0 * r, np.ones_like(r))[0] * pressure
-    return np.where(sticks, tangential * r * angle, law.coefficient(low, np.ones_like(r))[0] * pressure)
+    sticks = tangential * r * angle <= law.coefficient(history, 0 * r)[0] * pressure
+    return np.where(sticks, tangential * r * angle, law.coefficient(history, low)[0] * pressure)
 
 
 def stiff_bodies():
     """Torque between almost rigid bodies against the closed form at the same points, relative to its maximum."""
-    law = interface.FrictionLaw(.58, .4, .022, .74)
+    law = friction.ModifiedCoulomb(.58, .4, .022, .74)
     bone, coin = small_solids(young=1e9)
     contact = interface.Interface(coin, bone, +1, law, (600., 400.), 4, lambda x, y: 1.)
     solver = simulation.Simulation(bone, coin, contact, contact.area.sum(), HEIGHT, 1e-9)

@@ -19,7 +19,7 @@ GROUPS = {
     'pressure [MPa]': ['pressure_MPa'],
     'shares and phi': ['share_stick', 'share_slip', 'share_open', 'phi_mean'],
     'works and energies [N mm]': ['work_Nmm', 'energy_bulk_Nmm', 'energy_interface_Nmm', 'dissipation_Nmm',
-                                  'adhesive_work_Nmm'],
+                                  'adhesive_work_Nmm', 'viscous_work_Nmm'],
 }
 COLUMNS = [column for group in GROUPS.values() for column in group]
 

@@ -8,39 +8,6 @@ import numpy as np
 import scipy.sparse as sparse
 
 
-class FrictionLaw:
-    """mu(g_s): from `unbroken` to `broken` beyond a sliding distance of `threshold` mm, Eqs. (11) and (13).
-
-    Coulomb's law has the same coefficient twice.
-    """
-
-    def __init__(self, unbroken, broken, threshold, transition):
-        self.unbroken, self.broken = unbroken, broken
-        self.threshold, self.transition = threshold, transition
-
-    def bonding(self, slid):
-        """s(g_s / a_s) of Eq. (13) and its derivative [1/mm], both (m,); phi = phi_0 s."""
-        q = slid / self.threshold
-        phase = np.pi / (2 * self.transition) * (q - self.transition - 1)
-        falling = (q >= 1) & (q <= 1 + 2 * self.transition)
-        value = np.where(q < 1, 1., np.where(falling, (1 - np.sin(phase)) / 2, 0.))
-        slope = -np.pi / (4 * self.transition * self.threshold) * np.where(falling, np.cos(phase), 0.)
-        return value, slope
-
-    def bonding_integral(self, slid):
-        """The integral of s over the sliding distance, from 0 to g_s (m,) [mm]."""
-        q = np.clip(slid / self.threshold, 1, 1 + 2 * self.transition)
-        phase = np.pi / (2 * self.transition) * (q - self.transition - 1)
-        falling = (q - 1) / 2 + self.transition / np.pi * np.cos(phase)
-        return np.minimum(slid, self.threshold) + self.threshold * falling
-
-    def coefficient(self, slid, bonded):
-        """mu of Eq. (11) and d mu / d g_s [1/mm], both (m,); bonded (m,) is phi_0."""
-        value, slope = self.bonding(slid)
-        difference = bonded * (self.unbroken - self.broken)
-        return self.broken + difference * value, difference * slope
-
-
 def closest_points(surface, control_points, x, xi):
     """Parameters (m, 2) of the points of the surface closest to x (m, 3), and which x lie beyond its edge (m,).
 
@@ -87,26 +54,31 @@ def face_quadrature(solid, count):
 
 
 class Interface:
-    """Slave points with their history: parameters xi of the interacting points, sliding distances g_s.
+    """Slave points with their history: parameters xi of the interacting points, sliding distances g_s, states theta.
 
     slave, master     solids.Solid
     towards           +1 or -1: sign of a_1 x a_2 of the master's surface that points to the slave
+    law               one of those in friction.py
     stiffness         normal and tangential, MPa/mm
+    viscosity         MPa per (mm per unit of time)
     bonding           phi_0 as a function of reference positions x, y (m,)
     """
 
-    def __init__(self, slave, master, towards, law, stiffness, points_per_direction, bonding):
+    def __init__(self, slave, master, towards, law, stiffness, points_per_direction, bonding, viscosity=0.):
         self.slave, self.master, self.towards, self.law = slave, master, towards, law
         self.normal_stiffness, self.tangential_stiffness = stiffness
+        self.viscosity = viscosity
         xi, self.area = face_quadrature(slave, points_per_direction)  # tractions are nominal
         self.numbers, self.values, _ = slave.face.basis(xi)
         place = self.positions(slave.points[:slave.face.weights.size])
         self.bonded = np.broadcast_to(np.asarray(bonding(place[:, 0], place[:, 1]), float), self.area.shape)
         self.xi = np.full(xi.shape, 0.5)
         self.slid = np.zeros(len(xi))
+        self.theta = np.full(len(xi), self.law.initial_theta)
         self.beyond = np.zeros(len(xi), bool)
         self.pressure, self.shear = np.zeros(len(xi)), np.zeros((len(xi), 3))  # of the accepted state
-        self.dissipation = self.adhesive_work = 0.  # N mm
+        self.viscous = np.zeros((len(xi), 3))  # traction, MPa
+        self.dissipation = self.viscous_work = self.adhesive_work = 0.  # N mm
 
     def positions(self, slave_points):
         """Current positions (m, 3) of the slave points; slave_points are those of the slave's control points."""
@@ -131,26 +103,46 @@ class Interface:
         return SimpleNamespace(numbers=numbers, values=values, slopes=slopes, normal=normal,
                                point=np.einsum('ma,mai->mi', values, near), dual=np.linalg.solve(metric, tangents))
 
-    def respond(self, slave_points, master_points, friction=True, all_stick=False):
+    def _history(self, friction, duration, which=slice(None)):
+        """How the points `which` begin a step, as the friction law wants to know it."""
+        return SimpleNamespace(slid=self.slid[which], bonded=self.bonded[which], theta=self.theta[which],
+                               friction=friction, duration=duration)
+
+    def _reach(self, history, way, depth):
+        """Tangential gap of sliding points [mm], and its derivatives by their depth and by their way in this step.
+
+        The gap bears mu p and the viscous traction.
+        """
+        if not history.friction:
+            return 0 * way, 0 * way, 0 * way
+        mu, slope = self.law.coefficient(history, way)
+        ratio = self.normal_stiffness / self.tangential_stiffness
+        viscous = self.viscosity / history.duration / self.tangential_stiffness if history.duration else 0.
+        return ratio * mu * depth + viscous * way, ratio * mu, ratio * slope * depth + viscous
+
+    def respond(self, slave_points, master_points, friction=True, duration=1., all_stick=False):
         """State at given control points of both surfaces, from the accepted history, which does not change.
 
         The partner of a sticking point stays. A sliding point's partner moves until the tangential traction is
-        mu(g_s) p in the direction of the trial gap, Eqs. (29) and (30), with g_s of Eq. (32) at the end of the step.
+        mu p plus the viscous one in the direction of the trial gap, Eqs. (29) and (30), with mu and g_s of Eq. (32) at
+        the end of the step, which takes a time of `duration`.
         """
+        history = self._history(friction, duration)
         x = self.positions(slave_points)
         start = self._place(master_points, self.xi)
         trial = x - start.point
         normal_gap = _dot(start.normal, trial)
-        shear = self.tangential_stiffness * np.linalg.norm(trial - normal_gap[:, None] * start.normal, axis=1)
-        mu = self.law.coefficient(self.slid, self.bonded)[0] if friction else np.zeros(len(x))
+        stretch = np.linalg.norm(trial - normal_gap[:, None] * start.normal, axis=1)
         closed = (normal_gap < 0) & ~self.beyond
-        sliding = closed & (shear > -mu * self.normal_stiffness * normal_gap)
+        sliding = closed & (stretch > self._reach(history, 0 * stretch, -normal_gap)[0])
         if all_stick:
             sliding[:] = False
 
         xi, inside = self.xi.copy(), np.ones(len(x), bool)
         if sliding.any():
-            xi[sliding], inside[sliding] = self._slide(x, trial, start, sliding, master_points, friction)
+            history_there = self._history(friction, duration, sliding)
+            xi[sliding], inside[sliding] = self._slide(x[sliding], trial[sliding], start.point[sliding], xi[sliding],
+                                                       master_points, history_there)
         state = self._place(master_points, np.clip(xi, 0, 1))
         state.start, state.xi, state.gap = start, xi, x - state.point
         state.normal_gap = _dot(state.normal, state.gap)
@@ -160,37 +152,31 @@ class Interface:
         tangential_gap = state.gap - state.normal_gap[:, None] * state.normal
         state.shear = self.tangential_stiffness * tangential_gap * state.closed[:, None]
         state.traction = -state.pressure[:, None] * state.normal + state.shear
-        way = np.linalg.norm(state.point - start.point, axis=1) * state.sliding
-        state.slid = self.slid + (way if friction else 0)
-        state.mu, state.mu_slope = self.law.coefficient(state.slid, self.bonded)
-        if not friction:
-            state.mu, state.mu_slope = np.zeros((2, len(x)))
+        state.way = np.linalg.norm(state.point - start.point, axis=1) * state.sliding
+        state.reach, state.by_depth, state.by_way = self._reach(history, state.way, -state.normal_gap)
+        state.history = history
         state.direction, state.trial_length = _direction(trial, state.normal)
         return state
 
-    def _slide(self, x, trial, start, which, master_points, friction):
+    def _slide(self, x, trial, origin, xi, master_points, history):
         """Parameters of the partners of sliding points (k, 2), and whether they lie on the master (k,).
 
         Newton's method for the gap that the law asks for, with the law's slope but without the curvature of the master.
+        The partners were at `origin`, with parameters xi.
         """
-        x, trial, origin = x[which], trial[which], start.point[which]
-        xi, slid, bonded = self.xi[which], self.slid[which], self.bonded[which]
-        ratio = self.normal_stiffness / self.tangential_stiffness
         for _ in range(100):
             place = self._place(master_points, xi)
             gap = x - place.point
             depth = -_dot(place.normal, gap)
             tau, _ = _direction(trial, place.normal)
-            mu, slope = np.zeros((2, len(x)))
-            if friction:
-                way = np.linalg.norm(place.point - origin, axis=1)
-                mu, slope = self.law.coefficient(slid + way, bonded)
-            excess = gap + depth[:, None] * place.normal - (ratio * mu * depth)[:, None] * tau
+            way = np.linalg.norm(place.point - origin, axis=1)
+            reach, _, by_way = self._reach(history, way, depth)
+            excess = gap + depth[:, None] * place.normal - reach[:, None] * tau
             inside = ((xi >= 0) & (xi <= 1)).all(1)
             if np.abs(excess[inside]).max(initial=0.) < 1e-13:
                 return xi, inside
             along = _dot(excess, tau)
-            excess += ((1 / (1 + ratio * slope * depth) - 1) * along)[:, None] * tau
+            excess += ((1 / (1 + by_way) - 1) * along)[:, None] * tau
             step = np.einsum('mki,mi->mk', place.dual, excess)
             xi = np.where(inside[:, None], xi + step, xi)
         raise ArithmeticError('the partner of a sliding point was not found')
@@ -238,15 +224,13 @@ class Interface:
 
     def _gap_derivatives(self, state):
         """d gap = A h + B d trial: the blocks A, B (m, 3, 3)."""
-        ratio = self.normal_stiffness / self.tangential_stiffness
-        depth = -state.normal_gap
         tau = state.direction
         normal = state.normal[:, :, None] * state.normal[:, None, :]
         along = tau[:, :, None] * tau[:, None, :]
-        share = 1 / (1 + ratio * state.mu_slope * depth)
-        by_gap = normal - (ratio * state.mu * share)[:, None, None] * tau[:, :, None] * state.normal[:, None, :]
-        by_trial = ((ratio * state.mu_slope * depth * share)[:, None, None] * along
-                    + (ratio * state.mu * depth / state.trial_length)[:, None, None] * (np.eye(3) - normal - along))
+        share = 1 / (1 + state.by_way)
+        by_gap = normal - (state.by_depth * share)[:, None, None] * tau[:, :, None] * state.normal[:, None, :]
+        by_trial = ((state.by_way * share)[:, None, None] * along
+                    + (state.reach / state.trial_length)[:, None, None] * (np.eye(3) - normal - along))
         by_gap[~state.sliding] = 0
         by_trial[~state.sliding] = np.eye(3)
         return by_gap, by_trial
@@ -255,15 +239,23 @@ class Interface:
         """Make the state the history; open points face the closest point of the master anew.
 
         turn (3, 3) is the rotation of the master's frame since the last state was accepted. Adds to the dissipation,
-        traction times way on the master, and to its adhesive part, pressure times the integral of mu - mu_b over the
-        sliding distance; tractions and pressures are the means of those at both ends of the step.
+        traction times way on the master, to its viscous part, and to its adhesive part, pressure times the integral of
+        mu - mu_b over the sliding distance; tractions and pressures are the means of those at both ends of the step.
         """
-        way = (state.point - state.start.point) * state.sliding[:, None]
+        if (state.by_depth[state.closed] < 0).any():
+            raise ArithmeticError('a coefficient of friction is negative')
+        history, way = state.history, (state.point - state.start.point) * state.sliding[:, None]
+        viscous = np.zeros(state.shear.shape)
+        if history.friction:
+            if history.duration:
+                viscous = (self.viscosity / history.duration * state.way)[:, None] * state.direction
+            spent = self.law.adhesive_strength(history, state.way)
+            self.adhesive_work += (self.area * (state.pressure + self.pressure) / 2 * spent).sum()
+            self.slid = self.slid + state.way
+            self.theta = np.where(state.closed, self.law.theta(history, state.way), self.theta)
         self.dissipation += (self.area * _dot(state.shear + self.shear @ turn.T, way) / 2).sum()
-        spent = self.law.bonding_integral(state.slid) - self.law.bonding_integral(self.slid)
-        spent *= self.bonded * (self.law.unbroken - self.law.broken)
-        self.adhesive_work += (self.area * (state.pressure + self.pressure) / 2 * spent).sum()
-        self.xi, self.slid, self.pressure, self.shear = state.xi, state.slid, state.pressure, state.shear
+        self.viscous_work += (self.area * _dot(viscous + self.viscous @ turn.T, way) / 2).sum()
+        self.xi, self.pressure, self.shear, self.viscous = state.xi, state.pressure, state.shear, viscous
         self.face(slave_points, master_points, ~state.closed)
 
     def energy(self, state):

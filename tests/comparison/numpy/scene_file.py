@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 
+import friction
 import interface
 import simulation
 import solids
@@ -27,10 +28,14 @@ ENTRIES = {
     'Implant/Young modulus': 113000.,
     'Interface/Slave': ('implant', 'bone'), 'Interface/Quadrature points': 5.,
     'Interface/Penalty stiffness': 585., 'Interface/Tangential penalty stiffness': 0.,
-    'Interface/Friction law': ('modified coulomb', 'coulomb', 'frictionless'),
+    'Interface/Friction law': ('modified coulomb', 'coulomb', 'frictionless', 'table', 'rate and state'),
     'Interface/Friction coefficient broken': .4, 'Interface/Friction coefficient unbroken': .58,
     'Interface/Sliding threshold': .022, 'Interface/Transition factor': .74, 'Interface/Friction starts at': 0.,
-    'Interface/Opening breaks bond': ('false',), 'Interface/Viscosity': ('0',),
+    'Interface/Opening breaks bond': ('false',), 'Interface/Viscosity': 0., 'Interface/Friction table': '',
+    'Interface/Rate and state/Reference coefficient': .4, 'Interface/Rate and state/Direct effect': .01,
+    'Interface/Rate and state/Evolution effect': .015, 'Interface/Rate and state/Reference speed': 1e-3,
+    'Interface/Rate and state/Sliding distance': .01, 'Interface/Rate and state/Initial state': 0.,
+    'Interface/Rate and state/Evolution': ('ageing', 'slip'),
     'Interface/Bonding/Pattern': ('homogeneous', 'expression'), 'Interface/Bonding/Initial bonding': 1.,
     'Interface/Bonding/Resolution': ('element', 'quadrature point'), 'Interface/Bonding/Expression': '1',
     'Load steps/Times': [0., 1., 2.], 'Load steps/Steps': [1., 1000.], 'Load steps/Adaptive': ('false',),
@@ -135,11 +140,18 @@ class Scene:
 
     def _law(self):
         get = self.entries.get
+        law = get('Interface/Friction law')
+        if law == 'rate and state':
+            names = ('Reference coefficient', 'Direct effect', 'Evolution effect', 'Reference speed',
+                     'Sliding distance', 'Initial state')
+            return friction.RateAndState(*(get('Interface/Rate and state/' + name) for name in names),
+                                         get('Interface/Rate and state/Evolution') == 'ageing')
         broken, unbroken = (get('Interface/Friction coefficient ' + name) for name in ('broken', 'unbroken'))
-        if get('Interface/Friction law') == 'coulomb':
-            unbroken = broken
-        return interface.FrictionLaw(unbroken, broken, get('Interface/Sliding threshold'),
-                                     get('Interface/Transition factor'))
+        if law == 'table':
+            rows = np.genfromtxt(get('Interface/Friction table'), delimiter=',', names=True)
+            return friction.Table(unbroken, broken, rows['slip_mm'], rows['phi'])
+        return friction.ModifiedCoulomb(broken if law == 'coulomb' else unbroken, broken,
+                                        get('Interface/Sliding threshold'), get('Interface/Transition factor'))
 
     def _bonding(self):
         """phi_0 as a function of x, y (m,) [mm]."""
@@ -160,7 +172,8 @@ class Scene:
         stiffness = normal, get('Interface/Tangential penalty stiffness') or normal
         slave, master, towards = (implant, bone, +1) if get('Interface/Slave') == 'implant' else (bone, implant, -1)
         points = int(get('Interface/Quadrature points'))
-        contact = interface.Interface(slave, master, towards, self._law(), stiffness, points, self._bonding())
+        contact = interface.Interface(slave, master, towards, self._law(), stiffness, points, self._bonding(),
+                                      get('Interface/Viscosity'))
         area = interface.face_quadrature(implant, points)[1].sum()
         return simulation.Simulation(bone, implant, contact, area, self.height, get('Load steps/Residual tolerance'))
 
@@ -174,6 +187,8 @@ class Scene:
         solver = self.simulation()
         begins = np.concatenate([self.times[:1], self.times[:-1]])
         for number, (begin, time) in enumerate(zip(begins, self.times)):
-            advance = solver.step if number else solver.start
-            advance(self.components(time), self._friction(begin))
+            if number:
+                solver.step(self.components(time), self._friction(begin), time - begin)
+            else:
+                solver.start(self.components(time), self._friction(begin))
             yield {'step': number, 'time': time, 'iterations': solver.iterations, **solver.results()}

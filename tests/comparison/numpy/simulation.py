@@ -75,16 +75,16 @@ class Simulation:
         """The first state: undeformed bodies where the chuck is, then equilibrium as in a step."""
         self.move_chuck(components)
         self.interface.face(*self._control_points(), np.ones(len(self.interface.area), bool))
-        self._solve(friction)
+        self._solve(friction, 0.)
 
-    def step(self, components, friction=True):
+    def step(self, components, friction=True, duration=1.):
         """Equilibrium with the chuck at `components`; counts the work of the chuck, with mean forces."""
         before, force = self.components, self._conjugate_forces()
         self.move_chuck(components)
-        self._solve(friction)
+        self._solve(friction, duration)
         self.work += (force + self._conjugate_forces()) @ (self.components - before) / 2
 
-    def _solve(self, friction):
+    def _solve(self, friction, duration):
         """Newton's method; the implant first moves along with the chuck as it is, then the state is accepted.
 
         The tangent of the solids is that of the state before, whose strains differ little.
@@ -97,7 +97,7 @@ class Simulation:
         least = 1e-6 * self.interface.normal_stiffness * self.contact_area * self.centre[2]  # N, where all is open
         for self.iterations in range(60):
             first = self.iterations == 0
-            self.state = self.interface.respond(*self._control_points(), friction, all_stick=first)
+            self.state = self.interface.respond(*self._control_points(), friction, duration, all_stick=first)
             contact = np.concatenate(self.interface.nodal_forces(self.state)).ravel()
             internal = np.concatenate([self.bone.forces(self.bone_displacement).ravel(),
                                        self.implant.forces(self.implant_displacement).ravel()])
@@ -157,7 +157,7 @@ class Simulation:
         def share(which):
             return area[which].sum() / area.sum()
 
-        bonding = self.interface.bonded * self.interface.law.bonding(state.slid)[0]
+        bonding = self.interface.bonded * self.interface.law.bonding(self.interface.slid)[0]
         row = {'chuck_F%s_N' % axis: value for axis, value in zip('xyz', force)}
         row.update({'chuck_M%s_Nmm' % axis: value for axis, value in zip('xyz', moment)})
         row.update(torque_Nmm=moment @ self.rotation[:, 2], force_N=-force[2],
@@ -169,5 +169,5 @@ class Simulation:
                                     + self.implant.energy(self.implant_displacement)),
                    energy_interface_Nmm=self.interface.energy(state),
                    work_Nmm=self.work, dissipation_Nmm=self.interface.dissipation,
-                   adhesive_work_Nmm=self.interface.adhesive_work)
+                   adhesive_work_Nmm=self.interface.adhesive_work, viscous_work_Nmm=self.interface.viscous_work)
         return row

@@ -1,0 +1,414 @@
+#include <debond/bulk/body.h>
+#include <debond/bulk/cell_shape.h>
+#include <debond/bulk/chuck.h>
+#include <debond/geometry/surface_geometry.h>
+#include <debond/interface/contact_interface.h>
+#include <debond/output/field_output.h>
+
+#include <deal.II/base/data_out_base.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <sstream>
+#include <tuple>
+#include <utility>
+
+namespace Debond
+{
+  namespace
+  {
+    /** Appends the components of a vector or, row by row, a matrix. */
+    template <typename Derived>
+    void
+    append_values(std::vector<double>              &values,
+                  const Eigen::MatrixBase<Derived> &matrix)
+    {
+      for (unsigned int i = 0; i < matrix.rows(); ++i)
+        for (unsigned int j = 0; j < matrix.cols(); ++j)
+          values.push_back(matrix(i, j));
+    }
+
+    /**
+     * What deal.II's writers ask for: patches (cells or pieces of a surface,
+     * each a regular grid of points) and the names of the fields.
+     */
+    template <int dim>
+    class PatchSet
+    {
+    public:
+      /** Names of the fields, and how many values each has: 1, a vector's 3, a
+       *  tensor's 9. */
+      PatchSet(const std::vector<std::pair<std::string, unsigned int>> &fields)
+      {
+        using namespace dealii::DataComponentInterpretation;
+        for (const auto &[name, n_values] : fields)
+          {
+            if (n_values > 1)
+              ranges.emplace_back(names.size(),
+                                  names.size() + n_values - 1,
+                                  name,
+                                  n_values == 3 ? component_is_part_of_vector :
+                                                  component_is_part_of_tensor);
+            names.insert(names.end(), n_values, name);
+          }
+      }
+
+      /** Adds a patch of @p n pieces in each direction. draw(point, values) is
+       *  called for their corners, of [-1, 1]^dim: it appends the values of all
+       *  fields to an empty list and returns the position. */
+      template <typename Draw>
+      void
+      add_patch(const unsigned int n, const Draw &draw)
+      {
+        auto &patch          = patches.emplace_back();
+        patch.n_subdivisions = n;
+        patch.patch_index    = patches.size() - 1;
+        patch.reference_cell = dealii::ReferenceCells::get_hypercube<dim>();
+        patch.points_are_available = true;
+        const auto n_points        = dealii::Utilities::fixed_power<dim>(n + 1);
+        patch.data.reinit(names.size() + 3, n_points);
+        std::vector<double> values;
+        for (unsigned int p = 0; p < n_points; ++p)
+          {
+            // the first coordinate is the fastest
+            Eigen::Matrix<double, dim, 1> point;
+            for (unsigned int d = 0, rest = p; d < dim; ++d, rest /= n + 1)
+              point[d] = 2. * (rest % (n + 1)) / n - 1.;
+            values.clear();
+            const Eigen::Vector3d position = draw(point, values);
+            AssertDimension(values.size(), names.size());
+            append_values(values, position);
+            for (unsigned int i = 0; i < values.size(); ++i)
+              patch.data(i, p) = values[i];
+          }
+      }
+
+      /** The text of a VTU file. */
+      std::string
+      vtu() const
+      {
+        dealii::DataOutBase::VtkFlags flags;
+        flags.print_date_and_time = false;
+        flags.compression_level   = flags.best_speed;
+        std::ostringstream text;
+        dealii::DataOutBase::write_vtu(patches, names, ranges, flags, text);
+        return text.str();
+      }
+
+    private:
+      using Range = std::tuple<
+        unsigned int,
+        unsigned int,
+        std::string,
+        dealii::DataComponentInterpretation::DataComponentInterpretation>;
+
+      std::vector<dealii::DataOutBase::Patch<dim, 3>> patches;
+      std::vector<std::string>                        names;
+      std::vector<Range> ranges; ///< vectors, tensors
+    };
+
+    /** Into how many pieces a cell or element is cut in each direction, so that
+     *  a patch has about @p pieces of them: the fewer elements a disk has, the
+     *  more pieces it takes to look round. */
+    unsigned int
+    n_pieces(const NurbsSurface &surface,
+             const unsigned int  pieces,
+             const unsigned int  least,
+             const unsigned int  most)
+    {
+      const auto         n      = surface.n_elements_per_direction();
+      const unsigned int fewest = std::min(n[0], n[1]);
+      return std::clamp((pieces + fewest - 1) / fewest, least, most);
+    }
+
+
+
+    /** The patches of one body: a cell each, cells at the curved surface finely
+     *  subdivided. */
+    void
+    draw(const Body &body, const Chuck &chuck, PatchSet<3> &output)
+    {
+      const BodyMesh       &mesh       = body.mesh();
+      const bool            is_implant = mesh.side() == Side::implant;
+      const Eigen::VectorXd v          = body.full_displacement();
+      const auto            stress     = body.vertex_stress(v);
+      Eigen::Matrix3d       Q          = Eigen::Matrix3d::Identity();
+      if (is_implant)
+        Q = chuck.rotation();
+      // A surface of degree one makes its cells trilinear.
+      const unsigned int n_enriched =
+        mesh.surface().degree() == 1 ? 1 : n_pieces(mesh.surface(), 24, 2, 8);
+      for (const BodyMesh::Cell &cell : mesh.cells())
+        output.add_patch(
+          cell.enriched ? n_enriched : 1,
+          [&](const Eigen::Vector3d &point, std::vector<double> &values) {
+            const std::vector<double> N = shape_functions(mesh, cell, point).N;
+            Eigen::Vector3d           X = Eigen::Vector3d::Zero(), v_point = X;
+            for (unsigned int a = 0; a < N.size(); ++a)
+              {
+                X += N[a] * mesh.reference_position(cell.nodes[a]);
+                v_point += N[a] * v.segment<3>(3 * cell.nodes[a]);
+              }
+            const auto      corners = trilinear(point);
+            Eigen::Matrix3d sigma   = Eigen::Matrix3d::Zero();
+            for (unsigned int a = 0; a < n_corners; ++a)
+              sigma += corners[a] * stress[cell.vertices[a]];
+
+            append_values(values,
+                          is_implant ? chuck.map(X, v_point) - X : v_point);
+            append_values(values, v_point);
+            append_values(values, (Q * sigma * Q.transpose()).eval());
+            values.push_back(von_mises(sigma));
+            values.push_back(is_implant ? 1. : 0.);
+            return X;
+          });
+    }
+  } // namespace
+
+
+
+  std::string
+  bulk_vtu(const std::array<const Body *, 2> &bodies, const Chuck &chuck)
+  {
+    PatchSet<3> output({{"displacement", 3},
+                        {"displacement_in_frame", 3},
+                        {"stress_MPa", 9},
+                        {"von_Mises_MPa", 1},
+                        {"body", 1}});
+    for (const Body *const body : bodies)
+      draw(*body, chuck, output);
+    return output.vtu();
+  }
+
+
+
+  namespace
+  {
+    /** The quadrature points of a surface as one tensor grid over the patch. */
+    class QuadratureGrid
+    {
+    public:
+      QuadratureGrid(const ContactInterface &interface,
+                     const NurbsSurface     &surface)
+        : points(interface.get_points())
+        , n(interface.get_parameters().quadrature_points)
+        , n_elements_1(surface.n_elements_per_direction()[0])
+      {
+        for (unsigned int d = 0; d < 2; ++d)
+          for (unsigned int i = 0;
+               i < n * surface.n_elements_per_direction()[d];
+               ++i)
+            coordinates[d].push_back(
+              points[d == 0 ? index(i, 0) : index(0, i)].xi[d]);
+      }
+
+      /** Four points and their weights, and the nearest point. */
+      struct Stencil
+      {
+        std::array<const SlavePoint *, 4> point;
+        std::array<double, 4>             weight;
+        const SlavePoint                 *nearest;
+      };
+
+      /** For fields that are continuous over the whole patch. */
+      Stencil
+      across_elements(const Eigen::Vector2d &xi) const
+      {
+        return stencil(xi,
+                       {{0, 0}},
+                       {{coordinates[0].size(), coordinates[1].size()}});
+      }
+
+      /** For fields that may jump at its borders: points of @p element only. */
+      Stencil
+      within(const unsigned int element, const Eigen::Vector2d &xi) const
+      {
+        const std::size_t i = n * (element % n_elements_1);
+        const std::size_t j = n * (element / n_elements_1);
+        return stencil(xi, {{i, j}}, {{i + n, j + n}});
+      }
+
+    private:
+      /** Between the points from @p begin to before @p end in each direction;
+       *  constant beyond these. */
+      Stencil
+      stencil(const Eigen::Vector2d            &xi,
+              const std::array<std::size_t, 2> &begin,
+              const std::array<std::size_t, 2> &end) const
+      {
+        std::array<unsigned int, 2> first, second;
+        std::array<double, 2>       share; // of the second
+        for (unsigned int d = 0; d < 2; ++d)
+          {
+            const auto       &x     = coordinates[d];
+            const std::size_t upper = std::upper_bound(x.begin() + begin[d],
+                                                       x.begin() + end[d],
+                                                       xi[d]) -
+                                      x.begin();
+            first[d]  = std::max(upper, begin[d] + 1) - 1;
+            second[d] = std::min(upper, end[d] - 1);
+            share[d]  = first[d] == second[d] ?
+                          0. :
+                          (xi[d] - x[first[d]]) / (x[second[d]] - x[first[d]]);
+          }
+        Stencil result;
+        result.weight = bilinear(2. * share[0] - 1., 2. * share[1] - 1.);
+        for (unsigned int a = 0; a < 4; ++a)
+          result.point[a] = &points[index(a % 2 == 0 ? first[0] : second[0],
+                                          a / 2 == 0 ? first[1] : second[1])];
+        result.nearest = &points[index(share[0] < 0.5 ? first[0] : second[0],
+                                       share[1] < 0.5 ? first[1] : second[1])];
+        return result;
+      }
+
+      /** Points are numbered element by element, the first parameter fastest in
+       *  both; @p i and @p j count over the whole patch. */
+      unsigned int
+      index(const unsigned int i, const unsigned int j) const
+      {
+        const unsigned int element = i / n + n_elements_1 * (j / n);
+        return n * n * element + i % n + n * (j % n);
+      }
+
+      const std::vector<SlavePoint>     &points;
+      const unsigned int                 n, n_elements_1;
+      std::array<std::vector<double>, 2> coordinates;
+    };
+
+
+
+    /** Pressure, traction on the slave, gap and sliding distance of a point,
+     *  which are continuous over the patch. A point that does not face the
+     *  master has no gap: the distance to the nearest border is none. An open
+     *  point with a negative gap is beyond the border, too. */
+    Eigen::Matrix<double, 6, 1>
+    continuous_values(const SlavePoint &point)
+    {
+      const ContactPointResult &trial = point.trial;
+      const bool                is_beyond =
+        trial.state.status == PointStatus::open &&
+        (!trial.state.has_partner || trial.normal_gap < 0.);
+      Eigen::Matrix<double, 6, 1> values;
+      values << trial.pressure, -trial.tangential_traction,
+        is_beyond ? 0. : trial.normal_gap, trial.state.slip;
+      return values;
+    }
+
+
+
+    /** Sliding distance [mm] and internal variables from those points that face
+     *  the implant: the others of a bone have never slid and would heal its
+     *  bond at the rim. */
+    FrictionState
+    state_under_implant(const QuadratureGrid::Stencil &stencil)
+    {
+      FrictionState state;
+      double        weight = 0.;
+      for (unsigned int a = 0; a < 4; ++a)
+        if (stencil.point[a]->faces_implant)
+          weight += stencil.weight[a];
+      for (unsigned int a = 0; a < 4; ++a)
+        if (stencil.point[a]->faces_implant)
+          {
+            const auto  &own  = stencil.point[a]->trial.state;
+            const double part = stencil.weight[a] / weight;
+            state.slip += part * own.slip;
+            for (unsigned int i = 0; i < state.internal.size(); ++i)
+              state.internal[i] += part * own.internal[i];
+          }
+      return state;
+    }
+
+
+
+    /**
+     * phi_0, phi and mu at a point of an element. Patterns jump from element to
+     * element, so phi_0 is that of the element's own points; phi and mu follow
+     * from it and the sliding distance, which does not jump, by the friction
+     * law: they are as sharp as the pattern where it jumps, smooth elsewhere.
+     */
+    std::array<double, 3>
+    bonding_values(const FrictionLaw             &law,
+                   const QuadratureGrid::Stencil &across_elements,
+                   const QuadratureGrid::Stencil &own)
+    {
+      double        phi_0 = 0.;
+      FrictionState state = state_under_implant(across_elements);
+      state.phi_0         = 0.; // without bonds that opening broke
+      for (unsigned int a = 0; a < 4; ++a)
+        {
+          const double part = own.weight[a] * own.point[a]->phi_0;
+          phi_0 += part;
+          if (!own.point[a]->trial.state.broken)
+            state.phi_0 += part;
+        }
+      const FrictionCoefficient friction = law.reported(state);
+      return {{phi_0, friction.phi, friction.mu}};
+    }
+
+
+
+    /** x - X of the control points of a body's contact surface. */
+    ControlNet
+    control_point_displacement(const Body &body, const Chuck &chuck)
+    {
+      const ControlNet &X = body.surface().control_points();
+      ControlNet        u = body.contact_displacement();
+      if (body.mesh().side() == Side::implant)
+        for (unsigned int A = 0; A < u.cols(); ++A)
+          u.col(A) = chuck.map(X.col(A), u.col(A)) - X.col(A);
+      return u;
+    }
+  } // namespace
+
+
+
+  std::string
+  interface_vtu(const Body             &slave,
+                const ContactInterface &interface,
+                const Chuck            &chuck)
+  {
+    PatchSet<2> output({{"pressure_MPa", 1},
+                        {"traction_MPa", 3},
+                        {"gap_mm", 1},
+                        {"slip_mm", 1},
+                        {"phi_0", 1},
+                        {"phi", 1},
+                        {"mu", 1},
+                        {"state", 1},
+                        {"displacement", 3}});
+
+    const NurbsSurface  &surface = slave.surface();
+    const FrictionLaw   &law     = *interface.get_parameters().friction;
+    const ControlNet     u       = control_point_displacement(slave, chuck);
+    const QuadratureGrid grid(interface, surface);
+    SurfaceBasis         basis;
+    SurfaceGeometry      position, displacement;
+    for (unsigned int element = 0; element < surface.n_elements(); ++element)
+      output.add_patch(
+        n_pieces(surface, 96, 4, 16),
+        [&](const Eigen::Vector2d &point, std::vector<double> &values) {
+          const Eigen::Vector2d xi =
+            parameters_at(surface.element_bounds(element), point[0], point[1]);
+          surface.evaluate_in_element(element, xi, basis, false);
+          contract(basis, surface.control_points(), false, position);
+          contract(basis, u, false, displacement);
+
+          const auto                  stencil = grid.across_elements(xi);
+          Eigen::Matrix<double, 6, 1> continuous =
+            Eigen::Matrix<double, 6, 1>::Zero();
+          for (unsigned int a = 0; a < 4; ++a)
+            continuous +=
+              stencil.weight[a] * continuous_values(*stencil.point[a]);
+          append_values(values, continuous);
+          for (const double value :
+               bonding_values(law, stencil, grid.within(element, xi)))
+            values.push_back(value);
+          values.push_back(
+            static_cast<double>(stencil.nearest->trial.state.status));
+          append_values(values, displacement.y);
+          return position.y;
+        });
+    return output.vtu();
+  }
+} // namespace Debond

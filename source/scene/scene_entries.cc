@@ -1,0 +1,221 @@
+#include <debond/input/entry_table.h>
+#include <debond/scene/scene.h>
+
+#include <limits>
+
+namespace Debond
+{
+  namespace
+  {
+    void
+    declare_closed_form(ClosedFormParameters &closed_form, EntryTable &table)
+    {
+      table.enter_subsection("Closed form");
+      table.add(
+        "Pressure",
+        closed_form.pressure,
+        Allowed::number_between(1e-9, 1e12, "MPa").or_number(0),
+        "Mean contact pressure p [MPa] during the rotation. 0: that of "
+        "Chuck / Translation z, which is either a force or a depth times "
+        "the normal stiffness.");
+      table.add("Normal stiffness",
+                closed_form.normal_stiffness,
+                Allowed::number_between(1e-6, 1e15, "MPa/mm").or_number(0),
+                "Mean pressure per depth of push-in [MPa/mm], interface and "
+                "bodies in series. 0: from one linear solution with the bodies "
+                "of the scene.");
+      table.add("Torsional stiffness",
+                closed_form.torsional_stiffness,
+                Allowed::number_between(1e-6, 1e15, "MPa/mm").or_number(0),
+                "Stiffness lambda [MPa/mm] of the foundation that the model "
+                "foundation turns on, Eq. (39) of the paper: traction per path "
+                "while everything sticks, interface and bodies in series. 0: "
+                "from one linear solution with the bodies of the scene.");
+      table.add(
+        "Linear limit angle",
+        closed_form.linear_limit,
+        Allowed::number_between(1e-9, 1e6, "deg"),
+        "Angle theta_lin [deg] of the model analytical at which the rim "
+        "begins to slide, Eq. (17).");
+      table.add("Full sliding angle",
+                closed_form.full_sliding,
+                Allowed::number_between(1e-9, 1e6, "deg"),
+                "Angle theta_max [deg] of the model analytical from which on "
+                "sliding wears the bond, Eq. (49).");
+      table.add(
+        "Shear modulus",
+        closed_form.shear_modulus,
+        Allowed::number_between(1e-6, 1e12, "MPa"),
+        "Shear modulus G [MPa] of the half space in the model mathieu, "
+        "Eq. (14). Fitted to a torque curve it comes out far below that "
+        "of bone; the default is fitted to T_max and theta_max of the "
+        "paper's data set 1.");
+      table.add("Adhesion energy",
+                closed_form.adhesion_energy,
+                Allowed::number_between(1e-12, 1e12, "N/m").or_number(0),
+                "Adhesion energy w_adh [N/m] of the model mathieu, Eq. (14), "
+                "fitted as Shear modulus.");
+      table.leave_subsection();
+    }
+
+
+
+    void
+    declare_campaigns(AutoParameters  &automatic,
+                      StudyParameters &study,
+                      EntryTable      &table)
+    {
+      table.enter_subsection("Auto");
+      table.add(
+        "Largest number of unknowns",
+        automatic.largest_number_of_unknowns,
+        Allowed::whole_number(1, 100000000),
+        "With Model = auto: unknowns of both bodies up to which meshes "
+        "are refined. The memory needed goes with it: 1 GB for 105 000, "
+        "some 3 GB for 250 000.");
+      table.leave_subsection();
+      table.enter_subsection("Study");
+      table.add(
+        "Reference variant",
+        study.reference_variant,
+        Allowed::whole_number(0, 100000),
+        "In a study, whose entries hold several values as in {{a|b|c}}: "
+        "number of the variant that the others' torque curves are "
+        "compared with in study.csv. 0: they are compared with Output / "
+        "Reference curve, if there is one.");
+      table.add(
+        "Factors varied at once",
+        study.factors_at_once,
+        Allowed::whole_number(0, 1000),
+        "Of all combinations, only those in which at most this many "
+        "factors differ from their first value: 1 varies one factor at a "
+        "time, 2 also every pair. A factor is an entry {{a|b|c}}, or all "
+        "entries {{name: a|b|c}} with one name. 0: all combinations.");
+      table.add("Repetitions",
+                study.repetitions,
+                Allowed::whole_number(1, 1000),
+                "Number of runs of each variant. In study.csv seconds are then "
+                "medians; all else is that of the last run. Seconds mean "
+                "something with --jobs 1 only.");
+      table.leave_subsection();
+    }
+
+
+
+    void
+    declare_references(OutputParameters &output, EntryTable &table)
+    {
+      table.add("Reference curve",
+                output.reference_curve,
+                Allowed::optional_text("the name of a CSV file"),
+                "CSV file with the columns angle_deg,torque_Nmm to compare the "
+                "torque curve with; empty: none.");
+      table.add("Reference profiles",
+                output.reference_profiles,
+                Allowed::optional_text("the name of a CSV file"),
+                "CSV file with the columns angle_deg, x_mm, y_mm, area_mm2, "
+                "pressure_MPa and slip_mm, as profiles.csv of another run, to "
+                "compare local values with at those of its angles that Profile "
+                "angles has; empty: none.");
+    }
+
+
+
+    void
+    declare_output(OutputParameters &output, EntryTable &table)
+    {
+      table.enter_subsection("Output");
+      table.add(
+        "Directory",
+        output.directory,
+        Allowed::directory(),
+        "Directory for the results, relative to the working directory; "
+        "created if missing. One that holds results of another scene is "
+        "refused without --force.");
+      table.add(
+        "Fields every",
+        output.fields_every,
+        Allowed::whole_number(0, std::numeric_limits<int>::max()),
+        "Planned steps between VTU files, counted from the beginning of "
+        "each phase, whose end is always written; 0: no VTU files.");
+      declare_references(output, table);
+      table.add(
+        "Full sliding angle",
+        output.full_sliding_angle,
+        Allowed::number_from(0, "deg"),
+        "Angle theta_full [deg] from which on E_fric is counted. 0: the "
+        "last angle with a torque of at least 0.999 of the largest.");
+      table.add("Observed bonding",
+                output.observed_bonding,
+                Allowed::number_between(0, 1, ""),
+                "Observed mean phi_0 that w_adh refers to, Eq. (21); 0: that "
+                "of the scene.");
+      table.add(
+        "Profile angles",
+        output.profile_angles,
+        Allowed::list(Allowed::number_above(0, "deg"), 0, 0),
+        "Angles [deg] at which local values of all points of the interface "
+        "are written into profiles.csv, each at the first planned step that "
+        "reaches it; empty: none.");
+      table.add("Friction law curve",
+                output.friction_law_curve,
+                Allowed::choice("false | true"),
+                "Write phi and mu over the sliding distance g_s into "
+                "friction_law.csv.");
+      table.add(
+        "Checkpoint every",
+        output.checkpoint_every,
+        Allowed::whole_number(0, std::numeric_limits<int>::max()),
+        "Planned steps (where rows are accepted steps: rows) between "
+        "checkpoints, from which `debond --resume DIR' goes on. 0: only when "
+        "SIGINT, SIGTERM or SIGHUP interrupts the run. For Model = finite "
+        "elements.");
+      table.add("Console",
+                output.console,
+                Allowed::choice("steps | quiet"),
+                "`steps': lines about the steps (a hundred if very many are "
+                "planned), progress and timings. `quiet': warnings and errors "
+                "only.");
+      table.leave_subsection();
+    }
+  } // namespace
+
+
+
+  void
+  Scene::declare(EntryTable &table)
+  {
+    table.add("Title",
+              title,
+              Allowed::optional_text("any text"),
+              "Title of the scene, for people.");
+    table.add("Model",
+              model,
+              Allowed::choice("finite elements | foundation | analytical | "
+                              "mathieu | auto"),
+              "Model that is solved. `finite elements': two bodies with an "
+              "interface between them. The others are closed forms for a coin "
+              "that is pressed down and then turned: `foundation': a rigid "
+              "disk on a foundation with the stiffness of interface and bodies "
+              "in series, and the full friction law. `analytical': Eq. (18) of "
+              "the paper. `mathieu': Eqs. (14) to (16). See subsection Closed "
+              "form. `auto': climbs from the cheapest of `foundation', rigid, "
+              "linear and the scene's own bodies on finer and finer meshes "
+              "until the error of the torque curve is estimated to be within "
+              "Load steps / Tolerance, and answers with the cheapest model "
+              "that is; the program chooses the steps.");
+    table.add("Task",
+              "simulate",
+              nullptr,
+              Allowed::reserved("simulate"),
+              "What to do with the model: run it once.");
+    bone.declare_bone(table);
+    implant.declare_implant(table);
+    interface.declare(table);
+    chuck.declare(table);
+    load_steps.declare(table);
+    declare_closed_form(closed_form, table);
+    declare_campaigns(automatic, study, table);
+    declare_output(output, table);
+  }
+} // namespace Debond

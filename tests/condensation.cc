@@ -66,20 +66,7 @@ web(const int n)
 SymmetricSparseMatrix
 sparse(const MatrixXd &K)
 {
-  SymmetricSparseMatrix A;
-  A.n = K.rows();
-  A.column_start.push_back(0);
-  for (int c = 0; c < A.n; ++c)
-    {
-      for (int r = c; r < A.n; ++r)
-        if (r == c || K(r, c) != 0.)
-          {
-            A.row.push_back(r);
-            A.value.push_back(K(r, c));
-          }
-      A.column_start.push_back(A.row.size());
-    }
-  return A;
+  return MatrixXd(K.triangularView<Eigen::Lower>()).sparseView();
 }
 
 VectorXd
@@ -104,7 +91,7 @@ compare(const MatrixXd &K, const std::vector<int> &c, Deviation &deviation)
 {
   Condensation condensation;
   if (!condensation.factorise(sparse(K), c) ||
-      condensation.n_condensed() != c.size())
+      condensation.schur_complement().rows() != int(c.size()))
     {
       std::cout << "  NO factorisation" << std::endl;
       return;

@@ -20,9 +20,14 @@ using namespace Debond;
 void
 move(CoupledSystem &system, const Eigen::VectorXd &dv)
 {
-  system.correct_bodies(dv);
-  for (const auto &[component, number] : system.configuration.chuck_unknowns)
-    system.chuck.correct(component, dv[number]);
+  const unsigned int        n = system.bone.n_unknowns();
+  CoupledSystem::Correction correction;
+  correction.unknowns = dv;
+  correction.bodies   = {
+      {system.bone.correction(dv.head(n), {}),
+       system.implant.correction(dv.segment(n, system.implant.n_unknowns()),
+                               {})}};
+  system.correct(correction);
 }
 
 void
@@ -131,11 +136,10 @@ check(const std::string    &name,
     {
       const double step = (j + 3 < n ? 1e-6 : 1e-6 / system.R);
       move(system, step * identity.col(j));
-      system.evaluate(mode);
-      column = system.residual_vector();
+      column = system.evaluate(mode).unknowns;
       move(system, -2. * step * identity.col(j));
-      system.evaluate(mode);
-      difference.col(j) = (column - system.residual_vector()) / (2. * step);
+      difference.col(j) =
+        (column - system.evaluate(mode).unknowns) / (2. * step);
       move(system, step * identity.col(j));
     }
   report("  the unknowns stay the same", system.n_unknowns() == n);

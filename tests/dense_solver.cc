@@ -68,12 +68,17 @@ public:
   assemble(MatrixXd &A) const override
   {
     A = B + C;
+    ++n_assembled;
   }
+
+  static unsigned int n_assembled; ///< each of them is factorised
 
 private:
   MatrixXd B, C;
   bool     regular;
 };
+
+unsigned int Surface::n_assembled = 0;
 
 
 
@@ -86,6 +91,7 @@ check(const std::string &name,
 {
   DenseSolver solver;
   double      deviation = 0;
+  Surface::n_assembled  = 0;
   for (const double variation : {0., 0.01, 0.012, 0.015, 0.01})
     {
       const Surface  A(n, spring, variation, fixed);
@@ -94,7 +100,7 @@ check(const std::string &name,
       grow(deviation, (A.product(x) - b).norm() / b.norm());
     }
   report(name + ", residual", deviation, 1e-9);
-  std::cout << "  factorisations: " << solver.n_factorisations() << std::endl;
+  std::cout << "  factorisations: " << Surface::n_assembled << std::endl;
 }
 
 

@@ -6,7 +6,6 @@
 
 #include <debond/models/debonding_problem.h>
 #include <debond/support/runtime.h>
-#include <debond/system/load_stepping.h>
 #include <debond/system/newton.h>
 
 #include <cmath>
@@ -26,9 +25,9 @@ public:
                        const std::vector<std::string> &overrides = {})
     : scene(Debond::Scene::from_text(text, overrides))
     , system(scene)
-    , stepping(scene.load_steps)
+    , times(scene.load_steps.planned_times())
   {
-    system.start(stepping.time(0));
+    system.start(times[0]);
     solve();
   }
 
@@ -36,7 +35,7 @@ public:
   bool
   advance()
   {
-    if (step == stepping.n_steps())
+    if (step + 1 == times.size())
       return false;
     ++step;
     solve();
@@ -47,16 +46,16 @@ public:
   void
   advance_to(const double time)
   {
-    while (stepping.time(step) < time && advance())
+    while (times[step] < time && advance())
       ;
-    if (stepping.time(step) != time)
+    if (times[step] != time)
       throw std::runtime_error("no step ends at this time");
   }
 
   double
   time() const
   {
-    return stepping.time(step);
+    return times[step];
   }
 
   double
@@ -75,25 +74,25 @@ private:
   solve()
   {
     Debond::NewtonOptions options;
-    options.residual_tolerance = scene.load_steps.residual_tolerance;
-    options.stick_first        = stepping.begins_phase(step);
-    options.touch_tolerance    = 1e-12 * system.R;
+    options.residual_tolerance     = scene.load_steps.residual_tolerance;
+    options.points.stick_first     = scene.load_steps.step_in_phase(step) <= 1;
+    options.points.touch_tolerance = 1e-12 * system.R;
     if (step > 0)
-      options.duration = stepping.time(step) - stepping.time(step - 1);
-    options.frictionless =
-      step > 0 && stepping.time(step - 1) < scene.interface.friction_starts_at -
-                                              1e-9 * stepping.time(step);
-    system.predict(stepping.time(step), !options.stick_first);
+      options.points.duration = times[step] - times[step - 1];
+    options.points.frictionless =
+      step > 0 &&
+      times[step - 1] < scene.interface.friction_starts_at - 1e-9 * times[step];
+    system.predict(times[step], !options.points.stick_first);
     const Debond::NewtonResult result = solve_newton(system, options);
     iterations                        = result.iterations;
     if (!result.converged)
       throw std::runtime_error("step " + std::to_string(step) + ": " +
                                result.why);
-    system.commit(stepping.time(step));
+    system.commit(times[step]);
   }
 
-  Debond::LoadStepping stepping;
-  unsigned int         step = 0;
+  const std::vector<double> times;
+  unsigned int              step = 0;
 };
 
 

@@ -57,7 +57,11 @@ check(const std::string &slave)
   system.chuck.correct(5, 0.006);
   const unsigned int n    = system.n_unknowns();
   const auto         move = [&](const Eigen::VectorXd &dv) {
-    system.correct_bodies(dv);
+    const unsigned int n_bone    = system.bone.n_unknowns(),
+                       n_implant = system.implant.n_unknowns();
+    system.bone.correct(system.bone.correction(dv.head(n_bone), {}));
+    system.implant.correct(
+      system.implant.correction(dv.segment(n_bone, n_implant), {}));
     for (const auto &[component, number] : system.configuration.chuck_unknowns)
       system.chuck.correct(component, dv[number]);
   };
@@ -122,13 +126,14 @@ check(const std::string &slave)
 
   // a correction that is shortened: the time is one of what it corrects, and
   // prescribed components follow the time
-  system.evaluate(mode);
-  const double         time  = system.time();
-  const Chuck::Vector6 start = system.chuck.position();
-  system.solve_and_correct(1e-9);
+  const auto           residual   = system.evaluate(mode);
+  const double         time       = system.time();
+  const Chuck::Vector6 start      = system.chuck.position();
+  const auto           correction = system.solve(residual, 1e-9);
+  system.correct(correction);
   const double         full_time = system.time();
   const Chuck::Vector6 full      = system.chuck.position();
-  system.shorten_correction(0.25);
+  system.correct(correction, -0.75);
   report("  a quarter of the time's correction",
          std::abs((system.time() - time) / (full_time - time) - 0.25),
          1e-9);

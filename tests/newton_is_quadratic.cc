@@ -2,6 +2,7 @@
 // interface slips and softens. Bodies are linear, so everything nonlinear is
 // the interface, and the last iterations show whether its tangent is exact.
 
+#include <debond/scene/scene.h>
 #include <debond/support/runtime.h>
 #include <debond/system/newton.h>
 
@@ -51,9 +52,9 @@ check(const std::string &name, const std::string &changes, const double angle)
 
   CoupledSystem system(scene);
   NewtonOptions options;
-  options.residual_tolerance = 1e-12;
-  options.touch_tolerance    = 1e-12 * system.R;
-  options.stick_first        = true;
+  options.residual_tolerance     = 1e-12;
+  options.points.touch_tolerance = 1e-12 * system.R;
+  options.points.stick_first     = true;
   system.start(0.);
   std::cout << name << std::endl;
   for (const double time : {0., 1.})

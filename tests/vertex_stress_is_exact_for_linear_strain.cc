@@ -44,19 +44,14 @@ deviation(const BodyParameters &parameters,
     {
       const Eigen::Matrix3d gradient =
         H(body->mesh().reference_position(vertex));
-      double h[3][3], sigma[3][3];
+      double h[3][3];
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int j = 0; j < 3; ++j)
           h[i][j] = gradient(i, j);
-      if (parameters.material == Material::linear)
-        material.linear_stress(h, sigma);
-      else
-        material.cauchy_stress(h, sigma);
-      Eigen::Matrix3d expected;
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = 0; j < 3; ++j)
-          expected(i, j) = sigma[i][j];
-      const double difference = (stress[vertex] - expected).norm();
+      const Eigen::Matrix3d expected = parameters.material == Material::linear ?
+                                         material.linear_stress(h) :
+                                         material.cauchy_stress(h);
+      const double          difference = (stress[vertex] - expected).norm();
       if (!std::isnan(largest) && !(difference <= largest))
         largest = difference;
       scale = std::max(scale, expected.norm());

@@ -9,17 +9,21 @@ namespace Debond
 {
   Body::Body(const BodyParameters &parameters,
              const Side            side,
-             const bool            has_bulk)
+             const StressLaw       law)
     : body_mesh(parameters, side)
-    , own_bulk(has_bulk ? make_bulk(body_mesh) : nullptr)
+    , own_bulk(law ? make_bulk(body_mesh) : nullptr)
     , v(Eigen::VectorXd::Zero(3 * body_mesh.n_nodes()))
     , accepted(v)
+    , law(law)
     , unknown_numbers(3 * body_mesh.surface().n_control_points(), -1)
     , is_contact(body_mesh.surface().n_control_points(), false)
   {}
 
 
 
+  // Choosing the unknowns is what makes a body ready: K is formed, factorised
+  // and condensed. Bodies that several variants of a study share come here
+  // again with the same unknowns, at rest, and need nothing.
   void
   Body::set_contact_control_points(const std::vector<bool> &contact)
   {
@@ -28,12 +32,14 @@ namespace Debond
     if (!own_bulk || (contact == is_contact && linearised_at_rest &&
                       v.isZero(0.) && accepted.value.isZero(0.)))
       return;
+    const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(v.size());
     complete_surface(); // what was interior may become an unknown
     number_unknowns(contact);
-    // The reference is always there to fall back on, for a Neo-Hookean body
-    // this matrix being an operator and not the solution.
-    if (!linearise(linearisation_point()) &&
-        !linearise(Eigen::VectorXd::Zero(v.size())))
+    // A Neo-Hookean body is linearised at the accepted state: it is near, and
+    // the trial state may be anything. The reference is always there to fall
+    // back on: the matrix only leads to the solution and does not define it.
+    if (!linearise(has_small_strains() ? at_rest : accepted.value) &&
+        !linearise(at_rest))
       throw EntryError(
         std::string(body_mesh.side() == Side::bone ? "Bone" : "Implant") +
           " / Cells",
@@ -43,6 +49,8 @@ namespace Debond
 
 
 
+  // The bulk says which degrees of freedom it leaves to the coupled system; the
+  // interface needs those of the control points by their place.
   void
   Body::number_unknowns(const std::vector<bool> &contact)
   {
@@ -53,10 +61,17 @@ namespace Debond
     for (unsigned int k = 0; k < unknown_dofs.size(); ++k)
       if (unknown_dofs[k] >= first)
         unknown_numbers[unknown_dofs[k] - first] = k;
+    beside_unknowns = false;
+    for (unsigned int i = 0; i < unknown_numbers.size(); ++i)
+      if (unknown_numbers[i] < 0 &&
+          !body_mesh.is_fixed(body_mesh.control_point_node(i / 3), i % 3))
+        beside_unknowns = true;
   }
 
 
 
+  // K and S at a state, which is remembered: a resumed run has to go on with
+  // the same matrix, down to the last digit.
   bool
   Body::linearise(const Eigen::VectorXd &state)
   {
@@ -92,17 +107,24 @@ namespace Debond
 
 
 
+  // A linear body carries its contact unknowns only from iteration to
+  // iteration. The rest of its surface is in equilibrium with them, and costs a
+  // solve with K_ii to know: that is done if an open point may face it.
   void
   Body::commit(const double time, const bool surface_is_seen)
   {
-    if (surface_is_condensed() && surface_is_seen)
+    const bool is_behind = has_small_strains() && beside_unknowns;
+    if (is_behind && surface_is_seen)
       v = full_displacement(v);
-    surface_is_stale = surface_is_condensed() && !surface_is_seen;
+    surface_is_stale = is_behind && !surface_is_seen;
     accepted.commit(v, time);
   }
 
 
 
+  // The same later, when a point that has opened looks at the surface beside
+  // the contact unknowns. States before it get their shape as well: the line
+  // through them is the next prediction.
   void
   Body::complete_surface()
   {
@@ -113,6 +135,8 @@ namespace Debond
 
 
 
+  // Vertices of the contact face follow the control points, v_vertex = sum_A
+  // N_A(vertex) v_A (theory.md, section 2).
   Eigen::VectorXd
   Body::full_displacement(const Eigen::VectorXd &state) const
   {
@@ -123,6 +147,18 @@ namespace Debond
 
 
 
+  std::vector<Eigen::Matrix3d>
+  Body::vertex_stress(const Eigen::VectorXd &state) const
+  {
+    if (own_bulk)
+      return own_bulk->vertex_stress(state, law);
+    return std::vector<Eigen::Matrix3d>(body_mesh.n_vertices(),
+                                        Eigen::Matrix3d::Zero());
+  }
+
+
+
+  // Moved from the origin to the centre: M_C = M_O - C x F.
   Eigen::Matrix<double, 6, 1>
   Body::support_reaction(const Eigen::Vector3d &centre,
                          const Residual        &residual) const

@@ -4,44 +4,6 @@ namespace Debond
 {
   namespace
   {
-    /** No unknowns, no energy; whatever acts on it passes to its supports,
-     *  which nobody asks for. */
-    class RigidBody : public Body
-    {
-    public:
-      RigidBody(const BodyParameters &parameters, const Side side)
-        : Body(parameters, side, false)
-      {}
-      Residual
-      residual(const ControlNet &) const override
-      {
-        return {};
-      }
-      bool
-      has_current_lever_arms() const override
-      {
-        return true;
-      }
-      std::vector<Eigen::Matrix3d>
-      vertex_stress(const Eigen::VectorXd &) const override
-      {
-        return std::vector<Eigen::Matrix3d>(body_mesh.n_vertices(),
-                                            Eigen::Matrix3d::Zero());
-      }
-
-    protected:
-      void
-      move(const Eigen::VectorXd &, const Residual &) override
-      {}
-      Eigen::Matrix<double, 6, 1>
-      reaction_about_origin(const Residual &) const override
-      {
-        return Eigen::Matrix<double, 6, 1>::Zero();
-      }
-    };
-
-
-
     /**
      * Small strains in the body's frame: condensed once, after which its
      * interior is not needed and is left where it is until somebody looks.
@@ -50,15 +12,18 @@ namespace Debond
     {
     public:
       LinearBody(const BodyParameters &parameters, const Side side)
-        : Body(parameters, side, true)
+        : Body(parameters, side, &NeoHookean::linear_stress)
       {}
 
+      // r_c = S v_c + f_c.
+      //
       // R = K v, of which the condensed part is S v_c: the interior is in
-      // equilibrium, whatever v_c.
+      // equilibrium, whatever v_c, and has no residual. The energy follows from
+      // the work of the surface, 1/2 v_c . S v_c.
       Residual
       residual(const ControlNet &contact_force) const override
       {
-        const Eigen::VectorXd v_c = values(v);
+        const Eigen::VectorXd v_c = v(unknown_dofs);
         Residual              result;
         result.condensed         = own_bulk->product(v_c);
         result.energy            = 0.5 * v_c.dot(result.condensed);
@@ -71,36 +36,30 @@ namespace Debond
         return result;
       }
 
-      bool
-      has_current_lever_arms() const override
+      // The contact unknowns are enough: nobody asks where the interior is
+      // before the end of the step.
+      Eigen::VectorXd
+      correction(const Eigen::VectorXd &dv, const Residual &) const override
       {
-        return false;
-      }
-
-      std::vector<Eigen::Matrix3d>
-      vertex_stress(const Eigen::VectorXd &state) const override
-      {
-        return own_bulk->vertex_stress(state, &NeoHookean::linear_stress);
+        Eigen::VectorXd change = Eigen::VectorXd::Zero(v.size());
+        change(unknown_dofs)   = dv;
+        return change;
       }
 
     protected:
-      void
-      move(const Eigen::VectorXd &dv, const Residual &) override
-      {
-        for (unsigned int k = 0; k < n_unknowns(); ++k)
-          v[unknown_dofs[k]] += dv[k];
-      }
-
-      // v_i = -K_ii^-1 K_ic v_c
+      // The equilibrium shape, v_i = -K_ii^-1 K_ic v_c, for pictures and for
+      // the part of the surface that is not in contact.
       Eigen::VectorXd
       full_displacement(const Eigen::VectorXd &state) const override
       {
         return Body::full_displacement(
-          n_unknowns() > 0 ? own_bulk->correction(values(state), {}) : state);
+          n_unknowns() > 0 ? own_bulk->correction(state(unknown_dofs), {}) :
+                             state);
       }
 
-      // The resultants of the supports are m . K v; condensing the row m K
-      // gives them per unit of v_c.
+      // The resultants of the supports are m . K v, m the rigid modes of the
+      // fixed degrees of freedom; condensing the row m K gives them per unit of
+      // v_c. Six solves here, and none in the steps to come.
       bool
       linearise(const Eigen::VectorXd &state) override
       {
@@ -111,39 +70,16 @@ namespace Debond
         reaction_operator.resize(6, n_unknowns());
         for (unsigned int k = 0; k < 6; ++k)
           reaction_operator.row(k) = own_bulk->condense(rows.col(k)).condensed;
-        beside_unknowns = false;
-        for (unsigned int i = 0; i < unknown_numbers.size(); ++i)
-          beside_unknowns =
-            beside_unknowns ||
-            (unknown_numbers[i] < 0 &&
-             !body_mesh.is_fixed(body_mesh.control_point_node(i / 3), i % 3));
         return true;
       }
 
       Eigen::Matrix<double, 6, 1>
       reaction_about_origin(const Residual &) const override
       {
-        return reaction_operator * values(v);
-      }
-
-      bool
-      surface_is_condensed() const override
-      {
-        return beside_unknowns;
+        return reaction_operator * v(unknown_dofs);
       }
 
     private:
-      Eigen::VectorXd
-      values(const Eigen::VectorXd &state) const
-      {
-        Eigen::VectorXd result(n_unknowns());
-        for (unsigned int k = 0; k < n_unknowns(); ++k)
-          result[k] = state[unknown_dofs[k]];
-        return result;
-      }
-
-      /** Some of the contact surface's control points are no unknowns. */
-      bool beside_unknowns = false;
       /** Supports' resultants about the origin per unit of v_c. */
       Eigen::Matrix<double, 6, Eigen::Dynamic> reaction_operator;
     };
@@ -160,10 +96,13 @@ namespace Debond
     {
     public:
       NeoHookeanBody(const BodyParameters &parameters, const Side side)
-        : Body(parameters, side, true)
+        : Body(parameters, side, &NeoHookean::cauchy_stress)
       {}
 
-      // r~_c = R_c + f - K_ci K_ii^-1 R_i
+      // r~_c = R_c + f - K_ci K_ii^-1 R_i, with the true internal forces
+      // R = int P : dF/dv dV (Eq. 1), and K of the state that was condensed
+      // last: what the interior is still out of balance is handed on to the
+      // surface. The work of the contact forces is theirs, not the body's.
       Residual
       residual(const ControlNet &contact_force) const override
       {
@@ -174,46 +113,27 @@ namespace Debond
         if (!result.valid)
           return result;
         Eigen::VectorXd r = result.internal_force;
-        r.tail(contact_force.size()) +=
-          Eigen::Map<const Eigen::VectorXd>(contact_force.data(),
-                                            contact_force.size());
+        r.tail(contact_force.size()) += contact_force.reshaped();
         static_cast<Bulk::Residual &>(result) = own_bulk->condense(r);
         return result;
       }
 
       bool
-      refactor() override
+      has_small_strains() const override
       {
-        return linearise(v);
+        return false;
       }
 
-      bool
-      has_current_lever_arms() const override
+      // dv_i = -K_ii^-1 (R_i + K_ic dv_c): with every correction of the surface
+      // the interior moves to where its balance would be if it were linear.
+      Eigen::VectorXd
+      correction(const Eigen::VectorXd &dv,
+                 const Residual        &residual) const override
       {
-        return true;
-      }
-
-      std::vector<Eigen::Matrix3d>
-      vertex_stress(const Eigen::VectorXd &state) const override
-      {
-        return own_bulk->vertex_stress(state, &NeoHookean::cauchy_stress);
+        return own_bulk->correction(dv, residual);
       }
 
     protected:
-      // dv_i = -K_ii^-1 (R_i + K_ic dv_c)
-      void
-      move(const Eigen::VectorXd &dv, const Residual &residual) override
-      {
-        v += own_bulk->correction(dv, residual);
-      }
-
-      // The trial state may be anything; the accepted one is near.
-      Eigen::VectorXd
-      linearisation_point() const override
-      {
-        return accepted.value;
-      }
-
       Eigen::Matrix<double, 6, 1>
       reaction_about_origin(const Residual &residual) const override
       {
@@ -227,15 +147,10 @@ namespace Debond
   std::unique_ptr<Body>
   make_body(const BodyParameters &parameters, const Side side)
   {
-    switch (parameters.material)
-      {
-        case Material::linear:
-          return std::make_unique<LinearBody>(parameters, side);
-        case Material::neo_hookean:
-          return std::make_unique<NeoHookeanBody>(parameters, side);
-        case Material::rigid:
-          break;
-      }
-    return std::make_unique<RigidBody>(parameters, side);
+    if (parameters.material == Material::linear)
+      return std::make_unique<LinearBody>(parameters, side);
+    if (parameters.material == Material::neo_hookean)
+      return std::make_unique<NeoHookeanBody>(parameters, side);
+    return std::make_unique<Body>(parameters, side);
   }
 } // namespace Debond

@@ -6,45 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace Debond
 {
-  bool
-  BodyParameters::is_round() const
-  {
-    return shape == BodyShape::coin || shape == BodyShape::cap;
-  }
-
-
-
-  double
-  BodyParameters::thickness() const
-  {
-    return is_round() ? height : size[2];
-  }
-
-
-
-  double
-  BodyParameters::width(const unsigned int direction) const
-  {
-    return is_round() ? 2. * radius : size[direction];
-  }
-
-
-
   double
   BodyParameters::rise() const
   {
     return shape == BodyShape::cap ? height_on_sphere(radius, cap_radius) : 0.;
-  }
-
-
-
-  double
-  BodyParameters::characteristic_radius() const
-  {
-    return 0.5 * std::min(width(0), width(1));
   }
 
 
@@ -68,7 +37,12 @@ namespace Debond
     // fourth power
     const AllowedValues allowed_length =
       Allowed::number_between(1e-6, 1e6, "mm");
-    const AllowedValues allowed_cells = Allowed::whole_number(1, 1000000000);
+    const AllowedValues allowed_cells   = Allowed::whole_number(1, 1000000000);
+    const AllowedValues allowed_grading = Allowed::number_above(0, "");
+
+    /** Throws if an entry has a mistake, with a message. */
+    using EntryCheck = std::function<
+      void(bool, const std::string &entry, const std::string &message)>;
   } // namespace
 
 
@@ -90,7 +64,7 @@ namespace Debond
     table.add(
       "Lateral grading",
       lateral_grading,
-      Allowed::number_above(0, ""),
+      allowed_grading,
       "Exponent g that places the cells across the block: their sides are at x "
       "= sign(s) |s|^g L/2 with s equally spaced from -1 to 1 and L the edge "
       "length, in y alike. 1: equal cells; more than 1: smaller cells towards "
@@ -157,7 +131,7 @@ namespace Debond
     table.add(
       "Layer grading",
       layer_grading,
-      Allowed::number_above(0, ""),
+      allowed_grading,
       "Exponent g that places the layers of cells along the axis: of n layers "
       "in a body of height H, layer k ends at the distance H (k/n)^g from the "
       "contact face. 1: equal layers; more than 1: thinner layers towards the "
@@ -195,55 +169,47 @@ namespace Debond
   namespace
   {
     void
-    check_cells(const BodyParameters &body, const std::string &section)
+    check_cells(const BodyParameters &body, const EntryCheck &refuse)
     {
       constexpr double largest_number = 2e6;
       const double     n_cells =
         static_cast<double>(body.cells[0]) * body.cells[1] * body.cells[2];
-      if (n_cells > largest_number)
-        throw EntryError(section + " / Cells",
-                         to_text(n_cells) +
-                           " cells are more than this program can solve for, " +
-                           to_text(largest_number));
-      if (body.is_round() && body.cells[0] != body.cells[1])
-        throw EntryError(section + " / Cells",
-                         "a coin and a cap take two numbers, cells across the "
-                         "disk and along the axis");
+      refuse(n_cells > largest_number,
+             "Cells",
+             to_text(n_cells) +
+               " cells are more than this program can solve for, " +
+               to_text(largest_number));
+      refuse(body.is_round() && body.cells[0] != body.cells[1],
+             "Cells",
+             "a coin and a cap take two numbers, cells across the disk and "
+             "along the axis");
       // nine control points over one face: 2 x 2 Gauss points do not see all
       // their motions, and the stiffness is singular
-      if (!body.is_rigid() &&
-          body.contact_surface == SurfaceKind::nurbs &&
-          std::min(body.cells[0], body.cells[1]) < 2)
-        throw EntryError(section + " / Cells",
-                         "one cell across is too few for Contact surface = "
-                         "nurbs: expected at least 2");
-    }
+      refuse(!body.is_rigid() && body.contact_surface == SurfaceKind::nurbs &&
+               std::min(body.cells[0], body.cells[1]) < 2,
+             "Cells",
+             "one cell across is too few for Contact surface = nurbs: expected "
+             "at least 2");
 
-
-
-    void
-    check_gradings(const BodyParameters &body, const std::string &section)
-    {
-      constexpr double thinnest = 1e-6;
-      if (std::pow(1. / body.cells[2], body.layer_grading) < thinnest)
-        throw EntryError(section + " / Layer grading",
-                         "it makes the first of " +
-                           std::to_string(body.cells[2]) +
-                           " layers thinner than a millionth of the body");
-      for (unsigned int d = 0; d < 2; ++d)
+      constexpr double  thinnest = 1e-6;
+      const std::string thinner  = "thinner than a millionth of the body";
+      refuse(std::pow(1. / body.cells[2], body.layer_grading) < thinnest,
+             "Layer grading",
+             "it makes the first of " + std::to_string(body.cells[2]) +
+               " layers " + thinner);
+      for (const unsigned int n : {body.cells[0], body.cells[1]})
         {
-          const double n      = body.cells[d];
-          const double g      = body.lateral_grading;
-          const double centre = body.cells[d] % 2 == 1 ?
-                                  std::pow(1. / n, g) :
-                                  0.5 * std::pow(2. / n, g);
+          // the cell in the centre, or the two beside it, and the one at the
+          // border
+          const double g = body.lateral_grading;
+          const double centre =
+            n % 2 == 1 ? std::pow(1. / n, g) : 0.5 * std::pow(2. / n, g);
           const double border =
             n > 2 ? 0.5 * (1. - std::pow(1. - 2. / n, g)) : 1.;
-          if (std::min(centre, border) < thinnest)
-            throw EntryError(
-              section + " / Lateral grading",
-              "it makes some of " + std::to_string(body.cells[d]) +
-                " cells across thinner than a millionth of the body");
+          refuse(std::min(centre, border) < thinnest,
+                 "Lateral grading",
+                 "it makes some of " + std::to_string(n) + " cells across " +
+                   thinner);
         }
     }
 
@@ -252,38 +218,32 @@ namespace Debond
     /** An entry of another shape that was changed was meant to do something:
      *  refuse it rather than ignore it. */
     void
-    check_shape(const BodyParameters &body, const std::string &section)
+    check_shape(const BodyParameters &body, const EntryCheck &refuse)
     {
-      const BodyParameters usual    = BodyParameters::default_implant();
-      const bool           is_block = body.shape == BodyShape::block;
-      const auto           refuse   = [&](const bool         is_set,
-                              const std::string &entry,
-                              const std::string &instead) {
-        if (is_set)
-          throw EntryError(section + " / " + entry,
-                           "it has no meaning for this Shape" + instead);
-      };
+      const BodyParameters usual      = BodyParameters::default_implant();
+      const bool           is_block   = body.shape == BodyShape::block;
+      const bool           is_cap     = body.shape == BodyShape::cap;
+      const std::string    no_meaning = "it has no meaning for this Shape";
       refuse(!is_block && body.size != usual.size,
              "Size",
-             ": give Radius and Height");
-      refuse(is_block && body.radius != usual.radius, "Radius", ": give Size");
-      refuse(is_block && body.height != usual.height, "Height", ": give Size");
-      refuse(body.shape != BodyShape::cap &&
-               body.cap_radius != usual.cap_radius,
+             no_meaning + ": give Radius and Height");
+      refuse(is_block && body.radius != usual.radius,
+             "Radius",
+             no_meaning + ": give Size");
+      refuse(is_block && body.height != usual.height,
+             "Height",
+             no_meaning + ": give Size");
+      refuse(!is_cap && body.cap_radius != usual.cap_radius,
              "Cap radius",
-             ", whose contact face is flat");
-
-      if (body.shape != BodyShape::cap)
-        return;
-      if (body.cap_radius <= body.radius)
-        throw EntryError(section + " / Cap radius",
-                         "a cap is flatter than a hemisphere: expected more "
-                         "than Radius, " +
-                           to_text(body.radius) + " mm");
-      if (body.rise() >= body.height)
-        throw EntryError(section + " / Height",
-                         "the rim of the cap is " + to_text(body.rise()) +
-                           " mm above its centre: expected more than that");
+             no_meaning + ", whose contact face is flat");
+      refuse(is_cap && body.cap_radius <= body.radius,
+             "Cap radius",
+             "a cap is flatter than a hemisphere: expected more than Radius, " +
+               to_text(body.radius) + " mm");
+      refuse(body.rise() >= body.height,
+             "Height",
+             "the rim of the cap is " + to_text(body.rise()) +
+               " mm above its centre: expected more than that");
     }
   } // namespace
 
@@ -292,8 +252,13 @@ namespace Debond
   void
   BodyParameters::check(const std::string &section) const
   {
-    check_cells(*this, section);
-    check_gradings(*this, section);
-    check_shape(*this, section);
+    const EntryCheck refuse = [&](const bool         is_mistake,
+                                  const std::string &entry,
+                                  const std::string &message) {
+      if (is_mistake)
+        throw EntryError(section + " / " + entry, message);
+    };
+    check_cells(*this, refuse);
+    check_shape(*this, refuse);
   }
 } // namespace Debond

@@ -41,23 +41,24 @@ namespace Debond
                   const Eigen::Vector3d &point)
   {
     CellShape shape;
-    // a function of the face times one of the third coordinate
-    const auto add = [&shape](const double value,
-                              const double d_xi,
-                              const double d_eta,
-                              const double share,
-                              const double slope) {
-      shape.N.push_back(share * value);
-      shape.derivative.emplace_back(share * d_xi, share * d_eta, slope * value);
+    // a function of the face, its value and derivatives, times one of the third
+    // coordinate
+    const auto add = [&shape](const Eigen::Array3d &face,
+                              const double          share,
+                              const double          slope) {
+      shape.N.push_back(share * face[0]);
+      shape.derivative.emplace_back(share * face[1],
+                                    share * face[2],
+                                    slope * face[0]);
     };
     const auto add_bilinear = [&](const double share, const double slope) {
       const auto L = bilinear(point[0], point[1]);
       for (unsigned int a = 0; a < 4; ++a)
         {
           const Eigen::Vector3d s = corner(a);
-          add(L[a],
-              0.25 * s[0] * (1. + s[1] * point[1]),
-              0.25 * s[1] * (1. + s[0] * point[0]),
+          add({L[a],
+               0.25 * s[0] * (1. + s[1] * point[1]),
+               0.25 * s[1] * (1. + s[0] * point[0])},
               share,
               slope);
         }
@@ -82,9 +83,7 @@ namespace Debond
                                        basis,
                                        false);
     for (unsigned int a = 0; a < basis.size; ++a)
-      add(basis.N[a],
-          basis.N_1[a] * half[0],
-          basis.N_2[a] * half[1],
+      add({basis.N[a], basis.N_1[a] * half[0], basis.N_2[a] * half[1]},
           near,
           0.5 * outward);
     add_bilinear(1. - near, -0.5 * outward);

@@ -3,8 +3,6 @@
 #include <debond/support/input_error.h>
 #include <debond/support/skew.h>
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 
@@ -35,20 +33,18 @@ namespace Debond
     table.enter_subsection("Chuck");
     for (unsigned int c = 0; c < n_components; ++c)
       {
-        const bool        rotation = is_rotation(c);
-        const std::string axis(1, "xyz"[c % 3]);
+        const bool rotation = is_rotation(c);
         table.enter_subsection(names[c]);
         table.add("Control",
                   component[c].loaded,
                   Allowed::choice(rotation ? "angle | moment" :
                                              "displacement | force"),
-                  rotation ?
-                    "What Value means: `angle' [deg] or `moment' [N mm] of the "
-                    "chuck, positive about +" +
-                      axis + "." :
-                    "What Value means: `displacement' [mm] or `force' [N] of "
-                    "the chuck, positive along +" +
-                      axis + ".");
+                  std::string("What Value means: ") +
+                    (rotation ? "`angle' [deg] or `moment' [N mm] of the "
+                                "chuck, positive about +" :
+                                "`displacement' [mm] or `force' [N] of the "
+                                "chuck, positive along +") +
+                    "xyz"[c % 3] + ".");
         table.add("Value",
                   component[c].value,
                   Allowed::text(std::string("an expression in t, in ") +
@@ -75,56 +71,11 @@ namespace Debond
       }
     table.leave_subsection();
   }
-} // namespace Debond
-
-namespace Debond
-{
-  namespace
-  {
-    using Eigen::Matrix3d;
-    using Eigen::Vector3d;
-
-    // sin t / t, (1 - cos t)/t^2, (t - sin t)/t^3 and their derivatives divided
-    // by t, all even functions of t.
-    struct RotationCoefficients
-    {
-      std::array<double, 3> c, dc;
-
-      explicit RotationCoefficients(const double t)
-      {
-        const double t2 = t * t;
-        if (t < 0.3)
-          {
-            // power series: c_j = sum_m (-1)^m t^2m / (2m + 1 + j)!
-            for (unsigned int j = 0; j < 3; ++j)
-              {
-                double factorial = (j == 2 ? 6. : j == 1 ? 2. : 1.);
-                double power = 1., previous = 0.;
-                c[j] = dc[j] = 0.;
-                for (unsigned int m = 0; m < 10; ++m)
-                  {
-                    c[j] += power / factorial;
-                    dc[j] += 2. * m * previous / factorial;
-                    factorial *= (2. * m + 2. + j) * (2. * m + 3. + j);
-                    previous = -power;
-                    power *= -t2;
-                  }
-              }
-            return;
-          }
-        const double s = std::sin(t), k = std::cos(t);
-        c  = {{s / t, (1. - k) / t2, (t - s) / (t2 * t)}};
-        dc = {{(k - s / t) / t2,
-               (s * t - 2. * (1. - k)) / (t2 * t2),
-               ((1. - k) * t - 3. * (t - s)) / (t2 * t2 * t)}};
-      }
-    };
-  } // namespace
 
 
 
   Chuck::Chuck(const ChuckParameters &parameters,
-               const Vector3d        &centre,
+               const Eigen::Vector3d &centre,
                const double           radius)
     : C(centre)
   {
@@ -139,7 +90,7 @@ namespace Debond
         if (!prescribed[k])
           unknown_components.push_back(k);
       }
-    update_frame();
+    move_to(q);
   }
 
 
@@ -176,93 +127,65 @@ namespace Debond
 
 
 
-  void
-  Chuck::prescribe(const double time)
+  namespace
   {
-    target = values(time);
-    q      = prescribed.select(target, q);
-    update_frame();
-  }
+    // C_k = 1/k! - t^2/(k + 2)! + t^4/(k + 4)! - ...: C_0 = cos t, C_1 = sin t
+    // / t, C_2 = (1 - cos t)/t^2, and so on by t^2 C_(k+2) = 1/k! - C_k.
+    std::array<double, 6>
+    stumpff_functions(const double t)
+    {
+      std::array<double, 6> C{{std::cos(t), 1., 0., 0., 0., 0.}};
+      if (t != 0.)
+        C[1] = std::sin(t) / t;
+      double factorial = 1.;
+      for (unsigned int k = 0; k < 4; factorial *= ++k)
+        if (t > 1.)
+          C[k + 2] = (1. / factorial - C[k]) / (t * t);
+        else
+          {
+            double term = 1. / factorial;
+            for (unsigned int n = k + 1; n < k + 20; n += 2)
+              {
+                term /= n * (n + 1.);
+                C[k + 2] += term;
+                term *= -t * t;
+              }
+          }
+      return C;
+    }
+  } // namespace
 
 
 
+  // Q = exp(skew(a)) R_z(gamma), exp(skew(a)) = I + C_1 A + C_2 A A with
+  // A = skew(a) and the functions above of |a|. A change of the rotation vector
+  // a turns space about b = J(a) da with J = C_1 I + C_2 A + C_3 a a^T, a
+  // change of gamma about the implant's own axis exp(skew(a)) e_z. With t =
+  // |a|, dC_k/dt = t (k C_(k+2) - C_(k+1)).
   void
-  Chuck::place(const double time)
+  Chuck::move_to(const Vector6 &position)
   {
-    target   = values(time);
-    q        = loaded.select(q, target);
-    accepted = AcceptedState<Vector6>(q);
-    update_frame();
-  }
-
-
-
-  void
-  Chuck::correct(const unsigned int component, const double dq)
-  {
-    q[component] += dq;
-    update_frame();
-  }
-
-
-
-  void
-  Chuck::relax_machine()
-  {
-    q = compliant.select(target, q);
-    update_frame();
-  }
-
-
-
-  void
-  Chuck::rollback()
-  {
-    q = accepted.value;
-    update_frame();
-  }
-
-
-
-  void
-  Chuck::predict(const double time, const bool extrapolate)
-  {
-    q = accepted.value;
-    if (extrapolate)
-      q = prescribed.select(q, accepted.extrapolated(time));
-    update_frame();
-  }
-
-
-
-  // Q = exp(skew(a)) R_z(gamma). A change of the rotation vector a turns space
-  // about b = J(a) da with J = c_0 I + c_1 skew(a) + c_2 a a^T, a change of
-  // gamma about the implant's own axis exp(skew(a)) e_z.
-  void
-  Chuck::update_frame()
-  {
-    const Vector3d             a(q[ChuckComponent::rotation_x],
+    using Eigen::Matrix3d, Eigen::Vector3d;
+    q = position;
+    const Vector3d a(q[ChuckComponent::rotation_x],
                      q[ChuckComponent::rotation_y],
                      0.);
-    const RotationCoefficients r(a.norm());
-    const Matrix3d             A = skew(a);
-    const Matrix3d tilt = Matrix3d::Identity() + r.c[0] * A + r.c[1] * (A * A);
-    const double   s    = std::sin(q[ChuckComponent::rotation_z]),
-                 k      = std::cos(q[ChuckComponent::rotation_z]);
-    Matrix3d spin;
-    spin << k, -s, 0, s, k, 0, 0, 0, 1;
-    Q = tilt * spin;
+    const auto     C = stumpff_functions(a.norm());
+    const Matrix3d I = Matrix3d::Identity(), A = skew(a),
+                   aa   = a * a.transpose();
+    const Matrix3d tilt = I + C[1] * A + C[2] * (A * A);
+    Q                   = tilt *
+        Eigen::AngleAxisd(q[ChuckComponent::rotation_z], Vector3d::UnitZ());
 
-    const Matrix3d J =
-      r.c[0] * Matrix3d::Identity() + r.c[1] * A + r.c[2] * (a * a.transpose());
-    b = {{J.col(0), J.col(1), tilt.col(2)}};
+    const Matrix3d J = C[1] * I + C[2] * A + C[3] * aa;
+    b                = {{J.col(0), J.col(1), tilt.col(2)}};
     for (unsigned int l = 0; l < 2; ++l)
       {
-        const Vector3d e = Vector3d::Unit(l);
-        const Matrix3d dJ =
-          a[l] * (r.dc[0] * Matrix3d::Identity() + r.dc[1] * A +
-                  r.dc[2] * (a * a.transpose())) +
-          r.c[1] * skew(e) + r.c[2] * (e * a.transpose() + a * e.transpose());
+        const Vector3d e  = Vector3d::Unit(l);
+        const Matrix3d dJ = a[l] * ((C[3] - C[2]) * I + (2. * C[4] - C[3]) * A +
+                                    (3. * C[5] - C[4]) * aa) +
+                            C[2] * skew(e) +
+                            C[3] * (e * a.transpose() + a * e.transpose());
         db[0][l] = dJ.col(0);
         db[1][l] = dJ.col(1);
         db[2][l] = b[l].cross(b[2]);
@@ -272,33 +195,15 @@ namespace Debond
 
 
 
-  Vector3d
-  Chuck::velocity(const unsigned int k, const Vector3d &x) const
-  {
-    return is_rotation(k) ? Vector3d(axis(k).cross(x - centre())) :
-                            Vector3d(Vector3d::Unit(k));
-  }
-
-
-
-  Vector3d
-  Chuck::velocity_of_direction(const unsigned int k, const Vector3d &d) const
-  {
-    return is_rotation(k) ? Vector3d(axis(k).cross(d)) :
-                            Vector3d(Vector3d::Zero());
-  }
-
-
-
   // x - C - u = Q(q) * const and dQ/dq_l = skew(b_l) Q.
-  Vector3d
-  Chuck::second_derivative(const unsigned int k,
-                           const unsigned int l,
-                           const Vector3d    &x) const
+  Eigen::Vector3d
+  Chuck::second_derivative(const unsigned int     k,
+                           const unsigned int     l,
+                           const Eigen::Vector3d &x) const
   {
     if (!is_rotation(k) || !is_rotation(l))
-      return Vector3d::Zero();
-    const Vector3d r = x - centre();
+      return Eigen::Vector3d::Zero();
+    const Eigen::Vector3d r = x - centre();
     return db[k - 3][l - 3].cross(r) + axis(k).cross(axis(l).cross(r));
   }
 } // namespace Debond

@@ -26,12 +26,14 @@ namespace Debond
         , cells(mesh, material)
         , free_number(3 * mesh.n_nodes(), -1)
       {
+        // the unknowns of K: what no boundary condition fixes
         for (unsigned int dof = 0; dof < free_number.size(); ++dof)
           if (!mesh.is_tied(dof / 3) && !mesh.is_fixed(dof / 3, dof % 3))
             {
               free_number[dof] = free_dofs.size();
               free_dofs.push_back(dof);
             }
+        // the pattern of K, which is made once
         dealii::DynamicSparsityPattern pattern(free_dofs.size());
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
           {
@@ -43,17 +45,19 @@ namespace Debond
             for (auto i = numbers.begin(); i != numbers.end(); ++i)
               pattern.add_entries(*i, i, numbers.end(), true);
           }
-        tangent.n = free_dofs.size();
-        tangent.column_start.push_back(0);
-        tangent.row.reserve(pattern.n_nonzero_elements());
-        for (int column = 0; column < tangent.n; ++column)
+        tangent.resize(free_dofs.size(), free_dofs.size());
+        tangent.reserve(pattern.n_nonzero_elements());
+        for (int column = 0; column < tangent.cols(); ++column)
           {
+            tangent.startVec(column);
             for (unsigned int k = 0; k < pattern.row_length(column); ++k)
-              tangent.row.push_back(pattern.column_number(column, k));
-            tangent.column_start.push_back(tangent.row.size());
+              tangent.insertBack(pattern.column_number(column, k), column) = 0.;
           }
+        tangent.finalize();
       }
 
+      // c: the free components of these control points. Three numberings meet
+      // here: degrees of freedom 3 node + component, free ones, and unknowns.
       std::vector<unsigned int>
       set_contact(const std::vector<bool> &control_points) override
       {
@@ -72,26 +76,22 @@ namespace Debond
         return dofs;
       }
 
+      // Assembles the lower triangle of K from the cells' tangents and
+      // condenses it, in another object: a K that is not positive definite
+      // leaves the old one as it is.
       bool
       linearise(const Eigen::VectorXd &v) override
       {
-        tangent.value.assign(tangent.row.size(), 0.);
+        tangent.coeffs().setZero();
         Eigen::MatrixXd K;
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
           {
             const auto numbers = free_numbers(cell);
             cells.tangent(cell, v, K);
             for (unsigned int j = 0; j < numbers.size(); ++j)
-              if (numbers[j] >= 0)
-                {
-                  const auto start = tangent.row.begin();
-                  const auto begin = start + tangent.column_start[numbers[j]];
-                  const auto end = start + tangent.column_start[numbers[j] + 1];
-                  for (unsigned int i = 0; i < numbers.size(); ++i)
-                    if (numbers[i] >= numbers[j])
-                      tangent.value[std::lower_bound(begin, end, numbers[i]) -
-                                    start] += K(i, j);
-                }
+              for (unsigned int i = 0; i < numbers.size(); ++i)
+                if (numbers[j] >= 0 && numbers[i] >= numbers[j])
+                  tangent.coeffRef(numbers[i], numbers[j]) += K(i, j);
           }
         Condensation attempt;
         if (!attempt.factorise(tangent, contact))
@@ -121,31 +121,25 @@ namespace Debond
         return condensation.schur_complement();
       }
 
+      // r_c - K_ci K_ii^-1 r_i, the forward half of a solve with K.
       Bulk::Residual
       condense(const Eigen::VectorXd &r) const override
       {
-        Eigen::VectorXd free(free_dofs.size());
-        for (unsigned int i = 0; i < free_dofs.size(); ++i)
-          free[i] = r[free_dofs[i]];
-        Residual result;
-        result.norm_squared = result.interior_squared = free.squaredNorm();
-        for (const int k : contact)
-          result.interior_squared -= free[k] * free[k];
-        auto parts       = condensation.forward(free);
-        result.condensed = std::move(parts.condensed);
-        result.interior  = std::move(parts.interior);
-        return result;
+        const Eigen::VectorXd free  = r(free_dofs);
+        auto                  parts = condensation.forward(free);
+        return {std::move(parts.condensed),
+                std::move(parts.interior),
+                free.squaredNorm(),
+                free.squaredNorm() - free(contact).squaredNorm()};
       }
 
-      // backward() solves K_ii x_i = r_i - K_ic x_c; with x = -dv this is what
-      // a correction is to fulfil.
+      // The other half. backward() solves K_ii x_i = r_i - K_ic x_c; with x =
+      // -dv this is what a correction is to fulfil.
       Eigen::VectorXd
       correction(const Eigen::VectorXd &dv_c, const Residual &r) const override
       {
-        const Eigen::VectorXd x  = condensation.backward(-dv_c, r.interior);
-        Eigen::VectorXd       dv = Eigen::VectorXd::Zero(free_number.size());
-        for (unsigned int i = 0; i < free_dofs.size(); ++i)
-          dv[free_dofs[i]] = -x[i];
+        Eigen::VectorXd dv = Eigen::VectorXd::Zero(free_number.size());
+        dv(free_dofs)      = -condensation.backward(-dv_c, r.interior);
         return dv;
       }
 
@@ -157,6 +151,9 @@ namespace Debond
         return cells.internal_forces(v, force, energy);
       }
 
+      // K x cell by cell, with the rows of the supports, which the factorised K
+      // does not have. Cells that x leaves at rest, and that is most of them,
+      // are passed over.
       Eigen::MatrixXd
       product_at_rest(const Eigen::MatrixXd &x) const override
       {
@@ -180,6 +177,8 @@ namespace Debond
         return y;
       }
 
+      // From the Gauss points to the corners of each cell, and there the mean
+      // over the cells.
       std::vector<Eigen::Matrix3d>
       vertex_stress(const Eigen::VectorXd &v,
                     const StressLaw        law) const override
@@ -193,11 +192,7 @@ namespace Debond
             cells.displacement_gradients(cell, v, H);
             std::array<Eigen::Matrix3d, EnrichedCells::n_q> at_points;
             for (unsigned int q = 0; q < EnrichedCells::n_q; ++q)
-              {
-                double sigma[3][3];
-                (cells.material().*law)(H[q], sigma);
-                at_points[q] = Eigen::Map<Eigen::Matrix3d>(&sigma[0][0]);
-              }
+              at_points[q] = (cells.material().*law)(H[q]);
             for (unsigned int a = 0; a < n_corners; ++a)
               {
                 const unsigned int vertex = mesh.cells()[cell].vertices[a];

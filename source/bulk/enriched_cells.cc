@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace Debond
 {
@@ -66,64 +67,56 @@ namespace Debond
 
 
 
+  // R_a = sum_q P(H) dN_a/dX JxW, part by part in threads
   bool
   EnrichedCells::internal_forces(const Eigen::VectorXd &v,
                                  Eigen::VectorXd       &force,
                                  double                &energy) const
   {
-    std::array<Eigen::VectorXd, n_chunks> forces;
-    std::array<double, n_chunks>          energies, smallest_j;
+    struct Part
+    {
+      Eigen::VectorXd force;
+      double          energy = 0., smallest_j = 0.;
+    };
+    std::array<Part, n_chunks> parts;
+    const auto                 add = [&](const unsigned int cell, Part &part) {
+      PointValues H[3][3], P[3][3];
+      gradient_at_points(cell, v, H);
+      bulk_material.stress(H, P);
+      const Eigen::Map<const PointValues> weight(&JxW[n_q * cell]);
+      part.energy += (bulk_material.energy(H) * weight).sum();
+      part.smallest_j =
+        std::min(part.smallest_j, NeoHookean::volume_change(H).minCoeff());
+      for (auto &row : P)
+        for (PointValues &entry : row)
+          entry *= weight;
+      const double *G = gradients(cell);
+      for (unsigned int a = 0; a < n_cell_nodes[cell]; ++a, G += 3 * n_q)
+        {
+          const Eigen::Map<const PointValues> G_0(G), G_1(G + n_q),
+            G_2(G + 2 * n_q);
+          for (unsigned int i = 0; i < 3; ++i)
+            part.force[3 * nodes(cell)[a] + i] +=
+              (P[i][0] * G_0 + P[i][1] * G_1 + P[i][2] * G_2).sum();
+        }
+    };
     for_each_chunk(n_cells(),
                    [&](const unsigned int chunk,
                        const unsigned int first,
                        const unsigned int end) {
-                     forces[chunk].setZero(force.size());
-                     energies[chunk] = smallest_j[chunk] = 0.;
+                     parts[chunk].force.setZero(force.size());
                      for (unsigned int cell = first; cell < end; ++cell)
-                       add_internal_force(cell,
-                                          v,
-                                          forces[chunk],
-                                          energies[chunk],
-                                          smallest_j[chunk]);
+                       add(cell, parts[chunk]);
                    });
-    energy = 0.;
-    for (unsigned int chunk = 0; chunk < n_chunks; ++chunk)
+    energy            = 0.;
+    double smallest_j = 0.;
+    for (const Part &part : parts)
       {
-        force += forces[chunk];
-        energy += energies[chunk];
+        force += part.force;
+        energy += part.energy;
+        smallest_j = std::min(smallest_j, part.smallest_j);
       }
-    return *std::min_element(smallest_j.begin(), smallest_j.end()) > -1. &&
-           std::isfinite(energy);
-  }
-
-
-
-  void
-  EnrichedCells::add_internal_force(const unsigned int     cell,
-                                    const Eigen::VectorXd &v,
-                                    Eigen::VectorXd       &force,
-                                    double                &energy,
-                                    double                &smallest_j) const
-  {
-    PointValues H[3][3], P[3][3];
-    gradient_at_points(cell, v, H);
-    bulk_material.stress(H, P);
-    const Eigen::Map<const PointValues> weight(&JxW[n_q * cell]);
-    energy += (bulk_material.energy(H) * weight).sum();
-    smallest_j = std::min(smallest_j, NeoHookean::volume_change(H).minCoeff());
-    for (auto &row : P)
-      for (PointValues &entry : row)
-        entry *= weight;
-
-    const double *G = gradients(cell);
-    for (unsigned int a = 0; a < n_cell_nodes[cell]; ++a, G += 3 * n_q)
-      {
-        const Eigen::Map<const PointValues> G_0(G), G_1(G + n_q),
-          G_2(G + 2 * n_q);
-        for (unsigned int i = 0; i < 3; ++i)
-          force[3 * nodes(cell)[a] + i] +=
-            (P[i][0] * G_0 + P[i][1] * G_1 + P[i][2] * G_2).sum();
-      }
+    return smallest_j > -1. && std::isfinite(energy);
   }
 
 
@@ -156,16 +149,13 @@ namespace Debond
     Eigen::MatrixXd B(9, 3 * n);
     for (unsigned int q = 0; q < n_q; ++q)
       {
-        double C[9][9];
-        bulk_material.tangent(H[q], C);
         B.setZero();
         for (unsigned int a = 0; a < n; ++a)
           for (unsigned int d = 0; d < 3; ++d)
             for (unsigned int i = 0; i < 3; ++i)
               B(3 * i + d, 3 * a + i) = gradients(cell)[(3 * a + d) * n_q + q];
-        const Eigen::Map<Eigen::Matrix<double, 9, 9, Eigen::RowMajor>> C_map(
-          &C[0][0]);
-        K.noalias() += B.transpose() * (JxW[n_q * cell + q] * (C_map * B));
+        const auto C = bulk_material.tangent(H[q]);
+        K.noalias() += B.transpose() * (JxW[n_q * cell + q] * (C * B));
       }
   }
 
@@ -174,9 +164,6 @@ namespace Debond
   double
   EnrichedCells::volume() const
   {
-    double sum = 0.;
-    for (const double weight : JxW)
-      sum += weight;
-    return sum;
+    return std::accumulate(JxW.begin(), JxW.end(), 0.);
   }
 } // namespace Debond

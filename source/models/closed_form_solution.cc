@@ -2,7 +2,6 @@
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 #include <debond/system/energy_balance.h>
-#include <debond/system/load_stepping.h>
 
 #include <algorithm>
 #include <cmath>
@@ -90,9 +89,8 @@ namespace Debond
         : scene(scene)
         , chuck(scene.chuck, Eigen::Vector3d::Zero(), scene.implant.radius)
       {
-        const LoadStepping stepping(scene.load_steps);
-        for (unsigned int step = 0; step <= stepping.n_steps(); ++step)
-          loads.push_back(at(stepping.time(step)));
+        for (const double time : scene.load_steps.planned_times())
+          loads.push_back(at(time));
         check();
       }
 
@@ -350,11 +348,10 @@ namespace Debond
       {
         const double angle = angle_of_disk(load);
         TorqueRow    row   = make_row(*this, load, pressure_at(load), angle);
-        energy.add(row.torque_Nmm * Chuck::Vector6::Unit(twist),
-                   angle * Chuck::Vector6::Unit(twist),
-                   0.,
-                   row.energy_interface_Nmm,
-                   row.dissipation_Nmm);
+        energy.add({row.torque_Nmm * Chuck::Vector6::Unit(twist),
+                    angle * Chuck::Vector6::Unit(twist),
+                    row.energy_interface_Nmm,
+                    row.dissipation_Nmm});
         row.work_Nmm            = energy.work();
         row.energy_defect       = energy.defect();
         row.energy_defect_bound = energy.defect_bound();

@@ -158,15 +158,14 @@ namespace Debond
       write(const TorqueRow &row)
       {
         const OutputParameters &output = scene.output;
-        const bool         are_planned = scene.load_steps.rows_are_planned();
-        const LoadStepping plan(scene.load_steps);
+        const bool are_planned         = scene.load_steps.rows_are_planned();
         {
           const TimedSection t(&timer, "output");
-          report.add(row, are_planned ? plan.n_steps() : 0, [&] {
+          report.add(row, are_planned ? scene.load_steps.n_steps() : 0, [&] {
             return profile_points(simulation.system().interface);
           });
           const unsigned int number =
-            are_planned ? plan.step_in_phase(row.step) : row.step;
+            are_planned ? scene.load_steps.step_in_phase(row.step) : row.step;
           if (output.fields_every > 0 &&
               (number % output.fields_every == 0 ||
                simulation.control().is_between_phases() ||
@@ -388,9 +387,8 @@ namespace Debond
         << "memory: some " << std::ceil(estimated_memory_MB(scene)) << " MB\n"
         << "initial bonding " << name_of(scene.interface.bonding.pattern)
         << ": " << interface.bonding().description() << '\n'
-        << LoadStepping(scene.load_steps).n_steps()
-        << " planned steps from time " << times.front() << " to "
-        << times.back() << '\n';
+        << scene.load_steps.n_steps() << " planned steps from time "
+        << times.front() << " to " << times.back() << '\n';
     if (scene.implant.shape == BodyShape::coin)
       print_forecast(scene, out);
   }

@@ -283,7 +283,7 @@ namespace Debond
                              << result.why);
     // along a path, and with adaptive steps, the number of rows is not known
     if (scene.load_steps.rows_are_planned())
-      message << " of " << LoadStepping(scene.load_steps).n_steps();
+      message << " of " << scene.load_steps.n_steps();
     message << " failed at time "
             << (step.by_slip() ? coupled_system.time() : step.whole_time)
             << ", angle "

@@ -142,7 +142,8 @@ namespace Debond
         note("dissipation falls",
              "sliding gives energy back: points slide along their traction "
              "instead of against it");
-      if (energy_balance.is_out_of_balance())
+      if (std::abs(energy_balance.defect()) >
+          energy_balance.defect_bound() + 1e-9)
         note(
           "energy balance",
           Text() << "of the chuck's work, " << energy_balance.defect()
@@ -156,7 +157,7 @@ namespace Debond
 
   StateChecks::StateChecks(const ModelParameters &parameters)
     : parameters(parameters)
-    , way(parameters.chuck)
+    , path(parameters.chuck)
   {}
 
 
@@ -179,12 +180,12 @@ namespace Debond
                           const double       from,
                           const double       to)
   {
-    way.add(chuck, from, to);
-    if (way.missed_share() > ChuckWay::largest_missed_share)
+    path.add(chuck, from, to);
+    if (path.missed_share() > ChuckPath::largest_missed_share)
       note(step,
            "way",
            "steps go straight from state to state, and have missed " +
-             way.describe() +
+             path.describe() +
              " so far: what turns back or goes along a curve needs shorter "
              "steps, or Load steps / Times where it turns");
   }
@@ -200,24 +201,22 @@ namespace Debond
     const Note note = [&](const std::string &check, const std::string &text) {
       this->note(step, check, text);
     };
-    const bool           is_first        = !energy_balance.has_state();
-    const Chuck::Vector6 forces_before   = energy_balance.forces();
-    const Chuck::Vector6 position_before = energy_balance.position();
-    energy_balance.add(system.chuck_forces(),
-                       system.chuck.position(),
-                       system.bulk_energy(),
-                       summary.energy,
-                       system.interface.work().dissipation);
+    const bool        is_first = !energy_balance.has_state();
+    const EnergyState before   = energy_balance.state();
+    energy_balance.add({system.chuck_forces(),
+                        system.chuck.position(),
+                        system.bulk_energy() + summary.energy,
+                        system.interface.work().dissipation});
     // the explicit law does not dissipate what InterfaceWork::friction says
     if (!parameters.interface.explicit_friction)
       check_for_jump(
-        parameters, system, summary, forces_before, released_energy, note);
+        parameters, system, summary, before.forces, released_energy, note);
     check_interface(parameters, system, summary, note);
 
     // Planned turns are divided; jumps and loaded chucks turn as far as they
     // like.
     const double turn =
-      (system.chuck.position() - position_before).tail<3>().norm();
+      (system.chuck.position() - before.position).tail<3>().norm();
     if (!is_first && turn > 1.001 * largest_turn && parameters.has_friction())
       note("turn",
            Text() << "the implant turned by " << turn * 180. / M_PI

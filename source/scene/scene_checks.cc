@@ -4,7 +4,6 @@
 #include <debond/scene/reference_data.h>
 #include <debond/scene/scene.h>
 #include <debond/support/number_text.h>
-#include <debond/system/load_stepping.h>
 
 #include <algorithm>
 #include <cmath>
@@ -134,9 +133,7 @@ namespace Debond
       double              tolerance = 0.;
       if (is_planned)
         {
-          const LoadStepping stepping(load_steps);
-          for (unsigned int step = 0; step <= stepping.n_steps(); ++step)
-            ends.push_back(stepping.time(step));
+          ends      = load_steps.planned_times();
           tolerance = 1e-9 * (times.back() - times.front());
         }
       for (const double end : ends)

@@ -1,5 +1,4 @@
-#include <debond/bulk/chuck.h>
-#include <debond/system/adaptive_stepping.h>
+#include <debond/system/step_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,22 +9,11 @@ namespace Debond
   AdaptiveStepping::begin_phase(const StepState &accepted)
   {
     StepControl::begin_phase(accepted);
-    note_drive(accepted.drive);
+    if (phase == 1)
+      first_drive = accepted.drive;
     current  = accepted.forces;
     greatest = greatest.cwiseMax(current.cwiseAbs());
     set_size(planned);
-  }
-
-
-
-  void
-  AdaptiveStepping::note_drive(const Forces &drive)
-  {
-    if (!has_first_drive)
-      first_drive = drive;
-    has_first_drive = true;
-    for (unsigned int k = 0; k < 6; ++k)
-      is_driven[k] = is_driven[k] || drive[k] != first_drive[k];
   }
 
 
@@ -73,42 +61,37 @@ namespace Debond
 
 
   double
-  AdaptiveStepping::relative_to_tolerance(const Forces &difference,
-                                          const Forces &forces) const
+  AdaptiveStepping::error(const StepState &state) const
   {
-    Forces largest_so_far = greatest.cwiseMax(forces.cwiseAbs());
-    Forces in_newton      = largest_so_far;
-    in_newton.tail<3>() /= radius;
+    // How far the curve is from the straight line through the step before, or,
+    // in the first step, from the chord of this one.
+    const Forces &forces     = state.forces;
+    Forces        difference = middle - 0.5 * (current + forces);
+    if (has_previous)
+      difference =
+        forces - current -
+        (target_time() - time) / (time - previous_time) * (current - previous);
+    // moments are forces at the distance of the radius
+    Forces unit;
+    unit << 1., 1., 1., radius, radius, radius;
+    const Forces largest = greatest.cwiseMax(forces.cwiseAbs());
+    const double of_all  = largest.cwiseQuotient(unit).maxCoeff();
     // A component next to nothing, for instance by symmetry, has no curve.
     // Small reactions to patterns beside the axis have a kink wherever a few
     // points begin to slide: in proportion to themselves they would take three
     // times as many steps as the torque.
-    double error = 0;
+    double deviation = 0;
     for (unsigned int k = 0; k < 6; ++k)
       {
-        const double floor = (is_driven[k] ? 1e-3 : 0.1) * in_newton.maxCoeff();
-        const double scale =
-          std::max(largest_so_far[k], floor * (is_rotation(k) ? radius : 1.));
+        const double floor = (drive_change[k] > 0. ? 1e-3 : 0.1) * of_all;
+        const double scale = std::max(largest[k], floor * unit[k]);
         if (scale > 0.)
-          error = std::max(error, std::abs(difference[k]) / scale);
+          deviation =
+            std::max(deviation,
+                     std::abs(difference[k]) / scale / parameters.tolerance);
       }
-    return error / parameters.tolerance;
-  }
-
-
-
-  double
-  AdaptiveStepping::error(const StepState &state) const
-  {
-    const Forces &forces = state.forces;
     if (!has_previous) // twice: the curve need not be a parabola
-      return 2. *
-             relative_to_tolerance(middle - 0.5 * (current + forces), forces);
-    // from the straight line through the step before
-    const Forces line = current + (target_time() - time) /
-                                    (time - previous_time) *
-                                    (current - previous);
-    const double deviation = relative_to_tolerance(forces - line, forces);
+      return 2. * deviation;
     // A parabola that begins to bend with this step would leave its chord by a
     // quarter of that. Where the curve was straight before it may have a kink
     // anywhere in this step, and leave its chord by nearly all of it.
@@ -129,7 +112,8 @@ namespace Debond
         has_middle = true;
         return false;
       }
-    note_drive(state.drive);
+    drive_change =
+      drive_change.cwiseMax((state.drive - first_drive).cwiseAbs());
     const double error_now = error(state);
     const double taken     = step.time - time;
     if (error_now > 1. && taken > smallest() * (1. + 1e-9))

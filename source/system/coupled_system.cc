@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <sstream>
 
 namespace Debond
@@ -24,6 +25,7 @@ namespace Debond
                            std::make_shared<BodyPair>(parameters))
     , bone(*both_bodies->bone)
     , implant(*both_bodies->implant)
+    , body{{&bone, &implant}}
     , chuck(parameters.chuck,
             Eigen::Vector3d(0, 0, parameters.implant.thickness()),
             parameters.implant.characteristic_radius())
@@ -32,7 +34,7 @@ namespace Debond
     , timer(timer)
     , force_floor(parameters.interface.law().normal->initial_stiffness() *
                   interface.implant_area() * 1e-6 * R)
-    , matrix(bone, implant, interface, configuration, path)
+    , matrix(body, interface, configuration, path)
   {
     configuration.chuck = &chuck;
     path.follow         = parameters.load_steps.follow_path;
@@ -44,27 +46,29 @@ namespace Debond
 
 
 
+  // Where the control points of the two surfaces are in space: x = X + v on the
+  // bone, whose frame stands still, and x = C + u + Q (X - C + v) on the
+  // implant. The contact law sees the bodies through these positions only.
   void
   CoupledSystem::update_configuration()
   {
     configuration.side[Side::bone].positions =
       bone.surface().control_points() + bone.contact_displacement();
-    const auto  v         = implant.contact_displacement();
-    const auto &reference = implant.surface().control_points();
-    auto       &positions = configuration.side[Side::implant].positions;
-    positions.resize(3, reference.cols());
-    for (unsigned int A = 0; A < reference.cols(); ++A)
-      positions.col(A) = chuck.map(reference.col(A), v.col(A));
+    configuration.side[Side::implant].positions =
+      chuck.map_points(implant.surface().control_points(),
+                       implant.contact_displacement());
     configuration.side[Side::implant].frame = chuck.rotation();
   }
 
 
 
+  // The unknowns in their order: those of the bone, of the implant, of the
+  // chuck, and along a path the time. A preconditioner of another system is of
+  // no use any more.
   void
   CoupledSystem::number_unknowns()
   {
-    const std::array<const Body *, 2> body{{&bone, &implant}};
-    unsigned int                      first = 0;
+    unsigned int first = 0;
     for (const Side side : both_sides)
       {
         configuration.side[side].unknown_of = body[side]->unknown_of();
@@ -79,12 +83,13 @@ namespace Debond
         configuration.chuck_unknowns.emplace_back(component, first++);
     path.number = first;
     unknowns    = first + (path.follow ? 1 : 0);
-    residual.setZero(unknowns);
     solver.forget();
   }
 
 
 
+  // Each body is condensed once, on the control points that contact can reach:
+  // all of the implant's face, and what lies under it on the bone.
   void
   CoupledSystem::start(const double time)
   {
@@ -104,29 +109,30 @@ namespace Debond
 
 
 
+  // Where contact has spread to control points of the bone that were condensed
+  // these become unknowns, and S is formed anew with them.
   bool
   CoupledSystem::extend_contact_unknowns()
   {
-    if (!bone.deformable())
+    if (!bone.bulk())
       return false;
-    std::vector<bool>       wanted = bone.contact_control_points();
-    const std::vector<bool> touched =
-      touched_bone_control_points(bone.surface(),
-                                  interface.get_points(),
-                                  interface.slave_side());
-    bool grown = false;
-    for (unsigned int A = 0; A < wanted.size(); ++A)
-      if (touched[A] && !wanted[A])
-        grown = wanted[A] = true;
-    if (!grown)
+    std::vector<bool> wanted = bone.contact_control_points();
+    const auto        add    = [&wanted](const std::vector<bool> &more) {
+      std::transform(wanted.begin(),
+                     wanted.end(),
+                     more.begin(),
+                     wanted.begin(),
+                     std::logical_or<>());
+    };
+    add(touched_bone_control_points(bone.surface(),
+                                    interface.get_points(),
+                                    interface.slave_side()));
+    if (wanted == bone.contact_control_points())
       return false;
     // everything under the implant now, so that this happens seldom
-    const std::vector<bool> under =
-      bone_control_points_under_implant(bone.surface(),
-                                        implant.surface(),
-                                        configuration);
-    for (unsigned int A = 0; A < wanted.size(); ++A)
-      wanted[A] = wanted[A] || under[A];
+    add(bone_control_points_under_implant(bone.surface(),
+                                          implant.surface(),
+                                          configuration));
     const TimedSection t(timer, "condensation");
     bone.set_contact_control_points(wanted);
     number_unknowns();
@@ -139,25 +145,27 @@ namespace Debond
   bool
   CoupledSystem::complete_surfaces()
   {
-    if (!bone.surface_was_left_behind() && !implant.surface_was_left_behind())
-      return false;
-    if (!interface.has_open_points())
+    if ((!bone.surface_was_left_behind() &&
+         !implant.surface_was_left_behind()) ||
+        !interface.has_open_points())
       return false;
     const TimedSection t(timer, "bulk");
-    bone.complete_surface();
-    implant.complete_surface();
+    for (Body *each : body)
+      each->complete_surface();
     return true;
   }
 
 
 
+  // A step begins with a trial state: the accepted one, or the straight line
+  // through the last two. What is prescribed is where the scene wants it.
   void
   CoupledSystem::predict(const double time,
                          const double parameter,
                          const bool   extrapolate)
   {
-    bone.predict(parameter, extrapolate);
-    implant.predict(parameter, extrapolate);
+    for (Body *each : body)
+      each->predict(parameter, extrapolate);
     chuck.predict(parameter, extrapolate);
     chuck.prescribe(time);
     trial_time = time;
@@ -166,30 +174,30 @@ namespace Debond
 
 
 
+  // The opposite of letting the implant's face go along with the chuck: its
+  // displacement in the moving frame undoes the chuck's motion,
+  // v = Q^T (x - C - u) - (X - C).
   void
   CoupledSystem::leave_surface_behind()
   {
-    const auto     &reference = implant.surface().control_points();
-    const auto      v         = implant.contact_displacement();
-    const auto      numbers   = implant.unknown_of();
-    Eigen::VectorXd dv        = Eigen::VectorXd::Zero(implant.n_unknowns());
-    for (unsigned int A = 0; A < reference.cols(); ++A)
-      {
-        const Eigen::Vector3d back =
-          chuck.rotation().transpose() *
-          (interface.accepted_surface(Side::implant).col(A) -
-           chuck.map(reference.col(A), v.col(A)));
-        for (unsigned int c = 0; c < 3; ++c)
-          if (numbers[3 * A + c] >= 0)
-            dv[numbers[3 * A + c]] = back[c];
-      }
-    // the interior follows as if nothing else acted
-    implant.correct(dv,
-                    implant.residual(ControlNet::Zero(3, reference.cols())));
+    const ControlNet back =
+      chuck.rotation().transpose() *
+      (interface.accepted_surface(Side::implant) -
+       chuck.map_points(implant.surface().control_points(),
+                        implant.contact_displacement()));
+    const auto     &numbers = implant.unknown_of();
+    Eigen::VectorXd dv      = Eigen::VectorXd::Zero(implant.n_unknowns());
+    for (unsigned int i = 0; i < numbers.size(); ++i)
+      if (numbers[i] >= 0)
+        dv[numbers[i]] = back.data()[i];
+    implant.correct(implant.correction(dv, {}));
   }
 
 
 
+  // The trial state becomes the accepted one, in all parts at once. The points
+  // are last: open ones are projected anew in the configuration that has just
+  // been accepted.
   void
   CoupledSystem::commit(const double parameter)
   {
@@ -197,8 +205,8 @@ namespace Debond
       const TimedSection t(timer, "bulk");
       // closed points face contact unknowns only
       const bool surface_is_seen = interface.has_open_points();
-      bone.commit(parameter, surface_is_seen);
-      implant.commit(parameter, surface_is_seen);
+      for (Body *each : body)
+        each->commit(parameter, surface_is_seen);
     }
     chuck.commit(parameter);
     update_configuration();
@@ -212,8 +220,8 @@ namespace Debond
   void
   CoupledSystem::rollback()
   {
-    bone.rollback();
-    implant.rollback();
+    for (Body *each : body)
+      each->rollback();
     chuck.rollback();
   }
 
@@ -248,35 +256,35 @@ namespace Debond
     while (extend_contact_unknowns() || complete_surfaces());
 
     const TimedSection t(timer, "bulk");
-    double             norm_squared = 0., interior_squared = 0.;
-    unsigned int       first = 0;
+    result.unknowns.setZero(unknowns);
+    double       norm_squared = 0., interior_squared = 0.;
+    unsigned int first = 0;
     for (const Side side : both_sides)
       {
-        const Body     &body = (side == Side::bone ? bone : implant);
         Body::Residual &part = bulk_residual[side];
         // Q^T turns the forces into the body's frame
-        part = body.residual(configuration.side[side].frame.transpose() *
-                             interface.force(side));
+        part = body[side]->residual(configuration.side[side].frame.transpose() *
+                                    interface.force(side));
         if (!part.valid)
           {
             result.why = std::string("a cell of the ") + name_of(side) +
                          " is turned inside out";
             return result;
           }
-        residual.segment(first, body.n_unknowns()) = part.condensed;
+        result.unknowns.segment(first, body[side]->n_unknowns()) =
+          part.condensed;
         norm_squared += part.norm_squared;
         interior_squared += part.interior_squared;
-        first += body.n_unknowns();
+        first += body[side]->n_unknowns();
       }
 
     // A residual is small compared with the contact force, or, where bodies
     // barely touch, with that of a penetration of 1e-6 R.
     const double force = interface.force(interface.slave_side()).norm();
     result.reference   = std::max(force_floor, force);
-    norm_squared += evaluate_chuck(result.reference);
-    result.norm  = std::sqrt(norm_squared);
-    result.valid = std::isfinite(result.norm) && std::isfinite(force);
-    if (!result.valid)
+    norm_squared += evaluate_chuck(result);
+    result.norm = std::sqrt(norm_squared);
+    if (!std::isfinite(result.norm) || !std::isfinite(force))
       result.why = "the residual is not finite";
     result.interior_share =
       norm_squared > 0. ? interior_squared / norm_squared : 0.;
@@ -285,114 +293,121 @@ namespace Debond
 
 
 
-  // The rows of the chuck and of the time. Moments count as forces at the
-  // distance R. Returns the square of their norm, and raises the reference to
-  // the largest load.
+  // The rows of the chuck: a loaded component is in equilibrium with its load,
+  // one with a compliant machine with the force of the spring (machine_load).
+  // Then, along a path, the row of the time, see PathEquation. Moments count as
+  // forces at the distance R. Returns the square of their norm, and raises the
+  // reference to the largest load.
   double
-  CoupledSystem::evaluate_chuck(double &reference)
+  CoupledSystem::evaluate_chuck(Residual &residual)
   {
     double               norm_squared = 0.;
     const Chuck::Vector6 forces       = chuck_forces();
     for (const auto &[component, number] : configuration.chuck_unknowns)
-      if (chuck.is_prescribed(component))
-        residual[number] = 0.; // along a path q_k is set with the time
-      else
+      if (!chuck.is_prescribed(component)) // along a path it follows the time
         {
-          const double load = chuck.machine_load(component);
-          residual[number]  = forces[component] - load;
-          norm_squared += std::pow(residual[number] / scale_of(component), 2);
-          reference = std::max(reference, std::abs(load) / scale_of(component));
+          const double load         = chuck.machine_load(component);
+          const double force        = forces[component] - load;
+          residual.unknowns[number] = force;
+          norm_squared += std::pow(force / scale_of(component), 2);
+          residual.reference =
+            std::max(residual.reference, std::abs(load) / scale_of(component));
         }
     if (path.follow)
       {
-        residual[path.number] =
-          path.evaluate(interface, configuration, trial_time, reference);
-        norm_squared += std::pow(residual[path.number], 2);
+        const double excess            = path.evaluate(interface,
+                                            configuration,
+                                            trial_time,
+                                            residual.reference);
+        residual.unknowns[path.number] = excess;
+        norm_squared += excess * excess;
       }
     return norm_squared;
   }
 
 
 
-  bool
-  CoupledSystem::is_unsupported() const
+  // One Newton correction (theory.md, section 4),
+  //
+  //   (S + Q^T (df/dx) Q) dv_c = -r,
+  //
+  // bordered by the rows and columns of the chuck's unknown components. The
+  // interior of a body is no part of it: the body says how it follows.
+  CoupledSystem::Correction
+  CoupledSystem::solve(const Residual &residual,
+                       const double    relative_tolerance)
   {
-    bool free_chuck = false;
-    for (const unsigned int k : chuck.unknowns())
-      free_chuck = free_chuck || chuck.machine_stiffness(k) == 0.;
-    return free_chuck && interface.summarise().n_closed == 0;
-  }
-
-
-
-  // One Newton correction: (S + Q^T (df/dx) Q) dv = r, and v - dv.
-  std::optional<std::string>
-  CoupledSystem::solve_and_correct(const double relative_tolerance)
-  {
-    Eigen::VectorXd &correction = last_correction;
+    Correction result;
+    // What pulls at a loaded component is the contact alone: without contact,
+    // or without friction, nothing stops it, and there is no solution.
+    const auto is_loaded = [this](const auto &unknown) {
+      return !chuck.is_prescribed(unknown.first) &&
+             chuck.machine_stiffness(unknown.first) == 0.;
+    };
+    const auto &components = configuration.chuck_unknowns;
+    if (std::any_of(components.begin(), components.end(), is_loaded) &&
+        interface.summarise().n_closed == 0)
+      {
+        result.why = "a loaded chuck has nothing to act against: the bodies "
+                     "are not in contact";
+        return result;
+      }
     {
       const TimedSection t(timer, "dense solve");
-      correction = solver.solve(matrix, residual, relative_tolerance);
+      result.unknowns =
+        -solver.solve(matrix, residual.unknowns, relative_tolerance);
     }
-    if (!correction.allFinite())
+    if (!result.unknowns.allFinite())
+      result.why = "the system of equations is singular";
+    else
+      for (const auto &unknown : components)
+        if (is_loaded(unknown) && std::abs(result.unknowns[unknown.second]) >
+                                    (is_rotation(unknown.first) ? 1. : 10. * R))
+          result.why = std::string("the loaded chuck component ") +
+                       ChuckParameters::names[unknown.first] +
+                       " meets no resistance";
+    if (!result.why.empty())
       {
         solver.forget();
-        return "the system of equations is singular";
+        return result;
       }
-    for (const auto &[component, number] : configuration.chuck_unknowns)
-      if (!chuck.is_prescribed(component) &&
-          chuck.machine_stiffness(component) == 0. &&
-          std::abs(correction[number]) >
-            (is_rotation(component) ? 1. : 10. * R))
-        {
-          solver.forget();
-          return std::string("the loaded chuck component ") +
-                 ChuckParameters::names[component] + " meets no resistance";
-        }
     const TimedSection t(timer, "bulk");
-    correct_bodies(-correction);
-    correct_chuck(-1.);
-    return std::nullopt;
+    unsigned int       first = 0;
+    for (const Side side : both_sides)
+      {
+        const unsigned int n = body[side]->n_unknowns();
+        result.bodies[side] =
+          body[side]->correction(result.unknowns.segment(first, n),
+                                 bulk_residual[side]);
+        first += n;
+      }
+    return result;
   }
 
 
 
+  // v <- v + dv for both bodies, q <- q + dq for the chuck. Along a path the
+  // time is corrected as well, and prescribed components follow it.
   void
-  CoupledSystem::correct_bodies(const Eigen::VectorXd &dv)
+  CoupledSystem::correct(const Correction &correction, const double fraction)
   {
-    const unsigned int n_b = bone.n_unknowns(), n_i = implant.n_unknowns();
-    bone.correct(dv.head(n_b), bulk_residual[Side::bone]);
-    implant.correct(dv.segment(n_b, n_i), bulk_residual[Side::implant]);
-  }
-
-
-
-  void
-  CoupledSystem::correct_chuck(const double factor)
-  {
+    for (const Side side : both_sides)
+      body[side]->correct(fraction * correction.bodies[side]);
     for (const auto &[component, number] : configuration.chuck_unknowns)
       if (!chuck.is_prescribed(component))
-        chuck.correct(component, factor * last_correction[number]);
+        chuck.correct(component, fraction * correction.unknowns[number]);
     if (path.follow)
       {
-        trial_time += factor * last_correction[path.number];
+        trial_time += fraction * correction.unknowns[path.number];
         chuck.prescribe(trial_time);
       }
   }
 
 
 
-  void
-  CoupledSystem::shorten_correction(const double fraction)
-  {
-    bone.shorten_correction(fraction);
-    implant.shorten_correction(fraction);
-    correct_chuck(1. - fraction);
-    last_correction *= fraction;
-  }
-
-
-
+  // A Neo-Hookean bulk is condensed with the tangent of a state that it has
+  // left since. Usually that does: it is strains of 1e-3 away. If not, the
+  // present state takes its place.
   bool
   CoupledSystem::refactor_bulk()
   {
@@ -404,93 +419,101 @@ namespace Debond
 
 
   std::string
-  CoupledSystem::describe_worst_point() const
+  CoupledSystem::describe_worst_point(const Residual &residual) const
   {
-    int          worst = 0;
-    const double value =
-      residual.size() > 0 ? residual.cwiseAbs().maxCoeff(&worst) : 0.;
+    int                worst = -1;
     std::ostringstream text;
+    text << "residual "
+         << (unknowns > 0 ? residual.unknowns.cwiseAbs().maxCoeff(&worst) : 0.);
     for (const Side side : both_sides)
       {
         const auto &numbers = configuration.side[side].unknown_of;
         const auto  found   = std::find(numbers.begin(), numbers.end(), worst);
-        if (residual.size() > 0 && found != numbers.end())
+        if (worst >= 0 && found != numbers.end())
           {
             const unsigned int index = found - numbers.begin();
             const auto x = configuration.side[side].positions.col(index / 3);
-            text << "residual " << value << " N in "
+            text << " N in "
                  << "xyz"[index % 3] << " at the " << name_of(side)
                  << "'s control point at (" << x[0] << ", " << x[1] << ", "
                  << x[2] << ") mm";
           }
       }
     for (const auto &[component, number] : configuration.chuck_unknowns)
-      if (number == static_cast<unsigned int>(worst))
-        text << "residual " << value
-             << (is_rotation(component) ? " N mm" : " N") << " in the chuck's "
+      if (static_cast<int>(number) == worst)
+        text << (is_rotation(component) ? " N mm" : " N") << " in the chuck's "
              << ChuckParameters::names[component];
     return text.str();
   }
 
 
 
-  Chuck::Vector6
-  CoupledSystem::chuck_forces() const
+  namespace
   {
-    Chuck::Vector6 result = Chuck::Vector6::Zero();
-    const auto    &x      = configuration.side[Side::implant].positions;
-    for (unsigned int A = 0; A < x.cols(); ++A)
-      for (unsigned int k = 0; k < 6; ++k)
-        result[k] += interface.force(Side::implant)
-                       .col(A)
-                       .dot(chuck.velocity(k, x.col(A)));
-    return result;
-  }
+    /** Sum of forces [N] and of their moments at the given lever arms [N mm].
+     */
+    Chuck::Vector6
+    resultant(const ControlNet &force, const ControlNet &arm)
+    {
+      Chuck::Vector6 result = Chuck::Vector6::Zero();
+      for (unsigned int A = 0; A < force.cols(); ++A)
+        {
+          const Eigen::Vector3d f = force.col(A), r = arm.col(A);
+          result.head<3>() += f;
+          result.tail<3>() += r.cross(f);
+        }
+      return result;
+    }
+  } // namespace
 
 
 
   Chuck::Vector6
   CoupledSystem::chuck_resultant() const
   {
-    Chuck::Vector6 result = Chuck::Vector6::Zero();
-    const auto    &x      = configuration.side[Side::implant].positions;
-    for (unsigned int A = 0; A < x.cols(); ++A)
-      {
-        const Eigen::Vector3d f = interface.force(Side::implant).col(A);
-        const Eigen::Vector3d r = x.col(A) - chuck.centre();
-        result.head<3>() += f;
-        result.tail<3>() += r.cross(f);
-      }
+    return resultant(interface.force(Side::implant),
+                     configuration.side[Side::implant].positions.colwise() -
+                       chuck.centre());
+  }
+
+
+
+  // What does work on the components q_k: r_k without the load. A rotation
+  // about the axis b_k moves x by b_k x (x - C - u), and f . (b_k x r) = b_k .
+  // (r x f).
+  Chuck::Vector6
+  CoupledSystem::chuck_forces() const
+  {
+    const Chuck::Vector6 total  = chuck_resultant();
+    Chuck::Vector6       result = total;
+    for (unsigned int k = 3; k < 6; ++k)
+      result[k] = chuck.axis(k).dot(total.tail<3>());
     return result;
   }
 
 
 
+  // A check of the whole chain of contact forces, condensation and supports:
+  // what the contact exerts on the implant must come out at its top. It is
+  // computed there from K v, or from the internal forces, and not from the
+  // contact forces. In the implant's frame. A linear body balances moments with
+  // reference lever arms only.
   double
   CoupledSystem::reaction_defect() const
   {
-    if (!implant.deformable())
+    if (!implant.bulk())
       return 0.;
-    // in the implant's frame; a linear body balances moments with reference
-    // lever arms only
-    const Eigen::Vector3d C         = chuck.reference_centre();
-    const auto           &reference = implant.surface().control_points();
-    const auto            v         = implant.contact_displacement();
-    Chuck::Vector6        contact   = Chuck::Vector6::Zero();
-    for (unsigned int A = 0; A < reference.cols(); ++A)
-      {
-        const Eigen::Vector3d f =
-          chuck.rotation().transpose() * interface.force(Side::implant).col(A);
-        Eigen::Vector3d arm = reference.col(A) - C;
-        if (implant.has_current_lever_arms())
-          arm += v.col(A);
-        contact.head<3>() += f;
-        contact.tail<3>() += arm.cross(f);
-      }
+    const Eigen::Vector3d C = chuck.reference_centre();
+    ControlNet arm          = implant.surface().control_points().colwise() - C;
+    if (!implant.has_small_strains())
+      arm += implant.contact_displacement();
+    Chuck::Vector6 contact =
+      resultant(chuck.rotation().transpose() * interface.force(Side::implant),
+                arm);
     Chuck::Vector6 support    = support_reaction(Side::implant, C);
     Chuck::Vector6 difference = contact - support;
-    for (Chuck::Vector6 *resultant : {&contact, &support, &difference})
-      resultant->tail<3>() /= R;
+    for (Chuck::Vector6 *forces : {&contact, &support, &difference})
+      forces->tail<3>() /= R;
     return difference.norm() /
            std::max({contact.norm(), support.norm(), force_floor});
   }

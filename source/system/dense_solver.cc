@@ -15,11 +15,6 @@ namespace Debond
   {
     using DealVector = dealii::Vector<double>;
 
-    Eigen::Map<Eigen::VectorXd>
-    as_eigen(DealVector &v)
-    {
-      return {v.begin(), static_cast<Eigen::Index>(v.size())};
-    }
     Eigen::Map<const Eigen::VectorXd>
     as_eigen(const DealVector &v)
     {
@@ -34,7 +29,8 @@ namespace Debond
       void
       vmult(DealVector &y, const DealVector &x) const
       {
-        as_eigen(y) = product(as_eigen(x));
+        const Eigen::VectorXd result = product(as_eigen(x));
+        std::copy(result.begin(), result.end(), y.begin());
       }
     };
 
@@ -56,19 +52,6 @@ namespace Debond
 
 
 
-  Eigen::VectorXd
-  DenseSolver::factorise_and_solve(const SplitMatrix     &A,
-                                   const Eigen::VectorXd &b)
-  {
-    A.assemble(matrix);
-    lu.compute(matrix);
-    preconditioner = Preconditioner::factorisation;
-    ++factorisations;
-    return lu.solve(b);
-  }
-
-
-
   // Preconditioned from the right with P: (A P^-1) y = b, x = P^-1 y, and with
   // P = B there is no product with B: A B^-1 = 1 + C B^-1.
   bool
@@ -77,17 +60,16 @@ namespace Debond
                        const double           relative_tolerance,
                        Eigen::VectorXd       &x)
   {
-    const bool     with_bulk = preconditioner == Preconditioner::bulk;
     const Operator preconditioned{
       [&](const Eigen::VectorXd &y) -> Eigen::VectorXd {
-        if (with_bulk)
-          return y + A.interface_product(A.solve_bulk(y));
-        return A.product(lu.solve(y));
+        if (is_factorised)
+          return A.product(lu.solve(y));
+        return y + A.interface_product(A.solve_bulk(y));
       }};
     const unsigned int max_iterations =
       !A.can_be_assembled() ? b.size() :
-      with_bulk             ? max_bulk_iterations :
-                              affordable_iterations(b.size());
+      is_factorised         ? affordable_iterations(b.size()) :
+                              max_bulk_iterations;
     dealii::SolverControl           control(max_iterations,
                                   relative_tolerance * b.norm(),
                                   false,
@@ -95,9 +77,8 @@ namespace Debond
     dealii::SolverGMRES<DealVector> gmres(
       control,
       dealii::SolverGMRES<DealVector>::AdditionalData(max_iterations + 2));
-    DealVector y(b.size()), right_hand_side(b.size());
-    as_eigen(right_hand_side) = b;
-    bool converged            = true;
+    DealVector       y(b.size());
+    const DealVector right_hand_side(b.begin(), b.end());
     try
       {
         gmres.solve(preconditioned,
@@ -107,12 +88,11 @@ namespace Debond
       }
     catch (const dealii::SolverControl::NoConvergence &)
       {
-        converged = false;
+        return false;
       }
-    iterations += control.last_step();
-    if (converged)
-      x = with_bulk ? A.solve_bulk(as_eigen(y)) : lu.solve(as_eigen(y)).eval();
-    return converged;
+    x =
+      is_factorised ? lu.solve(as_eigen(y)).eval() : A.solve_bulk(as_eigen(y));
+    return true;
   }
 
 
@@ -125,13 +105,15 @@ namespace Debond
     if (b.size() == 0 || b.isZero(0.))
       return Eigen::VectorXd::Zero(b.size());
     Eigen::VectorXd x;
-    const bool      can_iterate = preconditioner == Preconditioner::bulk ?
-                                    A.bulk_is_regular() :
-                                    lu.rows() == b.size();
+    const bool      can_iterate =
+      is_factorised ? lu.rows() == b.size() : A.bulk_is_regular();
     if (can_iterate && iterate(A, b, relative_tolerance, x))
       return x;
     if (!A.can_be_assembled())
       return Eigen::VectorXd::Constant(b.size(), std::nan(""));
-    return factorise_and_solve(A, b);
+    A.assemble(matrix);
+    lu.compute(matrix);
+    is_factorised = true;
+    return lu.solve(b);
   }
 } // namespace Debond

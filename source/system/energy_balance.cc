@@ -6,33 +6,24 @@
 namespace Debond
 {
   void
-  EnergyBalance::add(const Chuck::Vector6 &forces,
-                     const Chuck::Vector6 &position,
-                     const double          energy_bulk,
-                     const double          energy_interface,
-                     const double          dissipation)
+  EnergyBalance::add(const EnergyState &state)
   {
-    stored     = energy_bulk + energy_interface;
-    dissipated = dissipation;
     if (started)
       {
-        const Chuck::Vector6 dq = position - last_position;
-        W += 0.5 * (forces + last_forces).dot(dq);
-        bound += 0.5 * (forces - last_forces).cwiseAbs().dot(dq.cwiseAbs());
-        // sliding points work along the chords of their ways: tan(a/2) / (a/2)
+        const Chuck::Vector6 dq = state.position - last.position;
+        W += 0.5 * (state.forces + last.forces).dot(dq);
+        bound +=
+          0.5 * (state.forces - last.forces).cwiseAbs().dot(dq.cwiseAbs());
+        // sliding points work along the chords of their paths: tan(a/2) / (a/2)
         // of the turn a is 1 + a^2 / 12 + a^4 / 120 + ...
         const double turn = dq.tail<3>().squaredNorm() / 10.;
-        bound += turn * forces.cwiseAbs().dot(dq.cwiseAbs());
+        bound += turn * state.forces.cwiseAbs().dot(dq.cwiseAbs());
         max_W = std::max(max_W, std::abs(W));
       }
     else
-      {
-        started          = true;
-        first_stored     = stored;
-        first_dissipated = dissipated;
-      }
-    last_forces   = forces;
-    last_position = position;
+      first = state;
+    started = true;
+    last    = state;
   }
 
 
@@ -40,18 +31,10 @@ namespace Debond
   double
   EnergyBalance::defect() const
   {
-    return max_W > 0. ?
-             (W - (stored - first_stored) - (dissipated - first_dissipated)) /
-               max_W :
-             0.;
-  }
-
-
-
-  double
-  EnergyBalance::defect_bound() const
-  {
-    return max_W > 0. ? bound / max_W : 0.;
+    return max_W > 0. ? (W - (last.stored - first.stored) -
+                         (last.dissipated - first.dissipated)) /
+                          max_W :
+                        0.;
   }
 
 
@@ -60,30 +43,14 @@ namespace Debond
   EnergyBalance::dissipates_too_much() const
   {
     // what was stored in the first row may be dissipated as well
-    return dissipated - first_dissipated >
-           W + first_stored + bound + 1e-9 * max_W;
-  }
-
-
-
-  bool
-  EnergyBalance::is_given_back(const double step_dissipation) const
-  {
-    return step_dissipation < -1e-9 * max_W;
-  }
-
-
-
-  bool
-  EnergyBalance::is_out_of_balance() const
-  {
-    return std::abs(defect()) > defect_bound() + 1e-9;
+    return last.dissipated - first.dissipated >
+           W + first.stored + bound + 1e-9 * max_W;
   }
 
 
 
   double
-  ReleasedEnergy::add(const State &state)
+  ReleasedEnergy::add(const EnergyState &state)
   {
     double excess = 0.;
     if (started)
@@ -102,8 +69,8 @@ namespace Debond
           state.bound - last.bound + 1e-6 * largest_work;
         last_change = change;
         last_motion = motion;
-        excess =
-          put_in - (state.stored - last.stored) - (state.spent - last.spent);
+        excess      = put_in - (state.stored - last.stored) -
+                 (state.dissipated - last.dissipated);
         hidden = std::abs(excess) > 1e-3 * 0.5 * change.dot(motion) &&
                  falls_steeply(state, dq);
         if (excess <= bound)
@@ -127,7 +94,7 @@ namespace Debond
   // Whether a force that makes up for some of the work, and against which the
   // machine moves on, has fallen by a fifth of its largest value.
   bool
-  ReleasedEnergy::falls_steeply(const State          &now,
+  ReleasedEnergy::falls_steeply(const EnergyState    &now,
                                 const Chuck::Vector6 &dq) const
   {
     for (unsigned int k = 0; k < 6; ++k)

@@ -92,7 +92,7 @@ namespace Debond
       "Number of planned steps in each phase: one number less than Times. With "
       "Adaptive this sets the largest step. A step that turns the chuck by "
       "more than 5 degrees is divided: sliding points are pulled along the "
-      "chords of their ways.");
+      "chords of their paths.");
     table.add("Adaptive",
               adaptive,
               Allowed::choice("false | true"),
@@ -122,34 +122,80 @@ namespace Debond
   void
   LoadSteppingParameters::check() const
   {
+    const auto refuse = [](const bool         is_mistake,
+                           const std::string &entry,
+                           const std::string &message) {
+      if (is_mistake)
+        throw EntryError("Load steps / " + entry, message);
+    };
     for (std::size_t i = 1; i < times.size(); ++i)
-      if (!(times[i] > times[i - 1]))
-        throw EntryError("Load steps / Times",
-                         to_text(times[i]) + " after " + to_text(times[i - 1]) +
-                           ": times must increase");
-    if (steps.size() + 1 != times.size())
-      throw EntryError("Load steps / Steps",
-                       "one number fewer than in Times is expected: " +
-                         std::to_string(times.size() - 1) + ", not " +
-                         std::to_string(steps.size()));
-    const double n_steps = std::accumulate(steps.begin(), steps.end(), 0.);
-    if (n_steps > 1e7)
-      throw EntryError("Load steps / Steps",
-                       to_text(n_steps) +
-                         " steps are more than the 1e7 allowed");
+      refuse(!(times[i] > times[i - 1]),
+             "Times",
+             to_text(times[i]) + " after " + to_text(times[i - 1]) +
+               ": times must increase");
+    refuse(steps.size() + 1 != times.size(),
+           "Steps",
+           "one number fewer than in Times is expected: " +
+             std::to_string(times.size() - 1) + ", not " +
+             std::to_string(steps.size()));
+    const double n_planned = std::accumulate(steps.begin(), steps.end(), 0.);
+    refuse(n_planned > 1e7,
+           "Steps",
+           to_text(n_planned) + " steps are more than the 1e7 allowed");
     for (std::size_t i = 1; i < times.size(); ++i)
-      if ((times[i] - times[i - 1]) / steps[i - 1] <
-          1e-9 * std::max(std::abs(times[i]), std::abs(times[i - 1])))
-        throw EntryError(
-          "Load steps / Times",
-          std::to_string(steps[i - 1]) + " steps from " +
-            to_text(times[i - 1], 17) + " to " + to_text(times[i], 17) +
-            " are too small to tell their times apart: let the times begin at "
-            "0");
-    if (adaptive && follow_path)
-      throw EntryError("Load steps / Path following",
-                       "it chooses its steps itself: expected Load steps / "
-                       "Adaptive = false");
+      refuse((times[i] - times[i - 1]) / steps[i - 1] <
+               1e-9 * std::max(std::abs(times[i]), std::abs(times[i - 1])),
+             "Times",
+             std::to_string(steps[i - 1]) + " steps from " +
+               to_text(times[i - 1], 17) + " to " + to_text(times[i], 17) +
+               " are too small to tell their times apart: let the times begin "
+               "at 0");
+    refuse(adaptive && follow_path,
+           "Path following",
+           "it chooses its steps itself: expected Load steps / Adaptive = "
+           "false");
+  }
+
+
+
+  unsigned int
+  LoadSteppingParameters::n_steps() const
+  {
+    return std::accumulate(steps.begin(), steps.end(), 0u);
+  }
+
+
+
+  unsigned int
+  LoadSteppingParameters::step_in_phase(unsigned int step) const
+  {
+    for (unsigned int phase = 0; step > steps[phase]; ++phase)
+      step -= steps[phase];
+    return step;
+  }
+
+
+
+  double
+  LoadSteppingParameters::planned_time(const unsigned int phase,
+                                       const unsigned int step_in_phase) const
+  {
+    const double begin = times[phase], end = times[phase + 1];
+    return step_in_phase == steps[phase] ?
+             end :
+             begin + (end - begin) * step_in_phase / steps[phase];
+  }
+
+
+
+  std::vector<double>
+  LoadSteppingParameters::planned_times() const
+  {
+    std::vector<double> planned{times[0]};
+    for (unsigned int phase = 0; phase < steps.size(); ++phase)
+      for (unsigned int i = 1; i <= steps[phase]; ++i)
+        planned.push_back(planned_time(phase, i));
+    return planned;
   }
 
 
@@ -157,20 +203,11 @@ namespace Debond
   std::vector<double>
   LoadSteppingParameters::sample_times() const
   {
-    constexpr unsigned int largest_number = 1000;
-    const unsigned int     n_phases       = steps.size();
+    LoadSteppingParameters coarse = *this;
     const unsigned int     largest_in_phase =
-      std::max(1U, largest_number / n_phases);
-
-    std::vector<double> samples{times[0]};
-    for (unsigned int phase = 0; phase < n_phases; ++phase)
-      {
-        const double       begin = times[phase], end = times[phase + 1];
-        const unsigned int n = std::min(steps[phase], largest_in_phase);
-        for (unsigned int i = 1; i < n; ++i)
-          samples.push_back(begin + (end - begin) * i / n);
-        samples.push_back(end);
-      }
-    return samples;
+      std::max<std::size_t>(1, 1000 / steps.size());
+    for (unsigned int &n : coarse.steps)
+      n = std::min(n, largest_in_phase);
+    return coarse.planned_times();
   }
 } // namespace Debond

@@ -2,23 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <sstream>
 
 namespace Debond
 {
   namespace
   {
-    // Linear systems need no more digits than the step to the tolerance asks
-    // for, and no fewer than quadratic convergence shows.
-    double
-    linear_tolerance(const double error, const double tolerance)
-    {
-      return std::clamp(0.1 * tolerance / error, 1e-9, 1e-3);
-    }
-
-
-
+    // S belongs to the state in which a body was condensed last. For a linear
+    // body that is all there is. For a Neo-Hookean one it is an approximation,
+    // with which the residual of its interior contracts about the strain, a
+    // factor of 1e-3 in each iteration (theory.md, section 4).
+    //
     // The bulk's tangent is stale if the interior's residual, which an exact
     // tangent would reduce quadratically, is what is left of the residual and
     // has not become a tenth of what it was.
@@ -45,33 +39,6 @@ namespace Debond
       const double before =
         *std::min_element(history.begin(), history.end() - 8);
       return recent > 0.5 * before;
-    }
-
-
-
-    std::string
-    describe_failure(const CoupledSystem &system,
-                     const unsigned int   iterations,
-                     const double         error)
-    {
-      std::ostringstream why;
-      why << "no convergence in " << iterations
-          << " iterations, relative residual " << error << ", largest "
-          << system.describe_worst_point();
-      return why.str();
-    }
-
-
-
-    ContactPointMode
-    mode_of(const NewtonOptions &options, const unsigned int iteration)
-    {
-      ContactPointMode mode;
-      mode.frictionless    = options.frictionless;
-      mode.stick_first     = options.stick_first && iteration == 0;
-      mode.touch_tolerance = options.touch_tolerance;
-      mode.duration        = options.duration;
-      return mode;
     }
 
 
@@ -103,12 +70,17 @@ namespace Debond
 
 
 
-    // Halves the last correction until the residual has become smaller; returns
-    // the residual where this ends.
+    // A line search, for a law with corners: between stick and slip the
+    // residual is continuous, but its slope is not, and the tangent of one side
+    // may overshoot on the other for ever.
+    //
+    // Halves the correction until the residual has become smaller; returns the
+    // residual where this ends.
     CoupledSystem::Residual
-    evaluate_shortened(CoupledSystem          &system,
-                       const ContactPointMode &mode,
-                       const double            norm_before)
+    evaluate_shortened(CoupledSystem                   &system,
+                       const CoupledSystem::Correction &correction,
+                       const ContactPointMode          &mode,
+                       const double                     norm_before)
     {
       constexpr double   shortest = 1. / 32., descent = 0.1;
       const unsigned int n_unknowns = system.n_unknowns();
@@ -116,11 +88,11 @@ namespace Debond
       auto               residual   = system.evaluate(mode);
       // with new contact unknowns the old correction means nothing
       while (fraction > shortest && system.n_unknowns() == n_unknowns &&
-             (!residual.valid ||
+             (!residual.why.empty() ||
               residual.norm > (1. - descent * fraction) * norm_before))
         {
-          system.shorten_correction(0.5);
           fraction *= 0.5;
+          system.correct(correction, -fraction);
           residual = system.evaluate(mode);
         }
       return residual;
@@ -128,52 +100,64 @@ namespace Debond
 
 
 
-    // Solves for a correction and applies it. Returns why, if that is
-    // impossible.
-    std::optional<std::string>
-    correct(CoupledSystem                 &system,
-            const NewtonOptions           &options,
-            const ContactPointMode        &mode,
-            const CoupledSystem::Residual &residual,
-            const std::vector<double>     &history)
+    // Solves (S + Q^T (df/dx) Q) dv = -r for the next correction, with a new
+    // tangent of the bulk if the old one is stale.
+    CoupledSystem::Correction
+    find_correction(CoupledSystem             &system,
+                    const NewtonOptions       &options,
+                    const ContactPointMode    &mode,
+                    CoupledSystem::Residual    residual,
+                    const std::vector<double> &history)
     {
       if (bulk_contracts_poorly(history, residual.interior_share))
         {
           if (!system.refactor_bulk())
-            return "the stiffness of a body is not positive definite";
-          system.evaluate(mode); // condensed with the new factor
+            return {{}, {}, "the stiffness of a body is not positive definite"};
+          residual = system.evaluate(mode); // condensed with the new factor
         }
-      if (system.is_unsupported())
-        return "a loaded chuck has nothing to act against: the bodies are "
-               "not in contact";
-      return system.solve_and_correct(
-        linear_tolerance(history.back(), options.residual_tolerance));
+      // Linear systems need no more digits than the step to the tolerance asks
+      // for, and no fewer than quadratic convergence shows.
+      return system.solve(residual,
+                          std::clamp(0.1 * options.residual_tolerance /
+                                       history.back(),
+                                     1e-9,
+                                     1e-3));
     }
   } // namespace
 
 
 
+  // Newton's method for r(v_c, q) = 0. Each round is a residual, four reasons
+  // to stop, and a correction.
   NewtonResult
   solve_newton(CoupledSystem &system, const NewtonOptions &options)
   {
-    NewtonResult  result;
-    CycleDetector cycle_detector;
+    NewtonResult              result;
+    CycleDetector             cycle_detector;
+    CoupledSystem::Correction correction;
     // iteration from which on corrections are shortened; 0: none
     std::size_t cautious_from = 0;
     double      last_norm     = 0.;
     for (unsigned int iteration = 0; true; ++iteration)
       {
         // The residual r = S v_c + Q^T f(v_c) of the state that the last
-        // correction led to.
-        const ContactPointMode mode     = mode_of(options, iteration);
-        const auto             residual = cautious_from > 0 ?
-                                            evaluate_shortened(system, mode, last_norm) :
-                                            system.evaluate(mode);
-        if (!residual.valid)
-          {
-            result.why = residual.why;
-            return result;
-          }
+        // correction led to, by the law of each point (station 7 of
+        // doc/walk.md). In the very first round closed points may have to
+        // stick, whatever their traction: with the tangent of sticking points
+        // the first correction cannot make them cycle.
+        ContactPointMode mode = options.points;
+        mode.stick_first      = mode.stick_first && iteration == 0;
+        const auto residual =
+          cautious_from > 0 ?
+            evaluate_shortened(system, correction, mode, last_norm) :
+            system.evaluate(mode);
+        // No residual: a cell is turned inside out, or a point has found no
+        // solution of its equations.
+        result.why = residual.why;
+        if (!result.why.empty())
+          return result;
+        // Forces are measured by the contact force, so that the tolerance means
+        // the same for a light touch and a heavy load.
         const double error = residual.norm / residual.reference;
         last_norm          = residual.norm;
         result.history.push_back(error);
@@ -185,12 +169,16 @@ namespace Debond
             result.converged = true;
             return result;
           }
-        // Give up early: the step is tried in another way, or halved.
+        // Give up early: another attempt at the step is made, or it is halved.
         if (iteration == options.max_iterations ||
             hopeless(
               {result.history.begin() + cautious_from, result.history.end()}))
           {
-            result.why = describe_failure(system, iteration, error);
+            std::ostringstream why;
+            why << "no convergence in " << iteration
+                << " iterations, relative residual " << error << ", largest "
+                << system.describe_worst_point(residual);
+            result.why = why.str();
             return result;
           }
         // The tangent is exact, but only for the present state of each point.
@@ -200,13 +188,15 @@ namespace Debond
             options.shorten_in_cycles &&
             cycle_detector.sees_cycle(system.interface.statuses(), error))
           cautious_from = iteration;
-        // (S + Q^T (df/dx) Q) dv = -r
-        if (const auto failure =
-              correct(system, options, mode, residual, result.history))
-          {
-            result.why = *failure;
-            return result;
-          }
+        // Otherwise v <- v + dv. What the correction does to the interior of
+        // the bodies belongs to it, so that a part of it can be taken back
+        // above.
+        correction =
+          find_correction(system, options, mode, residual, result.history);
+        result.why = correction.why;
+        if (!result.why.empty())
+          return result;
+        system.correct(correction);
         ++result.iterations;
       }
   }

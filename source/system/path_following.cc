@@ -1,20 +1,10 @@
-#include <debond/system/path_following.h>
+#include <debond/system/step_control.h>
 
 #include <algorithm>
 #include <sstream>
 
 namespace Debond
 {
-  PathFollowing::PathFollowing(const LoadSteppingParameters &parameters,
-                               const double                  largest_slip,
-                               const double                  end_slip)
-    : StepControl(parameters)
-    , largest_slip(largest_slip)
-    , end_slip(end_slip)
-  {}
-
-
-
   void
   PathFollowing::begin_phase(const StepState &accepted)
   {
@@ -40,7 +30,10 @@ namespace Debond
           step.ratio = std::min(step.ratio, planned / last_time_step);
         step.slip = step.ratio * last_slip_step;
         step.time = time + step.ratio * last_time_step;
-        if (time_failed || prefers_slip(step))
+        // where time falls, and where much slides until the end
+        if (time_failed ||
+            (!slip_failed && step.time < end &&
+             (last_time_step <= 0. || step.slip >= 0.25 * largest_slip)))
           return step;
       }
     step.slip  = 0.;
@@ -48,16 +41,6 @@ namespace Debond
     step.ratio = last_time_step > 0. ? (step.time - time) / last_time_step : 0.;
     step.whole_time = step.time;
     return step;
-  }
-
-
-
-  // Where time falls, and where much slides on the way to the end.
-  bool
-  PathFollowing::prefers_slip(const Step &step) const
-  {
-    return !slip_failed && step.time < end &&
-           (last_time_step <= 0. || step.slip >= 0.25 * largest_slip);
   }
 
 
@@ -128,7 +111,7 @@ namespace Debond
   std::string
   PathFollowing::reason_to_end() const
   {
-    if (!has_ended())
+    if (mean_slip < end_slip)
       return StepControl::reason_to_end();
     std::ostringstream reason;
     reason << "the mean sliding distance has reached " << end_slip

@@ -14,11 +14,14 @@ namespace Debond
 
 
 
-  // Near the solution if nothing happens in the step that did not in the last
-  // one.
+  // From the straight line through the last two states: near the solution if
+  // nothing happens in the step that did not in the last one.
   const StepSolver::Attempt StepSolver::extrapolated{true, false, false};
+  // From the last state. The implant goes along with the chuck, and in the
+  // first iteration closed points stick, so that it cannot cycle.
   const StepSolver::Attempt StepSolver::from_rest{false, false, false};
-  // A load that cannot be followed: the machine may have to jump.
+  // A load that cannot be followed: the machine may have to jump, and then a
+  // residual that grows for a while is no reason to shorten corrections.
   const StepSolver::Attempt StepSolver::jump{false, true, false};
   // Beyond every state in which the springs of the machine pull, there is one
   // behind the fall.
@@ -48,6 +51,8 @@ namespace Debond
 
 
 
+  // Nothing has happened before the first time: one attempt, from where the
+  // bodies were placed.
   StepResult
   StepSolver::solve_first()
   {
@@ -62,11 +67,22 @@ namespace Debond
   StepSolver::solve(const Step &step)
   {
     StepResult result;
-    if (!step.by_slip() && turns_too_far(step.whole_time))
+    // A sliding point is pulled along the chord of its path. If that turns too
+    // far from the direction at its end the step is not even tried.
+    const auto turn = [&](const unsigned int k) {
+      return system.chuck.values(step.whole_time)[k] -
+             system.chuck.values(accepted_time)[k];
+    };
+    constexpr auto spin = ChuckComponent::rotation_z;
+    if (!step.by_slip() && parameters.has_friction() &&
+        !parameters.chuck.component[spin].loaded &&
+        std::abs(turn(spin)) > (1. + 1e-9) * largest_turn)
       {
         result.why = "a step may turn the chuck by 5 degrees at most";
         return result;
       }
+    // One attempt after the other, until the state is to be accepted. Their
+    // order is that of what they cost and of how far they may lead away.
     unsigned int iterations = 0;
     for (const Attempt &attempt : attempts(step))
       {
@@ -77,58 +93,6 @@ namespace Debond
       }
     result.iterations = iterations;
     return result;
-  }
-
-
-
-  // Whether the direction of slip would turn too far in a step to @p time.
-  bool
-  StepSolver::turns_too_far(const double time) const
-  {
-    if (parameters.chuck.component[ChuckComponent::rotation_z].loaded ||
-        !parameters.has_friction())
-      return false;
-    const Chuck::Vector6 change =
-      system.chuck.values(time) - system.chuck.values(accepted_time);
-    return std::abs(change[ChuckComponent::rotation_z]) >
-           (1. + 1e-9) * largest_turn;
-  }
-
-
-
-  void
-  StepSolver::start(const Attempt &attempt, const Step &step)
-  {
-    // accepted states are numbered along a path
-    const double parameter =
-      parameters.load_steps.follow_path ? n_steps() + step.ratio : step.time;
-    system.predict(step.time, parameter, attempt.extrapolates);
-    if (step.by_slip())
-      system.prescribe_slip(step.slip);
-    if (attempt.relaxes_machine)
-      system.chuck.relax_machine();
-    if (parameters.load_steps.predictor == Predictor::none)
-      system.leave_surface_behind();
-  }
-
-
-
-  NewtonOptions
-  StepSolver::options(const Attempt &attempt, const Step &step) const
-  {
-    const Predictor predictor = parameters.load_steps.predictor;
-    NewtonOptions   options;
-    options.residual_tolerance = parameters.load_steps.residual_tolerance;
-    // points that stick would pull back at once all of a relaxed machine
-    options.stick_first =
-      !attempt.relaxes_machine &&
-      (predictor == Predictor::stick_first ||
-       (predictor == Predictor::extrapolate && !attempt.extrapolates));
-    options.duration          = step.time - accepted_time;
-    options.shorten_in_cycles = !attempt.jumps;
-    options.touch_tolerance   = 1e-12 * system.R;
-    options.frictionless      = !parameters.has_friction_after(accepted_time);
-    return options;
   }
 
 
@@ -158,17 +122,45 @@ namespace Debond
 
 
 
+  // One attempt: where Newton's method begins, how it goes on, and what is to
+  // be thought of where it ends.
   StepResult
   StepSolver::make(const Attempt &attempt, const Step &step)
   {
-    start(attempt, step);
-    const NewtonResult newton = solve_newton(system, options(attempt, step));
-    StepResult         result;
-    result.converged  = newton.converged;
-    result.why        = newton.why;
-    result.iterations = newton.iterations;
-    result.interface  = system.interface.summarise();
-    result.unique     = result.interface.steepest_softening < 1.;
+    // Where it begins. Accepted states are numbered along a path.
+    const LoadSteppingParameters &load_steps = parameters.load_steps;
+    system.predict(step.time,
+                   load_steps.follow_path ? n_steps() + step.ratio : step.time,
+                   attempt.extrapolates);
+    if (step.by_slip())
+      system.prescribe_slip(step.slip);
+    if (attempt.relaxes_machine)
+      system.chuck.relax_machine();
+    if (load_steps.predictor == Predictor::none)
+      system.leave_surface_behind();
+
+    // How it goes on. Points that stick would pull back at once all of a
+    // relaxed machine.
+    NewtonOptions options;
+    options.residual_tolerance = load_steps.residual_tolerance;
+    options.points.stick_first =
+      !attempt.relaxes_machine &&
+      (load_steps.predictor == Predictor::stick_first ||
+       (load_steps.predictor == Predictor::extrapolate &&
+        !attempt.extrapolates));
+    options.points.duration        = step.time - accepted_time;
+    options.points.touch_tolerance = 1e-12 * system.R;
+    options.points.frictionless = !parameters.has_friction_after(accepted_time);
+    options.shorten_in_cycles   = !attempt.jumps;
+
+    // What became of it. Where the law falls so steeply that the point's
+    // equations have more than one solution, Newton's method finds any of them:
+    // p |d mu/d g_s| / eps_t < 1 is needed at every point (theory.md, section
+    // 3).
+    StepResult result;
+    static_cast<NewtonResult &>(result) = solve_newton(system, options);
+    result.interface                    = system.interface.summarise();
+    result.unique = result.interface.steepest_softening < 1.;
     // smaller steps help only where friction resists the speed
     result.hopeless = result.converged && !result.unique &&
                       parameters.interface.viscosity == 0. &&

@@ -16,10 +16,15 @@ namespace Debond
    *
    * The displacement v is the *trial* state; commit() and rollback() are the
    * only ways to and from the accepted one.
+   *
+   * This class itself is a rigid body: no unknowns, no energy, and whatever
+   * acts on it passes to its supports. Deformable ones are derived from it.
    */
   class Body
   {
   public:
+    /** @p law gives the stress of a body that deforms. */
+    Body(const BodyParameters &parameters, Side side, StressLaw law = nullptr);
     virtual ~Body() = default;
 
     const BodyMesh &
@@ -33,16 +38,20 @@ namespace Debond
       return body_mesh.surface();
     }
     /** How it resists; null: not at all to forces, and completely to moving, as
-     *  a rigid body does, which has no unknowns. */
+     *  a rigid body does. */
     const Bulk *
     bulk() const
     {
       return own_bulk.get();
     }
-    bool
-    deformable() const
+
+    /** Whether its strains are small, if it has any: its tangent is the same in
+     *  every state, and moments balance with the lever arms of the reference
+     *  configuration instead of X + v. */
+    virtual bool
+    has_small_strains() const
     {
-      return own_bulk != nullptr;
+      return true;
     }
 
     /** @name What it brings into the coupled system */
@@ -86,27 +95,30 @@ namespace Debond
     /** Of the trial state under the nodal contact forces @p contact_force
      *  (3 x control points, in the body's frame, [N]). */
     virtual Residual
-    residual(const ControlNet &contact_force) const = 0;
-    /** Moves the unknowns by @p dv, and the interior by what equilibrium asks
-     *  for according to the @p residual of the trial state. */
-    void
-    correct(const Eigen::VectorXd &dv, const Residual &residual)
+    residual(const ControlNet & /*contact_force*/) const
     {
-      uncorrected = v;
-      move(dv, residual);
+      return {};
     }
-    /** Takes back all of the last correction but @p fraction of it. */
-    void
-    shorten_correction(const double fraction)
+    /** The change of the displacement that moves the unknowns by @p dv, and the
+     *  interior by what equilibrium asks for according to the @p residual of
+     *  the trial state; an empty one: as if it were in equilibrium. */
+    virtual Eigen::VectorXd
+    correction(const Eigen::VectorXd & /*dv*/, const Residual &) const
     {
-      v = uncorrected + fraction * (v - uncorrected);
+      return Eigen::VectorXd::Zero(v.size());
+    }
+    /** Adds such a change, or a part of it, to the trial state. */
+    void
+    correct(const Eigen::VectorXd &change)
+    {
+      v += change;
     }
     /** Forms the tangent at the trial state anew. Returns false if it is not
      *  positive definite; the old one is then kept. */
-    virtual bool
+    bool
     refactor()
     {
-      return true;
+      return has_small_strains() || linearise(v);
     }
     //@}
 
@@ -148,10 +160,6 @@ namespace Debond
 
     /** @name What is reported */
     //@{
-    /** Whether moments balance with the lever arms X + v, or, in a linear body,
-     *  with those of the reference configuration. */
-    virtual bool
-    has_current_lever_arms() const = 0;
     /** What the supports exert on the body in its frame, by the @p residual of
      *  the trial state: force [N] and moment about @p centre [N mm]. */
     Eigen::Matrix<double, 6, 1>
@@ -165,8 +173,8 @@ namespace Debond
       return full_displacement(v);
     }
     /** Cauchy stress at the mesh vertices, see Bulk. @p v: of all nodes. */
-    virtual std::vector<Eigen::Matrix3d>
-    vertex_stress(const Eigen::VectorXd &v) const = 0;
+    std::vector<Eigen::Matrix3d>
+    vertex_stress(const Eigen::VectorXd &v) const;
     //@}
 
     /** See serialization.h. */
@@ -183,31 +191,18 @@ namespace Debond
     }
 
   protected:
-    Body(const BodyParameters &parameters, Side side, bool has_bulk);
-
-    virtual void
-    move(const Eigen::VectorXd &dv, const Residual &residual) = 0;
     virtual Eigen::VectorXd
     full_displacement(const Eigen::VectorXd &state) const;
     /** Force and moment of the supports about the origin. */
     virtual Eigen::Matrix<double, 6, 1>
-    reaction_about_origin(const Residual &residual) const = 0;
-    /** Whether a commit() may leave control points behind. */
-    virtual bool
-    surface_is_condensed() const
+    reaction_about_origin(const Residual &) const
     {
-      return false;
+      return Eigen::Matrix<double, 6, 1>::Zero(); // nobody asks a rigid body
     }
     /** Gives the bulk its tangent at @p state, whatever the trial state is.
      *  False if it is not positive definite. */
     virtual bool
     linearise(const Eigen::VectorXd &state);
-    /** Where to linearise with new contact unknowns. */
-    virtual Eigen::VectorXd
-    linearisation_point() const
-    {
-      return Eigen::VectorXd::Zero(v.size());
-    }
     /** Rigid modes m (columns: three translations, three rotations about the
      *  origin) of the points that @p state has moved, at the supports only:
      *  forces R there have the resultants m . R. */
@@ -219,7 +214,6 @@ namespace Debond
     Eigen::VectorXd                v; ///< trial displacement, 3 n_nodes [mm]
     AcceptedState<Eigen::VectorXd> accepted;
     std::vector<unsigned int>      unknown_dofs; ///< 3 node + component
-    std::vector<int>               unknown_numbers;
 
   private:
     void
@@ -228,10 +222,13 @@ namespace Debond
     void
     restore(const std::vector<bool> &contact, const Eigen::VectorXd &state);
 
+    const StressLaw   law;
+    std::vector<int>  unknown_numbers;
     std::vector<bool> is_contact;
+    /** Some of the contact surface's control points are no unknowns. */
+    bool beside_unknowns = false;
     /** The displacement whose tangent the bulk uses; empty: none yet. */
     Eigen::VectorXd linearised_at;
-    Eigen::VectorXd uncorrected; ///< v before the last correct()
     /** Control points did not follow at the last commit(). */
     bool surface_is_stale = false;
   };

@@ -38,7 +38,6 @@ namespace Debond
      *  face on top; the implant is held at its top, contact face at the bottom.
      *  Both contact faces lie in z = 0; that of a cap touches it. */
     BodyMesh(const BodyParameters &parameters, Side side);
-    ~BodyMesh();
 
     const BodyParameters &
     parameters() const
@@ -82,10 +81,20 @@ namespace Debond
     /** Degrees of freedom as the paper counts them: all vertices and, with
      *  NURBS, all control points, three each. */
     unsigned int
-    n_dofs_as_published() const;
-    /** The same less the surface vertices that follow the control points. */
+    n_dofs_as_published() const
+    {
+      return body_parameters.contact_surface == SurfaceKind::nurbs ?
+               3 * n_nodes() :
+               3 * n_vertices();
+    }
+    /** Three for each node but the surface vertices, which follow the control
+     *  points. */
     unsigned int
-    n_unknowns() const;
+    n_unknowns() const
+    {
+      const auto &n = body_parameters.cells;
+      return 3 * (n_nodes() - (n[0] + 1) * (n[1] + 1));
+    }
 
     /** Reference position of a node [mm] (vertices and control points). */
     const Eigen::Vector3d &
@@ -103,7 +112,7 @@ namespace Debond
     bool
     is_tied(unsigned int node) const
     {
-      return tied[node];
+      return node < n_vertices() && lattice[node][2] == 0;
     }
     /** Fills in the tied vertices of a displacement vector (3 n_nodes). */
     void
@@ -134,8 +143,6 @@ namespace Debond
     collect_cells();
     void
     make_constraints();
-    double
-    layer_height(unsigned int layer, double height_of_face) const;
 
     const BodyParameters body_parameters;
     const Side           body_side;
@@ -143,13 +150,13 @@ namespace Debond
 
     /** deal.II's objects: triangulation, element, numbering, constraints. */
     struct Grid;
-    std::unique_ptr<Grid> grid;
+    std::shared_ptr<Grid> grid;
 
     /** Lattice index (i, j, layer from the contact face) of each vertex node.
      */
     std::vector<std::array<unsigned int, 3>> lattice;
     std::vector<Eigen::Vector3d>             reference_positions;
-    std::vector<bool>                        fixed, tied;
+    std::vector<bool>                        fixed;
     std::vector<Cell>                        bulk_cells;
   };
 } // namespace Debond

@@ -1,6 +1,7 @@
 #ifndef debond_bulk_body_parameters_h
 #define debond_bulk_body_parameters_h
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -59,20 +60,32 @@ namespace Debond
     }
     /** Whether the body is a disk seen from above: a coin or a cap. */
     bool
-    is_round() const;
+    is_round() const
+    {
+      return shape != BodyShape::block;
+    }
     /** Height of the body on its axis [mm]. */
     double
-    thickness() const;
+    thickness() const
+    {
+      return is_round() ? height : size[2];
+    }
     /** Size of the contact face along x (0) or y (1), seen from above [mm]. */
     double
-    width(unsigned int direction) const;
+    width(const unsigned int direction) const
+    {
+      return is_round() ? 2. * radius : size[direction];
+    }
     /** Height of the rim of the contact face above its centre [mm]. */
     double
     rise() const;
     /** Radius of a coin or a cap, half the shorter side of a block [mm]: the
      * `R` of expressions and of length tolerances. */
     double
-    characteristic_radius() const;
+    characteristic_radius() const
+    {
+      return 0.5 * std::min(width(0), width(1));
+    }
 
     /** Refuses what makes no sense together. Throws EntryError; @p section is
      *  "Bone" or "Implant". */

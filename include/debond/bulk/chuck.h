@@ -4,7 +4,7 @@
 #include <debond/input/expression_parser.h>
 #include <debond/support/accepted_state.h>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <array>
 #include <functional>
@@ -110,11 +110,20 @@ namespace Debond
     /** Places the implant where the scene wants it at @p time: all components
      *  but the loaded ones, which start at zero. This is the accepted state. */
     void
-    place(double time);
+    place(const double time)
+    {
+      target = values(time);
+      move_to(loaded.select(q, target));
+      accepted = AcceptedState<Vector6>(q);
+    }
     /** Sets the prescribed components of the trial state and the loads to
      *  their values at @p time. */
     void
-    prescribe(double time);
+    prescribe(const double time)
+    {
+      target = values(time);
+      move_to(prescribed.select(target, q));
+    }
     /** The six values of the scene at a time, in internal units (radians). */
     Vector6
     values(double time) const;
@@ -148,11 +157,17 @@ namespace Debond
       return 0.5 * stiffness.dot((target - q).cwiseAbs2());
     }
     void
-    correct(unsigned int component, double dq);
+    correct(const unsigned int component, const double dq)
+    {
+      move_to(q + dq * Vector6::Unit(component));
+    }
     /** Moves components with a compliant machine to where its springs are
      *  relaxed. */
     void
-    relax_machine();
+    relax_machine()
+    {
+      move_to(machine_position());
+    }
     bool
     has_compliant_machine() const
     {
@@ -164,11 +179,20 @@ namespace Debond
       accepted.commit(q, time);
     }
     void
-    rollback();
+    rollback()
+    {
+      move_to(accepted.value);
+    }
     /** Starts from the accepted state; unknown components are extrapolated
      *  linearly to @p time if asked and if two states are known. */
     void
-    predict(double time, bool extrapolate);
+    predict(const double time, const bool extrapolate)
+    {
+      move_to(extrapolate ?
+                Vector6(prescribed.select(accepted.value,
+                                          accepted.extrapolated(time))) :
+                accepted.value);
+    }
 
     /** Q of the trial state. */
     const Eigen::Matrix3d &
@@ -193,13 +217,26 @@ namespace Debond
     {
       return centre() + Q * ((X - C) + v);
     }
+    /** The same for several points, one in each column. */
+    Eigen::Matrix3Xd
+    map_points(const Eigen::Matrix3Xd &X, const Eigen::Matrix3Xd &v) const
+    {
+      return (Q * ((X.colwise() - C) + v)).colwise() + centre();
+    }
 
     /** dx/dq_k of a point at spatial position x: e_k, or b_k x (x - C - u). */
     Eigen::Vector3d
-    velocity(unsigned int k, const Eigen::Vector3d &x) const;
+    velocity(const unsigned int k, const Eigen::Vector3d &x) const
+    {
+      return is_rotation(k) ? axis(k).cross(x - centre()) :
+                              Eigen::Vector3d::Unit(k);
+    }
     /** The same for a direction carried along: 0, or b_k x d. */
     Eigen::Vector3d
-    velocity_of_direction(unsigned int k, const Eigen::Vector3d &d) const;
+    velocity_of_direction(const unsigned int k, const Eigen::Vector3d &d) const
+    {
+      return is_rotation(k) ? axis(k).cross(d) : Eigen::Vector3d::Zero();
+    }
     /** d^2 x / dq_k dq_l. */
     Eigen::Vector3d
     second_derivative(unsigned int           k,
@@ -240,13 +277,13 @@ namespace Debond
     serialize(Archive &archive, const unsigned int)
     {
       archive &q &accepted &target;
-      if (Archive::is_loading::value)
-        update_frame();
+      move_to(q);
     }
 
   private:
+    /** Sets q and all that depends on it. */
     void
-    update_frame();
+    move_to(const Vector6 &position);
 
     const Eigen::Vector3d     C;
     std::vector<TimeFunction> value_functions;

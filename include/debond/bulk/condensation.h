@@ -1,21 +1,16 @@
 #ifndef debond_bulk_condensation_h
 #define debond_bulk_condensation_h
 
-#include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 #include <memory>
 #include <vector>
 
 namespace Debond
 {
-  /** A symmetric sparse matrix, lower triangle in compressed columns with
-   *  sorted rows (CHOLMOD's format with stype = -1). */
-  struct SymmetricSparseMatrix
-  {
-    int                 n = 0;
-    std::vector<int>    column_start, row;
-    std::vector<double> value;
-  };
+  /** A symmetric matrix, of which the lower triangle is stored: compressed
+   *  columns with sorted rows. */
+  using SymmetricSparseMatrix = Eigen::SparseMatrix<double>;
 
   /**
    * Static condensation of a symmetric positive definite matrix K on a few of
@@ -31,24 +26,12 @@ namespace Debond
   class Condensation
   {
   public:
-    Condensation();
-    ~Condensation();
-    Condensation(Condensation &&);
-    Condensation &
-    operator=(Condensation &&);
-
     /** Factorises @p K. @p condensed lists the unknowns c; their order is the
      *  order of the rows of S. Returns false if K is not positive definite
      *  (this object is then unusable until the next successful call). */
     bool
     factorise(const SymmetricSparseMatrix &K,
               const std::vector<int>      &condensed);
-
-    unsigned int
-    n_condensed() const
-    {
-      return n_c;
-    }
 
     /** S, n_c x n_c; formed at every call. */
     Eigen::MatrixXd
@@ -78,16 +61,10 @@ namespace Debond
 
   private:
     struct Cholmod;
-    std::unique_ptr<Cholmod> cholmod;
+    std::shared_ptr<const Cholmod> cholmod;
 
     void
     extract_trailing_block();
-    /** x_i <- L_ii^-1 x_i, x_c <- x_c - L_ci x_i, in the factor's order. */
-    void
-    eliminate_interior(Eigen::VectorXd &x) const;
-    /** x_i <- L_ii^-T (x_i - L_ci^T x_c), in the factor's order. */
-    void
-    recover_interior(Eigen::VectorXd &x) const;
 
     unsigned int     n_total = 0, n_c = 0;
     std::vector<int> permutation; ///< new -> old

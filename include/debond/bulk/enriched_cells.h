@@ -85,13 +85,6 @@ namespace Debond
     gradient_at_points(unsigned int           cell,
                        const Eigen::VectorXd &v,
                        PointValues (&H)[3][3]) const;
-    /** Adds what one cell contributes to internal_forces(). */
-    void
-    add_internal_force(unsigned int           cell,
-                       const Eigen::VectorXd &v,
-                       Eigen::VectorXd       &force,
-                       double                &energy,
-                       double                &smallest_j) const;
 
     const NeoHookean          bulk_material;
     std::vector<unsigned int> n_cell_nodes, first_node, node_list;

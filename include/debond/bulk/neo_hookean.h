@@ -1,6 +1,8 @@
 #ifndef debond_bulk_neo_hookean_h
 #define debond_bulk_neo_hookean_h
 
+#include <Eigen/Core>
+
 #include <cmath>
 
 namespace Debond
@@ -102,20 +104,20 @@ namespace Debond
 
     /** dP_iJ / dF_kL = G (d_ik d_JL + A_iL A_kJ) + Lambda (A_iJ A_kL - ln J
      * A_iL A_kJ), A = F^-T; row 3 i + J, column 3 k + L. */
-    void
-    tangent(const double (&H)[3][3], double (&C)[9][9]) const;
+    Eigen::Matrix<double, 9, 9>
+    tangent(const double (&H)[3][3]) const;
 
     /** Cauchy stress, Eq. (1) [MPa]. */
-    void
-    cauchy_stress(const double (&H)[3][3], double (&sigma)[3][3]) const;
+    Eigen::Matrix3d
+    cauchy_stress(const double (&H)[3][3]) const;
 
     /** The linear law of the same moduli: sigma = 2 G eps + Lambda tr eps I. */
-    void
-    linear_stress(const double (&H)[3][3], double (&sigma)[3][3]) const;
+    Eigen::Matrix3d
+    linear_stress(const double (&H)[3][3]) const;
   };
 
   /** Cauchy stress of one of these laws. */
-  using StressLaw = void (NeoHookean::*)(const double (&H)[3][3],
-                                         double (&sigma)[3][3]) const;
+  using StressLaw =
+    Eigen::Matrix3d (NeoHookean::*)(const double (&H)[3][3]) const;
 } // namespace Debond
 #endif

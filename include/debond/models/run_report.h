@@ -46,7 +46,7 @@ namespace Debond
       archive &console &profiles;
     }
 
-    Console                          console;
+    Console                    console;
     std::optional<GrowingFile> torque_curve; ///< from begin() on
 
   private:

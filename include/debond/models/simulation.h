@@ -5,10 +5,8 @@
 #include <debond/output/torque_curve.h>
 #include <debond/scene/scene.h>
 #include <debond/support/input_error.h>
-#include <debond/system/adaptive_stepping.h>
 #include <debond/system/coupled_system.h>
-#include <debond/system/path_following.h>
-#include <debond/system/planned_steps.h>
+#include <debond/system/step_control.h>
 #include <debond/system/step_solver.h>
 
 #include <boost/signals2/signal.hpp>

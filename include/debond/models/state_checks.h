@@ -2,7 +2,7 @@
 #define debond_models_state_checks_h
 
 #include <debond/interface/contact_interface.h>
-#include <debond/system/chuck_way.h>
+#include <debond/system/chuck_path.h>
 #include <debond/system/energy_balance.h>
 
 #include <set>
@@ -82,7 +82,7 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &energy_balance &released_energy &way;
+      archive &energy_balance &released_energy &path;
     }
 
   private:
@@ -92,7 +92,7 @@ namespace Debond
     const ModelParameters &parameters;
     EnergyBalance          energy_balance;
     ReleasedEnergy         released_energy;
-    ChuckWay               way;
+    ChuckPath              path;
     std::set<std::string>  violated; ///< since the last row
     std::vector<Warning>   found;    ///< since they were taken
   };

@@ -5,12 +5,9 @@
 #include <debond/bulk/chuck.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/system/coupled_tangent.h>
-#include <debond/system/dense_solver.h>
 #include <debond/system/model_parameters.h>
-#include <debond/system/path_equation.h>
 
 #include <memory>
-#include <optional>
 #include <string>
 
 namespace dealii
@@ -25,9 +22,8 @@ namespace Debond
   {
     explicit BodyPair(const ModelParameters &parameters);
 
-    std::unique_ptr<Body> bone, implant;
-    /** Seconds that a study has spent on them for all variants that use them.
-     */
+    const std::unique_ptr<Body> bone, implant;
+    /** Seconds that a study took for them, for all variants that use them. */
     double seconds_shared = 0;
   };
 
@@ -77,9 +73,13 @@ namespace Debond
       return unknowns;
     }
 
-    /** Starts a step to @p time from the accepted state. */
+    /** Starts a step to @p time from the accepted state, on the line through
+     *  the last two if @p extrapolate; @p parameter is what that is drawn over,
+     *  and what was given to commit() with them. */
     void
-    predict(double time, bool extrapolate)
+    predict(double time, double parameter, bool extrapolate);
+    void
+    predict(const double time, const bool extrapolate)
     {
       predict(time, time, extrapolate);
     }
@@ -87,11 +87,6 @@ namespace Debond
      *  the accepted state, after predict(). */
     void
     leave_surface_behind();
-    /** The same as predict() with another parameter than the time for the line
-     *  through the last two accepted states: what was given to commit() with
-     *  them. */
-    void
-    predict(double time, double parameter, bool extrapolate);
     /** To be called after predict() with a guess of the time: the step grows
      *  the mean sliding distance by @p slip [mm], and the time is found. Only
      *  where the scene follows the path. */
@@ -107,50 +102,48 @@ namespace Debond
 
     struct Residual
     {
-      bool valid = false; ///< false: no residual could be formed, see why
-      std::string why;
-      double      norm      = 0; ///< Euclidean norm of the whole residual [N]
-      double      reference = 0; ///< norm of the contact forces [N]
-      double      interior_share =
-        0; ///< part of norm^2 that the bulk's interior makes up
+      std::string why; ///< no residual could be formed; else empty
+      /** In the contact unknowns of the bone, those of the implant and the
+       *  unknown chuck components [N, N mm]. */
+      Eigen::VectorXd unknowns;
+      double          norm = 0; ///< Euclidean norm of the whole residual [N]
+      double          reference = 0; ///< norm of the contact forces [N]
+      /** Part of norm^2 that the bulk's interior makes up. */
+      double interior_share = 0;
     };
     /** Contact forces and residual of the trial state. Makes control points
      *  contact unknowns where contact has spread to new ones. */
     Residual
     evaluate(const ContactPointMode &mode);
 
-    /** Residual of the last evaluate() in the contact unknowns of the bone,
-     *  those of the implant and the unknown chuck components [N, N mm]. */
-    const Eigen::VectorXd &
-    residual_vector() const
-    {
-      return residual;
-    }
-    /** Its derivative. */
+    /** Derivative of the residual of the last evaluate(). */
     const CoupledTangent &
     tangent() const
     {
       return matrix;
     }
 
-    /** Solves for the Newton correction to @p relative_tolerance and applies
-     *  it. If that is impossible nothing is applied; returns why. */
-    std::optional<std::string>
-    solve_and_correct(double relative_tolerance);
-    /** Takes back all of the last correction but @p fraction of it; evaluate()
-     *  is to follow. Fractions of several calls multiply. */
+    /** A change of the trial state. */
+    struct Correction
+    {
+      Eigen::VectorXd unknowns; ///< of the system
+      /** Displacements of the two bodies, the interior included [mm]. */
+      std::array<Eigen::VectorXd, 2> bodies;
+      std::string                    why; ///< there is none; else empty
+    };
+    /** Newton's correction for the @p residual of the last evaluate(), solved
+     *  for to @p relative_tolerance. */
+    Correction
+    solve(const Residual &residual, double relative_tolerance);
+    /** Adds @p fraction of a correction to the trial state. */
     void
-    shorten_correction(double fraction);
+    correct(const Correction &correction, double fraction = 1.);
     /** Time of the trial state. */
     double
     time() const
     {
       return trial_time;
     }
-    /** True if a loaded chuck component has nothing to act against because no
-     *  point is in contact. */
-    bool
-    is_unsupported() const;
     /** Forms and condenses the bulk tangents at the trial state. False if one
      *  is not positive definite. */
     bool
@@ -164,9 +157,9 @@ namespace Debond
       return path.follow ? interface.mean_slip(configuration).value : 0.;
     }
 
-    /** Where the residual of the last evaluate() is largest, for messages. */
+    /** Where a residual of the present state is largest, for messages. */
     std::string
-    describe_worst_point() const;
+    describe_worst_point(const Residual &residual) const;
 
     /** Generalised forces sum_A f_A . dx_A/dq_k of the trial state: what the
      *  chuck exerts on the implant, conjugate to its six components [N, N mm].
@@ -189,31 +182,21 @@ namespace Debond
     Chuck::Vector6
     support_reaction(const Side side, const Eigen::Vector3d &centre) const
     {
-      return (side == Side::bone ? bone : implant)
-        .support_reaction(centre, bulk_residual[side]);
+      return body[side]->support_reaction(centre, bulk_residual[side]);
     }
-    /** Moves the unknowns of both bodies by @p dv, their part of a vector of
-     *  all unknowns, from that state. */
-    void
-    correct_bodies(const Eigen::VectorXd &dv);
     /** |contact resultant - reaction of the supports| of the implant relative
      *  to the larger of the two, moments divided by R: 0 for a rigid implant.
      */
     double
     reaction_defect() const;
 
-    Body            &bone, &implant;
-    Chuck            chuck;
-    ContactInterface interface;
+    Body                       &bone, &implant;
+    const std::array<Body *, 2> body; ///< the two by their side
+    Chuck                       chuck;
+    ContactInterface            interface;
     /** Surfaces in space as of the last evaluate() or commit(). */
     InterfaceConfiguration configuration;
     const double           R; ///< characteristic radius of the implant [mm]
-
-    const DenseSolver &
-    linear_solver() const
-    {
-      return solver;
-    }
 
     /** See serialization.h. To be called after start() and commit(). */
     template <class Archive>
@@ -236,7 +219,7 @@ namespace Debond
     void
     update_configuration();
     double
-    evaluate_chuck(double &reference);
+    evaluate_chuck(Residual &residual);
     void
     number_unknowns();
     bool
@@ -248,15 +231,10 @@ namespace Debond
     {
       return is_rotation(chuck_component) ? R : 1.;
     }
-    /** Moves the chuck and, along a path, the time by @p factor times the last
-     *  correction. */
-    void
-    correct_chuck(double factor);
 
     dealii::TimerOutput *const timer;
     unsigned int               unknowns    = 0;
     double                     force_floor = 0; ///< [N]
-    Eigen::VectorXd            residual, last_correction;
     /** Of each body in the last evaluate(). */
     std::array<Body::Residual, 2> bulk_residual;
     DenseSolver                   solver;

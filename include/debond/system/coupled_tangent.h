@@ -2,11 +2,52 @@
 #define debond_system_coupled_tangent_h
 
 #include <debond/bulk/body.h>
+#include <debond/bulk/chuck.h>
+#include <debond/interface/contact_interface.h>
 #include <debond/system/dense_solver.h>
-#include <debond/system/path_equation.h>
 
 namespace Debond
 {
+  /**
+   * What it takes to follow a path of equilibrium: all six chuck components and
+   * the time are unknowns of the coupled system then, with the equations q_k =
+   * value_k(time) for prescribed components and, for the time, that it or the
+   * mean sliding distance has a given value.
+   */
+  struct PathEquation
+  {
+    bool         follow = false;
+    unsigned int number = 0; ///< of the time among the unknowns
+    /** Growth of the mean slip in this step [mm]; 0: the time is given. */
+    double slip     = 0;
+    double old_slip = 0; ///< mean slip of the accepted state [mm]
+    /** Of the equations q_k [N/mm, N mm]. */
+    Chuck::Vector6 stiffness = Chuck::Vector6::Zero();
+
+    /** Returns the residual of the equation for the time, in a trial state at
+     *  @p time, in units of force: the whole slip step weighs as much as
+     *  @p reference [N]. Keeps the derivatives for apply(). */
+    double
+    evaluate(const ContactInterface       &interface,
+             const InterfaceConfiguration &configuration,
+             double                        time,
+             double                        reference);
+
+    /** Completes the product @p y of the tangent with @p x by the rows of
+     *  prescribed components, the column of the time, and its row. */
+    void
+    apply(const InterfaceConfiguration &configuration,
+          const Eigen::VectorXd        &x,
+          Eigen::Ref<Eigen::VectorXd>   y) const;
+
+  private:
+    /** d equation / d unknowns, of the last evaluate(). */
+    Eigen::VectorXd gradient;
+    Chuck::Vector6  rates; ///< of the scene's values, by time
+  };
+
+
+
   /**
    * The tangent of the coupled system in the contact unknowns of the bone,
    * those of the implant and the unknown chuck components, as the Newton
@@ -17,11 +58,15 @@ namespace Debond
   {
   public:
     /** Keeps references to everything. */
-    CoupledTangent(const Body                   &bone,
-                   const Body                   &implant,
+    CoupledTangent(const std::array<Body *, 2>  &bodies,
                    const ContactInterface       &interface,
                    const InterfaceConfiguration &configuration,
-                   const PathEquation           &path);
+                   const PathEquation           &path)
+      : bodies(bodies)
+      , interface(interface)
+      , configuration(configuration)
+      , path(path)
+    {}
 
     Eigen::VectorXd
     product(const Eigen::VectorXd &x) const override;
@@ -30,19 +75,36 @@ namespace Debond
     bool
     can_be_assembled() const override;
     bool
-    bulk_is_regular() const override;
+    bulk_is_regular() const override
+    {
+      return configuration.chuck_unknowns.empty(); // it does not resist those
+    }
     Eigen::VectorXd
     solve_bulk(const Eigen::VectorXd &b) const override;
     void
     assemble(Eigen::MatrixXd &matrix) const override;
 
   private:
+    /** Calls work(bulk, first, n) for the n unknowns of each body that deforms,
+     *  of which the first has the number @p first. */
+    template <typename Work>
+    void
+    for_each_bulk(const Work &work) const
+    {
+      unsigned int first = 0;
+      for (const Body *body : bodies)
+        {
+          if (body->bulk())
+            work(*body->bulk(), first, body->n_unknowns());
+          first += body->n_unknowns();
+        }
+    }
     unsigned int
     size() const;
     void
     add_geometric_part(const Eigen::VectorXd &x, Eigen::VectorXd &y) const;
 
-    const Body                   &bone, &implant;
+    const std::array<Body *, 2>   bodies;
     const ContactInterface       &interface;
     const InterfaceConfiguration &configuration;
     const PathEquation           &path;

@@ -60,27 +60,17 @@ namespace Debond
     void
     forget()
     {
-      preconditioner = Preconditioner::bulk;
+      is_factorised = false;
     }
 
-    unsigned int
-    n_factorisations() const
-    {
-      return factorisations;
-    }
-    unsigned int
-    n_iterations() const
-    {
-      return iterations;
-    }
 
     /** See serialization.h. */
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &preconditioner &factorisations &iterations;
-      if (preconditioner == Preconditioner::factorisation)
+      archive &is_factorised;
+      if (is_factorised)
         {
           archive &matrix;
           if (Archive::is_loading::value)
@@ -89,23 +79,16 @@ namespace Debond
     }
 
   private:
-    enum class Preconditioner
-    {
-      bulk,
-      factorisation
-    };
     bool
     iterate(const SplitMatrix     &A,
             const Eigen::VectorXd &b,
             double                 relative_tolerance,
             Eigen::VectorXd       &x);
-    Eigen::VectorXd
-    factorise_and_solve(const SplitMatrix &A, const Eigen::VectorXd &b);
 
-    Preconditioner                       preconditioner = Preconditioner::bulk;
+    /** The preconditioner is a factorisation and not the bulk. */
+    bool                                 is_factorised = false;
     Eigen::MatrixXd                      matrix;
     Eigen::PartialPivLU<Eigen::MatrixXd> lu;
-    unsigned int                         factorisations = 0, iterations = 0;
   };
 } // namespace Debond
 #endif

@@ -5,6 +5,28 @@
 
 namespace Debond
 {
+  /** What accounts of energy know of an accepted state. */
+  struct EnergyState
+  {
+    /** Generalised forces of the chuck and the motion that they work along, in
+     *  internal units. */
+    Chuck::Vector6 forces     = Chuck::Vector6::Zero();
+    Chuck::Vector6 position   = Chuck::Vector6::Zero();
+    double         stored     = 0; ///< [N mm]
+    double         dissipated = 0; ///< [N mm]
+    double         bound = 0; ///< sum of the errors of the two above [N mm]
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &forces &position &stored &dissipated &bound;
+    }
+  };
+
+
+
   /**
    * The energy balance W = E_bulk + E_interface + D, counted from the first
    * row. W is the work of the chuck, a trapezoid of the generalised forces over
@@ -14,33 +36,22 @@ namespace Debond
   class EnergyBalance
   {
   public:
-    /** Notes an accepted state. Forces and position: generalised, in internal
-     *  units; energies in N mm. */
+    /** Notes an accepted state: the position is the chuck's, and what is stored
+     *  that of bodies and interface. */
     void
-    add(const Chuck::Vector6 &forces,
-        const Chuck::Vector6 &position,
-        double                energy_bulk,
-        double                energy_interface,
-        double                dissipation);
+    add(const EnergyState &state);
 
-    /** @name The last state that was noted, zero before the first one */
-    //@{
     bool
     has_state() const
     {
       return started;
     }
-    const Chuck::Vector6 &
-    forces() const
+    /** The last state that was noted, zero before the first one. */
+    const EnergyState &
+    state() const
     {
-      return last_forces;
+      return last;
     }
-    const Chuck::Vector6 &
-    position() const
-    {
-      return last_position;
-    }
-    //@}
 
     double
     work() const
@@ -52,68 +63,54 @@ namespace Debond
     defect() const;
     /** Bound of the trapezoid's share in defect(). */
     double
-    defect_bound() const;
+    defect_bound() const
+    {
+      return max_W > 0. ? bound / max_W : 0.;
+    }
     /** Dissipated more than was put in, beyond the bound? */
     bool
     dissipates_too_much() const;
     /** Whether sliding gave energy back: @p step_dissipation is
      *  InterfaceWork::step_dissipation. */
     bool
-    is_given_back(double step_dissipation) const;
-    /** Is more missing, or left over, than trapezoids can account for? */
-    bool
-    is_out_of_balance() const;
+    is_given_back(const double step_dissipation) const
+    {
+      return step_dissipation < -1e-9 * max_W;
+    }
 
     /** See serialization.h. */
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &started &last_forces &last_position &W &max_W &bound;
-      archive &stored &dissipated &first_stored              &first_dissipated;
+      archive &started &first &last &W &max_W &bound;
     }
 
   private:
-    bool           started       = false;
-    Chuck::Vector6 last_forces   = Chuck::Vector6::Zero(),
-                   last_position = Chuck::Vector6::Zero();
-    double W = 0, max_W = 0, bound = 0;
-    double stored = 0, dissipated = 0, first_stored = 0, first_dissipated = 0;
+    bool        started = false;
+    EnergyState first, last;
+    double      W = 0, max_W = 0, bound = 0;
   };
 
 
 
   /**
    * Finds steps that jump to another branch of equilibrium. What the machine
-   * puts in is stored by its spring, the bodies and the interface, or spent by
-   * friction along its law; a step that follows a path of equilibrium leaves
-   * nothing else. A step that leaves more than the errors of these sums can
-   * explain has released it without equilibrium: in nature it would become
-   * motion and heat.
+   * puts in is stored by its spring, the bodies and the interface, or
+   * dissipated by friction along its law; a step that follows a path of
+   * equilibrium leaves nothing else. A step that leaves more than the errors of
+   * these sums can explain has released it without equilibrium: in nature it
+   * would become motion and heat.
    */
   class ReleasedEnergy
   {
   public:
-    struct State
-    {
-      Chuck::Vector6 forces;     ///< of the chuck, internal units
-      Chuck::Vector6 position;   ///< of the machine, internal units
-      double         stored = 0; ///< machine, bodies, interface [N mm]
-      double         spent  = 0; ///< work of friction [N mm]
-      double         bound  = 0; ///< sum of the errors of the two above [N mm]
-
-      /** See serialization.h. */
-      template <class Archive>
-      void
-      serialize(Archive &archive, const unsigned int)
-      {
-        archive &forces &position &stored &spent &bound;
-      }
-    };
-    /** Notes an accepted state. Returns what the step to it has released [N
-     *  mm]; 0 if it followed equilibrium. */
+    /** Notes an accepted state: the position is that of the machine, which
+     *  stores energy, too, and what is dissipated the work of friction. Returns
+     *  what the step to it has released [N mm]; 0 if it followed equilibrium.
+     */
     double
-    add(const State &state);
+    add(const EnergyState &state);
 
     /** Whether a force fell so far in the last step that a jump could not be
      * told from a steep fall. */
@@ -122,7 +119,6 @@ namespace Debond
     {
       return hidden;
     }
-
     /** Sum over all steps [N mm]. */
     double
     total() const
@@ -147,10 +143,10 @@ namespace Debond
 
   private:
     bool
-    falls_steeply(const State &now, const Chuck::Vector6 &dq) const;
+    falls_steeply(const EnergyState &now, const Chuck::Vector6 &dq) const;
 
-    bool  started = false;
-    State last;
+    bool        started = false;
+    EnergyState last;
     /** Of forces and position in the last step, absolute. */
     Chuck::Vector6 last_change  = Chuck::Vector6::Zero(),
                    last_motion  = Chuck::Vector6::Zero();

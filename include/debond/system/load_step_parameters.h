@@ -44,8 +44,22 @@ namespace Debond
      */
     void
     check() const;
-    /** The planned times, or an even choice of them if there are many; first
-     *  and last time of each phase included. */
+    /** Number of planned steps; row 0, the first time, is not one of them. */
+    unsigned int
+    n_steps() const;
+    /** Number within its phase, from 1, of planned step @p step; 0 for 0. */
+    unsigned int
+    step_in_phase(unsigned int step) const;
+    /** End of a planned step of a phase (0, 1, ...), or the phase's beginning
+     *  if it is 0. Steps are counted, not accumulated: the times of the phases
+     *  are hit exactly. */
+    double
+    planned_time(unsigned int phase, unsigned int step_in_phase) const;
+    /** The first time and the ends of all planned steps. */
+    std::vector<double>
+    planned_times() const;
+    /** The same, or an even choice of them if there are many; first and last
+     *  time of each phase included. */
     std::vector<double>
     sample_times() const;
 

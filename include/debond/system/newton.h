@@ -13,19 +13,13 @@ namespace Debond
   {
     double       residual_tolerance = 1e-8; ///< relative to the contact force
     unsigned int max_iterations     = 25;
-    /** The first iteration takes every closed point as sticking. */
-    bool stick_first = false;
-    /** Gaps of this size are rounding of positions [mm]: the bodies touch. That
-     *  counts as closed in the first iteration if it is one with stick_first,
-     *  and as open otherwise. */
-    double touch_tolerance = 0;
-    bool   frictionless    = false;
+    /** How points are updated; with stick_first closed points stick in the
+     *  first iteration only. */
+    ContactPointMode points;
     /** Shorten corrections once the states of the points go round in a cycle.
      *  Where the load cannot be followed, only full corrections find the state
      *  that it jumps to. */
     bool shorten_in_cycles = true;
-    /** Of the step [unit of time], for the viscosity. */
-    double duration = 0;
   };
 
   struct NewtonResult
@@ -38,7 +32,11 @@ namespace Debond
   };
 
   /**
-   * Newton's method on the trial state of @p system from where it is. The
+   * Newton's method on the trial state of @p system from where it is, for
+   *
+   *   r(v_c, q) = S v_c + Q^T f(v_c, q) = 0,
+   *
+   * and the rows of the chuck, see CoupledSystem. The
    * interface's tangent is exact; for Neo-Hookean bodies the bulk's is the one
    * that was condensed last, and is formed anew when the bulk's residual
    * shrinks too slowly with it. Where points change between stick and slip

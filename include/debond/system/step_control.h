@@ -93,15 +93,7 @@ namespace Debond
 
     /** Goes to the beginning of the next phase, with the accepted state. */
     virtual void
-    begin_phase(const StepState & /*accepted*/)
-    {
-      time    = parameters.times[phase];
-      end     = parameters.times[phase + 1];
-      planned = (end - time) / parameters.steps[phase];
-      ++phase;
-      // a new phase is not the continuation of the last one
-      has_previous = false;
-    }
+    begin_phase(const StepState &accepted);
 
     /** See serialization.h. */
     template <class Archive>
@@ -117,6 +109,193 @@ namespace Debond
     double time = 0, end = 0;    ///< of the accepted state, of the phase
     double planned      = 0;     ///< size of a planned step
     bool   has_previous = false; ///< a step of this phase has been taken
+  };
+
+
+
+  /**
+   * The planned steps of a scene, each a row, and the sub-steps that they are
+   * cut into. A sub-step is a power of two of its planned step, so that its end
+   * is exact. One that fails is halved; after one that succeeds the next may be
+   * twice as large. Their size is kept from one planned step to the next.
+   */
+  class PlannedSteps : public StepControl
+  {
+  public:
+    using StepControl::StepControl;
+
+    void
+    begin_phase(const StepState &accepted) override;
+    Step
+    next() override;
+    bool
+    take(const Step &step, const StepState &, unsigned int) override;
+    bool
+    reject(const Step &) override;
+    bool
+    row_is_complete() const override
+    {
+      return done == 1.;
+    }
+    std::string
+    reason_to_end() const override
+    {
+      return "all planned steps are done";
+    }
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int version)
+    {
+      StepControl::serialize(archive, version);
+      archive &current &done &size;
+    }
+
+  private:
+    unsigned int current = 0;        ///< in the phase, from 1
+    double       done = 1, size = 1; ///< exact: sums of powers of two
+  };
+
+
+
+  /**
+   * Steps of a size that keeps the curves of the six chuck forces, drawn as
+   * straight lines between the ends of the steps, within a tolerance. The
+   * states at these ends are nearly exact whatever the step; what a large step
+   * loses is the shape of the curve in between.
+   *
+   * The tolerance is relative to the largest value of each curve; where the
+   * machine holds still, for instance against the lateral forces of a bond on
+   * one side, it is relative to a tenth of the largest of all forces if that is
+   * more.
+   *
+   * The error of a step is estimated from the distance of its end from the
+   * straight line through the step before, in the first step of a phase from a
+   * trial in its middle.
+   */
+  class AdaptiveStepping : public StepControl
+  {
+  public:
+    using Forces = Chuck::Vector6;
+
+    /** @p radius makes forces of moments, to compare them with [mm]. */
+    AdaptiveStepping(const LoadSteppingParameters &parameters,
+                     const double                  radius)
+      : StepControl(parameters)
+      , radius(radius)
+    {}
+
+    void
+    begin_phase(const StepState &accepted) override;
+    /** First of all a trial in the middle, in the first step of a phase. */
+    Step
+    next() override;
+    /** Where the curves bend too much between the states before and @p state,
+     *  the step has to be smaller, if it can. */
+    bool
+    take(const Step &, const StepState &state, unsigned int) override;
+    /** Halves the step. */
+    bool
+    reject(const Step &) override;
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int version)
+    {
+      StepControl::serialize(archive, version);
+      archive &size &current &previous &middle &previous_time &previous_error;
+      archive &has_middle &greatest &first_drive              &drive_change;
+    }
+
+  private:
+    double
+    smallest() const;
+    double
+    target_time() const;
+    double
+    error(const StepState &state) const;
+    void
+    set_size(double new_size);
+
+    const double radius;
+    double       size     = 0;
+    Forces       current  = Forces::Zero(); ///< at the beginning of the step
+    Forces       previous = Forces::Zero(); ///< one step before
+    Forces       middle   = Forces::Zero();
+    double       previous_time  = 0;
+    double       previous_error = 0; ///< of the step before
+    bool         has_middle     = false;
+    Forces       greatest       = Forces::Zero(); ///< so far
+    Forces       first_drive    = Forces::Zero();
+    Forces       drive_change   = Forces::Zero(); ///< largest so far
+  };
+
+
+
+  /**
+   * The steps along a path of equilibrium that may snap back. Where points
+   * slide, a step prescribes the mean sliding distance, which only grows, and
+   * the time is found; where little slides, it prescribes the time. A step that
+   * cannot be solved, or whose state is too far away, is tried again with the
+   * other control, and then smaller. No step goes further in time than a
+   * planned one.
+   */
+  class PathFollowing : public StepControl
+  {
+  public:
+    /** The path ends at a mean sliding distance of @p end_slip [mm]; no step is
+     *  larger than @p largest_slip [mm]. */
+    PathFollowing(const LoadSteppingParameters &parameters,
+                  const double                  largest_slip,
+                  const double                  end_slip)
+      : StepControl(parameters)
+      , largest_slip(largest_slip)
+      , end_slip(end_slip)
+    {}
+
+    void
+    begin_phase(const StepState &accepted) override;
+    Step
+    next() override;
+    bool
+    take(const Step      &step,
+         const StepState &state,
+         unsigned int     iterations) override;
+    bool
+    reject(const Step &step) override;
+    bool
+    is_finished() const override
+    {
+      return StepControl::is_finished() || mean_slip >= end_slip;
+    }
+    std::string
+    reason_to_end() const override;
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int version)
+    {
+      StepControl::serialize(archive, version);
+      archive &mean_slip &slip_size           &time_size;
+      archive &last_time_step &last_slip_step &goes_to_end;
+    }
+
+  private:
+    bool
+    reject_time(const Step &step);
+
+    const double largest_slip, end_slip; ///< [mm]
+    double       mean_slip = 0;
+    double       slip_size = 0, time_size = 0; ///< of the next step
+    double       last_time_step = 0, last_slip_step = 0;
+    /** The last slip step would have left the phase. */
+    bool goes_to_end = false;
+    /** What has failed since the last accepted step; the other control is tried
+     *  next. */
+    bool slip_failed = false, time_failed = false;
   };
 } // namespace Debond
 #endif

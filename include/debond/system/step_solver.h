@@ -11,22 +11,19 @@
 namespace Debond
 {
   /** Largest rotation in a step [rad]. A sliding point is pulled along the
-   * chord of its way, at half this angle to its direction at the end: 5 degrees
-   * cost a thousandth of the friction. */
+   * chord of its path, at half this angle to its direction at the end: 5
+   * degrees cost a thousandth of the friction. */
   constexpr double largest_turn = 5. * M_PI / 180.;
 
 
 
   /** What became of a step. */
-  struct StepResult
+  struct StepResult : NewtonResult ///< of the last attempt
   {
-    bool converged = false; ///< the residual of the true law is small enough
-    bool unique    = false; ///< the law had only one solution at every point
+    bool unique = false; ///< the law had only one solution at every point
     /** It cannot be unique in smaller steps either. */
     bool             hopeless = false;
-    std::string      why;            ///< if it is not to be accepted
-    unsigned int     iterations = 0; ///< linear solves of all attempts
-    InterfaceSummary interface;      ///< of the last attempt
+    InterfaceSummary interface; ///< of the last attempt
 
     bool
     is_acceptable() const
@@ -38,9 +35,9 @@ namespace Debond
 
 
   /**
-   * Finds the state at the end of a step: Newton's method, begun in one way
-   * after the other until one leads to a state that is to be accepted. The
-   * state stays a trial until commit(); without one the system is rolled back.
+   * Finds the state at the end of a step by one attempt of Newton's method after
+   * the other, until one leads to a state that is to be accepted. The state
+   * stays a trial until commit(); without one the system is rolled back.
    */
   class StepSolver
   {
@@ -79,7 +76,7 @@ namespace Debond
     }
 
   private:
-    /** A way to begin Newton's method, and to go on. */
+    /** Where Newton's method begins, and how it goes on. */
     struct Attempt
     {
       /** Begins on the line through the last two states. */
@@ -94,14 +91,8 @@ namespace Debond
     std::vector<Attempt>
     attempts(const Step &step) const;
 
-    bool
-    turns_too_far(double time) const;
     StepResult
     make(const Attempt &attempt, const Step &step);
-    void
-    start(const Attempt &attempt, const Step &step);
-    NewtonOptions
-    options(const Attempt &attempt, const Step &step) const;
 
     const ModelParameters &parameters;
     CoupledSystem         &system;

@@ -8,7 +8,6 @@
 #include <debond/support/input_error.h>
 #include <debond/support/runtime.h>
 #include <debond/support/written_files.h>
-#include <debond/system/load_stepping.h>
 
 #include <array>
 #include <cmath>
@@ -175,7 +174,7 @@ Writes a scene of debond as an input of CalculiX.
       , chuck(scene.chuck,
               {0, 0, scene.implant.thickness()},
               scene.implant.characteristic_radius())
-      , stepping(scene.load_steps)
+      , times(scene.load_steps.planned_times())
     {
       if (!chuck.unknowns().empty())
         throw InputError(
@@ -183,11 +182,11 @@ Writes a scene of debond as an input of CalculiX.
           std::string(ChuckParameters::names[chuck.unknowns().front()]) +
           " being loaded or compliant: expected a prescribed "
           "value");
-      if (!chuck.values(stepping.time(0)).isZero())
+      if (!chuck.values(times[0]).isZero())
         throw InputError("calculix_input: CalculiX starts from bodies at rest: "
                          "all components of Chuck must be 0 at the first time");
-      for (unsigned int step = 1; step <= stepping.n_steps(); ++step)
-        if (!chuck.values(stepping.time(step)).segment<2>(3).isZero())
+      for (unsigned int step = 1; step < times.size(); ++step)
+        if (!chuck.values(times[step]).segment<2>(3).isZero())
           throw InputError("calculix_input: only rotations about z are "
                            "compared: expected Chuck / Rotation x and y = 0");
     }
@@ -204,7 +203,7 @@ Writes a scene of debond as an input of CalculiX.
       write_material(out, scene.implant, "IMPLANT");
       write_contact(out);
       write_fixed_nodes(out);
-      for (unsigned int step = 1; step <= stepping.n_steps(); ++step)
+      for (unsigned int step = 1; step < times.size(); ++step)
         write_step(out, step);
     }
 
@@ -343,8 +342,8 @@ Writes a scene of debond as an input of CalculiX.
     void
     write_step(std::ostream &out, const unsigned int step)
     {
-      const double time     = stepping.time(step);
-      const double duration = time - stepping.time(step - 1);
+      const double time     = times[step];
+      const double duration = time - times[step - 1];
       chuck.prescribe(time);
       out << "** step, time, angle [deg]: " << step << ' ' << to_text(time)
           << ' ' << to_text(chuck.position()[5] * 180 / M_PI) << '\n'
@@ -362,12 +361,12 @@ Writes a scene of debond as an input of CalculiX.
       out << "*NODE PRINT, NSET=TOP, FREQUENCY=10000\nRF\n*END STEP\n";
     }
 
-    const Scene        scene;
-    const std::string  element;
-    const BodyMesh     bone, implant;
-    const Nodes        bone_nodes, implant_nodes;
-    Chuck              chuck;
-    const LoadStepping stepping;
+    const Scene               scene;
+    const std::string         element;
+    const BodyMesh            bone, implant;
+    const Nodes               bone_nodes, implant_nodes;
+    Chuck                     chuck;
+    const std::vector<double> times;
   };
 
 

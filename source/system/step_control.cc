@@ -1,9 +1,30 @@
-#include <debond/system/planned_steps.h>
+#include <debond/system/step_control.h>
 
 #include <cmath>
 
 namespace Debond
 {
+  void
+  StepControl::begin_phase(const StepState & /*accepted*/)
+  {
+    time    = parameters.times[phase];
+    end     = parameters.times[phase + 1];
+    planned = (end - time) / parameters.steps[phase];
+    ++phase;
+    has_previous = false; // it is not the continuation of the last one
+  }
+
+
+
+  void
+  PlannedSteps::begin_phase(const StepState &accepted)
+  {
+    StepControl::begin_phase(accepted);
+    current = 0;
+  }
+
+
+
   Step
   PlannedSteps::next()
   {
@@ -12,7 +33,8 @@ namespace Debond
         ++current;
         done = 0.;
       }
-    const double from = plan.time(current - 1), to = plan.time(current);
+    const double from = parameters.planned_time(phase - 1, current - 1);
+    const double to   = parameters.planned_time(phase - 1, current);
     Step         step;
     step.extrapolate = has_previous;
     step.time = done + size == 1. ? to : from + (to - from) * (done + size);

@@ -1,8 +1,8 @@
-// Steps go straight from state to state: how much of the chuck's way they miss
+// Steps go straight from state to state: how much of the chuck's path they miss
 // when it turns back within a step, or goes along a curve.
 
 #include <debond/bulk/chuck.h>
-#include <debond/system/chuck_way.h>
+#include <debond/system/chuck_path.h>
 
 #include <cmath>
 #include <iostream>
@@ -18,12 +18,12 @@ missed_share(const unsigned int     n_steps,
              const bool             aloud = true)
 {
   const Chuck chuck(parameters, Eigen::Vector3d::Zero(), 1.);
-  ChuckWay    way(parameters);
+  ChuckPath   path(parameters);
   for (unsigned int i = 0; i < n_steps; ++i)
-    way.add(chuck, double(i) / n_steps, double(i + 1) / n_steps);
+    path.add(chuck, double(i) / n_steps, double(i + 1) / n_steps);
   if (aloud)
-    std::cout << "  " << way.describe() << std::endl;
-  return way.missed_share();
+    std::cout << "  " << path.describe() << std::endl;
+  return path.missed_share();
 }
 
 

@@ -9,38 +9,6 @@
 
 namespace Debond
 {
-  namespace
-  {
-    /** Differences of angles below this are rounding errors [deg]. */
-    double
-    tolerance_of(const ReferenceCurve &curve)
-    {
-      const auto [lowest, highest] =
-        std::minmax_element(curve.begin(), curve.end());
-      return 1e-9 * std::max(1., highest->first - lowest->first);
-    }
-
-
-
-    /** The rows with an angle of their own, the last of those that share one.
-     */
-    ReferenceCurve
-    without_repeated_angles(const ReferenceCurve &curve)
-    {
-      ReferenceCurve rows;
-      const double   tolerance = curve.empty() ? 0. : tolerance_of(curve);
-      for (const auto &row : curve)
-        if (!rows.empty() &&
-            std::abs(row.first - rows.back().first) <= tolerance)
-          rows.back().second = row.second;
-        else
-          rows.push_back(row);
-      return rows;
-    }
-  } // namespace
-
-
-
   TorqueBand::TorqueBand(const std::vector<ReferenceCurve> &curves)
   {
     // differences of angles below this are rounding errors [deg]

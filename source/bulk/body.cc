@@ -136,7 +136,7 @@ namespace Debond
 
 
   // Vertices of the contact face follow the control points, v_vertex = sum_A
-  // N_A(vertex) v_A (theory.md, section 2).
+  // N_A(vertex) v_A.
   Eigen::VectorXd
   Body::full_displacement(const Eigen::VectorXd &state) const
   {

@@ -315,7 +315,10 @@ namespace Debond
     if (failed == nullptr)
       return "";
     std::ostringstream text;
-    text << "no solution of the friction law at the " << name_of(slave)
+    text << (failed->trial.negative_friction ?
+               "the friction law has a negative coefficient" :
+               "no solution of the friction law")
+         << " at the " << name_of(slave)
          << "'s quadrature point at parameters (" << failed->xi[0] << ", "
          << failed->xi[1] << "), g_s = " << failed->accepted.slip << " mm";
     return text.str();

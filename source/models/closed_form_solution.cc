@@ -245,9 +245,10 @@ namespace Debond
       if (scene.model == ModelKind::foundation)
         {
           refuse_if(!RigidBodiesTorsion::has_unique_solution(disk),
-                    "Interface / Sliding threshold",
-                    "the friction law softens faster than the foundation is "
-                    "stiff, so that the traction would jump");
+                    "Interface / Friction law",
+                    "the law softens faster than the foundation is stiff, so "
+                    "that the traction would jump. What helps: a larger " +
+                      disk.friction->entries_against_fall());
           return std::make_unique<RigidBodiesTorsion>(disk);
         }
       if (scene.model == ModelKind::mathieu)

@@ -49,13 +49,16 @@ namespace Debond
                     << ": trilinear cells lock as it approaches 0.5, so that "
                        "the body is too stiff: compare with finer Cells"});
       // Adaptive steps look at the curve between states, and take the states
-      // to be exact. With viscosity these depend on the step (backward Euler).
-      if (scene.load_steps.adaptive && scene.interface.viscosity > 0.)
+      // to be exact. With friction that depends on the speed these depend on
+      // the step (backward Euler).
+      if (scene.load_steps.adaptive &&
+          (scene.interface.viscosity > 0. ||
+           scene.interface.friction->depends_on_rate()))
         warnings.push_back(
-          {"viscosity",
+          {"rate",
            "Load steps / Tolerance does not cover the error in time of "
-           "Interface / Viscosity, which is of first order in the step: "
-           "compare with smaller Steps"});
+           "friction that depends on the speed, which is of first order in the "
+           "step: compare with smaller Steps"});
       // The pattern of the initial bonding phi_0 belongs to the implant. If the
       // quadrature points are the bone's, they see it where they happen to lie.
       const auto  &report = interface.bonding().report();
@@ -293,6 +296,12 @@ namespace Debond
       message << ". A prescribed load may be more than the interface can "
                  "carry; prescribing the displacement or angle instead, or "
                  "Load steps / Path following = slip, follows the fall";
+    if (scene.interface.friction->depends_on_rate() &&
+        scene.interface.viscosity == 0.)
+      message
+        << ". Where friction falls with the speed faster than the springs "
+           "pull there is no quasi-static solution; Interface / Viscosity "
+           "limits the speed";
     throw RunError(message);
   }
 

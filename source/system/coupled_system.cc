@@ -327,7 +327,7 @@ namespace Debond
 
 
 
-  // One Newton correction (theory.md, section 4),
+  // One Newton correction,
   //
   //   (S + Q^T (df/dx) Q) dv_c = -r,
   //

@@ -11,7 +11,7 @@ namespace Debond
     // S belongs to the state in which a body was condensed last. For a linear
     // body that is all there is. For a Neo-Hookean one it is an approximation,
     // with which the residual of its interior contracts about the strain, a
-    // factor of 1e-3 in each iteration (theory.md, section 4).
+    // factor of 1e-3 in each iteration.
     //
     // The bulk's tangent is stale if the interior's residual, which an exact
     // tangent would reduce quadratically, is what is left of the residual and

@@ -155,8 +155,8 @@ namespace Debond
 
     // What became of it. Where the law falls so steeply that the point's
     // equations have more than one solution, Newton's method finds any of them:
-    // p |d mu/d g_s| / eps_t < 1 is needed at every point (theory.md, section
-    // 3).
+    // p |d mu/d g_s| / eps_t < 1 is needed at every point (doc/model.md,
+    // Uniqueness).
     StepResult result;
     static_cast<NewtonResult &>(result) = solve_newton(system, options);
     result.interface                    = system.interface.summarise();

@@ -66,7 +66,7 @@ namespace Debond
 
   /**
    * Eight trilinear functions, or those of the contact layer (Corbett & Sauer
-   * 2014, theory.md section 2),
+   * 2014),
    *
    *   x = (1-zeta)/2 sum_A N_A(xi,eta) x_A + (1+zeta)/2 sum_a L_a(xi,eta) x_a,
    *

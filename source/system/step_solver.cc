@@ -35,7 +35,7 @@ namespace Debond
   const StepSolver::Attempt StepSolver::jump{false, true, false};
   // Where the springs of the machine are relaxed the chuck stands where the
   // machine does: beyond every state in which they pull. If there is a state of
-  // equilibrium behind the fall of the torque, it lies between there and here.
+  // equilibrium behind the fall of the torque, it lies before this one.
   const StepSolver::Attempt StepSolver::beyond{false, true, true};
 
 

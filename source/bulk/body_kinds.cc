@@ -25,6 +25,8 @@ namespace Debond
       // R = K v, of which the condensed part is S v_c: the interior is in
       // equilibrium, whatever v_c, and has no residual. A residual is one
       // product with S, and neither cells nor the interior are touched.
+      // The energy [N mm] follows from the work of the surface, 1/2 v_c . S
+      // v_c.
       Residual
       residual(const ControlNet &contact_force) const override
       {
@@ -44,8 +46,8 @@ namespace Debond
       }
 
       // The contact unknowns are enough: nobody asks where the interior is
-      // before the end of the step. It would cost two triangular solves with
-      // the large factor in every iteration.
+      // before the end of the step. It would cost a solve with the large factor
+      // in every iteration.
       Eigen::VectorXd
       correction(const Eigen::VectorXd &dv, const Residual &) const override
       {

@@ -30,7 +30,9 @@ namespace Debond
   {
     /**
      * NURBS-enriched hexahedra whose stiffness is factorised by sparse Cholesky
-     * and condensed on the degrees of freedom that contact can reach.
+     * and condensed on the degrees of freedom that contact can reach. A linear
+     * body uses it as a spring of many degrees of freedom, a Neo-Hookean one
+     * as an approximate inverse beside its true internal forces.
      */
     class CondensedBulk : public Bulk
     {
@@ -113,6 +115,7 @@ namespace Debond
       bool
       linearise(const Eigen::VectorXd &v) override
       {
+        // The pattern stays, with the memory that it took: only values change.
         tangent.coeffs().setZero();
         Eigen::MatrixXd K;
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
@@ -128,6 +131,8 @@ namespace Debond
                 if (numbers[j] >= 0 && numbers[i] >= numbers[j])
                   tangent.coeffRef(numbers[i], numbers[j]) += K(i, j);
           }
+        // The unknowns are those of the last set_contact(): condensing is where
+        // their choice takes effect.
         Condensation attempt;
         if (!attempt.factorise(tangent, contact))
           return false;
@@ -169,6 +174,8 @@ namespace Debond
       Bulk::Residual
       condense(const Eigen::VectorXd &r) const override
       {
+        // Tied vertices have no entry of their own: their forces have gone to
+        // the control points, as cells know no other nodes on that face.
         const Eigen::VectorXd free  = r(free_dofs);
         auto                  parts = condensation.forward(free);
         return {std::move(parts.condensed),
@@ -212,7 +219,7 @@ namespace Debond
         Eigen::MatrixXd       y = Eigen::MatrixXd::Zero(x.rows(), x.cols()), K;
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
           {
-            // Gather, multiply, scatter.
+            // Gather, multiply, scatter, as in a matrix-free operator.
             const unsigned int n = cells.n_nodes(cell);
             Eigen::MatrixXd    x_cell(3 * n, x.cols());
             for (unsigned int a = 0; a < n; ++a)
@@ -264,6 +271,8 @@ namespace Debond
                 ++n_cells[vertex];
               }
           }
+        // Every cell counts the same, whatever its volume; each vertex has at
+        // least one.
         for (unsigned int vertex = 0; vertex < mesh.n_vertices(); ++vertex)
           stress[vertex] /= n_cells[vertex];
         return stress;

@@ -216,8 +216,8 @@ namespace Debond
   // A step begins with a trial state: the accepted one, or the straight line
   // through the last two, of which it is the continuation over the time or,
   // along a path, over the number of the step. In 100 steps of the main scene
-  // it takes 105 iterations, and starting from the last state with sticking
-  // points 301 (doc/solution.md, Predictor).
+  // with linear bodies it takes 105 iterations, and starting from the last
+  // state with sticking points 301 (doc/solution.md, Predictor).
   //
   // What is prescribed is put where the scene wants it at once; the residual
   // then holds what that does to the interface. In the implant's frame the

@@ -56,8 +56,8 @@ namespace Debond
     if (predicts)
       list.push_back(extrapolated);
     list.push_back(from_rest); // the prediction may be to blame
-    // With all components prescribed there is nothing that could jump: the
-    // chuck is where the scene wants it.
+    // A chuck that is loaded or compliant may have no state of equilibrium near
+    // the last one, and find one only where it jumps to.
     if (!system.chuck.unknowns().empty())
       list.push_back(jump);
     // With viscosity nothing jumps in steps that are short enough, so that
@@ -72,9 +72,9 @@ namespace Debond
 
 
   // Nothing has happened before the first time: one attempt, from where the
-  // bodies were placed, undeformed. Points that the implant was pushed into the
-  // bone at start from their closest points on the master, and stick in the
-  // first iteration.
+  // bodies were placed, undeformed. Points that are closed there start from
+  // their closest points on the master and, unless another predictor is asked
+  // for, stick in the first iteration.
   StepResult
   StepSolver::solve_first()
   {

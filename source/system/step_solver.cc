@@ -73,8 +73,8 @@ namespace Debond
 
   // Nothing has happened before the first time: one attempt, from where the
   // bodies were placed, undeformed. Points that are closed there start from
-  // their closest points on the master and, unless another predictor is asked
-  // for, stick in the first iteration.
+  // their closest points on the master and, unless the predictor is `rigid` or
+  // `none`, stick in the first iteration.
   StepResult
   StepSolver::solve_first()
   {

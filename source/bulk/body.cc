@@ -5,8 +5,19 @@
 
 #include <Eigen/Geometry>
 
+// A body as the coupled system sees it: a contact face and its resistance. The
+// rigid one is all here; what a linear and a Neo-Hookean one do differently
+// stands in body_kinds.cc.
+//
+// Displacements v [mm] are those in the body's own frame, x = Q (X + v) + c.
+// The frame of the implant turns with its chuck, so that v stays of the size of
+// the elastic deformation, and a stiffness formed at rest stays good in a turn
+// of 360 degrees.
 namespace Debond
 {
+  // Without a law of stress there is no bulk: the body is rigid, its control
+  // points are where the mesh has them, and no unknowns of the coupled system
+  // are its own.
   Body::Body(const BodyParameters &parameters,
              const Side            side,
              const StressLaw       law)
@@ -22,8 +33,9 @@ namespace Debond
 
 
   // Choosing the unknowns is what makes a body ready: K is formed, factorised
-  // and condensed. Bodies that several variants of a study share come here
-  // again with the same unknowns, at rest, and need nothing.
+  // and condensed. It is done at the start, and again when contact spreads.
+  // Bodies that several variants of a study share come here again with the same
+  // unknowns, at rest, and need nothing.
   void
   Body::set_contact_control_points(const std::vector<bool> &contact)
   {
@@ -35,9 +47,12 @@ namespace Debond
     const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(v.size());
     complete_surface(); // what was interior may become an unknown
     number_unknowns(contact);
-    // A Neo-Hookean body is linearised at the accepted state: it is near, and
-    // the trial state may be anything. The reference is always there to fall
-    // back on: the matrix only leads to the solution and does not define it.
+    // A linear body has one K. A Neo-Hookean one is linearised at the accepted
+    // state: it is near, and the trial state may be anything. The reference is
+    // always there to fall back on: the matrix only leads to the solution and
+    // does not define it. At rest K is that of linear elasticity, and not
+    // positive definite only if the mesh or the material is wrong: that is the
+    // fault of an entry of the scene.
     if (!linearise(has_small_strains() ? at_rest : accepted.value) &&
         !linearise(at_rest))
       throw EntryError(
@@ -50,7 +65,11 @@ namespace Debond
 
 
   // The bulk says which degrees of freedom it leaves to the coupled system; the
-  // interface needs those of the control points by their place.
+  // interface needs those of the control points by their place. Control points
+  // come after all vertices, so that 3 (control point) + component is the
+  // number of a degree of freedom less that of the first one. A bulk that
+  // condenses nothing has vertices among its unknowns, too, which the interface
+  // does not see.
   void
   Body::number_unknowns(const std::vector<bool> &contact)
   {
@@ -61,6 +80,8 @@ namespace Debond
     for (unsigned int k = 0; k < unknown_dofs.size(); ++k)
       if (unknown_dofs[k] >= first)
         unknown_numbers[unknown_dofs[k] - first] = k;
+    // Whether there are free control points that are none: the rest of the
+    // bone's face, beyond the reach of contact.
     beside_unknowns = false;
     for (unsigned int i = 0; i < unknown_numbers.size(); ++i)
       if (unknown_numbers[i] < 0 &&
@@ -71,7 +92,8 @@ namespace Debond
 
 
   // K and S at a state, which is remembered: a resumed run has to go on with
-  // the same matrix, down to the last digit.
+  // the same matrix, down to the last digit. A checkpoint holds this state and
+  // not the factor, which is far larger and can be made again from it.
   bool
   Body::linearise(const Eigen::VectorXd &state)
   {
@@ -83,6 +105,9 @@ namespace Debond
 
 
 
+  // Going on from a checkpoint: the same unknowns, the same K as in the run
+  // that wrote it. Another K would lead to the same states up to the tolerance,
+  // but in other iterations and with other last digits.
   void
   Body::restore(const std::vector<bool> &contact, const Eigen::VectorXd &state)
   {
@@ -97,6 +122,9 @@ namespace Debond
 
 
 
+  // v at the control points, one in each column: a view on the end of the
+  // vector, no copy. From these the coupled system has the positions of the
+  // face.
   Eigen::Map<const ControlNet>
   Body::contact_displacement() const
   {
@@ -109,7 +137,9 @@ namespace Debond
 
   // A linear body carries its contact unknowns only from iteration to
   // iteration. The rest of its surface is in equilibrium with them, and costs a
-  // solve with K_ii to know: that is done if an open point may face it.
+  // solve with K_ii to know: that is done if an open point may face it. Else it
+  // is left behind, which is noted, so that it can be made up for when a point
+  // opens.
   void
   Body::commit(const double time, const bool surface_is_seen)
   {
@@ -124,7 +154,9 @@ namespace Debond
 
   // The same later, when a point that has opened looks at the surface beside
   // the contact unknowns. States before it get their shape as well: the line
-  // through them is the next prediction.
+  // through them is the next prediction. No history changes by that: the
+  // contact unknowns, of which the shape is a linear function, stay as they
+  // are.
   void
   Body::complete_surface()
   {
@@ -136,7 +168,8 @@ namespace Debond
 
 
   // Vertices of the contact face follow the control points, v_vertex = sum_A
-  // N_A(vertex) v_A.
+  // N_A(vertex) v_A, Eq. (33). A rigid and a Neo-Hookean body have all the rest
+  // already.
   Eigen::VectorXd
   Body::full_displacement(const Eigen::VectorXd &state) const
   {
@@ -147,6 +180,8 @@ namespace Debond
 
 
 
+  // Cauchy stress [MPa] by the law of the body's kind, for pictures. A rigid
+  // body has forces and no stress: zero stands for that.
   std::vector<Eigen::Matrix3d>
   Body::vertex_stress(const Eigen::VectorXd &state) const
   {
@@ -158,7 +193,9 @@ namespace Debond
 
 
 
-  // Moved from the origin to the centre: M_C = M_O - C x F.
+  // Force [N] and moment [N mm] of the supports, in the body's frame: what a
+  // test bench measures at the top of the implant. Known about the origin, it
+  // is moved to the centre: M_C = M_O - C x F.
   Eigen::Matrix<double, 6, 1>
   Body::support_reaction(const Eigen::Vector3d &centre,
                          const Residual        &residual) const
@@ -170,6 +207,11 @@ namespace Debond
 
 
 
+  // Rigid motions m of the supported degrees of freedom, by which their forces
+  // R are summed up: m_k . R is the force in direction k, or the moment about
+  // axis k through the origin. Six columns over all nodes, zero but at the
+  // supports. A roller, as at the sides of the bone, has an entry for the
+  // component that it holds only.
   Eigen::MatrixXd
   Body::support_modes(const Eigen::VectorXd &state) const
   {
@@ -178,6 +220,7 @@ namespace Debond
       for (unsigned int c = 0; c < 3; ++c)
         if (body_mesh.is_fixed(node, c))
           {
+            // Lever arms X + v; a linear body asks for those at rest.
             const Eigen::Vector3d x =
               body_mesh.reference_position(node) + state.segment<3>(3 * node);
             // component c of e_k and of e_k x x, the latter (x x e_c)_k

@@ -1,5 +1,10 @@
 #include <debond/bulk/body.h>
 
+// The two bodies that deform, from the cheaper to the more accurate one. The
+// paper uses the Neo-Hookean law, Eq. (1), for both bodies. Their strains are
+// about 1e-3 in the body's own frame, so that the Neo-Hookean law changes
+// nothing that is visible in the torque, and takes two to five times as long
+// (doc/speed_and_accuracy.md). Both have the same K at rest.
 namespace Debond
 {
   namespace
@@ -15,11 +20,13 @@ namespace Debond
         : Body(parameters, side, &NeoHookean::linear_stress)
       {}
 
-      // r_c = S v_c + f_c.
+      // r_c = S v_c + f_c [N].
       //
       // R = K v, of which the condensed part is S v_c: the interior is in
-      // equilibrium, whatever v_c, and has no residual. The energy follows from
-      // the work of the surface, 1/2 v_c . S v_c.
+      // equilibrium, whatever v_c, and has no residual. A residual is one
+      // product with S, and neither cells nor the interior are touched.
+      // The energy [N mm] follows from the work of the surface, 1/2 v_c . S
+      // v_c.
       Residual
       residual(const ControlNet &contact_force) const override
       {
@@ -28,6 +35,8 @@ namespace Debond
         result.condensed         = own_bulk->product(v_c);
         result.energy            = 0.5 * v_c.dot(result.condensed);
         const unsigned int first = 3 * body_mesh.n_vertices();
+        // Forces on control points that are no unknowns are left out: there is
+        // no contact, as CoupledSystem extends the unknowns before.
         for (unsigned int k = 0; k < n_unknowns(); ++k)
           if (unknown_dofs[k] >= first)
             result.condensed[k] +=
@@ -37,7 +46,8 @@ namespace Debond
       }
 
       // The contact unknowns are enough: nobody asks where the interior is
-      // before the end of the step.
+      // before the end of the step. It would cost a solve with the large factor
+      // in every iteration.
       Eigen::VectorXd
       correction(const Eigen::VectorXd &dv, const Residual &) const override
       {
@@ -48,7 +58,8 @@ namespace Debond
 
     protected:
       // The equilibrium shape, v_i = -K_ii^-1 K_ic v_c, for pictures and for
-      // the part of the surface that is not in contact.
+      // the part of the surface that is not in contact: a correction by v_c
+      // from rest, without a residual of the interior.
       Eigen::VectorXd
       full_displacement(const Eigen::VectorXd &state) const override
       {
@@ -59,7 +70,13 @@ namespace Debond
 
       // The resultants of the supports are m . K v, m the rigid modes of the
       // fixed degrees of freedom; condensing the row m K gives them per unit of
-      // v_c. Six solves here, and none in the steps to come.
+      // v_c,
+      //
+      //   m K v = (m K_c - m K_i K_ii^-1 K_ic) v_c,
+      //
+      // since the interior follows v_c. Six forward solves here, and none in
+      // the steps to come. Without them each row of the torque curve would need
+      // the interior for the check of the reactions.
       bool
       linearise(const Eigen::VectorXd &state) override
       {
@@ -73,6 +90,8 @@ namespace Debond
         return true;
       }
 
+      // [N, N mm] from the contact unknowns alone, not from the contact forces:
+      // so it can be compared with them.
       Eigen::Matrix<double, 6, 1>
       reaction_about_origin(const Residual &) const override
       {
@@ -99,10 +118,13 @@ namespace Debond
         : Body(parameters, side, &NeoHookean::cauchy_stress)
       {}
 
-      // r~_c = R_c + f - K_ci K_ii^-1 R_i, with the true internal forces
-      // R = int P : dF/dv dV (Eq. 1), and K of the state that was condensed
-      // last: what the interior is still out of balance is handed on to the
-      // surface. The work of the contact forces is theirs, not the body's.
+      // r~_c = R_c + f - K_ci K_ii^-1 R_i [N], with the true internal forces R
+      // = int P : dF/dv dV (Eq. 1), and K of the state that was condensed last:
+      // what the interior is still out of balance is handed on to the surface.
+      // The work of the contact forces is theirs, not the body's.
+      //
+      // It vanishes, together with R_i, at the exact nonlinear solution,
+      // whatever K is; K only says how much of R_i each node of the face feels.
       Residual
       residual(const ControlNet &contact_force) const override
       {
@@ -110,6 +132,8 @@ namespace Debond
         result.internal_force.setZero(v.size());
         result.valid =
           own_bulk->internal_forces(v, result.internal_force, result.energy);
+        // A cell with J <= 0 has no ln J, and the attempt ends here. With
+        // strains of 1e-3 only a step far off its target gets there.
         if (!result.valid)
           return result;
         Eigen::VectorXd r = result.internal_force;
@@ -118,6 +142,8 @@ namespace Debond
         return result;
       }
 
+      // K depends on the state, so there is one to renew, and the lever arms of
+      // the body's own balance of moments are X + v.
       bool
       has_small_strains() const override
       {
@@ -126,6 +152,8 @@ namespace Debond
 
       // dv_i = -K_ii^-1 (R_i + K_ic dv_c): with every correction of the surface
       // the interior moves to where its balance would be if it were linear.
+      // What is left is of the order of the strain, and is seen in the next
+      // residual.
       Eigen::VectorXd
       correction(const Eigen::VectorXd &dv,
                  const Residual        &residual) const override
@@ -134,6 +162,7 @@ namespace Debond
       }
 
     protected:
+      // The internal forces at the supports are what these exert.
       Eigen::Matrix<double, 6, 1>
       reaction_about_origin(const Residual &residual) const override
       {
@@ -144,6 +173,9 @@ namespace Debond
 
 
 
+  // `rigid` without unknowns, `linear` with those of its face, `neo-hookean`
+  // with all of its nodes in the residual: each scene picks what it needs, for
+  // each body by itself.
   std::unique_ptr<Body>
   make_body(const BodyParameters &parameters, const Side side)
   {

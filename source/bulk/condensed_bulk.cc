@@ -7,20 +7,41 @@
 #include <algorithm>
 #include <utility>
 
+// The bulk of a body that deforms: hexahedra with a NURBS face (Corbett and
+// Sauer, Eqs. (33) to (35) of the paper), their stiffness K as a sparse matrix,
+// and its condensation on the contact face.
+//
+// It is deal.II's system_setup and assemble_system for one body, with two
+// differences. The cells have 13 nodes where they touch the contact face, so
+// FEValues cannot describe them and EnrichedCells does. And K is assembled
+// seldom: for a linear body once, unless contact spreads, and for a Neo-Hookean
+// one also when the tangent at hand has become a poor one. What happens in
+// every iteration is products and solves with what has been condensed, and for
+// a Neo-Hookean body its internal forces.
+//
+// Three numberings of degrees of freedom meet here:
+//
+//   dof       3 node + component, control points after vertices;
+//   free      those that no boundary condition fixes: rows of K;
+//   unknown   those of control points that contact can reach: rows of S.
 namespace Debond
 {
   namespace
   {
     /**
      * NURBS-enriched hexahedra whose stiffness is factorised by sparse Cholesky
-     * and condensed on the degrees of freedom that contact can reach.
+     * and condensed on the degrees of freedom that contact can reach. A linear
+     * body uses it as a spring of many degrees of freedom, a Neo-Hookean one
+     * as an approximate inverse beside its true internal forces.
      */
     class CondensedBulk : public Bulk
     {
     public:
-      // Vertices of the contact face follow the control points and belong to no
-      // cell. Cells couple all their degrees of freedom with each other; the
-      // lower triangle is stored, column by column.
+      // Vertices of the contact face follow the control points, v_vertex =
+      // sum_A N_A v_A, and belong to no cell, so that they have no row in K.
+      // Fixed components have none either: supports are homogeneous in the
+      // body's frame, and nothing has to be moved to the right-hand side as
+      // AffineConstraints would.
       CondensedBulk(const BodyMesh &mesh, const NeoHookean &material)
         : mesh(mesh)
         , cells(mesh, material)
@@ -33,7 +54,10 @@ namespace Debond
               free_number[dof] = free_dofs.size();
               free_dofs.push_back(dof);
             }
-        // the pattern of K, which is made once
+        // The pattern of K, which is made once. Cells couple all their degrees
+        // of freedom with each other; the lower triangle is stored, column by
+        // column, as CHOLMOD wants it. Rows of the pattern are columns of K:
+        // entry (j, i), i >= j, is put into row j.
         dealii::DynamicSparsityPattern pattern(free_dofs.size());
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
           {
@@ -45,6 +69,8 @@ namespace Debond
             for (auto i = numbers.begin(); i != numbers.end(); ++i)
               pattern.add_entries(*i, i, numbers.end(), true);
           }
+        // The same as Eigen's matrix, with zeros that stay in the pattern, so
+        // that coeffRef() below never has to insert.
         tangent.resize(free_dofs.size(), free_dofs.size());
         tangent.reserve(pattern.n_nonzero_elements());
         for (int column = 0; column < tangent.cols(); ++column)
@@ -56,8 +82,10 @@ namespace Debond
         tangent.finalize();
       }
 
-      // c: the free components of these control points. Three numberings meet
-      // here: degrees of freedom 3 node + component, free ones, and unknowns.
+      // c: the free components of these control points. Their order here is the
+      // order of the rows of S, and of the body's part in the vector of
+      // unknowns. Components that a support holds on the edge of the face are
+      // no unknowns.
       std::vector<unsigned int>
       set_contact(const std::vector<bool> &control_points) override
       {
@@ -76,16 +104,26 @@ namespace Debond
         return dofs;
       }
 
-      // Assembles the lower triangle of K from the cells' tangents and
-      // condenses it, in another object: a K that is not positive definite
-      // leaves the old one as it is.
+      // Assembles the lower triangle of K = dR/dv [N/mm] at the displacement v
+      // from the cells' tangents and condenses it. At v = 0 it is the stiffness
+      // of linear elasticity with the G and Lambda of Eq. (2).
+      //
+      // The new factor is made in another object: a K that is not positive
+      // definite, as that of a Neo-Hookean body may be far from equilibrium,
+      // leaves the old one as it is for the next attempt at the step. For the
+      // moment both take memory.
       bool
       linearise(const Eigen::VectorXd &v) override
       {
+        // The pattern stays, with the memory that it took: only values change.
         tangent.coeffs().setZero();
         Eigen::MatrixXd K;
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
           {
+            // The cell's K is full and symmetric. Rows of fixed components are
+            // left out, and of each pair of equal entries the one below the
+            // diagonal of the whole matrix is taken; the order of a cell's
+            // nodes is not that of the free numbers.
             const auto numbers = free_numbers(cell);
             cells.tangent(cell, v, K);
             for (unsigned int j = 0; j < numbers.size(); ++j)
@@ -93,6 +131,8 @@ namespace Debond
                 if (numbers[j] >= 0 && numbers[i] >= numbers[j])
                   tangent.coeffRef(numbers[i], numbers[j]) += K(i, j);
           }
+        // The unknowns are those of the last set_contact(): condensing is where
+        // their choice takes effect.
         Condensation attempt;
         if (!attempt.factorise(tangent, contact))
           return false;
@@ -100,6 +140,9 @@ namespace Debond
         return true;
       }
 
+      // S x and S^-1 b: nodal forces [N] at the face that displace it by x
+      // [mm], and the displacement under forces b, with the interior in
+      // equilibrium.
       Eigen::VectorXd
       product(const Eigen::VectorXd &x) const override
       {
@@ -110,6 +153,8 @@ namespace Debond
       {
         return condensation.schur_solve(b);
       }
+      // A condensed bulk couples every unknown with every other one. It has S
+      // as a matrix, if at the price of n_c^3 work.
       bool
       is_dense() const override
       {
@@ -121,10 +166,16 @@ namespace Debond
         return condensation.schur_complement();
       }
 
-      // r_c - K_ci K_ii^-1 r_i, the forward half of a solve with K.
+      // r_c - K_ci K_ii^-1 r_i, the forward half of a solve with K. r is a
+      // vector over all nodes; what stands in its fixed components are
+      // reactions of the supports, which are no residual. The norms are those
+      // of the full vector and of its interior part [N^2], by which Newton's
+      // method judges the state.
       Bulk::Residual
       condense(const Eigen::VectorXd &r) const override
       {
+        // Tied vertices have no entry of their own: their forces have gone to
+        // the control points, as cells know no other nodes on that face.
         const Eigen::VectorXd free  = r(free_dofs);
         auto                  parts = condensation.forward(free);
         return {std::move(parts.condensed),
@@ -134,7 +185,9 @@ namespace Debond
       }
 
       // The other half. backward() solves K_ii x_i = r_i - K_ic x_c; with x =
-      // -dv this is what a correction is to fulfil.
+      // -dv this is what a correction is to fulfil, dv_i = -K_ii^-1 (r_i + K_ic
+      // dv_c). Vertices that follow control points are left at zero here: no
+      // cell asks for them (BodyMesh::distribute).
       Eigen::VectorXd
       correction(const Eigen::VectorXd &dv_c, const Residual &r) const override
       {
@@ -143,6 +196,8 @@ namespace Debond
         return dv;
       }
 
+      // R = int P : dF/dv dV by the true Neo-Hookean law, Eq. (1), cell by cell
+      // and without K.
       bool
       internal_forces(const Eigen::VectorXd &v,
                       Eigen::VectorXd       &force,
@@ -152,8 +207,11 @@ namespace Debond
       }
 
       // K x cell by cell, with the rows of the supports, which the factorised K
-      // does not have. Cells that x leaves at rest, and that is most of them,
-      // are passed over.
+      // does not have: from them a linear body has the reactions of its
+      // supports. Cells that x leaves at rest, and that is most of them, are
+      // passed over: x are rigid motions of the supported nodes only. A second
+      // matrix with the rows of the supports would have to be kept for six
+      // products.
       Eigen::MatrixXd
       product_at_rest(const Eigen::MatrixXd &x) const override
       {
@@ -161,6 +219,7 @@ namespace Debond
         Eigen::MatrixXd       y = Eigen::MatrixXd::Zero(x.rows(), x.cols()), K;
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
           {
+            // Gather, multiply, scatter, as in a matrix-free operator.
             const unsigned int n = cells.n_nodes(cell);
             Eigen::MatrixXd    x_cell(3 * n, x.cols());
             for (unsigned int a = 0; a < n; ++a)
@@ -177,8 +236,12 @@ namespace Debond
         return y;
       }
 
-      // From the Gauss points to the corners of each cell, and there the mean
-      // over the cells.
+      // Cauchy stress [MPa] for pictures: from the Gauss points, where it is
+      // most accurate, to the corners of each cell, and there the mean over the
+      // cells. The trilinear extrapolation through the 2x2x2 points evaluates
+      // no gradient at a corner, where the disk's parametrisation is singular.
+      // It is not continuous from cell to cell; the mean hides that, so it is
+      // no measure of the error.
       std::vector<Eigen::Matrix3d>
       vertex_stress(const Eigen::VectorXd &v,
                     const StressLaw        law) const override
@@ -188,6 +251,8 @@ namespace Debond
         std::vector<unsigned int>    n_cells(mesh.n_vertices(), 0);
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
           {
+            // H = dv/dX in the body's frame, and by the material's law the
+            // stress.
             double H[EnrichedCells::n_q][3][3];
             cells.displacement_gradients(cell, v, H);
             std::array<Eigen::Matrix3d, EnrichedCells::n_q> at_points;
@@ -195,6 +260,10 @@ namespace Debond
               at_points[q] = (cells.material().*law)(H[q]);
             for (unsigned int a = 0; a < n_corners; ++a)
               {
+                // The weights are those of the trilinear polynomial through the
+                // eight points, at corner a. Vertices of the contact face are
+                // corners as any other here: pictures show the mesh, not the
+                // control points.
                 const unsigned int vertex = mesh.cells()[cell].vertices[a];
                 const auto         weight = extrapolation_weights(a);
                 for (unsigned int q = 0; q < EnrichedCells::n_q; ++q)
@@ -202,6 +271,8 @@ namespace Debond
                 ++n_cells[vertex];
               }
           }
+        // Every cell counts the same, whatever its volume; each vertex has at
+        // least one.
         for (unsigned int vertex = 0; vertex < mesh.n_vertices(); ++vertex)
           stress[vertex] /= n_cells[vertex];
         return stress;
@@ -232,6 +303,9 @@ namespace Debond
 
 
 
+  // G and Lambda [MPa] from E and nu by Eq. (2). Other elements, or a solver
+  // for bodies whose S would be too large to store, get their place here;
+  // is_dense() tells the solver then that it has to do with products.
   std::unique_ptr<Bulk>
   make_bulk(const BodyMesh &mesh)
   {

@@ -9,8 +9,26 @@
 #include <functional>
 #include <sstream>
 
+// The coupled system, which stations 6 and 9 of doc/walk.md are about: two
+// bodies, the chuck and the interface between them. In the paper it is Appendix
+// A.3; what the paper leaves open is how to solve it, see doc/solution.md.
+//
+// Friction sees the bodies through the positions of the control points of the
+// two contact faces, and nothing else. Only these and the components of the
+// chuck that are not prescribed are unknowns: some 300 on the coarse mesh, 2400
+// on the fine one. The interior of a body is condensed, as step-44 condenses
+// pressure and dilatation; but there it is done cell by cell and in every
+// iteration, here it is the whole inside of a body, and once, since the
+// stiffness in the body's own frame hardly changes.
+//
+// A step calls predict(), then evaluate(), solve() and correct() in turn until
+// the residual is small, then commit() or rollback(). All that happens before
+// commit() is a trial.
 namespace Debond
 {
+  // Apart from the rest since variants of a study share them: meshes and
+  // factors depend on the bodies alone, not on friction or loads, so that a
+  // study makes them once.
   BodyPair::BodyPair(const ModelParameters &parameters)
     : bone(make_body(parameters.bone, Side::bone))
     , implant(make_body(parameters.implant, Side::implant))
@@ -18,6 +36,9 @@ namespace Debond
 
 
 
+  // Two scales come with the scene. A residual is to be small compared with the
+  // contact forces, which may be none: force_floor is the force [N] of a
+  // penetration of 1e-6 R over the whole face, eps_n A 1e-6 R.
   CoupledSystem::CoupledSystem(const ModelParameters    &parameters,
                                std::shared_ptr<BodyPair> bodies,
                                dealii::TimerOutput      *timer)
@@ -38,6 +59,11 @@ namespace Debond
   {
     configuration.chuck = &chuck;
     path.follow         = parameters.load_steps.follow_path;
+    // Rows q_k = value_k(t) of prescribed components, which are equations of
+    // their own along a path only, are lengths and angles among forces and
+    // moments. Multiplied by the stiffness of the whole face, eps_n A [N/mm],
+    // or eps_n A R^2 [N mm] if they are angles, they are of the size of the
+    // rows of forces and moments beside them.
     for (unsigned int k = 0; k < 6; ++k)
       path.stiffness[k] =
         parameters.interface.law().normal->initial_stiffness() *
@@ -46,9 +72,14 @@ namespace Debond
 
 
 
-  // Where the control points of the two surfaces are in space: x = X + v on the
-  // bone, whose frame stands still, and x = C + u + Q (X - C + v) on the
+  // Where the control points of the two surfaces are in space [mm]: x = X + v
+  // on the bone, whose frame stands still, and x = C + u + Q (X - C + v) on the
   // implant. The contact law sees the bodies through these positions only.
+  //
+  // v is the displacement in the body's own frame, of the order of the elastic
+  // deformation even after a full turn of the implant. Stored as positions in
+  // space the bodies would lose digits to the rotation, and their stiffness
+  // would turn with them.
   void
   CoupledSystem::update_configuration()
   {
@@ -63,8 +94,14 @@ namespace Debond
 
 
   // The unknowns in their order: those of the bone, of the implant, of the
-  // chuck, and along a path the time. A preconditioner of another system is of
-  // no use any more.
+  // chuck, and along a path the time. Each body numbers its own from 0; those
+  // of the implant follow those of the bone. -1 stands for a component that is
+  // fixed or condensed. A rigid body has no unknowns.
+  //
+  // Along a path all six components of the chuck are unknowns, since they
+  // depend on the time, which is one. Else only those that are loaded or held
+  // by a spring are. The preconditioner belongs to the old numbering and is
+  // dropped.
   void
   CoupledSystem::number_unknowns()
   {
@@ -88,8 +125,16 @@ namespace Debond
 
 
 
+  // The state that row 0 is solved from: undeformed bodies in the place where
+  // the scene has the chuck at the first time. Each slave point is faced with
+  // its closest point on the master, which is its first interacting point
+  // xi_hat (Appendix A.2 of the paper).
+  //
   // Each body is condensed once, on the control points that contact can reach:
-  // all of the implant's face, and what lies under it on the bone.
+  // all of the implant's face, and what lies under it on the bone. All of the
+  // bone's face would be safe, too, but S is dense: the factor that every
+  // iteration passes through grows with the square of the number of its
+  // unknowns.
   void
   CoupledSystem::start(const double time)
   {
@@ -109,11 +154,17 @@ namespace Debond
 
 
 
-  // Where contact has spread to control points of the bone that were condensed
-  // these become unknowns, and S is formed anew with them.
+  // An implant that is pushed sideways comes to control points of the bone that
+  // were condensed. There the force of a point that closes would be lost on a
+  // linear body, whose interior carries no load. These control points become
+  // unknowns, and S is formed anew with them. Returns whether the system has
+  // grown: then residual and tangent have another size.
   bool
   CoupledSystem::extend_contact_unknowns()
   {
+    // Unknowns are added and never given back, so that an implant that goes to
+    // and fro over an edge of elements does not condense the bone at every
+    // turn.
     if (!bone.bulk())
       return false;
     std::vector<bool> wanted = bone.contact_control_points();
@@ -141,7 +192,12 @@ namespace Debond
 
 
 
-  // Open points may face what lies beside the contact unknowns.
+  // A linear body does not move the control points beside its contact unknowns
+  // along; they get their equilibrium shape when somebody looks. Closed points
+  // lie on contact unknowns only. Open points may face what lies beside them
+  // and then need to know where it is: their gap, Eq. (26), decides whether
+  // they close. It costs a solve with the interior for the trial state and for
+  // both accepted ones, so it is put off until a point is open.
   bool
   CoupledSystem::complete_surfaces()
   {
@@ -158,7 +214,15 @@ namespace Debond
 
 
   // A step begins with a trial state: the accepted one, or the straight line
-  // through the last two. What is prescribed is where the scene wants it.
+  // through the last two, of which it is the continuation over the time or,
+  // along a path, over the number of the step. In 100 steps of the main scene
+  // with linear bodies it takes 105 iterations, and starting from the last
+  // state with sticking points 301 (doc/solution.md, Predictor).
+  //
+  // What is prescribed is put where the scene wants it at once; the residual
+  // then holds what that does to the interface. In the implant's frame the
+  // supports do not move, so that no inhomogeneous boundary values enter the
+  // linear systems.
   void
   CoupledSystem::predict(const double time,
                          const double parameter,
@@ -174,9 +238,15 @@ namespace Debond
 
 
 
-  // The opposite of letting the implant's face go along with the chuck: its
-  // displacement in the moving frame undoes the chuck's motion,
-  // v = Q^T (x - C - u) - (X - C).
+  // For the predictor `none`. The opposite of letting the implant's face go
+  // along with the chuck: its displacement in the moving frame undoes the
+  // chuck's motion,
+  //
+  //   v = Q^T (x - C - u) - (X - C),
+  //
+  // with x the accepted positions. The first iteration then starts with the old
+  // gaps and tractions, but the motion of the chuck is all in strains of the
+  // implant, which are large and false where the step is a large rotation.
   void
   CoupledSystem::leave_surface_behind()
   {
@@ -190,6 +260,8 @@ namespace Debond
     for (unsigned int i = 0; i < numbers.size(); ++i)
       if (numbers[i] >= 0)
         dv[numbers[i]] = back.data()[i];
+    // No residual is known yet: the interior follows as if it were in
+    // equilibrium.
     implant.correct(implant.correction(dv, {}));
   }
 
@@ -197,7 +269,8 @@ namespace Debond
 
   // The trial state becomes the accepted one, in all parts at once. The points
   // are last: open ones are projected anew in the configuration that has just
-  // been accepted.
+  // been accepted, so that what a point moved along the master while it was
+  // open does not count as slip when it closes in a later step.
   void
   CoupledSystem::commit(const double parameter)
   {
@@ -211,12 +284,18 @@ namespace Debond
     chuck.commit(parameter);
     update_configuration();
     const TimedSection t(timer, "contact");
+    // The mean sliding distance [mm] that the next step along a path goes on
+    // from, taken while the trial states of the points are still there.
     path.old_slip = mean_slip();
     interface.commit(configuration);
   }
 
 
 
+  // A step that failed leaves no trace. The points need nothing: evaluate()
+  // reads their accepted history and writes their trial states only, and Eq.
+  // (32) sums from the accepted g_s. With an update in place g_s would grow
+  // with every attempt, and the bond would break of failed iterations.
   void
   CoupledSystem::rollback()
   {
@@ -227,15 +306,23 @@ namespace Debond
 
 
 
-  // The residual at the trial state. For each body, in its frame,
+  // The residual at the trial state, station 6 of doc/walk.md. For each body,
+  // in its frame,
   //
   //   r_c = S v_c + Q^T f                           if it is linear,
   //   r_c = R_c + Q^T f - K_ci K_ii^-1 R_i          if it is Neo-Hookean,
   //
-  // with the contact forces f of Eqs. (28) and (36) on its control points, and
-  // for each component of the chuck that is not prescribed
+  // with the contact forces f of Eqs. (28) and (36) on its control points [N],
+  // and for each component of the chuck that is not prescribed
   //
   //   r_k = sum_A f_A . dx_A/dq_k - load_k.
+  //
+  // The second line is exact with any K: at the solution R_i and r_c vanish,
+  // whatever the state was in which K was formed. S decides how fast Newton's
+  // method gets there, and not where.
+  //
+  // A residual that cannot be formed is no error of the program but a reason to
+  // try a smaller step: `why` says what stood against it.
   CoupledSystem::Residual
   CoupledSystem::evaluate(const ContactPointMode &mode)
   {
@@ -247,6 +334,8 @@ namespace Debond
       {
         update_configuration();
         const TimedSection t(timer, "contact");
+        // Every slave point by itself, station 7. A point whose equations (29),
+        // (30) could not be solved ends the attempt.
         if (!interface.evaluate(configuration, mode))
           {
             result.why = interface.describe_failure();
@@ -262,7 +351,8 @@ namespace Debond
     for (const Side side : both_sides)
       {
         Body::Residual &part = bulk_residual[side];
-        // Q^T turns the forces into the body's frame
+        // Q^T turns the forces from space into the body's frame. For the bone Q
+        // = 1.
         part = body[side]->residual(configuration.side[side].frame.transpose() *
                                     interface.force(side));
         if (!part.valid)
@@ -273,19 +363,27 @@ namespace Debond
           }
         result.unknowns.segment(first, body[side]->n_unknowns()) =
           part.condensed;
+        // The tolerance is for the whole residual, interior included. The
+        // condensed one alone may vanish while errors of surface and interior
+        // cancel in it.
         norm_squared += part.norm_squared;
         interior_squared += part.interior_squared;
         first += body[side]->n_unknowns();
       }
 
     // A residual is small compared with the contact force, or, where bodies
-    // barely touch, with that of a penetration of 1e-6 R.
+    // barely touch, with that of a penetration of 1e-6 R. An absolute tolerance
+    // in N would have to be chosen anew for every scene. The forces on both
+    // faces have the same sum but for the sign; those of the slave are taken.
+    // Else a NaN would surface in the linear solver only, as a singular matrix.
     const double force = interface.force(interface.slave_side()).norm();
     result.reference   = std::max(force_floor, force);
     norm_squared += evaluate_chuck(result);
     result.norm = std::sqrt(norm_squared);
     if (!std::isfinite(result.norm) || !std::isfinite(force))
       result.why = "the residual is not finite";
+    // What Newton's method decides by whether the tangent of a Neo-Hookean bulk
+    // has to be formed anew.
     result.interior_share =
       norm_squared > 0. ? interior_squared / norm_squared : 0.;
     return result;
@@ -293,11 +391,16 @@ namespace Debond
 
 
 
-  // The rows of the chuck: a loaded component is in equilibrium with its load,
-  // one with a compliant machine with the force of the spring (machine_load).
-  // Then, along a path, the row of the time, see PathEquation. Moments count as
-  // forces at the distance R. Returns the square of their norm, and raises the
-  // reference to the largest load.
+  // The rows of the chuck [N, N mm]: a loaded component is in equilibrium with
+  // its load, one with a compliant machine with the force of the spring, k
+  // (value - q) (machine_load). Then, along a path, the row of the time, see
+  // PathEquation. The row of a component that follows the time stays 0, as
+  // correct() puts it where it belongs.
+  //
+  // Moments count as forces at the distance R in the norm, so that the result
+  // does not depend on the unit of length. Returns the square of that norm, and
+  // raises the reference to the largest load: with a large load and little
+  // contact yet it is the load that has to be met.
   double
   CoupledSystem::evaluate_chuck(Residual &residual)
   {
@@ -327,19 +430,27 @@ namespace Debond
 
 
 
-  // One Newton correction,
+  // One Newton correction, station 9 of doc/walk.md,
   //
   //   (S + Q^T (df/dx) Q) dv_c = -r,
   //
-  // bordered by the rows and columns of the chuck's unknown components. The
-  // interior of a body is no part of it: the body says how it follows.
+  // bordered by the rows and columns of the chuck's unknown components. df/dx
+  // is the exact derivative of Eqs. (29) to (32), unsymmetric while points
+  // slide. It is never formed unless the solver asks for it: with condensed
+  // bodies as preconditioner products are enough.
+  //
+  // The interior of a body is no part of it: the body says how it follows. A
+  // correction is kept as a value, bodies included, so that half of it can be
+  // taken back.
   CoupledSystem::Correction
   CoupledSystem::solve(const Residual &residual,
                        const double    relative_tolerance)
   {
     Correction result;
-    // What pulls at a loaded component is the contact alone: without contact,
-    // or without friction, nothing stops it, and there is no solution.
+    // What pulls at a loaded component is the contact alone: no spring holds
+    // it, and the implant's stiffness does not resist a motion of its own
+    // frame. Without contact, or without friction against a moment about z,
+    // nothing stops it, and there is no solution.
     const auto is_loaded = [this](const auto &unknown) {
       return !chuck.is_prescribed(unknown.first) &&
              chuck.machine_stiffness(unknown.first) == 0.;
@@ -357,6 +468,9 @@ namespace Debond
       result.unknowns =
         -solver.solve(matrix, residual.unknowns, relative_tolerance);
     }
+    // A singular matrix shows as numbers that are not finite, or, as rounding
+    // seldom leaves an exact zero, as a chuck that flies away: by more than a
+    // radian or 10 R in one iteration. Neither may enter the trial state.
     if (!result.unknowns.allFinite())
       result.why = "the system of equations is singular";
     else
@@ -386,8 +500,14 @@ namespace Debond
 
 
 
-  // v <- v + dv for both bodies, q <- q + dq for the chuck. Along a path the
-  // time is corrected as well, and prescribed components follow it.
+  // v <- v + dv for both bodies, q <- q + dq for the chuck. In the frame of the
+  // chuck the implant's v is a plain vector, so adding is all it takes, even in
+  // a large rotation. Along a path the time is corrected as well; prescribed
+  // components follow it by the scene's own functions, not by their
+  // linearisation.
+  //
+  // A negative fraction takes that much back, in the line search of Newton's
+  // method.
   void
   CoupledSystem::correct(const Correction &correction, const double fraction)
   {
@@ -406,8 +526,11 @@ namespace Debond
 
 
   // A Neo-Hookean bulk is condensed with the tangent of a state that it has
-  // left since. Usually that does: it is strains of 1e-3 away. If not, the
-  // present state takes its place.
+  // left since. Usually that does: it is strains of 1e-3 away, and so the error
+  // falls to a thousandth in each iteration. That saves a factorisation in each
+  // of them. If the error falls poorly, the present state takes its place. A
+  // linear bulk has nothing to renew. False if a stiffness is not positive
+  // definite, which ends the attempt.
   bool
   CoupledSystem::refactor_bulk()
   {
@@ -418,6 +541,9 @@ namespace Debond
 
 
 
+  // For the message of a step that did not converge: where the residual is
+  // largest, a control point of a face or a component of the chuck, tells more
+  // than its norm.
   std::string
   CoupledSystem::describe_worst_point(const Residual &residual) const
   {
@@ -431,6 +557,7 @@ namespace Debond
         const auto  found   = std::find(numbers.begin(), numbers.end(), worst);
         if (worst >= 0 && found != numbers.end())
           {
+            // unknown_of counts three components to a control point.
             const unsigned int index = found - numbers.begin();
             const auto x = configuration.side[side].positions.col(index / 3);
             text << " N in "
@@ -468,6 +595,10 @@ namespace Debond
 
 
 
+  // Force [N] and moment about C + u [N mm] in space, with the lever arms of
+  // the present state: the forces are those that enter the residual, so that
+  // their sum is what the chuck exerts on the implant. The moment is positive
+  // while it resists a positive rotation.
   Chuck::Vector6
   CoupledSystem::chuck_resultant() const
   {
@@ -478,14 +609,19 @@ namespace Debond
 
 
 
-  // What does work on the components q_k: r_k without the load. A rotation
-  // about the axis b_k moves x by b_k x (x - C - u), and f . (b_k x r) = b_k .
-  // (r x f).
+  // What does work on the components q_k [N, N mm]: r_k without the load. A
+  // rotation about the axis b_k moves x by b_k x (x - C - u), and f . (b_k x r)
+  // = b_k . (r x f).
+  //
+  // These are not the components of the resultant: the axes b_k of a rotation
+  // vector are not e_x, e_y and e_z once the implant is tilted. Work is done by
+  // these on the changes of q, not by the resultant.
   Chuck::Vector6
   CoupledSystem::chuck_forces() const
   {
     const Chuck::Vector6 total  = chuck_resultant();
     Chuck::Vector6       result = total;
+    // The first three, forces along fixed axes, are the same.
     for (unsigned int k = 3; k < 6; ++k)
       result[k] = chuck.axis(k).dot(total.tail<3>());
     return result;
@@ -496,11 +632,17 @@ namespace Debond
   // A check of the whole chain of contact forces, condensation and supports:
   // what the contact exerts on the implant must come out at its top. It is
   // computed there from K v, or from the internal forces, and not from the
-  // contact forces. In the implant's frame. A linear body balances moments with
-  // reference lever arms only.
+  // contact forces. A step that is not in equilibrium shows here, and so does a
+  // wrong factor of S. More than 1e-6 is a warning (doc/solution.md, Checks of
+  // every step).
+  //
+  // In the implant's frame. A linear body balances moments with reference lever
+  // arms only: its equations are those of the undeformed shape. A Neo-Hookean
+  // one balances them with X + v.
   double
   CoupledSystem::reaction_defect() const
   {
+    // Moments become forces at the distance R, to be added up with forces.
     if (!implant.bulk())
       return 0.;
     const Eigen::Vector3d C = chuck.reference_centre();
@@ -514,6 +656,8 @@ namespace Debond
     Chuck::Vector6 difference = contact - support;
     for (Chuck::Vector6 *forces : {&contact, &support, &difference})
       forces->tail<3>() /= R;
+    // Relative to the larger one; the floor keeps bodies that hardly touch from
+    // dividing zero by zero.
     return difference.norm() /
            std::max({contact.norm(), support.norm(), force_floor});
   }

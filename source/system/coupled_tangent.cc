@@ -2,16 +2,29 @@
 
 #include <Eigen/Geometry>
 
+// The matrix of Newton's method: A = B + C with B = diag(S_bone, S_implant, 0),
+// the condensed bodies, and C everything else. In step-44's terms it is the
+// tangent_matrix, but it is not stored: the linear solver asks for products.
+// The derivatives of Eqs. (29) to (32) at a point are in contact_point.cc,
+// their sum over points in contact_tangent.cc; here are the terms that come
+// from the moving frame of the implant, the chuck, and the path.
+//
+// C is unsymmetric: friction has no potential while points slide.
 namespace Debond
 {
   // Along a path the time is unknown, and something else is given instead: the
-  // step's growth of the mean sliding distance, which, unlike the time, grows
-  // even where the path snaps back,
+  // step's growth of the mean sliding distance [mm], which, unlike the time,
+  // grows even where the path snaps back,
   //
   //   r_t = (g_mean - g_mean^n - slip) F / slip,
   //
-  // F the reference force. With slip = 0 the time is given after all, and dt =
-  // 0 follows from r_t = 0 and the gradient F.
+  // F the reference force [N]. g_mean is the area mean of g_s, Eq. (32), which
+  // never falls. With slip = 0 the time is given after all, and dt = 0 follows
+  // from r_t = 0 and the gradient F.
+  //
+  // Arc length in the space of all unknowns would do as well in smooth
+  // problems, but a bond that breaks does so at a few points, and hardly shows
+  // in the norm of all displacements.
   double
   PathEquation::evaluate(const ContactInterface       &interface,
                          const InterfaceConfiguration &configuration,
@@ -19,12 +32,16 @@ namespace Debond
                          const double                  reference)
   {
     gradient.setZero(number + 1);
+    // d value_k / dt of what the scene prescribes, in its unit of time: the
+    // column of the time is made of these.
     rates = configuration.chuck->rates(time);
     if (slip == 0.)
       {
         gradient[number] = reference;
         return 0.;
       }
+    // The exact gradient, in which xi_hat moves: without it Newton's method
+    // would not be quadratic.
     const MeanSlip mean   = interface.mean_slip(configuration);
     const double   weight = reference / slip;
     add_in_unknowns(mean.gradient, configuration, weight, gradient);
@@ -34,8 +51,13 @@ namespace Debond
 
 
   // Rows of prescribed components: dq_k = (d value_k / dt) dt, times a
-  // stiffness that gives them the size of the other rows. Rows of loaded ones:
-  // the load changes with the time, too.
+  // stiffness that gives them the size of the other rows. Rows of loaded ones,
+  // or ones with a spring: the load, or the point that the spring hangs on,
+  // changes with the time, too.
+  //
+  // So the matrix is bordered by one row and one column, and regular where the
+  // tangent without them is singular: at a limit point of the path, where the
+  // time has an extreme value.
   void
   PathEquation::apply(const InterfaceConfiguration &configuration,
                       const Eigen::VectorXd        &x,
@@ -65,7 +87,14 @@ namespace Debond
   // A row of a body is Q^T f, one of the chuck f . dx/dq_k. Their derivatives
   // with f at rest are the terms of the tangent that come from the rotation of
   // the implant's frame and of lever arms with the unknown rotations of the
-  // chuck: (dQ^T/dq_k) f, f . (b_k x dx) and f . d^2x/dq_k dq_l.
+  // chuck:
+  //
+  //   (dQ^T/dq_k) f,     f . (b_k x dx),     f . d^2x/dq_k dq_l,
+  //
+  // with b_k the axis of the rotation q_k. Where q_k is prescribed, and no path
+  // is followed, it does not change during the iteration. The terms are of the
+  // size of forces over lengths, small against the stiffness of the bodies; but
+  // without them the iteration with a loaded chuck would not be quadratic.
   void
   CoupledTangent::add_geometric_part(const Eigen::VectorXd &x,
                                      Eigen::VectorXd       &y) const
@@ -74,15 +103,17 @@ namespace Debond
     const auto  &side  = configuration.side[Side::implant];
     for (const auto &[k, row] : configuration.chuck_unknowns)
       {
-        // the load of a spring falls as the chuck gives way
+        // The load of a spring falls as the chuck gives way: k (value - q), so
+        // that this adds +k to the diagonal.
         y[row] -= chuck.machine_stiffness(k) * x[row];
         if (!is_rotation(k))
           continue;
         for (unsigned int A = 0; A < side.positions.cols(); ++A)
           {
             const Eigen::Vector3d f = interface.force(Side::implant).col(A);
-            // (dQ^T/dq_k) f = Q^T (f x b_k), and the same number couples the
-            // row of q_k with the displacement in the moving frame
+            // (dQ^T/dq_k) f = Q^T (f x b_k) [N], and the same number couples
+            // the row of q_k with the displacement in the moving frame: f .
+            // (b_k x Q dv) = Q^T (f x b_k) . dv. So this part is symmetric.
             const Eigen::Vector3d turned =
               side.frame.transpose() * f.cross(chuck.axis(k));
             for (unsigned int c = 0; c < 3; ++c)
@@ -95,6 +126,8 @@ namespace Debond
                   }
               }
             for (const auto &[l, column] : configuration.chuck_unknowns)
+              // The axes b_k move with the rotation themselves, and so do the
+              // lever arms.
               y[row] +=
                 f.dot(chuck.second_derivative(k, l, side.positions.col(A))) *
                 x[column];
@@ -105,7 +138,9 @@ namespace Debond
 
 
   // C x, all of the tangent but the bodies: what the points contribute by their
-  // total derivatives df/dx, turned into the frames, then the geometric part.
+  // total derivatives df/dx, turned into the frames, then the geometric part,
+  // then the path. A product follows one motion of each point; to fill a matrix
+  // would take one for each unknown that the point depends on.
   Eigen::VectorXd
   CoupledTangent::interface_product(const Eigen::VectorXd &x) const
   {
@@ -119,7 +154,8 @@ namespace Debond
 
 
 
-  // (B + C) x, B = diag(S_bone, S_implant, 0).
+  // (B + C) x, B = diag(S_bone, S_implant, 0). Needed only where a
+  // factorisation is the preconditioner; with B^-1 there is no product with B.
   Eigen::VectorXd
   CoupledTangent::product(const Eigen::VectorXd &x) const
   {
@@ -132,7 +168,8 @@ namespace Debond
 
 
 
-  // A bulk that is not condensed has no S to write down.
+  // A bulk that is not condensed has no S to write down. GMRES with its own
+  // solver as preconditioner has to do then.
   bool
   CoupledTangent::can_be_assembled() const
   {
@@ -144,7 +181,10 @@ namespace Debond
 
 
 
-  // B^-1 b, body by body: the preconditioner.
+  // B^-1 b, body by body: the preconditioner. The bodies know nothing of each
+  // other; the interface is what the iteration has to find. With unknown
+  // components of the chuck B has zeros on the diagonal, and is not asked
+  // (bulk_is_regular).
   Eigen::VectorXd
   CoupledTangent::solve_bulk(const Eigen::VectorXd &b) const
   {
@@ -158,7 +198,8 @@ namespace Debond
 
 
   // The same as a matrix, for a factorisation where the bulk alone is no good
-  // preconditioner.
+  // preconditioner: with a loaded chuck, or an interface that is stiff against
+  // the bodies.
   void
   CoupledTangent::assemble(Eigen::MatrixXd &matrix) const
   {
@@ -171,10 +212,13 @@ namespace Debond
     Eigen::VectorXd    column(size());
     for (const auto &[k, number] : configuration.chuck_unknowns)
       {
+        // The geometric part column by column: that of a chuck component is
+        // what it makes of a unit vector.
         column.setZero();
         add_geometric_part(Eigen::VectorXd::Unit(size(), number), column);
         matrix.col(number) += column;
-        // the v-part of the border is symmetric
+        // The part of the border that couples with v is symmetric. What couples
+        // components with each other is in the column already.
         matrix.row(number).head(n_v) += column.head(n_v).transpose();
       }
     if (path.follow)

@@ -4,6 +4,11 @@
 #include <cmath>
 #include <sstream>
 
+// Station 5 of doc/walk.md: deal.II's solve_nonlinear_timestep of step-44 for
+// two bodies and their interface. The tangent of the interface is exact, so
+// that the residual falls quadratically, with two exceptions that make up most
+// of this file: the stiffness of a Neo-Hookean bulk is that of an earlier
+// state, and friction has a corner between stick and slip.
 namespace Debond
 {
   namespace
@@ -15,7 +20,9 @@ namespace Debond
     //
     // The bulk's tangent is stale if the interior's residual, which an exact
     // tangent would reduce quadratically, is what is left of the residual and
-    // has not become a tenth of what it was.
+    // has not become a tenth of what it was. The first condition keeps the bulk
+    // from being condensed anew because of points that change their state,
+    // which a new K does not help against.
     bool
     bulk_contracts_poorly(const std::vector<double> &history,
                           const double               interior_share)
@@ -28,7 +35,10 @@ namespace Debond
 
 
     // Neither converging nor about to: no new minimum worth the name in the
-    // last eight iterations, or a residual that explodes.
+    // last eight iterations, or a residual that explodes. Another attempt or
+    // half the step is the cheaper then. Ten iterations are granted in any
+    // case, as the residual may well grow while points find out whether they
+    // slide.
     bool
     hopeless(const std::vector<double> &history)
     {
@@ -45,7 +55,9 @@ namespace Debond
 
     // Recognises that points change between stick, slip and open without an
     // end: all of them are in states that they were in before with a residual
-    // not much larger, or the residual has grown for the second time.
+    // not much larger, or the residual has grown for the second time. States
+    // that have settled do not count: quadratic convergence has begun then, or
+    // will.
     class CycleDetector
     {
     public:
@@ -72,16 +84,21 @@ namespace Debond
 
     // A line search, for a law with corners: between stick and slip the
     // residual is continuous, but its slope is not, and the tangent of one side
-    // may overshoot on the other for ever.
+    // may overshoot on the other for ever. With an interface much stiffer than
+    // the bodies it does, and smaller steps can make it worse (doc/solution.md,
+    // Cycles of stick and slip).
     //
-    // Halves the correction until the residual has become smaller; returns the
-    // residual where this ends.
+    // Takes back half of the correction until the residual has become smaller,
+    // each time for one residual and no linear solve; returns the residual
+    // where this ends. At 1/32 it is left at that, smaller or not: the next
+    // correction has another direction.
     CoupledSystem::Residual
     evaluate_shortened(CoupledSystem                   &system,
                        const CoupledSystem::Correction &correction,
                        const ContactPointMode          &mode,
                        const double                     norm_before)
     {
+      // Smaller by a tenth of what a linear residual would lose.
       constexpr double   shortest = 1. / 32., descent = 0.1;
       const unsigned int n_unknowns = system.n_unknowns();
       double             fraction   = 1.;
@@ -116,7 +133,9 @@ namespace Debond
           residual = system.evaluate(mode); // condensed with the new factor
         }
       // Linear systems need no more digits than the step to the tolerance asks
-      // for, and no fewer than quadratic convergence shows.
+      // for, and no fewer than quadratic convergence shows: the residual of the
+      // linear system stays in that of the next iteration. Here a tenth of the
+      // tolerance over the present error, but not below 1e-9 nor above 1e-3.
       return system.solve(residual,
                           std::clamp(0.1 * options.residual_tolerance /
                                        history.back(),
@@ -128,14 +147,18 @@ namespace Debond
 
 
   // Newton's method for r(v_c, q) = 0. Each round is a residual, four reasons
-  // to stop, and a correction.
+  // to stop, and a correction. The state is that of the system, a trial from
+  // where the attempt began; a result that has not converged leaves it where it
+  // is, and the caller takes it back.
   NewtonResult
   solve_newton(CoupledSystem &system, const NewtonOptions &options)
   {
     NewtonResult              result;
     CycleDetector             cycle_detector;
     CoupledSystem::Correction correction;
-    // iteration from which on corrections are shortened; 0: none
+    // Iteration from which on corrections are shortened; 0: none. Not from the
+    // start: where nothing cycles full corrections converge quadratically, and
+    // shortened ones would spoil that.
     std::size_t cautious_from = 0;
     double      last_norm     = 0.;
     for (unsigned int iteration = 0; true; ++iteration)
@@ -152,7 +175,8 @@ namespace Debond
             evaluate_shortened(system, correction, mode, last_norm) :
             system.evaluate(mode);
         // No residual: a cell is turned inside out, or a point has found no
-        // solution of its equations.
+        // solution of its equations. The caller is told why, and makes
+        // another attempt or the step smaller.
         result.why = residual.why;
         if (!result.why.empty())
           return result;
@@ -161,7 +185,8 @@ namespace Debond
         const double error = residual.norm / residual.reference;
         last_norm          = residual.norm;
         result.history.push_back(error);
-        // Converged, unless points were held that the law might let go.
+        // Converged, unless points were held that the law might let go. The
+        // norm is that of the whole residual, interior included.
         if (error <= options.residual_tolerance)
           {
             if (mode.stick_first)

@@ -3,8 +3,14 @@
 #include <cmath>
 #include <sstream>
 
+// Station 4 of doc/walk.md: the state at the end of a step. The paper goes
+// through 100 to 2500 load steps and does not say what happens when one does
+// not converge. Here a failure is met first by another start of Newton's
+// method, and by a smaller step only then, for which Simulation asks.
 namespace Debond
 {
+  // Row 0 is a step like any other, but with no time before it: the first time
+  // of the scene counts as accepted until it is solved.
   StepSolver::StepSolver(const ModelParameters &parameters,
                          CoupledSystem         &system)
     : parameters(parameters)
@@ -15,34 +21,48 @@ namespace Debond
 
 
   // From the straight line through the last two states: near the solution if
-  // nothing happens in the step that did not in the last one.
+  // nothing happens in the step that did not in the last one. Where a phase of
+  // the loading begins, for instance the rotation after the push-in, or where
+  // many points begin to slide, the line points elsewhere.
   const StepSolver::Attempt StepSolver::extrapolated{true, false, false};
   // From the last state. The implant goes along with the chuck, and in the
   // first iteration closed points stick, so that it cannot cycle.
   const StepSolver::Attempt StepSolver::from_rest{false, false, false};
   // A load that cannot be followed: the machine may have to jump, and then a
   // residual that grows for a while is no reason to shorten corrections.
+  // Shortened ones may end where the residual is smallest, which need not be a
+  // state of equilibrium.
   const StepSolver::Attempt StepSolver::jump{false, true, false};
-  // Beyond every state in which the springs of the machine pull, there is one
-  // behind the fall.
+  // Where the springs of the machine are relaxed the chuck stands where the
+  // machine does: beyond every state in which they pull. If there is a state of
+  // equilibrium behind the fall of the torque, it lies before this one.
   const StepSolver::Attempt StepSolver::beyond{false, true, true};
 
 
 
+  // Which attempts a step has, cheapest and safest first. Each that fails costs
+  // up to 25 iterations, so that none is made which cannot help.
   std::vector<StepSolver::Attempt>
   StepSolver::attempts(const Step &step) const
   {
     const bool predicts = step.extrapolate && parameters.load_steps.predictor ==
                                                 Predictor::extrapolate;
+    // Along a path (doc/solution.md, Snap-back) the branch is the one that the
+    // line points to; another start would leave the direction in which the path
+    // goes.
     if (step.by_slip()) // without a prediction nothing slides
       return {predicts ? extrapolated : from_rest};
     std::vector<Attempt> list;
     if (predicts)
       list.push_back(extrapolated);
     list.push_back(from_rest); // the prediction may be to blame
+    // A chuck that is loaded or compliant may have no state of equilibrium near
+    // the last one, and find one only where it jumps to.
     if (!system.chuck.unknowns().empty())
       list.push_back(jump);
-    // with viscosity nothing jumps in steps that are short enough
+    // With viscosity nothing jumps in steps that are short enough, so that
+    // halving the step is the remedy. A loaded component has no spring to be
+    // relaxed.
     if (system.chuck.has_compliant_machine() &&
         parameters.interface.viscosity == 0.)
       list.push_back(beyond);
@@ -52,7 +72,9 @@ namespace Debond
 
 
   // Nothing has happened before the first time: one attempt, from where the
-  // bodies were placed.
+  // bodies were placed, undeformed. Points that are closed there start from
+  // their closest points on the master and, unless the predictor is `rigid` or
+  // `none`, stick in the first iteration.
   StepResult
   StepSolver::solve_first()
   {
@@ -68,7 +90,12 @@ namespace Debond
   {
     StepResult result;
     // A sliding point is pulled along the chord of its path. If that turns too
-    // far from the direction at its end the step is not even tried.
+    // far from the direction at its end the step is not even tried: the torque
+    // would be too small by cos(angle / 2), a thousandth at 5 degrees, and the
+    // residual would not show it. It is the whole step that counts, even if
+    // only the first half of it is on trial.
+    // A rotation that is found, by a moment or along a path, is not known
+    // before. Without friction there is no direction of slip.
     const auto turn = [&](const unsigned int k) {
       return system.chuck.values(step.whole_time)[k] -
              system.chuck.values(accepted_time)[k];
@@ -82,7 +109,10 @@ namespace Debond
         return result;
       }
     // One attempt after the other, until the state is to be accepted. Their
-    // order is that of what they cost and of how far they may lead away.
+    // order is that of what they cost and of how far they may lead away. A
+    // state that is not unique, and would not be in smaller steps either, ends
+    // this at once: other starts might find another solution, but none that is
+    // more right. Iterations are summed, since they are the cost of the step.
     unsigned int iterations = 0;
     for (const Attempt &attempt : attempts(step))
       {
@@ -105,6 +135,8 @@ namespace Debond
     {
       const double       slope = summary.softening_slope;
       std::ostringstream text;
+      // A user can act on it: the numbers of the worst point, and the entries
+      // that move the bound p |d mu/d g_s| < eps_t.
       text << "the friction law softens faster than the interface is stiff, so "
               "that its local solution is not unique and the bond would break "
               "in a jump: at a pressure of p = "
@@ -127,11 +159,16 @@ namespace Debond
   StepResult
   StepSolver::make(const Attempt &attempt, const Step &step)
   {
-    // Where it begins. Accepted states are numbered along a path.
+    // Where it begins. The line through the last two states is drawn over the
+    // time, or along a path, where time may stand still or fall, over the
+    // number of the step; `ratio` is then the size of this one relative to the
+    // last.
     const LoadSteppingParameters &load_steps = parameters.load_steps;
     system.predict(step.time,
                    load_steps.follow_path ? n_steps() + step.ratio : step.time,
                    attempt.extrapolates);
+    // The step is measured by the growth of the mean sliding distance [mm], and
+    // its time is only a guess.
     if (step.by_slip())
       system.prescribe_slip(step.slip);
     if (attempt.relaxes_machine)
@@ -139,8 +176,10 @@ namespace Debond
     if (load_steps.predictor == Predictor::none)
       system.leave_surface_behind();
 
-    // How it goes on. Points that stick would pull back at once all of a
-    // relaxed machine.
+    // How it goes on. The first iteration from the last state has all closed
+    // points stick (station 5): sticking points are a linear spring, and cannot
+    // go round between stick and slip. Not so after a relaxed machine: points
+    // that stick would pull back at once all of it.
     NewtonOptions options;
     options.residual_tolerance = load_steps.residual_tolerance;
     options.points.stick_first =
@@ -148,6 +187,7 @@ namespace Debond
       (load_steps.predictor == Predictor::stick_first ||
        (load_steps.predictor == Predictor::extrapolate &&
         !attempt.extrapolates));
+    // For viscosity and rates, in the scene's unit of time.
     options.points.duration        = step.time - accepted_time;
     options.points.touch_tolerance = 1e-12 * system.R;
     options.points.frictionless = !parameters.has_friction_after(accepted_time);
@@ -156,12 +196,17 @@ namespace Debond
     // What became of it. Where the law falls so steeply that the point's
     // equations have more than one solution, Newton's method finds any of them:
     // p |d mu/d g_s| / eps_t < 1 is needed at every point (doc/model.md,
-    // Uniqueness).
+    // Uniqueness), with p at the end of the step and the steepest slope that
+    // the law still has before the point. With the paper's law, Eq. (13), it is
+    // pi phi_0 (mu_ub - mu_b) / (4 a_s b_s). It is judged after each attempt
+    // because p is not known before.
     StepResult result;
     static_cast<NewtonResult &>(result) = solve_newton(system, options);
     result.interface                    = system.interface.summarise();
     result.unique = result.interface.steepest_softening < 1.;
-    // smaller steps help only where friction resists the speed
+    // Smaller steps help only where friction resists the speed: eta / dt then
+    // stands beside eps_t, and grows as the step is halved. A converged state
+    // without that is the end of the run.
     result.hopeless = result.converged && !result.unique &&
                       parameters.interface.viscosity == 0. &&
                       !parameters.interface.friction->depends_on_rate();
@@ -170,6 +215,8 @@ namespace Debond
       result.why +=
         (result.why.empty() ? "" : "; ") +
         describe_softening(result.interface, *parameters.interface.friction);
+    // A trial that is not accepted leaves no trace, so that the next attempt
+    // starts from the same state as this one did.
     if (!result.is_acceptable())
       system.rollback();
     return result;
@@ -177,6 +224,10 @@ namespace Debond
 
 
 
+  // The state that solve() found becomes history, station 10. Along a path the
+  // time has been found, too, so it is asked for; states are then numbered,
+  // since the line of the next prediction cannot be drawn over a time that
+  // falls.
   void
   StepSolver::commit()
   {

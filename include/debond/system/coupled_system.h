@@ -17,7 +17,9 @@ namespace dealii
 
 namespace Debond
 {
-  /** The two bodies of a scene. */
+  /** The two bodies of a scene: meshes, stiffness and its factors, all of them
+   *  independent of friction and loads, so that variants of a study share them.
+   */
   struct BodyPair
   {
     explicit BodyPair(const ModelParameters &parameters);
@@ -39,7 +41,13 @@ namespace Debond
    * Where the scene follows a path of equilibrium, PathEquation says what else
    * is unknown.
    *
-   * Everything here is a trial state until commit().
+   * Everything here is a trial state until commit(). A step goes as follows:
+   *
+   *   predict()                            where it starts,
+   *   evaluate(), solve(), correct(), ...  Newton's method, see solve_newton(),
+   *   commit() or rollback()               what becomes of it, see StepSolver.
+   *
+   * The tangent is that of the last evaluate(): solve() uses no other.
    */
   class CoupledSystem
   {

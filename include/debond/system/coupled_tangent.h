@@ -53,6 +53,9 @@ namespace Debond
    * those of the implant and the unknown chuck components, as the Newton
    * iteration uses it [N/mm, N, N mm]: the condensed bodies and, as of the last
    * evaluate() of the interface and the path, everything else.
+   *
+   * It is unsymmetric, by friction, and not stored: the linear solver gets
+   * products, and the matrix itself only if it asks for it.
    */
   class CoupledTangent : public SplitMatrix
   {

@@ -35,9 +35,15 @@ namespace Debond
 
 
   /**
-   * Finds the state at the end of a step by one attempt of Newton's method after
-   * the other, until one leads to a state that is to be accepted. The state
-   * stays a trial until commit(); without one the system is rolled back.
+   * Finds the state at the end of a step by one attempt of Newton's method
+   * after the other, until one leads to a state that is to be accepted. The
+   * state stays a trial until commit(); without one the system is rolled back.
+   *
+   * Equilibrium alone is not enough: where the friction law falls faster than
+   * the interface is stiff, p |d mu/d g_s| > eps_t + eta / dt, a point has
+   * several solutions of Eqs. (29) and (30), and which of them is found depends
+   * on the start. Such a state is not accepted. Making steps smaller is left to
+   * the caller.
    */
   class StepSolver
   {

@@ -375,11 +375,11 @@ namespace Debond
     // barely touch, with that of a penetration of 1e-6 R. An absolute tolerance
     // in N would have to be chosen anew for every scene. The forces on both
     // faces have the same sum but for the sign; those of the slave are taken.
-    // Else a NaN would surface in the linear solver only, as a singular matrix.
     const double force = interface.force(interface.slave_side()).norm();
     result.reference   = std::max(force_floor, force);
     norm_squared += evaluate_chuck(result);
     result.norm = std::sqrt(norm_squared);
+    // else a NaN would surface in the linear solver only, as a singular matrix
     if (!std::isfinite(result.norm) || !std::isfinite(force))
       result.why = "the residual is not finite";
     // What Newton's method decides by whether the tangent of a Neo-Hookean bulk

@@ -89,8 +89,6 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
   // What the words amount to. Nothing is decided yet.
-  //
-  // The defaults are those of a command line that holds nothing but a scene.
   struct Arguments
   {
     std::string              scene_file;
@@ -106,9 +104,6 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
   // A mistake on the command line is an InputError as one in a scene is: exit
   // code 1, and nothing has been run or written.
-  //
-  // It never returns, and says so to the compiler; the message ends with where
-  // to read on.
   [[noreturn]] void
   refuse_usage(const std::string &message)
   {
@@ -157,11 +152,9 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     // From left to right: of an entry that is set twice the last value counts.
     for (auto word = words.begin(); word != words.end(); ++word)
       {
-        // Some options take the next word as their value.
-        //
-        // The lambda moves on to that word. An option at the end of the line
-        // has none, and is refused with what it needs, for a number by
-        // read_number().
+        // Some options take the next word as their value. The lambda moves on
+        // to that word. An option at the end of the line has none, and is
+        // refused with what it needs, for a number by read_number().
         const std::string option = *word;
         const auto        value  = [&](const std::string &what) {
           const std::string text = word + 1 == words.end() ? "" : *++word;
@@ -190,7 +183,6 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
     // What makes no sense together is refused, not ignored. A run that goes on
     // is what it was: its scene may not change, and so its checks are done.
-    //
     // --force would remove the very checkpoint that is to be used, and --jobs
     // is for studies, which are not resumed but run again: what is done in them
     // is kept.
@@ -209,8 +201,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
 
-  // What is not asked for is what the machine has.
-  // hardware_concurrency() is 0 where the system does not tell.
+  // What is not asked for is what the machine has. hardware_concurrency() is 0
+  // where the system does not tell.
   //
   // It knows nothing of the limits of processor time that a container may have:
   // --threads and --jobs are there for that.
@@ -315,7 +307,6 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
     // Here text becomes a plain value, with all numbers in mm, N and MPa. What
     // is not allowed, or makes no sense together, is refused with its place.
-    //
     // From here on nothing is read as text any more: the models take this
     // value, and could have got it from anywhere.
     Scene scene = Scene::from_entries(entries, arguments.scene_file);
@@ -334,9 +325,6 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
         "values, {{a|b}}"));
     // A directory that holds results of another scene is left alone, unless the
     // user says otherwise.
-    //
-    // Results are not replaced by accident, and a directory holds the results
-    // of one scene.
     scene.output.overwrite_other_results = arguments.force;
     // --check goes as far as building the meshes, so that it finds everything
     // that a run would refuse.
@@ -348,10 +336,9 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
         scene.model == ModelKind::automatic)
       catch_interruptions();
     // Finite elements, a closed form, or the cheapest of them that will do, as
-    // the entry `Model` says.
-    //
-    // It throws RunError where the load cannot be followed and Interrupted
-    // after a signal; the rows before are on the disk by then.
+    // the entry `Model` says. It throws RunError where the load cannot be
+    // followed and Interrupted after a signal; the rows before are on the disk
+    // by then.
     run_scene(scene);
   }
 
@@ -394,9 +381,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 int
 main(int argc, char *argv[])
 {
-  // One thread to begin with; deal.II's errors as exceptions, not aborts.
-  //
-  // How many threads there are to be is said once it is known what is run.
+  // One thread to begin with; deal.II's errors as exceptions, not aborts. How
+  // many threads there are to be is said once it is known what is run.
   set_up_libraries();
   try
     {

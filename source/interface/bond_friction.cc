@@ -7,12 +7,12 @@ namespace Debond
   // what the point slides in it, Eq. (32). So softening follows the slip
   // without the lag of a step, and Newton's method needs dmu/dg_s.
   //
-  // The two ends of Eq. (11): mu_ub where the bond is whole, mu_b where it is
-  // gone. phi never rises, since g_s never falls and s never rises: damage does
-  // not heal. phi_0 is that of the point, 0 if its bond has been broken by
-  // opening. mu at g_s^n instead would leave a torque up to 9 % too high while
-  // the bond softens in 50 steps, right at its maximum and at the end
-  // (doc/model.md, `Friction update').
+  // mu is mu_ub where the bond is whole and mu_b where it is gone. phi never
+  // rises, since g_s never falls and s never rises: damage does not heal. phi_0
+  // is that of the point, 0 if its bond has been broken by opening. mu at g_s^n
+  // instead would leave a torque up to 9 % too high while the bond softens in
+  // 50 steps, right at its maximum and at the end (doc/model.md, `Friction
+  // update').
   FrictionCoefficient
   BondFriction::coefficient(const FrictionState &start,
                             const double         distance) const
@@ -44,7 +44,7 @@ namespace Debond
 
   // int mu dg_s [mm]: debonded friction, and the bond on top of it. The balance
   // that tells whether a step has jumped compares it with the work of the
-  // chuck: a trapezoid between the two ends of a step would hold for any two
+  // machine: a trapezoid between the two ends of a step would hold for any two
   // states.
   double
   BondFriction::friction_strength(const FrictionState &start,

@@ -13,14 +13,14 @@
 namespace Debond
 {
   // The contact integral of Eq. (36) is a sum over quadrature points of the
+  // slave. The paper integrates over the current area, we over the reference
+  // area, which differs by the surface strain, 1e-4: tractions are nominal.
   //
   // One surface carries the points, the other is looked at by them: the
   // classical full-pass algorithm of the paper, Appendix A.2. That is not
   // symmetric. With the implant as slave the points cover its face exactly;
   // with the bone as slave the rim of the implant cuts through elements of the
   // bone, and part of the points face nothing.
-  // slave. The paper integrates over the current area, we over the reference
-  // area, which differs by the surface strain, 1e-4: tractions are nominal.
   ContactInterface::ContactInterface(const InterfaceParameters &parameters,
                                      const BodyMesh            &bone,
                                      const BodyMesh            &implant)
@@ -203,10 +203,9 @@ namespace Debond
     mode_now                    = mode;
     const auto update           = [&](const unsigned int q, NodalSums &sums) {
       SlavePoint &point = points[q];
-      // most points beyond the edge stay there: they need no projection until
-      // the surfaces may have come close enough
-      //
-      // With the bone as slave that is most of its face in the paper's test.
+      // Most points beyond the edge stay there: they need no projection until
+      // the surfaces may have come close enough. With the bone as slave that is
+      // most of its face in the paper's test.
       if (!point.accepted.has_partner && point.clearance > moved)
         {
           leave_open(law, point.accepted, point.trial);
@@ -214,8 +213,6 @@ namespace Debond
         }
       // the previous gap of Eq. (31) as printed has the direction of the
       // previous traction, which is kept in the frame of the master
-      //
-      // This is the variant to compare with; the trial gap has no use for it.
       ContactPointMode mode_here = mode;
       if (parameters.slip_along_previous_gap)
         mode_here.slip_direction =
@@ -229,12 +226,10 @@ namespace Debond
       if (point.trial.state.status == PointStatus::open)
         return;
       // f_A = int N_A t dA on the slave, and the opposite on the master at
-      // xi_hat, Eq. (36)
-      //
-      // What one side gets the other one gives at the same parameters, so that
-      // the forces of both sides add up to zero but for rounding. Their moments
-      // do up to f times the gap between x and y(xi_hat), by which the springs
-      // of the interface are stretched.
+      // xi_hat, Eq. (36). What one side gets the other one gives at the same
+      // parameters, so that the forces of both sides add up to zero but for
+      // rounding. Their moments do up to f times the gap between x and
+      // y(xi_hat), by which the springs of the interface are stretched.
       const Eigen::Vector3d f = point.JxW * point.trial.traction;
       spread(point.basis, f, sums[slave]);
       spread(point.trial.basis, -f, sums[master_side()]);

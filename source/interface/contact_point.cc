@@ -71,13 +71,11 @@ namespace Debond
     result.xi        = closest.xi;
     result.converged = closest.converged;
     result.faces     = closest.converged && closest.is_orthogonal && regular;
-    // a point below the surface's level may come under it by moving sideways
-    // less than its distance
-    //
-    // The clearance [mm] is the distance in space for a point above the level
-    // of the master, and the distance along it for one below. Where the normal
-    // is not to be trusted it stays 0, so that the point is asked in every
-    // step.
+    // A point below the surface's level may come under it by moving sideways
+    // less than its distance. The clearance [mm] is the distance in space for a
+    // point above the level of the master, and the distance along it for one
+    // below. Where the normal is not to be trusted it stays 0, so that the
+    // point is asked every time.
     const Vector3d gap = x - geometry.y;
     const Vector3d n   = MasterNormal(geometry, master.outward_sign).n;
     if (regular)
@@ -106,8 +104,8 @@ namespace Debond
 
   namespace
   {
-    // One point in one step: what is given, and the three ends that it may
-    // come to. `start' is the state of the beginning, with an xi_hat^n.
+    // One point in one step: what is given, and the three ends that it may come
+    // to. `start' is the state of the beginning, with an xi_hat^n.
     //
     // The references are what update_contact_point() was called with; of them
     // only `result' is written.
@@ -216,9 +214,7 @@ namespace Debond
         // The tangent follows from g = x - y and n(a_1, a_2) alone, since
         // xi_hat does not move:
         //   dt = eps_t dg + (eps_n - eps_t) n dg_n - (p + eps_t g_n) dn.
-        //
-        //     dg = dx - dy,   dg_n = n . dg + g . dn.
-        //
+        //   dg = dx - dy,   dg_n = n . dg + g . dn.
         // With the penalty law and eps_n = eps_t all but the first term cancel,
         // and dt = eps dg is Eq. (28) differentiated. Otherwise the turning of
         // the normal has a part. Columns of y_n stay 0: y(xi_hat^n) is y here.
@@ -368,9 +364,9 @@ namespace Debond
     const double trial_traction =
       law.tangential_penalty * (gap - g_n * normal.n).norm();
     // In the first iteration of some attempts all closed points are made to
-    // stick, whatever they would carry: the tangent is then that of one elastic
-    // body, and the iteration cannot begin with a cycle of stick and slip. The
-    // true law takes over in the next one.
+    // stick, whatever they would carry: the tangent is then that of bodies
+    // joined by springs, and the iteration cannot begin with a cycle of stick
+    // and slip. The true law takes over in the next one.
     if (closed && (mode.stick_first || trial_traction <= limit))
       {
         step.stick(friction, gap, normal);

@@ -25,10 +25,9 @@ namespace Debond
     using LocalVector = Matrix<double, 15, 1>;
 
     // dw when the control points of both surfaces move. While a point sticks
-    // its xi_hat stays, and y_n has no part.
-    //
-    // Parameters are held fixed here: how xi_hat moves is in the derivatives
-    // dt/dw and dxi/dw already, by the implicit function theorem.
+    // its xi_hat stays, and y_n has no part. Parameters are held fixed here:
+    // how xi_hat moves is in the derivatives dt/dw and dxi/dw already, by the
+    // implicit function theorem.
     LocalVector
     local_motion(const SlavePoint &point,
                  const Side        slave,
@@ -137,8 +136,8 @@ namespace Debond
       {
         if (unknown < 0)
           return;
-        // a fixed control point, or one that contact cannot reach, has no
-        // number
+        // A control point that is fixed, out of reach of contact or of a rigid
+        // body has no number.
         dw.col(n)   = motion;
         number[n++] = unknown;
       }
@@ -280,9 +279,8 @@ namespace Debond
           continue;
         area += point.JxW;
         result.value += point.JxW * trial.state.slip;
-        // Only a sliding point changes it. Where the point has not moved at all
-        // the length has no derivative, and its direction none; the gradient
-        // leaves it out.
+        // Only a sliding point changes it. Where it has not moved the length
+        // has no derivative; the gradient leaves it out.
         const double distance = trial.slip_increment.norm();
         if (trial.state.status != PointStatus::slip || mode_now.frictionless ||
             distance == 0.)

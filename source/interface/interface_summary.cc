@@ -26,10 +26,8 @@ namespace Debond
     dissipation +=
       0.5 *
       (frame * point.accepted_traction + trial.tangential_traction).dot(slip);
-    // the viscous traction is anything between its two ends
-    //
-    // It stands in both balances, of which the second takes the law for the
-    // rest.
+    // The viscous traction is anything between its two ends. It stands in both
+    // balances, of which the second takes the law for the rest.
     const double viscous_part =
       0.5 * (frame * point.accepted_viscous_traction + trial.viscous_traction)
               .dot(slip);
@@ -44,12 +42,11 @@ namespace Debond
       friction_bound += point.JxW * point.accepted_energy;
     if (opens || mode.frictionless)
       return;
-    // the law is integrated over the distance that the point slides, from its
-    // accepted state, with the pressure between its two ends
-    //
-    // Pressures times mm are works per area. Of the friction the bond has its
-    // part, int (mu - mu_b) dg_s: D_adh, which tells what the adhesion costs
-    // without reading it off the torque curve as Eq. (20) does.
+    // The law is integrated over the distance that the point slides, from its
+    // accepted state, with the pressure between its two ends. Pressures times
+    // mm are works per area. Of the friction the bond has its part, int (mu -
+    // mu_b) dg_s: D_adh, which tells what the adhesion costs without reading it
+    // off the torque curve as Eq. (20) does.
     const FrictionState start =
       friction_state(point.accepted, point.phi_0, mode.duration);
     const double distance = trial.state.slip - point.accepted.slip;

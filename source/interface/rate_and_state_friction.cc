@@ -88,7 +88,7 @@ namespace Debond
       // The work per pressure, int mu dg_s [mm], at the constant speed of the
       // step: after a part of the distance the same part of the time has
       // passed, so that V is the same and only psi changes. 15 Gauss points
-      // resolve that, unless a step is very many D long.
+      // resolve that, unless a step is many D long.
       double
       friction_strength(const FrictionState &start,
                         const double         distance) const override
@@ -122,9 +122,9 @@ namespace Debond
       }
 
       // The direct effect rises by A/(V_0 dt + d) at least. psi falls by 1/D at
-      // most with the ageing law, from below the steady state, and by 1 +
-      // ln(V theta/D) over D with the slip law. As the direct effect of a step
-      // grows like 1/dt, there is one solution in steps that are short enough.
+      // most with the ageing law, from below the steady state, and by 1 + ln(V
+      // theta/D) over D with the slip law. As the direct effect of a step grows
+      // like 1/dt, there is one solution in steps that are short enough.
       //
       // This asks for the distance of the step, unlike laws of g_s alone: what
       // is ahead depends on speeds that are not known yet. Where it exceeds
@@ -256,12 +256,11 @@ namespace Debond
             slope              = (aged * mean_slope - old) / (D * state);
             return std::log(state);
           }
-        // the slope is logarithmically infinite at V = 0
-        //
-        // A point at rest would keep its state for ever with this law, so the
-        // speed is bounded from below; there V does not enter mu by the direct
-        // effect either. With ln(V_0 theta/D) = psi and s = ln(V/V_0) the
-        // solution above is psi = e^-x (psi_n + s) - s.
+        // The slope is logarithmically infinite at V = 0. A point at rest would
+        // keep its state for ever with this law, so the speed is bounded from
+        // below; there V does not enter mu by the direct effect either. With
+        // ln(V_0 theta/D) = psi and s = ln(V/V_0) the solution above is psi =
+        // e^-x (psi_n + s) - s.
         const double speed = std::log(std::max(distance / (V_0 * dt), slowest));
         slope =
           -(decay * (psi + speed) + (x > 0. ? -std::expm1(-x) / x : 1.)) / D;

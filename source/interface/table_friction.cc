@@ -1,14 +1,3 @@
-// The law of Eq. (11) with a measured or computed decay of the bond in the
-// place of Eq. (13): rows of sliding distance and bonding state from a CSV
-// file. Both coefficients stay entries, and phi_0 stays that of the point; the
-// table says s(g_s), what is left of a bond that was whole.
-//
-// A curve through the rows has to be smooth and must not rise anywhere.
-// Straight lines would give dmu/dg_s a jump at every row, at which the Newton
-// iteration of a point can go to and fro; ordinary cubic splines swing beyond
-// the rows, so that a bond would heal for a while. Monotone cubics do neither:
-// their slope is continuous, and they fall where the rows fall and are constant
-// where these are.
 #include <math.h> // pchip expects isnan() outside of any namespace
 
 #include <debond/input/csv_table.h>
@@ -20,16 +9,27 @@
 
 #include <algorithm>
 
+// The law of Eq. (11) with a measured or computed decay of the bond in the
+// place of Eq. (13): rows of sliding distance and bonding state from a CSV
+// file. Both coefficients stay entries, and phi_0 stays that of the point; the
+// table says s(g_s), what is left of a bond that was whole.
+//
+// A curve through the rows has to be smooth and must not rise anywhere.
+// Straight lines would give dmu/dg_s a jump at every row, at which the Newton
+// iteration of a point can go to and fro; ordinary cubic splines swing beyond
+// the rows, so that a bond would heal for a while. Monotone cubics do neither:
+// their slope is continuous, and they fall where the rows fall and are constant
+// where these are.
 namespace Debond
 {
   namespace
   {
     /** s(g_s) through the points of a table: monotone cubics between them
-     *  (Fritsch and Butland), constant from the last one on. */
+     *  (Fritsch and Butland), constant from the last one on. Works, and the
+     *  check that local solutions are unique, need integral and steepest slope
+     *  of the curve; both are formed once for each row, so that a point only
+     *  looks them up. */
     class TableFriction : public BondFriction
-    // Works, and the check that local solutions are unique, need integral and
-    // steepest slope of the curve. Both are summed up here, once for each row,
-    // so that a point only looks them up.
     {
     public:
       TableFriction(const double               mu_broken,
@@ -72,15 +72,15 @@ namespace Debond
         return std::min(slip.back(), 1. / steepest.front());
       }
 
-      // What a run belongs to besides its scene.
+      // The content of this file belongs to the scene: with another one a run
+      // is not gone on with.
       std::string
       file() const override
       {
         return filename;
       }
 
-      // No entry changes the slope but the file itself: what would help is a
-      // longer fall in there.
+      // The slope is in the file: what helps is a longer fall in there.
       std::string
       entries_against_fall() const override
       {
@@ -197,7 +197,7 @@ namespace Debond
             "line " + std::to_string(lines[slip.size()]) + ": ";
           const std::string said = line + "phi = " + to_text(row[1]);
           // g_s from 0 on, ascending; equal distances would be a jump of mu,
-          // with which no local solution is unique
+          // which falls faster than any interface is stiff
           expect(slip.empty() ? row[0] == 0. : row[0] > slip.back(),
                  line + "slip_mm = " + to_text(row[0]) +
                    ": expected distances that begin with 0 and ascend");

@@ -12,9 +12,9 @@ namespace Debond
    *
    * whose decay s falls from 1, or less, and never rises. Two coefficients and
    * a curve make such a law: a class that derives from this one says what the
-   * curve is, its integral and the bound of its slope. All of them are asked
-   * for exactly: the slope by Newton's method, the integral by the balance of
-   * energy, the bound by the check that the local solution is unique.
+   * curve is, its integral and the bound of its slope. Newton's method
+   * needs the slope, the balance of energy the integral, and the check that the
+   * local solution is unique the bound.
    */
   class BondFriction : public FrictionLaw
   {

@@ -263,7 +263,7 @@ namespace Debond
       //
       // Whether it opens cannot be told from the gap at xi_hat^n: on a curved
       // or tilted master a point may lift off at the old place and touch at the
-      // new one, and the other way round.
+      // new one, or touch at the old place only.
       void
       slide_or_open(const PointFriction &friction, const Vector3d &y_old)
       {

@@ -76,6 +76,8 @@ namespace Debond
           return 1.;
         if (s > 1. + 2. * b_s)
           return 0.;
+        // from -pi/2 to pi/2 over the fall, 0 in its middle, s = 1 + b_s; the
+        // slope carries the 1/a_s of the inner derivative
         const double argument = 0.5 * M_PI / b_s * (s - b_s - 1.);
         slope                 = -0.25 * M_PI / (a_s * b_s) * std::cos(argument);
         return 0.5 * (1. - std::sin(argument));
@@ -105,6 +107,11 @@ namespace Debond
       // bound of local uniqueness, p / eps_t < 4 a_s b_s / (pi phi_0 (mu_ub -
       // mu_b)) (doc/model.md). A point before the middle is judged by the
       // middle already, so that a large step does not jump over it unnoticed.
+      //
+      // A short fall is a brittle bond. The torque of the main scene falls by 1
+      // N m/rad at most, far less than any machine is stiff; with a_s = 0.005
+      // mm and b_s = 0.3 it is 8.9 N m/rad for rigid bodies, and a compliant
+      // machine may snap back.
       double
       steepest_decay(const double slip) const override
       {
@@ -159,6 +166,9 @@ namespace Debond
 
 
 
+  // For programs and tests, without a scene; the plug-ins below make the same
+  // from entries. Laws are shared and never change: all points refer to one
+  // object.
   FrictionLawPointer
   modified_coulomb(const ModifiedCoulombParameters &parameters)
   {

@@ -5,6 +5,19 @@
 #include <algorithm>
 #include <cmath>
 
+// Friction that depends on the speed, which is not in the paper: its law of the
+// bond knows the distance only, so that its torque is that of any speed of the
+// test. Steady sliding has mu = mu_0 + A ln(1 + V/V_0) - B ln(V/V_0). With B >
+// A it weakens as the speed grows; sliding at V >> V_0 is then stable on a
+// spring stiffer than k_c = p (B - A)/D [MPa/mm] only, the interface's own
+// eps_t being in series with the rest. On a softer one disturbances grow until
+// the speed is infinite, and there is no quasi-static solution: the run warns
+// of a jump or ends. `Interface / Viscosity' bounds the speed, and the implant
+// sticks and slips in turns (doc/model.md).
+//
+// The time steps are what such a law costs. They are implicit and of first
+// order, and damp what oscillates with the frequency omega by omega^2 dt/4:
+// growth is only seen in steps shorter than 2 V (k_c - k)/(p A omega^2).
 namespace Debond
 {
   namespace
@@ -48,6 +61,9 @@ namespace Debond
         const double dt = start.duration;
         double       slope;
         const double psi = evolved(start, distance, slope);
+        // 1 + V/V_0 instead of V/V_0 under the logarithm keeps mu finite at V =
+        // 0, where points stick; the derivative by d is A/(V_0 dt + d) [1/mm],
+        // which grows as steps shrink.
         if (dt == 0.) // no time, no speed
           return {0., mu_0 + B * psi, 0.};
         return {0.,
@@ -93,6 +109,8 @@ namespace Debond
       friction_strength(const FrictionState &start,
                         const double         distance) const override
       {
+        // mu after this part of the step, by the same update over a shorter
+        // time
         const auto mu_at = [&](const double part) {
           FrictionState to_there = start;
           to_there.duration *= part;

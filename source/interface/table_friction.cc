@@ -18,8 +18,11 @@
 // Straight lines would give dmu/dg_s a jump at every row, at which the Newton
 // iteration of a point can go to and fro; ordinary cubic splines swing beyond
 // the rows, so that a bond would heal for a while. Monotone cubics do neither:
-// their slope is continuous, and they fall where the rows fall and are constant
-// where these are.
+// their slope is continuous from row to row, and they fall where the rows fall
+// and are constant where these are. The slope at a row is the weighted harmonic
+// mean of those of the chords beside it, at both ends that of the chord. Beyond
+// the last row it is 0, so that it jumps there unless the last two rows have
+// the same phi.
 namespace Debond
 {
   namespace
@@ -88,9 +91,11 @@ namespace Debond
       }
 
     protected:
-      // s, and its slope [1/mm] by the derivative of the same cubic. Beyond the
-      // last row s is the value there: what a table does not say is not
-      // extrapolated. If that is above 0 a part of the bond stays for ever.
+      // s, and its slope [1/mm] by the derivative of the same cubic. Both
+      // belong to one curve: a slope from differences of the rows would cost
+      // Newton's method its quadratic convergence. Beyond the last row s is the
+      // value there: what a table does not say is not extrapolated. If that is
+      // above 0 a part of the bond stays for ever.
       double
       decay(const double g_s, double &slope) const override
       {

@@ -26,6 +26,10 @@
 // All that is known of implants, contact and friction is in the library; this
 // file decides which part of it is asked for, and turns what went wrong into an
 // exit code that scripts can count on.
+//
+// What belongs to a model is nowhere here. A program of one's own can do
+// without this file: it makes a Scene, gives it to a Simulation and looks at
+// the rows (doc/example/torque_curve.cc).
 using namespace Debond;
 
 namespace
@@ -34,6 +38,11 @@ namespace
   //
   // What is said here is all that a user has to know to begin with; the entries
   // of a scene explain themselves with --print-parameters.
+  //
+  // Options change how a run is done, not what is computed: threads, jobs, the
+  // directory that may be written to. All that changes a result is an entry of
+  // the scene, and so is in the parameters.prm beside the results. --set is no
+  // exception, as what it sets becomes an entry.
   const char *const help_text =
     R"(usage: debond [OPTIONS] SCENE.prm
        debond --resume DIR [OPTIONS] [SCENE.prm]
@@ -72,6 +81,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
   // Results belong to a version of this program and of deal.II: both are said.
+  //
+  // A checkpoint of another version is refused.
   const char *const version_text =
     "debond " DEBOND_VERSION " (deal.II " DEAL_II_PACKAGE_VERSION ")\n";
 
@@ -102,6 +113,9 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
   // Strictly: std::stoi alone would take "4x" for a number.
+  //
+  // Four digits are enough for threads and jobs, and cannot overflow. 0 is
+  // refused, as it could be meant as "none" or as "all".
   unsigned int
   read_number(const std::string &option, const std::string &word)
   {
@@ -117,6 +131,9 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
   // Options are few, so that tables of their names and a loop over the words
   // read them. What has no dash in front is the scene file.
+  //
+  // deal.II's ParameterHandler is for what stands in a scene; a command line
+  // has an order, and words without names.
   Arguments
   read_arguments(const std::vector<std::string> &words)
   {
@@ -128,11 +145,16 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
                                               {"--print-parameters",
                                                &arguments.print_parameters},
                                               {"--force", &arguments.force}};
+    // The tables point to where a word is to be kept, so that a new flag or
+    // number is one line here and one in the help text.
     const std::map<std::string, unsigned int *> numbers{
       {"--jobs", &arguments.n_jobs}, {"--threads", &arguments.n_threads}};
+    // From left to right: of an entry that is set twice the last value counts.
     for (auto word = words.begin(); word != words.end(); ++word)
       {
-        // Some options take the next word as their value.
+        // Some options take the next word as their value. The lambda moves on
+        // to that word. An option at the end of the line has none, and is
+        // refused with what it needs, for a number by read_number().
         const std::string option = *word;
         const auto        value  = [&](const std::string &what) {
           const std::string text = word + 1 == words.end() ? "" : *++word;
@@ -161,6 +183,9 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
     // What makes no sense together is refused, not ignored. A run that goes on
     // is what it was: its scene may not change, and so its checks are done.
+    // --force would remove the very checkpoint that is to be used, and --jobs
+    // is for studies, which are not resumed but run again: what is done in them
+    // is kept.
     const bool resumes = !arguments.directory_to_resume.empty();
     if (resumes && (arguments.check || arguments.print_parameters ||
                     arguments.force || arguments.n_jobs > 0))
@@ -176,8 +201,11 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
 
-  // What is not asked for is what the machine has.
-  // hardware_concurrency() is 0 where the system does not tell.
+  // What is not asked for is what the machine has. hardware_concurrency() is 0
+  // where the system does not tell.
+  //
+  // It knows nothing of the limits of processor time that a container may have:
+  // --threads and --jobs are there for that.
   unsigned int
   or_processors(const unsigned int n)
   {
@@ -191,6 +219,10 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
   // A study is a scene whose entries hold several values. Its variants run as
   // processes of their own, several at a time. They share the processors: if
   // nothing else is asked for each gets its part of the threads.
+  //
+  // Processes, not threads: a variant that fails, or for which the memory does
+  // not suffice, leaves the others alone. Threads within a run gain less: what
+  // takes longest, the triangular solves, waits for the memory.
   void
   run_study(const std::vector<SceneEntry> &entries, const Arguments &arguments)
   {
@@ -199,6 +231,7 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     Study study(entries, arguments.scene_file);
     if (arguments.check)
       return study.check(std::cout);
+    // With as many jobs as processors each variant gets one thread.
     const unsigned int n_jobs = or_processors(arguments.n_jobs);
     set_number_of_threads(arguments.n_threads > 0 ?
                             arguments.n_threads :
@@ -212,6 +245,10 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
   // A run that was interrupted goes on from its last checkpoint, to the same
   // files, to the last bit, as if it never had been.
+  //
+  // Friction depends on the path, so that the state at a time cannot be found
+  // again without the steps before it; doc/checkpoints.md says what is kept of
+  // them.
   void
   resume(const Arguments &arguments)
   {
@@ -240,6 +277,10 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
   // From what needs least to what needs most: texts, a run that goes on, the
   // scene's entries, a study, one scene.
+  //
+  // Each of them is done and returns; what is left at the end is one scene that
+  // is to be run. Whatever goes wrong is thrown, and main() makes an exit code
+  // of it.
   void
   act(const Arguments &arguments)
   {
@@ -266,6 +307,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
     // Here text becomes a plain value, with all numbers in mm, N and MPa. What
     // is not allowed, or makes no sense together, is refused with its place.
+    // From here on nothing is read as text any more: the models take this
+    // value, and could have got it from anywhere.
     Scene scene = Scene::from_entries(entries, arguments.scene_file);
     if (arguments.print_parameters)
       return print_parameters(std::cout, &scene);
@@ -293,7 +336,9 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
         scene.model == ModelKind::automatic)
       catch_interruptions();
     // Finite elements, a closed form, or the cheapest of them that will do, as
-    // the entry `Model` says.
+    // the entry `Model` says. It throws RunError where the load cannot be
+    // followed and Interrupted after a signal; the rows before are on the disk
+    // by then.
     run_scene(scene);
   }
 
@@ -304,12 +349,17 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
   // The library's own errors are worded where they are found and printed as
   // they are. deal.II's go over several lines, of which programs that gather
   // messages would only keep the first: they are joined.
+  //
+  // Memory that runs out has a message of its own, as std::bad_alloc says
+  // nothing that would help.
   std::string
   message_of(const std::exception &error, const bool is_internal)
   {
     if (dynamic_cast<const std::bad_alloc *>(&error) != nullptr)
       return std::string("debond: ") + out_of_memory;
     std::string line = error.what(), word;
+    // Name of the exception and its text, word by word; where it was thrown
+    // would say nothing to a user.
     if (const auto *const of_library =
           dynamic_cast<const dealii::ExceptionBase *>(&error))
       {
@@ -331,7 +381,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 int
 main(int argc, char *argv[])
 {
-  // One thread to begin with; deal.II's errors as exceptions, not aborts.
+  // One thread to begin with; deal.II's errors as exceptions, not aborts. How
+  // many threads there are to be is said once it is known what is run.
   set_up_libraries();
   try
     {
@@ -346,6 +397,9 @@ main(int argc, char *argv[])
       const bool        fails_to_run =
         dynamic_cast<const RunError *>(&error) != nullptr ||
         dynamic_cast<const std::bad_alloc *>(&error) != nullptr;
+      // What is none of these was not foreseen: a failed assertion of a
+      // library, a bug. It is printed as an internal error, so that it is
+      // reported as one.
       const int code = dynamic_cast<const InputError *>(&error) != nullptr ? 1 :
                        interrupted != nullptr ? 128 + interrupted->signal :
                        fails_to_run           ? 2 :

@@ -6,12 +6,20 @@ namespace Debond
   // is implicit: g_s is the sliding distance at the end of the step, g_s^n plus
   // what the point slides in it, Eq. (32). So softening follows the slip
   // without the lag of a step, and Newton's method needs dmu/dg_s.
+  //
+  // mu is mu_ub where the bond is whole and mu_b where it is gone. phi never
+  // rises, since g_s never falls and s never rises: damage does not heal. phi_0
+  // is that of the point, 0 if its bond has been broken by opening. mu at g_s^n
+  // instead would leave a torque up to 9 % too high while the bond softens in
+  // 50 steps, right at its maximum and at the end (doc/model.md, `Friction
+  // update').
   FrictionCoefficient
   BondFriction::coefficient(const FrictionState &start,
                             const double         distance) const
   {
     FrictionCoefficient result;
     double              slope;
+    // phi and mu are dimensionless, dmu/dg_s in 1/mm
     result.phi = start.phi_0 * decay(start.slip + distance, slope);
     result.mu  = mu_b + result.phi * drop;
     result.dmu = start.phi_0 * slope * drop;
@@ -20,8 +28,9 @@ namespace Debond
 
 
 
-  // int (mu - mu_b) dg_s, exactly: the work per pressure that goes into the
-  // bond.
+  // int (mu - mu_b) dg_s [mm], exactly: the work per pressure that goes into
+  // the bond in this step. Times p and summed over the face it is D_adh, which
+  // does not depend on how a curve is read, as the W_adh of Eq. (20) does.
   double
   BondFriction::adhesive_strength(const FrictionState &start,
                                   const double         distance) const
@@ -33,7 +42,10 @@ namespace Debond
 
 
 
-  // int mu dg_s: debonded friction, and the bond on top of it.
+  // int mu dg_s [mm]: debonded friction, and the bond on top of it. The balance
+  // that tells whether a step has jumped compares it with the work of the
+  // machine: a trapezoid between the two ends of a step would hold for any two
+  // states.
   double
   BondFriction::friction_strength(const FrictionState &start,
                                   const double         distance) const
@@ -43,7 +55,10 @@ namespace Debond
 
 
 
-  // A bond that strengthens as it breaks, mu_ub < mu_b, never falls.
+  // -dmu/dg_s [1/mm] at its largest from g_s^n on, whatever the distance slid
+  // in this step: the law does not depend on the rate, so that what is ahead of
+  // a point is known. Times p it must stay below eps_t. A bond that strengthens
+  // as it breaks, mu_ub < mu_b, never falls.
   double
   BondFriction::steepest_fall(const FrictionState &start, double) const
   {
@@ -52,6 +67,9 @@ namespace Debond
 
 
 
+  // The entries of mu_b and mu_ub, which all laws of this kind have, and those
+  // of the law itself. 0 is allowed, for faces without friction; anything else
+  // below 1e-9 is taken for a slip of the pen.
   std::vector<LawEntry>
   BondFriction::entries(const std::vector<LawEntry> &more)
   {

@@ -15,6 +15,12 @@ namespace Debond
   // The contact integral of Eq. (36) is a sum over quadrature points of the
   // slave. The paper integrates over the current area, we over the reference
   // area, which differs by the surface strain, 1e-4: tractions are nominal.
+  //
+  // One surface carries the points, the other is looked at by them: the
+  // classical full-pass algorithm of the paper, Appendix A.2. That is not
+  // symmetric. With the implant as slave the points cover its face exactly;
+  // with the bone as slave the rim of the implant cuts through elements of the
+  // bone, and part of the points face nothing.
   ContactInterface::ContactInterface(const InterfaceParameters &parameters,
                                      const BodyMesh            &bone,
                                      const BodyMesh            &implant)
@@ -23,6 +29,10 @@ namespace Debond
     , slave(parameters.slave)
     , mesh{{&bone, &implant}}
   {
+    // n x n Gauss points per element. A point carries its weight JxW [mm^2] of
+    // the reference area, and a history: to begin with no partner, g_s = 0, and
+    // the internal variables that the law wants, such as the initial state of a
+    // law that ages.
     const unsigned int n = parameters.quadrature_points;
     for (const auto &place : surface_quadrature(mesh[slave]->surface(), n))
       {
@@ -32,7 +42,10 @@ namespace Debond
         points.push_back(point);
       }
     for (const Side side : both_sides)
+      // no forces before the first evaluate(); their size never changes
       forces[side].setZero(3, mesh[side]->surface().n_control_points());
+    // The area of the implant's face [mm^2], whichever side is the slave: what
+    // the mean pressure refers to.
     for (const auto &place : surface_quadrature(implant.surface(), n))
       area_of_implant += place.JxW;
   }
@@ -41,9 +54,16 @@ namespace Debond
 
   // phi_0 of Eq. (13) belongs to the implant: with the bone as slave a point
   // takes that of the implant point it faces at the start.
+  //
+  // A point of the bone that faces no implant at the start has grown together
+  // with nothing: its phi_0 stays 0. It can still carry pressure and friction
+  // once the implant slides over it, with the coefficient of what is debonded.
   void
   ContactInterface::assign_bonding()
   {
+    // The pattern is a field over the implant's face, evaluated here once for
+    // all: osseointegration is over before the test begins (footnote 2 of the
+    // paper).
     pattern =
       std::make_unique<BondingPattern>(parameters.bonding,
                                        mesh[Side::implant]->parameters(),
@@ -55,6 +75,9 @@ namespace Debond
         point.faces_implant =
           slave == Side::implant || point.accepted.has_partner;
         if (point.faces_implant)
+          // The points of the implant are those of the pattern. Those of the
+          // bone look it up at their interacting point, which initialise() has
+          // just found.
           point.phi_0 = slave == Side::implant ? pattern->at(q) :
                                                  pattern->at(point.accepted.xi);
       }
@@ -62,6 +85,10 @@ namespace Debond
 
 
 
+  // The area mean of phi_0 as the quadrature points see it, dimensionless. With
+  // the bone as slave points meet the edge of a bonded area only as closely as
+  // they lie, so that this differs from the mean of the pattern; Simulation
+  // warns if it does by more than a hundredth.
   double
   ContactInterface::mean_seen_bonding() const
   {
@@ -77,6 +104,9 @@ namespace Debond
 
 
 
+  // The master as the points need it: its basis, which never changes, over the
+  // control points where Newton's method has put them, and the sign that turns
+  // a_1 x a_2, Eq. (24), to the side of the slave.
   MasterSurface
   ContactInterface::master(const InterfaceConfiguration &configuration) const
   {
@@ -96,6 +126,10 @@ namespace Debond
     const InterfaceConfiguration &configuration,
     const bool                    use_guess)
   {
+    // The search starts from the last xi_hat where there is one, and over the
+    // whole master in the first state. A point beyond the edge has no partner;
+    // it keeps its clearance instead, the distance [mm] that the surfaces may
+    // move before it has to be asked again.
     const Projection projection =
       project(master(configuration),
               interpolate(point.basis, configuration.side[slave].positions),
@@ -112,6 +146,11 @@ namespace Debond
 
   // Every point of a surface is a convex combination of control points, so none
   // moves further than the control point that moves most.
+  //
+  // The sum over both sides bounds how much closer [mm] any point of one
+  // surface can have come to any point of the other since the accepted state.
+  // It costs a pass over the control points, where projecting all points again
+  // would cost an iteration for each.
   double
   ContactInterface::motion(const InterfaceConfiguration &configuration) const
   {
@@ -128,6 +167,8 @@ namespace Debond
 
   // "At initial contact the interacting point is the closest projection point"
   // (paper, after Eq. 28).
+  //
+  // The bonding comes last, as with the bone as slave it asks for the partners.
   void
   ContactInterface::initialise(const InterfaceConfiguration &configuration)
   {
@@ -141,22 +182,30 @@ namespace Debond
 
 
 
-  // Points do not know of each other, so they are updated in parallel; the sums
-  // are formed in the same order whatever the number of threads.
+  // What Newton's method asks for in each iteration: nodal forces, and the
+  // derivatives at every point, for the surfaces as they are proposed. The
+  // history of the points goes in and is not changed, so that an iteration owes
+  // nothing to the one before and a rejected step leaves nothing behind.
+  //
+  // Points do not know of each other, so they are updated in parallel. Sums are
+  // formed in parts that do not depend on the number of threads, and added in
+  // the order of the parts: results are the same to the last digit.
   bool
   ContactInterface::evaluate(const InterfaceConfiguration &configuration,
                              const ContactPointMode       &mode)
   {
     // the master where it is now, and how far things have moved at most since
-    // the accepted state
+    // the accepted state. The mode of this step is needed again when it is
+    // judged and when it is committed.
     const MasterSurface surface = master(configuration);
     const double        moved   = motion(configuration);
     const auto         &sides   = configuration.side;
     mode_now                    = mode;
     const auto update           = [&](const unsigned int q, NodalSums &sums) {
       SlavePoint &point = points[q];
-      // most points beyond the edge stay there: they need no projection until
-      // the surfaces may have come close enough
+      // Most points beyond the edge stay there: they need no projection until
+      // the surfaces may have come close enough. With the bone as slave that is
+      // most of its face in the paper's test.
       if (!point.accepted.has_partner && point.clearance > moved)
         {
           leave_open(law, point.accepted, point.trial);
@@ -168,6 +217,8 @@ namespace Debond
       if (parameters.slip_along_previous_gap)
         mode_here.slip_direction =
           sides[master_side()].frame * point.accepted_traction;
+      // x, the slave point in space [mm]; the update finds what master and law
+      // make of it (contact_point.cc).
       const Eigen::Vector3d x =
         interpolate(point.basis, sides[slave].positions);
       update_contact_point(
@@ -175,12 +226,18 @@ namespace Debond
       if (point.trial.state.status == PointStatus::open)
         return;
       // f_A = int N_A t dA on the slave, and the opposite on the master at
-      // xi_hat, Eq. (36)
+      // xi_hat, Eq. (36). What one side gets the other one gives at the same
+      // parameters, so that the forces of both sides add up to zero but for
+      // rounding. Their moments do up to f times the gap between x and
+      // y(xi_hat), by which the springs of the interface are stretched.
       const Eigen::Vector3d f = point.JxW * point.trial.traction;
       spread(point.basis, f, sums[slave]);
       spread(point.trial.basis, -f, sums[master_side()]);
     };
     forces = sum_in_chunks(points.size(), configuration, update);
+    // One point without a solution is enough to fail the iteration: a traction
+    // that is guessed would converge to something. The first one in order is
+    // remembered for the message, whichever thread has met it.
     const auto found =
       std::find_if(points.begin(), points.end(), [](const SlavePoint &point) {
         return point.trial.failed;
@@ -194,9 +251,13 @@ namespace Debond
   // The trial state becomes the accepted one. Tractions are kept in the frame
   // of the master, so that a rotation of the whole changes nothing; the works
   // need both ends of the step, and so come first.
+  //
+  // From here on there is no return: g_s never falls, and what a bond has lost
+  // stays lost.
   void
   ContactInterface::commit(const InterfaceConfiguration &configuration)
   {
+    // how far things have moved must be known before the positions are replaced
     const Eigen::Matrix3d &Q     = configuration.side[master_side()].frame;
     const double           moved = motion(configuration);
     for (const Side side : both_sides)
@@ -208,10 +269,14 @@ namespace Debond
         // beyond the edge, and still too far to reach it
         if (!point.accepted.has_partner && point.clearance > moved)
           {
+            // The bound for the next steps is less by what was used of it. When
+            // nothing is left the point is projected anew, below.
             point.clearance -= moved;
             continue;
           }
         works.add(point, *law.friction, mode_now, Q);
+        // g_s^n and xi_hat^n of the next step, and what its trapezoids begin
+        // with: tangential traction and pressure [MPa], stored energy [N/mm].
         const ContactPointResult &trial = point.trial;
         point.accepted                  = trial.state;
         point.accepted_traction = Q.transpose() * trial.tangential_traction;
@@ -219,8 +284,10 @@ namespace Debond
           Q.transpose() * trial.viscous_traction;
         point.accepted_pressure = trial.pressure;
         point.accepted_energy   = trial.energy;
-        // what is open forgets its interacting point, or it would be pulled
-        // back to it when it closes again somewhere else
+        // What is open forgets its interacting point, or it would be pulled
+        // back to it when it closes again somewhere else: the gap to the old
+        // xi_hat would be a spring stretched over the distance that the
+        // surfaces have moved while apart.
         if (point.accepted.status == PointStatus::open)
           project_accepted(point, configuration, true);
       }
@@ -228,6 +295,9 @@ namespace Debond
 
 
 
+  // Open, stick or slip of all points in the trial state. Newton's method
+  // compares them over its iterations: states of all points that have been
+  // there before are a cycle between stick and slip.
   std::vector<PointStatus>
   ContactInterface::statuses() const
   {
@@ -239,6 +309,8 @@ namespace Debond
 
 
 
+  // Whether contact is incomplete. What lies beside closed points on the
+  // surface of a linear body matters to open ones only (doc/solution.md).
   bool
   ContactInterface::has_open_points() const
   {
@@ -253,6 +325,12 @@ namespace Debond
   // solution while |dmu/dg_s| p < eps_t + eta/dt: the slope is asked for where
   // it will be steepest, so that a step that ends beyond the steepest place is
   // not missed.
+  //
+  // There p is the pressure of the trial state [MPa], and eps_t + eta/dt the
+  // resistance [MPa/mm] with which the elastic interface, and the viscosity,
+  // hold against the fall of the law. A ratio of one or more means that the
+  // bond would break in a jump of the traction, and that which of the solutions
+  // Newton's method has met is chance.
   InterfaceSummary
   ContactInterface::summarise() const
   {
@@ -266,9 +344,13 @@ namespace Debond
     for (const SlavePoint &point : points)
       {
         const ContactPointResult &trial = point.trial;
+        // int p dA [N]; it is no resultant, as the normals of a curved face
+        // differ
         summary.normal_force += point.JxW * trial.pressure;
         if (point.faces_implant)
           {
+            // phi as reported() has it, of the trial state, and the share of
+            // the area by its status; divided by the area below
             area += point.JxW;
             summary.phi_mean += point.JxW * friction(point).phi;
             *share[static_cast<unsigned int>(trial.state.status)] += point.JxW;
@@ -282,14 +364,22 @@ namespace Debond
               ++summary.bonded_opened;
             continue;
           }
+        // Energy of the springs eps_n and eps_t [N mm], the potential that Eq.
+        // (28) comes from; and the largest penetration -g_n [mm], which a
+        // push-in in wrong units shows.
         ++summary.n_closed;
         summary.energy += point.JxW * trial.energy;
         summary.max_softening =
           std::max(summary.max_softening, trial.softening);
         summary.max_penetration =
           std::max(summary.max_penetration, -trial.normal_gap);
+        // With mu taken at g_s^n the local problem has no slope and so is never
+        // ambiguous; the variant lags behind instead.
         if (law.explicit_friction || mode_now.frictionless)
           continue;
+        // -dmu/dg_s [1/mm] where it is largest, from the accepted g_s on. The
+        // steepest point is kept with its numbers, which the message of a run
+        // that ends here has to give.
         const double slope = law.friction->steepest_fall(
           friction_state(point.accepted, point.phi_0, mode_now.duration),
           trial.state.slip - point.accepted.slip);
@@ -301,6 +391,7 @@ namespace Debond
             summary.softening_slope    = slope;
           }
       }
+    // means over the area that faced the implant at the start
     summary.phi_mean /= area;
     for (double *part : share)
       *part /= area;
@@ -309,6 +400,9 @@ namespace Debond
 
 
 
+  // Where the last evaluate() failed, in parameters of the slave's patch, which
+  // say which element it is; and how far the point had slid, which says which
+  // part of the law it was on.
   std::string
   ContactInterface::describe_failure() const
   {

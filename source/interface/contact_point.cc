@@ -8,12 +8,21 @@
 
 namespace Debond
 {
+  // What happens at one quadrature point of the slave in one step: the
+  // constitutive law of the interface, asked as a material law is asked at a
+  // quadrature point of the bulk. Positions and history go in; traction, its
+  // derivatives and a new history come out, all of it in space, in mm and MPa.
+  // Nothing else is read or written, so that points can be updated in any
+  // order, and a trial that comes to nothing has cost only its time.
   using Eigen::Matrix3d;
   using Eigen::Vector2d;
   using Eigen::Vector3d;
 
   // An open point carries nothing and forgets its xi_hat, but not how far it
   // has slid: damage does not heal. The law may note that it has been open.
+  //
+  // With `Opening breaks bond' that ends the bond; in the paper's law a point
+  // that closes again is bonded as before.
   void
   leave_open(const ContactPointLaw   &law,
              const ContactPointState &old_state,
@@ -24,6 +33,8 @@ namespace Debond
     result.state.status                      = PointStatus::open;
     if (old_state.status != PointStatus::open)
       law.normal->open(result.state);
+    // No traction, no stored energy, and no derivatives: an open point drops
+    // out of forces and tangent.
     result.traction = result.tangential_traction = result.viscous_traction =
       result.slip_increment                      = Vector3d::Zero();
     result.normal_gap = result.pressure = result.energy = result.softening = 0.;
@@ -36,11 +47,17 @@ namespace Debond
   // The closest point of the master is where a point without a history starts
   // to interact with it. It is no partner if it lies on the edge while x is
   // beyond, nor if the surface has no proper normal there.
+  //
+  // It is also no partner if the search did not converge: then it stays open,
+  // and that is counted, rather than that it sticks to a wrong place.
   Projection
   project(const MasterSurface &master, const Vector3d &x, const Vector2d *guess)
   {
     const ClosestPoint closest =
       closest_point(*master.surface, *master.positions, x, guess);
+    // Where it is, and the tangents there, Eq. (23). In the corners of the
+    // disk's patch they are parallel, and their cross product, the normal of
+    // Eq. (24), has no direction.
     SurfaceBasis    basis;
     SurfaceGeometry geometry;
     master.surface->evaluate(closest.xi, basis, false);
@@ -54,8 +71,11 @@ namespace Debond
     result.xi        = closest.xi;
     result.converged = closest.converged;
     result.faces     = closest.converged && closest.is_orthogonal && regular;
-    // a point below the surface's level may come under it by moving sideways
-    // less than its distance
+    // A point below the surface's level may come under it by moving sideways
+    // less than its distance. The clearance [mm] is the distance in space for a
+    // point above the level of the master, and the distance along it for one
+    // below. Where the normal is not to be trusted it stays 0, so that the
+    // point is asked every time.
     const Vector3d gap = x - geometry.y;
     const Vector3d n   = MasterNormal(geometry, master.outward_sign).n;
     if (regular)
@@ -66,6 +86,12 @@ namespace Debond
 
 
 
+  // Viscosity resists the mean speed (g_s - g_s^n) / dt of a step with eta
+  // times that, which is eta / dt [MPa/mm] per distance slid: a spring to the
+  // local problem, whose stiffness adds to eps_t where uniqueness is asked for.
+  // It grows as steps shrink, so that with a viscosity a steep law has one
+  // solution in steps that are short enough. In row 0 no time passes, and there
+  // is none.
   double
   viscous_stiffness(const ContactPointLaw &law, const ContactPointMode &mode)
   {
@@ -78,8 +104,11 @@ namespace Debond
 
   namespace
   {
-    // One point in one step: what is given, and the three ends that it may
-    // come to. `start' is the state of the beginning, with an xi_hat^n.
+    // One point in one step: what is given, and the three ends that it may come
+    // to. `start' is the state of the beginning, with an xi_hat^n.
+    //
+    // The references are what update_contact_point() was called with; of them
+    // only `result' is written.
     struct PointStep
     {
       const ContactPointLaw   &law;
@@ -92,6 +121,9 @@ namespace Debond
 
       // An open point beyond the edge of the master has no xi_hat^n: it starts
       // where it is now, if it faces the master at all.
+      //
+      // Only such points pay for a projection here: all others come with the
+      // xi_hat^n that commit() has left them.
       bool
       find_partner()
       {
@@ -105,6 +137,10 @@ namespace Debond
 
       // What the friction law is to know of the point: the state at the
       // beginning, and with it the bond that is left.
+      //
+      // In the frictionless part of a load history (`Friction starts at') mu is
+      // 0 and g_s does not grow; the variant `Friction update = explicit' takes
+      // mu at g_s^n.
       PointFriction
       friction(const double phi_0) const
       {
@@ -120,6 +156,8 @@ namespace Debond
       // in tension. Gaps that are no more than rounding are no contact, so that
       // rounding cannot wear a bond; but where all points stick they are one,
       // so that touching bodies under a loaded chuck have a tangent.
+      //
+      // A tolerance of rounding: 1e-12 of the implant's radius.
       bool
       is_closed(const double g_n) const
       {
@@ -128,6 +166,7 @@ namespace Debond
                                   g_n < reach - mode.touch_tolerance;
       }
 
+      // Nothing is carried; the gap g_n [mm] is kept for output.
       void
       open(const double g_n)
       {
@@ -138,15 +177,26 @@ namespace Debond
       // The trial state: xi_hat stays at xi_hat^n, and all of the tangential
       // gap of Eq. (27) is elastic. Eq. (28) has one penalty for both parts of
       // the gap; here each has its own, t = -p n + eps_t g_t.
+      //
+      // This is elastic and can be undone: within a step, and from step to
+      // step, a point that sticks returns to where it was when the load does.
+      // g_s stays.
       void
       stick(const PointFriction &friction,
             const Vector3d      &gap,
             const MasterNormal  &normal)
       {
+        // g_n and p. The spring eps_n pushes while g_n < 0; a law with strength
+        // in tension would have a p that is negative, which friction does not
+        // feel.
         const Vector3d      &n        = normal.n;
         const double         g_n      = n.dot(gap);
         const NormalResponse response = law.normal->respond(g_n, start);
         const double eps_n = response.stiffness, eps_t = law.tangential_penalty;
+        // xi_hat = xi_hat^n and g_s = g_s^n. The spring eps_t holds the point
+        // with what is left of the gap in the tangent plane, (1 - n n^T) g,
+        // which need not be zero: this gap is the elastic deformation of the
+        // interface, not an error of the penalty.
         result.state        = start;
         result.state.status = PointStatus::stick;
         if (!friction.frictionless) // a state may age at rest
@@ -164,6 +214,10 @@ namespace Debond
         // The tangent follows from g = x - y and n(a_1, a_2) alone, since
         // xi_hat does not move:
         //   dt = eps_t dg + (eps_n - eps_t) n dg_n - (p + eps_t g_n) dn.
+        //   dg = dx - dy,   dg_n = n . dg + g . dn.
+        // With the penalty law and eps_n = eps_t all but the first term cancel,
+        // and dt = eps dg is Eq. (28) differentiated. Otherwise the turning of
+        // the normal has a part. Columns of y_n stay 0: y(xi_hat^n) is y here.
         constexpr int at_x = 0, at_y = 3, at_a1 = 6; // columns of w
         result.dxi.setZero();
         result.dt.setZero();
@@ -180,6 +234,12 @@ namespace Debond
       // A point that closes without an xi_hat^n of its own sticks where it is:
       // it has no tangential gap, and xi_hat, its projection, moves with it as
       // on a frictionless interface.
+      //
+      // Its traction is that of stick(); the derivatives are those of the
+      // sliding problem with mu = 0, whose solution is the projection. They are
+      // needed because the next iteration projects the point again, at another
+      // place. If that problem has no solution the stick tangent stays:
+      // Newton's method is slower there, and not wrong.
       void
       follow_projection(const Vector3d &y)
       {
@@ -200,12 +260,23 @@ namespace Debond
       // and the sign of the gap found there decides. @p y_old: y(xi_hat^n).
       // Newton's method starts from xi_hat^n; if that fails, from the
       // projection of the point, unless it has left the master.
+      //
+      // Whether it opens cannot be told from the gap at xi_hat^n: on a curved
+      // or tilted master a point may lift off at the old place and touch at the
+      // new one, or touch at the old place only.
       void
       slide_or_open(const PointFriction &friction, const Vector3d &y_old)
       {
+        // y(xi_hat^n) moves with the master too, and the slip y(xi_hat) -
+        // y(xi_hat^n) with both: its basis is kept for the tangent.
         result.old_basis = result.basis;
         SlipProblem problem(law, friction, start, x, y_old, master);
         SlipOutcome outcome = problem.solve(start.xi, result);
+        // The projection is near the solution wherever the tangential gap is
+        // small, however far xi_hat^n is, and starting there costs one more
+        // search. A point whose projection is beyond the edge has left the
+        // master, and opens; a projection that does not converge leaves the
+        // failure as it is.
         if (outcome == SlipOutcome::not_found)
           {
             const Projection projection = project(master, x, &start.xi);
@@ -214,6 +285,9 @@ namespace Debond
                           problem.solve(projection.xi, result) :
                           SlipOutcome::left_patch;
           }
+        // Closed where it has come to: it slides. xi_hat is new, report() adds
+        // g_s and traction. The solution of a law that went below mu = 0 would
+        // push the point along; it is refused, and with it the step.
         const double g_n = problem.at_end().g_n;
         if (outcome == SlipOutcome::solved && is_closed(g_n))
           {
@@ -226,6 +300,9 @@ namespace Debond
               problem.at_end().coefficient.mu < 0.;
             return;
           }
+        // Solved with an open gap, or beyond the edge: open. Not found: an open
+        // point stands in for the result, marked as failed, so that the
+        // iteration is given up and the step made smaller.
         const bool failed = outcome == SlipOutcome::not_found;
         open(failed ? 0. : g_n);
         result.failed = failed;
@@ -238,6 +315,12 @@ namespace Debond
   // Where a point with friction is after the step is found by elimination: one
   // that has no partner is open; one that is closed at xi_hat^n and carries no
   // more than friction allows sticks there; what is left slides, or opens.
+  //
+  // The order costs little: a point that sticks is done with one evaluation of
+  // the master, and only what slides needs an iteration (slip_problem.cc). It
+  // is a return mapping, as of plasticity: an elastic trial, a limit, and a
+  // correction on the limit, with g_s in the place of the accumulated plastic
+  // strain.
   void
   update_contact_point(const ContactPointLaw   &law,
                        const ContactPointState &old_state,
@@ -269,11 +352,21 @@ namespace Debond
     // If the point stuck, it would carry the trial traction eps_t |g_t|, Eq.
     // (28). It does while that is no more than the mu p of Eq. (30), with mu at
     // the sliding distance g_s^n that it comes with.
+    //
+    // mu is asked with the distance 0: a law with a state that ages has aged in
+    // this step, and for one that depends on the speed this is V = 0. A limit
+    // and a traction in MPa are compared, both along the surface as it is now.
+    // Without pressure the limit is 0, and whatever pulls makes the point
+    // slide.
     const PointFriction friction = step.friction(phi_0);
     const double        limit    = friction.after(0.).mu *
                          std::max(0., law.normal->respond(g_n, start).pressure);
     const double trial_traction =
       law.tangential_penalty * (gap - g_n * normal.n).norm();
+    // In the first iteration of some attempts all closed points are made to
+    // stick, whatever they would carry: the tangent is then that of bodies
+    // joined by springs, and the iteration cannot begin with a cycle of stick
+    // and slip. The true law takes over in the next one.
     if (closed && (mode.stick_first || trial_traction <= limit))
       {
         step.stick(friction, gap, normal);

@@ -2,6 +2,14 @@
 
 namespace Debond
 {
+  // The tangent of the nodal forces of Eq. (36). Where the update of a point
+  // says how its traction changes with the place of slave point and master
+  // (contact_point.cc, slip_problem.cc), this file carries that to the unknowns
+  // of the whole: C = Q^T (df/dx) Q, which is added to the condensed stiffness
+  // S of the bodies. It is exact, with the sliding of xi_hat, the softening of
+  // the law and the turning of normal and slip direction, and so it is not
+  // symmetric. Dropping any of that would cost iterations, not accuracy: the
+  // residual decides what a solution is.
   using Eigen::Matrix;
   using Eigen::Vector3d;
 
@@ -11,10 +19,15 @@ namespace Debond
     // ContactPointResult: five vectors, each of which is a sum over control
     // points with the factors N_A of the slave, N_B, N_B,1 and N_B,2 of the
     // master at xi_hat, and N_B of the master at xi_hat^n.
+    //
+    // Two forms of the tangent follow. Both go through w, so that they share
+    // the derivatives of the update, 3 x 15 and 2 x 15 numbers for a point.
     using LocalVector = Matrix<double, 15, 1>;
 
     // dw when the control points of both surfaces move. While a point sticks
-    // its xi_hat stays, and y_n has no part.
+    // its xi_hat stays, and y_n has no part. Parameters are held fixed here:
+    // how xi_hat moves is in the derivatives dt/dw and dxi/dw already, by the
+    // implicit function theorem.
     LocalVector
     local_motion(const SlavePoint &point,
                  const Side        slave,
@@ -22,6 +35,9 @@ namespace Debond
     {
       const NodalSums::value_type &master = moved[other(slave)];
       SurfaceGeometry              motion;
+      // The same sums that give y and a_alpha from positions, Eqs. (23) and
+      // (33), give their changes from motions, since the basis does not depend
+      // on positions.
       contract(point.trial.basis, master, false, motion);
       LocalVector dw;
       dw << interpolate(point.basis, moved[slave]), motion.y, motion.a1,
@@ -34,6 +50,10 @@ namespace Debond
 
 
     // The transpose: what forces on w amount to at the control points.
+    //
+    // That both use the same factors makes the tangent consistent with the
+    // residual; it is also how the derivative of a function of w becomes one by
+    // nodal positions, which mean_slip() needs.
     void
     spread_local(const SlavePoint  &point,
                  const Side         slave,
@@ -43,6 +63,8 @@ namespace Debond
       const SurfaceBasis &basis  = point.trial.basis;
       ControlNet         &master = sums[other(slave)];
       spread(point.basis, force.head<3>(), sums[slave]);
+      // y, a_1 and a_2 are moved by the same control points of the master, with
+      // N_B, N_B,1 and N_B,2: three parts of w in one loop.
       for (unsigned int b = 0; b < basis.size; ++b)
         master.col(basis.control_point[b]) +=
           basis.N[b] * force.segment<3>(3) +
@@ -63,6 +85,10 @@ namespace Debond
                     const Vector3d        &dt,
                     const Eigen::Vector2d &dxi)
     {
+      // dt on x, -dt on y, and -t dxi^alpha on a_alpha: the force acts at the
+      // old traction while its place moves. The reference area JxW [mm^2] does
+      // not change. Nothing acts on y_n, which is only where the path of the
+      // step began.
       const Vector3d &t = point.trial.traction;
       LocalVector     force;
       force << dt, -dt, -dxi[0] * t, -dxi[1] * t, Vector3d::Zero();
@@ -74,6 +100,10 @@ namespace Debond
     // How the unknowns of the coupled system move w: a column dw for each that
     // does, control points of both surfaces in the frames of their bodies, and
     // components of the chuck.
+    //
+    // A point has 27 such unknowns on each side at most, 9 control points of a
+    // biquadratic element times three, and 27 more if xi_hat and xi_hat^n lie
+    // in different elements; 6 belong to the chuck.
     class UnknownMotions
     {
     public:
@@ -81,6 +111,7 @@ namespace Debond
                      const Side                    slave,
                      const InterfaceConfiguration &configuration)
       {
+        // x depends on the slave's control points alone
         const auto &master = configuration.side[other(slave)];
         for (unsigned int a = 0; a < point.basis.size; ++a)
           add(configuration.side[slave],
@@ -105,6 +136,8 @@ namespace Debond
       {
         if (unknown < 0)
           return;
+        // A control point that is fixed, out of reach of contact or of a rigid
+        // body has no number.
         dw.col(n)   = motion;
         number[n++] = unknown;
       }
@@ -112,6 +145,9 @@ namespace Debond
       // A row is the force on w along the motion with the row's unknown, a
       // column its change with the column's unknown, by the total derivatives
       // of traction and xi_hat that the update of the point has left.
+      //
+      // By pairs of unknowns: 54 squared numbers for a point of two biquadratic
+      // faces, which is why iterative solvers take apply_tangent().
       void
       add_tangent(const SlavePoint &point, Eigen::MatrixXd &matrix) const
       {
@@ -135,6 +171,8 @@ namespace Debond
           const unsigned int                     control_point,
           const std::array<double, 5>           &factors)
       {
+        // Unknowns are displacements in the frame of their body: its axes are
+        // turned into space by Q. Columns of Q are the three directions.
         for (unsigned int c = 0; c < 3; ++c)
           {
             LocalVector motion;
@@ -158,6 +196,11 @@ namespace Debond
   // Points are independent, so the matrix is a sum of dense blocks. The chuck
   // moves all control points of the implant at once: what that does to w of a
   // point is found as for any other motion of the control points.
+  //
+  // It is formed only where the system is assembled after all, as a
+  // preconditioner: for a stiff interface, or an unknown chuck, which the bulk
+  // does not resist (doc/solution.md). What rotation does to frames and lever
+  // arms under forces that stay is not in it; CoupledTangent adds that.
   void
   ContactInterface::add_tangent(const InterfaceConfiguration &configuration,
                                 Eigen::MatrixXd              &matrix) const
@@ -169,6 +212,7 @@ namespace Debond
                                                             number),
                                       configuration));
     for (const SlavePoint &point : points)
+      // An open point has no force and no tangent.
       if (point.trial.state.status != PointStatus::open)
         {
           UnknownMotions motions(point, slave, configuration);
@@ -183,6 +227,11 @@ namespace Debond
   // The same tangent without a matrix, for iterative solvers: the unknowns move
   // the control points, these move w of every point, that changes its forces,
   // which go back the other way.
+  //
+  // GMRES needs no more than this product. It costs about as much as an
+  // evaluation of the forces without the update of the points, where the matrix
+  // would have to be summed first, point by point. Sums go as in evaluate():
+  // threads change no digit.
   void
   ContactInterface::apply_tangent(const InterfaceConfiguration &configuration,
                                   const Eigen::VectorXd        &direction,
@@ -212,6 +261,11 @@ namespace Debond
   // g_s grows by |y(xi_hat) - y(xi_hat^n)|, Eq. (32), whose change is that of
   // the difference along its direction; xi_hat moves as the equations of the
   // slip want it.
+  //
+  // The mean over the area that faced the implant at the start [mm] is the
+  // measure of a path of equilibrium: angle and torque may both turn back where
+  // a brittle bond snaps back, but g_s never falls. Newton's method is bordered
+  // with its derivative, which therefore is as exact as that of the forces.
   MeanSlip
   ContactInterface::mean_slip(const InterfaceConfiguration &configuration) const
   {
@@ -225,10 +279,14 @@ namespace Debond
           continue;
         area += point.JxW;
         result.value += point.JxW * trial.state.slip;
+        // Only a sliding point changes it. Where it has not moved the length
+        // has no derivative; the gradient leaves it out.
         const double distance = trial.slip_increment.norm();
         if (trial.state.status != PointStatus::slip || mode_now.frictionless ||
             distance == 0.)
           continue;
+        // d|y - y_n| = e . (dy + a_alpha dxi^alpha - dy_n), e = (y - y_n) / |y
+        // - y_n|
         const Vector3d  direction = trial.slip_increment / distance;
         SurfaceGeometry y;
         contract(trial.basis,
@@ -242,6 +300,7 @@ namespace Debond
         d.segment<3>(12) -= direction;
         spread_local(point, slave, point.JxW * d, result.gradient);
       }
+    // dimensionless gradient: mm of mean slip per mm of a control point
     result.value /= area;
     for (ControlNet &gradient : result.gradient)
       gradient /= area;

@@ -3,12 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+// The friction law of the paper, and Coulomb's as a special case of it. Points
+// first stick to the interface by an elastic spring; this file says what limits
+// the traction of that spring, mu p, as a function of the distance g_s [mm]
+// that a point has slid. Eq. (11), which makes mu of the bond, stands in
+// bond_friction.cc; here is the decay of the bond, Eq. (13).
 namespace Debond
 {
   namespace
   {
     /** Eq. (13): s is 1 up to a_s, 0 from (1 + 2 b_s) a_s on, half a sine
-     *  between. With mu_ub = mu_b it is Coulomb's law. */
+     *  between. With mu_ub = mu_b it is Coulomb's law. The defaults are those
+     *  of data set 1 with mu_b = 0.4: a_s = 0.022 mm and b_s = 0.74, so that a
+     *  point is debonded once it has slid (1 + 2 b_s) a_s = 54.6 um. */
     class ModifiedCoulomb : public BondFriction
     {
     public:
@@ -20,24 +27,32 @@ namespace Debond
         , frictionless(parameters.frictionless)
       {}
 
+      // This is more than mu = 0, with which the viscosity still resists.
       bool
       is_frictionless() const override
       {
         return frictionless;
       }
 
+      // a_s and (1 + 2 b_s) a_s [mm]. s and its slope are continuous there, its
+      // curvature is not; closed forms integrate between them.
       const std::vector<double> &
       kinks() const override
       {
         return ends;
       }
 
+      // The shorter of the two stages [mm]: the bond holds over a_s and falls
+      // over 2 b_s a_s. The largest step along a path of equilibrium is a
+      // twentieth of it where the scene does not say.
       double
       characteristic_distance() const override
       {
         return a_s * std::min(1., 2. * b_s);
       }
 
+      // What makes the steepest slope pi / (4 a_s b_s) smaller: larger a_s or
+      // b_s.
       std::string
       entries_against_fall() const override
       {
@@ -48,6 +63,10 @@ namespace Debond
       // Eq. (13), with s = g_s/a_s: the bond holds up to s = 1, is gone from s
       // = 1 + 2 b_s on, and falls along half a sine in between, smoothly at
       // both ends, so that dmu/dg_s is continuous.
+      //
+      // The slope is that of s, in 1/mm: Newton's method needs it exactly, for
+      // a point and for the whole system. The slope is 0 in both constant
+      // parts, where the point follows Coulomb's law.
       double
       decay(const double slip, double &slope) const override
       {
@@ -57,6 +76,8 @@ namespace Debond
           return 1.;
         if (s > 1. + 2. * b_s)
           return 0.;
+        // from -pi/2 to pi/2 over the fall, 0 in its middle, s = 1 + b_s; the
+        // slope carries the 1/a_s of the inner derivative
         const double argument = 0.5 * M_PI / b_s * (s - b_s - 1.);
         slope                 = -0.25 * M_PI / (a_s * b_s) * std::cos(argument);
         return 0.5 * (1. - std::sin(argument));
@@ -64,6 +85,11 @@ namespace Debond
 
       // The integral of Eq. (13) in closed form: for the work of adhesion,
       // which a trapezoid over a step would miss by the curvature of s.
+      //
+      // Its unit is mm. Over the whole decay it is (1 + b_s) a_s: as if the
+      // bond held fully up to the middle of the fall, by symmetry of the sine.
+      // Under the pressure p a bond costs phi_0 (mu_ub - mu_b) p (1 + b_s) a_s
+      // per area [N/mm].
       double
       integrated_decay(const double slip) const override
       {
@@ -76,7 +102,16 @@ namespace Debond
                       b_s / M_PI * std::cos(0.5 * M_PI / b_s * (s - b_s - 1.)));
       }
 
-      // pi / (4 a_s b_s) half way down, less after that
+      // The largest slope that is still ahead of a point [1/mm]: pi / (4 a_s
+      // b_s) half way down, at (1 + b_s) a_s, less after that. It gives the
+      // bound of local uniqueness, p / eps_t < 4 a_s b_s / (pi phi_0 (mu_ub -
+      // mu_b)) (doc/model.md). A point before the middle is judged by the
+      // middle already, so that a large step does not jump over it unnoticed.
+      //
+      // A short fall is a brittle bond. The torque of the main scene falls by 1
+      // N m/rad at most, far less than any machine is stiff; with a_s = 0.005
+      // mm and b_s = 0.3 it is 8.9 N m/rad for rigid bodies, and a compliant
+      // machine may snap back.
       double
       steepest_decay(const double slip) const override
       {
@@ -86,6 +121,8 @@ namespace Debond
       }
 
     private:
+      // a_s [mm]; b_s, dimensionless; the ends of the fall [mm]; whether the
+      // scene calls the law frictionless
       const double              a_s, b_s;
       const std::vector<double> ends;
       const bool                frictionless;
@@ -93,6 +130,9 @@ namespace Debond
 
 
 
+    // The entries of all laws in this file: they share them, so that a scene
+    // may change its law and keep its numbers. Tables of allowed values keep
+    // a_s and b_s above zero, by which Eq. (13) divides.
     std::vector<LawEntry>
     coulomb_entries()
     {
@@ -126,6 +166,9 @@ namespace Debond
 
 
 
+  // For programs and tests, without a scene; the plug-ins below make the same
+  // from entries. Laws are shared and never change: all points refer to one
+  // object.
   FrictionLawPointer
   modified_coulomb(const ModifiedCoulombParameters &parameters)
   {
@@ -134,6 +177,8 @@ namespace Debond
 
 
 
+  // With mu_ub = mu_b nothing falls, and the bond, which still decays for
+  // output, costs nothing.
   FrictionLawPointer
   coulomb(const double mu)
   {
@@ -142,6 +187,7 @@ namespace Debond
 
 
 
+  // That of the paper, with its numbers for data set 1.
   FrictionLawPointer
   default_friction_law()
   {
@@ -150,6 +196,9 @@ namespace Debond
 
 
 
+  // A coefficient that no traction reaches: for the linear solution from which
+  // the closed forms take the stiffness of interface and bodies in series, Eq.
+  // (39). A law of its own would have to repeat the rest.
   FrictionLawPointer
   sticking_law()
   {
@@ -158,6 +207,8 @@ namespace Debond
 
 
 
+  // Three names of one class. The first sets both coefficients to 0: a closed
+  // point is then projected on the master, without a tangential traction.
   FrictionLawPlugin
   frictionless_plugin()
   {
@@ -174,6 +225,8 @@ namespace Debond
 
 
 
+  // Eq. (8): only mu_b counts. It is what the debonded implant slides with at
+  // the end of the paper's test.
   FrictionLawPlugin
   coulomb_plugin()
   {
@@ -189,6 +242,9 @@ namespace Debond
 
 
 
+  // All four parameters as they are given. What they would have to be is a
+  // matter of calibration: the paper finds them from measured torque curves for
+  // given mu_b.
   FrictionLawPlugin
   modified_coulomb_plugin()
   {

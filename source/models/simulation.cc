@@ -17,7 +17,10 @@ namespace Debond
   namespace
   {
     // A scene that needs more memory than there is would be killed by the
-    // system after minutes, without a word. So the need is estimated first.
+    // system after minutes, without a word. So the need is estimated first. It
+    // is done before the first mesh is made, from sizes alone (doc/solution.md,
+    // Memory). What follows is the `setup_system' of a step of deal.II, timed
+    // as one section.
     CoupledSystem
     build(const Scene              &scene,
           std::shared_ptr<BodyPair> bodies,
@@ -96,6 +99,8 @@ namespace Debond
         std::visit([](auto &chosen) -> StepControl & { return chosen; }, steps))
     , state_checks(this->scene)
   {
+    // The step solver takes the first time from the scene. Nothing is solved
+    // yet; a simulation can be loaded from a checkpoint from here on.
     coupled_system.start(solver.time());
     all_warnings = warnings_of(scene, coupled_system.interface);
   }
@@ -113,6 +118,8 @@ namespace Debond
   {
     const LoadSteppingParameters &load_steps = scene.load_steps;
     const double                  R = scene.implant.characteristic_radius();
+    // The radius R [mm] makes forces of moments, so that one tolerance can
+    // judge the curves of all six chuck forces.
     if (load_steps.adaptive)
       return AdaptiveStepping(load_steps, R);
     if (!load_steps.follow_path)
@@ -184,7 +191,8 @@ namespace Debond
   Simulation::solve_first_row()
   {
     // Bodies that only touch, under a load, have no stiffness against it yet:
-    // the solver lets points stick in its first iteration.
+    // the solver lets points stick in its first iteration. The iterations of
+    // row 0 count like those of any step.
     const StepResult result = solver.solve_first();
     so_far.newton_iterations += result.iterations;
     if (result.hopeless)
@@ -212,13 +220,17 @@ namespace Debond
   {
     // A phase is what lies between two of Load steps / Times. The load may have
     // a kink there: no step crosses it, and none is extrapolated from before.
+    // Extrapolated over it Newton's method would start far away, and a motion
+    // that turns back would not be seen.
     if (step_control.is_between_phases())
       step_control.begin_phase(state());
     unsigned int iterations = 0;
     while (true)
       {
         // A time to go to, or, along a path of equilibrium, a growth of the
-        // mean sliding distance, for which the solver finds the time.
+        // mean sliding distance, for which the solver finds the time. The
+        // solver has several attempts at it, from different starts, before it
+        // gives up.
         const Step       step   = step_control.next();
         const StepResult result = solver.solve(step);
         // what failed has cost iterations, too
@@ -252,6 +264,9 @@ namespace Debond
 
   // What the control of steps judges by: the forces of the chuck, whose curves
   // are drawn, and where the scene wants the chuck to be.
+  //
+  // Forces are N, moments N mm. The mean sliding distance [mm] is known along a
+  // path only, where it is what a step prescribes.
   StepState
   Simulation::state() const
   {
@@ -320,7 +335,10 @@ namespace Debond
     const unsigned int row  = all_rows.size();
     const double       from = solver.time(), to = coupled_system.time();
     // What the contact forces sum up to must be what the top of the implant is
-    // held with. That is asked of the trial state, whose residual both know.
+    // held with. That is asked of the trial state, whose residual both know. It
+    // is their difference over the larger, and would show a force that is lost
+    // between the interface and the chuck, such as that of a step which did not
+    // converge.
     reaction_defect = coupled_system.reaction_defect();
     if (row > 0)
       {

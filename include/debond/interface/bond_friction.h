@@ -10,7 +10,11 @@ namespace Debond
    *
    *   mu = phi mu_ub + (1 - phi) mu_b,   phi = phi_0 s(g_s),
    *
-   * whose decay s falls from 1, or less, and never rises.
+   * whose decay s falls from 1, or less, and never rises. Two coefficients and
+   * a curve make such a law: a class that derives from this one says what the
+   * curve is, its integral and the bound of its slope. Newton's method
+   * needs the slope, the balance of energy the integral, and the check that the
+   * local solution is unique the bound.
    */
   class BondFriction : public FrictionLaw
   {
@@ -20,21 +24,28 @@ namespace Debond
       , drop(mu_unbroken - mu_broken)
     {}
 
+    // mu and dmu/dg_s at the end of a step: what limits the traction, Eq. (30)
     FrictionCoefficient
     coefficient(const FrictionState &start, double distance) const override;
+    // int mu dg_s and int (mu - mu_b) dg_s over the step [mm]: works per
+    // pressure
     double
     friction_strength(const FrictionState &start,
                       double               distance) const override;
     double
     adhesive_strength(const FrictionState &start,
                       double               distance) const override;
+    // the largest -dmu/dg_s ahead [1/mm], for the uniqueness of the local
+    // solution
     double
     steepest_fall(const FrictionState &start, double) const override;
+    // Where a bond makes no difference its opening is no reason for a warning.
     bool
     has_bond() const override
     {
       return drop != 0.;
     }
+    // What closed forms take where phi_0 = 0, beside a bonded disk.
     double
     mu_without_bond() const override
     {

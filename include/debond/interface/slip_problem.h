@@ -8,7 +8,10 @@
 
 namespace Debond
 {
-  /** The unit normal of the master that points to the slave, Eq. (24). */
+  /** The unit normal of the master that points to the slave, Eq. (24), and how
+   *  it turns. Pressure, the tangent plane and the direction of slip all depend
+   *  on it, so that the tangent needs its derivatives; without them Newton's
+   *  method would not be quadratic on curved or tilted faces. */
   struct MasterNormal
   {
     /** @p geometry must outlive this object. */
@@ -18,7 +21,7 @@ namespace Debond
     Eigen::Vector3d
     change(const Eigen::Vector3d &da1, const Eigen::Vector3d &da2) const;
 
-    /** dn/d(a_1, a_2). */
+    /** dn/d(a_1, a_2) [1/mm], the same as a matrix. */
     Eigen::Matrix<double, 3, 6>
     derivative() const;
 
@@ -33,6 +36,11 @@ namespace Debond
    *  how sliding is resisted by its speed, and where it goes. */
   struct PointFriction
   {
+    // The law, and the point at the beginning of the step. The answer of the
+    // law is not used in the frictionless part of a load history; the explicit
+    // variant takes it at g_s^n, with the slope 0. The viscosity resists with a
+    // stiffness. The direction of slip is zero unless the variant with Eq. (31)
+    // as printed gives it; tau is then found from the trial gap.
     const FrictionLaw &law;
     FrictionState      start;
     bool               frictionless   = false;
@@ -59,6 +67,11 @@ namespace Debond
   /**
    * A sliding point with its xi_hat at a trial place: traction, the residual h
    * of Eqs. (29) and (30), and the derivatives of both.
+   *
+   * An object is one evaluation: it is made at a trial place and not changed
+   * after that. Value and derivative are so found from the same numbers, and
+   * Newton's method for a point and that for the whole system use the same
+   * chain rule.
    */
   class SlipEquations
   {
@@ -73,20 +86,24 @@ namespace Debond
                   const SurfaceGeometry &geometry,
                   double                 outward_sign);
 
+    /** What changes with N quantities at once: traction [MPa] and h, one column
+     *  for each. */
     template <int N>
     struct Derivative
     {
       Eigen::Matrix<double, 3, N> traction;
       Eigen::Matrix<double, 2, N> h;
     };
-    /** With respect to w, see ContactPointResult. */
+    /** With respect to w, see ContactPointResult: for the whole system. */
     Derivative<15>
     along_w() const;
-    /** With respect to the two parameters of the surface. */
+    /** With respect to the two parameters of the surface: for this point. */
     Derivative<2>
     along_surface() const;
 
-    /** |d mu/d g_s| p / (eps_t + eta / dt) where the law softens. */
+    /** |d mu/d g_s| p / (eps_t + eta / dt) where the law softens,
+     *  dimensionless: how fast the limit falls with the slip, relative to how
+     *  fast the springs let go. From 1 on the bond breaks in a jump. */
     double
     softening() const
     {
@@ -94,7 +111,9 @@ namespace Debond
              (law.tangential_penalty + friction.viscous);
     }
 
-    /** d(mu p + eta / dt * distance)/d(distance) [MPa/mm]. */
+    /** d(mu p + eta / dt * distance)/d(distance) [MPa/mm]: how the limit of
+     *  the traction changes as the point slides; negative where the bond
+     *  breaks. */
     double
     resistance_slope() const
     {
@@ -102,6 +121,12 @@ namespace Debond
              (pressure > 0. ? friction.viscous : 0.);
     }
 
+    // What the point has come to at the trial place. h has to vanish: it is the
+    // part of the excess [mm] along a_alpha. Of the normal response friction
+    // feels the pressure only, where a law with strength in tension may pull.
+    // The coefficient is that at the updated sliding distance, Eq. (32).
+    // Tractions are those on the slave, in space [MPa], t = -p n + t_t; the
+    // viscous part is kept apart for the works.
     Eigen::Vector2d     h;
     double              g_n;
     NormalResponse      normal_response;
@@ -112,6 +137,8 @@ namespace Debond
     Eigen::Vector3d     traction, tangential_traction, viscous_traction;
 
   private:
+    // The two halves of the evaluation, in this order: the traction needs tau,
+    // and tau no traction.
     void
     find_direction();
     void
@@ -126,6 +153,9 @@ namespace Debond
           const Eigen::Matrix<double, 3, N> &dn,
           const Eigen::Matrix<double, 2, N> &excess_da) const;
 
+    // Of the two gaps below the first is what the springs of the interface are
+    // stretched by, Eq. (26), the second what they would be stretched by
+    // without slip in this step. Their difference is the slip.
     const ContactPointLaw &law;
     const SurfaceGeometry &geometry;
     const PointFriction   &friction;
@@ -139,6 +169,9 @@ namespace Debond
     Eigen::Vector3d tau;
     bool            has_direction, direction_is_given;
 
+    // The length of the slip has a derivative along its own direction. What is
+    // left of the gap beside the elastic t_t / eps_t, the excess, may have a
+    // part along n only: Eq. (29).
     Eigen::Vector3d forward; ///< direction of y - y_n
     double          sense;   ///< -1 while a trial slides against the pull
     double          limit;   ///< mu p + eta / dt times the distance [MPa]
@@ -147,6 +180,9 @@ namespace Debond
 
 
 
+  // How the local iteration ends: xi_hat found; at the edge of the master,
+  // where the point opens; or without a solution, after which the caller tries
+  // another start or gives the step up.
   enum class SlipOutcome
   {
     solved,
@@ -154,7 +190,14 @@ namespace Debond
     not_found
   };
 
-  /** The local problem of one point: Newton iteration for xi_hat. */
+  /**
+   * The local problem of one point: Newton iteration for xi_hat.
+   *
+   * Two unknowns for each sliding point, solved for inside of the residual:
+   * the alternative, xi_hat of all points as unknowns of the coupled system,
+   * would make a system of twice as many unknowns as quadrature points, whose
+   * equations change with every change between stick and slip.
+   */
   class SlipProblem
   {
   public:
@@ -182,6 +225,9 @@ namespace Debond
     }
 
   private:
+    // Everything at a trial xi_hat; the distance [mm] by which the equations
+    // are missed there; and the line search, which halves a step until that
+    // distance is smaller.
     void
     evaluate(const Eigen::Vector2d &xi, SurfaceBasis &basis);
     double
@@ -198,6 +244,9 @@ namespace Debond
     const Eigen::Vector3d &x, &y_old;
     const MasterSurface   &master;
 
+    // The master at the last trial place, and the equations there. They refer
+    // to the geometry, so that a new place needs new equations; they are made
+    // in place, without allocation.
     SurfaceGeometry              geometry;
     std::optional<SlipEquations> equations;
   };

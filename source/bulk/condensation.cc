@@ -173,11 +173,10 @@ namespace Debond
                            permutation.end(),
                            next->permutation()),
                 dealii::ExcMessage("CHOLMOD did not keep the given order"));
-    {
-      const ThreadedBlas threads(n_total > many_unknowns);
-      auto A = Eigen::viewAsCholmod(K.selfadjointView<Eigen::Lower>());
-      cholmod_factorize(&A, next->factor, &next->common);
-    }
+    auto A = Eigen::viewAsCholmod(K.selfadjointView<Eigen::Lower>());
+    thread_blas(n_total > many_unknowns);
+    cholmod_factorize(&A, next->factor, &next->common);
+    thread_blas(false);
     if (next->common.status != CHOLMOD_OK ||
         next->factor->minor != next->factor->n)
       return false;

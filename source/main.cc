@@ -302,7 +302,7 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
                      arguments.overrides);
     // A study's entries hold {{a|b}}: each of its variants is a scene, they
     // themselves are none.
-    if (is_study(entries) && !arguments.print_parameters)
+    if (!varied_entries(entries).empty() && !arguments.print_parameters)
       return run_study(entries, arguments);
 
     // Here text becomes a plain value, with all numbers in mm, N and MPa. What

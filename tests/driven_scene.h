@@ -107,7 +107,7 @@ run_scene(const std::string              &name,
   Debond::Scene scene       = Debond::Scene::from_text(text, overrides);
   scene.output.directory    = "results/" + name;
   scene.output.fields_every = 0;
-  scene.output.console      = Debond::ConsoleKind::quiet;
+  scene.output.quiet        = true;
   scene.output.overwrite_other_results = true;
   Debond::DebondingProblem problem(scene);
   problem.run();

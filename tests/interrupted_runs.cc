@@ -146,7 +146,7 @@ check(const std::string               &name,
     std::filesystem::remove_all(directory);
   std::vector<SceneEntry> entries = read_scene_text(base, "base");
   for (const SceneEntry &entry : read_scene_text(changes, name))
-    set_entry(entries, entry);
+    entries = with_overrides(entries, {entry.full_name() + "=" + entry.value});
   const auto scene_in = [&](const std::string &directory) {
     return Scene::from_entries(
       with_overrides(entries, {"Output/Directory=" + directory}), name);

@@ -24,10 +24,7 @@ using namespace Debond;
 std::vector<SceneEntry>
 entries(const std::string &text, const std::vector<std::string> &more = {})
 {
-  std::vector<SceneEntry> result = read_scene_text(text, "study");
-  for (const std::string &entry : more)
-    set_entry(result, read_override(entry));
-  return result;
+  return with_overrides(read_scene_text(text, "study"), more);
 }
 
 

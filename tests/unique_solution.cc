@@ -52,7 +52,7 @@ run(const std::vector<std::string> &overrides)
   Debond::Scene scene       = Debond::Scene::from_text(scene_text, overrides);
   scene.output.directory    = "results/unique_solution";
   scene.output.fields_every = 0;
-  scene.output.console      = Debond::ConsoleKind::quiet;
+  scene.output.quiet        = true;
   scene.output.overwrite_other_results = true;
   Debond::DebondingProblem problem(scene);
   try

@@ -48,7 +48,8 @@ namespace Debond
         table.add("Value",
                   component[c].value,
                   Allowed::text(std::string("an expression in t, in ") +
-                                (rotation ? "degrees or N mm" : "mm or N")),
+                                  (rotation ? "degrees or N mm" : "mm or N"),
+                                false),
                   std::string("Expression in the time t (muParser; constants "
                               "pi and R [mm]), in ") +
                     (rotation ? "degrees for angle, N mm for moment" :

@@ -225,11 +225,10 @@ namespace Debond
                            permutation.end(),
                            next->permutation()),
                 dealii::ExcMessage("CHOLMOD did not keep the given order"));
-    {
-      const ThreadedBlas threads(n_total > many_unknowns);
-      auto A = Eigen::viewAsCholmod(K.selfadjointView<Eigen::Lower>());
-      cholmod_factorize(&A, next->factor, &next->common);
-    }
+    auto A = Eigen::viewAsCholmod(K.selfadjointView<Eigen::Lower>());
+    thread_blas(n_total > many_unknowns);
+    cholmod_factorize(&A, next->factor, &next->common);
+    thread_blas(false);
     // `minor` is the column at which a factorisation stopped, n if it did not.
     // Thin cells or a Poisson's ratio close to 0.5 may do that, or, with a
     // Neo-Hookean bulk, a state that is far from equilibrium.

@@ -7,6 +7,8 @@
 
 #include <deal.II/base/timer.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -26,13 +28,14 @@ namespace Debond
         settings.reference.emplace_back(row.angle_deg, row.torque_Nmm);
       return measure_torque_curve(rows, settings);
     };
-    const CurveMeasures there = measures(rows, reference);
-    const CurveMeasures back  = measures(reference, rows);
-    const double        difference_back =
-      back.difference_max * there.T_max_Nmm / back.T_max_Nmm;
+    const auto   there           = measures(rows, reference);
+    const auto   back            = measures(reference, rows);
+    const double difference_back = back["difference_max"].get<double>() *
+                                   there["T_max_Nmm"].get<double>() /
+                                   back["T_max_Nmm"].get<double>();
     return std::isnan(difference_back) ?
              difference_back :
-             std::max(difference_back, there.difference_max);
+             std::max(difference_back, there["difference_max"].get<double>());
   }
 
 

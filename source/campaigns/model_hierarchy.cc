@@ -129,7 +129,7 @@ namespace Debond
     level.scene.load_steps.adaptive  = true;
     level.scene.load_steps.tolerance = step_tolerance;
     OutputParameters &output         = level.scene.output;
-    output.console                   = ConsoleKind::quiet;
+    output.quiet                     = true;
     output.overwrite_other_results   = true;
     output.resumable                 = false;
     return level;
@@ -193,10 +193,10 @@ namespace Debond
         if (!body->is_rigid())
           contact_unknowns += 3. * share * on_face;
       }
-    if (unknowns > scene.automatic.largest_number_of_unknowns)
+    if (unknowns > scene.largest_number_of_unknowns)
       return Text() << "the next mesh has " << unknowns
                     << " unknowns, more than "
-                    << scene.automatic.largest_number_of_unknowns
+                    << scene.largest_number_of_unknowns
                     << " (Auto / Largest number of unknowns)";
     if (contact_unknowns > largest_number_of_contact_unknowns)
       return Text() << "the next mesh has some " << contact_unknowns

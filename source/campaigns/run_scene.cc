@@ -54,7 +54,7 @@ namespace Debond
     double
     largest_torque(const std::vector<TorqueRow> &rows)
     {
-      return measure_torque_curve(rows, CurveSettings()).T_max_Nmm;
+      return measure_torque_curve(rows, CurveSettings())["T_max_Nmm"];
     }
 
 
@@ -132,7 +132,7 @@ namespace Debond
     {
       const dealii::Timer   clock;
       ModelChoice           choice(scene);
-      Console               console(scene.output.console, std::cout);
+      Console               console(scene.output.quiet, std::cout);
       const ResultDirectory directory(scene.output, scene.completed_parameters);
       remove_results(directory.path(), true);
       if (!scene.title.empty())

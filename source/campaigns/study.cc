@@ -4,10 +4,10 @@
 #include <debond/campaigns/variant_queue.h>
 #include <debond/input/csv_table.h>
 #include <debond/input/parameter_loop.h>
-#include <debond/support/written_files.h>
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
 #include <debond/support/number_text.h>
+#include <debond/support/written_files.h>
 
 #include <deal.II/base/timer.h>
 
@@ -121,7 +121,7 @@ namespace Debond
         OutputParameters &output       = variant.scene.output;
         output.overwrite_other_results = force;
         variant.look_up();
-        if (variant.content == DirectoryContent::other_scene && !force)
+        if (variant.has_other_scene && !force)
           throw EntryError("Output / Directory",
                            output.directory +
                              " holds results of another scene (compare its "
@@ -130,7 +130,7 @@ namespace Debond
                            directory);
         variant.done = variant.done && !force;
         // what is left over from another scene, or not wanted any more
-        if (force || variant.content != DirectoryContent::same_scene)
+        if (force || !variant.has_this_scene)
           variant.forget_repetitions();
       }
     return lock;

@@ -64,7 +64,7 @@ namespace Debond
 
 
     /** Distance of one torque curve from another, both from files. */
-    CurveMeasures
+    nlohmann::ordered_json
     compare_curves(const std::string &file, const std::string &reference_file)
     {
       std::vector<TorqueRow> rows;
@@ -86,8 +86,10 @@ namespace Debond
   Variant::look_up()
   {
     const OutputParameters &output = scene.output;
-    content = content_of_result_directory(output, scene.completed_parameters);
-    if (content == DirectoryContent::same_scene)
+    const auto existing = read_whole_file(output.directory + "/parameters.prm");
+    has_this_scene      = existing == scene.completed_parameters;
+    has_other_scene     = existing && !has_this_scene;
+    if (has_this_scene)
       summary = read_json(output.directory + "/summary.json");
     done = summary.value("converged", false) &&
            std::filesystem::exists(output.directory + "/torque.csv");
@@ -146,21 +148,20 @@ namespace Debond
   {
     if (compared)
       return;
-    compared = done && other.done;
-    RunSummary distances;
+    compared       = done && other.done;
+    auto distances = measure_torque_curve({}, CurveSettings());
     if (compared)
       {
         const std::string own       = scene.output.directory + "/",
                           reference = other.scene.output.directory + "/";
-        distances.measures =
+        distances =
           compare_curves(own + "torque.csv", reference + "torque.csv");
         if (std::filesystem::exists(own + "profiles.csv") &&
             std::filesystem::exists(reference + "profiles.csv"))
-          distances.profile_measures =
+          distances.update(
             compare_profiles(read_profiles(own + "profiles.csv"),
-                             read_profiles(reference + "profiles.csv"));
+                             read_profiles(reference + "profiles.csv")));
       }
-    const nlohmann::ordered_json json = distances;
     for (const char *const name : {"e_mp",
                                    "e_rel",
                                    "difference_max",
@@ -170,6 +171,6 @@ namespace Debond
                                    "slip_difference_rms",
                                    "reference_angles_used"})
       if (summary.contains(name))
-        summary[name] = json[name];
+        summary[name] = distances[name];
   }
 } // namespace Debond

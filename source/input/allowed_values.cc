@@ -262,19 +262,13 @@ namespace Debond
 
 
     AllowedValues
-    text(const std::string &what)
+    text(const std::string &what, const bool may_be_empty)
     {
-      return {[](const std::string &text) { return !text.empty(); },
+      return {[=](const std::string &text) {
+                return may_be_empty || !text.empty();
+              },
               what,
               nullptr};
-    }
-
-
-
-    AllowedValues
-    optional_text(const std::string &what)
-    {
-      return {[](const std::string &) { return true; }, what, nullptr};
     }
 
 

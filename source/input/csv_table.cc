@@ -29,8 +29,9 @@ namespace Debond
       const auto             refuse     = [&](const std::string &why) {
         throw EntryError(entry, why, filename);
       };
-      std::istringstream file(read_input_text(filename, refuse, largest_MB));
-      std::string        text;
+      std::istringstream file(
+        plain_text(read_input_bytes(filename, refuse, largest_MB), refuse));
+      std::string text;
       for (unsigned int number = 1; std::getline(file, text); ++number)
         {
           text = dealii::Utilities::trim(text);
@@ -71,13 +72,10 @@ namespace Debond
   read_csv_header(const std::string &filename, const std::string &entry)
   {
     std::vector<std::string> header;
-    for_each_line(filename,
-                  entry,
-                  [&](const unsigned int,
-                      const std::vector<std::string> &items) {
-                    if (header.empty())
-                      header = items;
-                  });
+    for_each_line(filename, entry, [&](unsigned int, const auto &items) {
+      if (header.empty())
+        header = items;
+    });
     return header;
   }
 

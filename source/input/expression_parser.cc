@@ -75,40 +75,6 @@ namespace Debond
         return "it is written " + lower + ", not " + word.str();
       return "";
     }
-
-
-
-    /** The functions that deal.II adds to those of muParser. */
-    void
-    define_functions(mu::Parser &parser)
-    {
-      namespace functions = dealii::internal::FunctionParser;
-      parser.DefineFun("if", functions::mu_if);
-      parser.DefineFun("int", functions::mu_int);
-      parser.DefineFun("ceil", functions::mu_ceil);
-      parser.DefineFun("floor", functions::mu_floor);
-      parser.DefineFun("cot", functions::mu_cot);
-      parser.DefineFun("csc", functions::mu_csc);
-      parser.DefineFun("sec", functions::mu_sec);
-      parser.DefineFun("pow", functions::mu_pow);
-      parser.DefineFun("erf", functions::mu_erf);
-      parser.DefineFun("erfc", functions::mu_erfc);
-    }
-
-
-
-    /** The parser wants the parenthesis of a function right behind its name. */
-    std::string
-    without_blanks_before_parentheses(std::string expression)
-    {
-      for (std::size_t i = 1; i < expression.size(); ++i)
-        for (std::size_t j = i;
-             j > 0 && expression[j] == '(' && expression[j - 1] == ' ';
-             --j)
-          std::swap(expression[j], expression[j - 1]);
-      return expression;
-    }
-
   } // namespace
 
 
@@ -136,10 +102,24 @@ namespace Debond
       parser.DefineVar(names[i], &(*variables_at)[i]);
     parser.DefineConst("pi", dealii::numbers::PI);
     parser.DefineConst("R", radius);
-    define_functions(parser);
+    namespace functions = dealii::internal::FunctionParser;
+    parser.DefineFun("if", functions::mu_if);
+    parser.DefineFun("int", functions::mu_int);
+    parser.DefineFun("ceil", functions::mu_ceil);
+    parser.DefineFun("floor", functions::mu_floor);
+    parser.DefineFun("cot", functions::mu_cot);
+    parser.DefineFun("csc", functions::mu_csc);
+    parser.DefineFun("sec", functions::mu_sec);
+    parser.DefineFun("pow", functions::mu_pow);
+    parser.DefineFun("erf", functions::mu_erf);
+    parser.DefineFun("erfc", functions::mu_erfc);
+    // The parser wants the parenthesis of a function right behind its name.
+    std::string text = expression;
+    for (auto at = text.rfind(" ("); at != text.npos; at = text.rfind(" (", at))
+      std::swap(text[at], text[at + 1]);
     try
       {
-        parser.SetExpr(without_blanks_before_parentheses(expression));
+        parser.SetExpr(text);
         parser.Eval(); // reads it
       }
     catch (const mu::Parser::exception_type &error)
@@ -164,22 +144,19 @@ namespace Debond
 
 
   TimeFunction
-  with_finite_values(const TimeFunction &function)
+  read_time_function(const std::string  &expression,
+                     const double        radius,
+                     const TimeFunction &given)
   {
+    TimeFunction function = given;
+    if (!function)
+      function = [in_t = read_expression("t", expression, radius)](
+                   const double t) { return in_t({t}); };
     return [function](const double t) {
       const double value = function(t);
       if (!std::isfinite(value))
         throw InputError("it has no finite value at t = " + to_text(t));
       return value;
     };
-  }
-
-
-
-  TimeFunction
-  read_time_function(const std::string &expression, const double radius)
-  {
-    const Expression in_t = read_expression("t", expression, radius);
-    return with_finite_values([in_t](const double t) { return in_t({t}); });
   }
 } // namespace Debond

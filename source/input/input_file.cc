@@ -44,16 +44,6 @@ namespace Debond
 
 
   std::string
-  read_input_text(const std::string &filename,
-                  const FileRefusal &refuse,
-                  const unsigned int largest_MB)
-  {
-    return plain_text(read_input_bytes(filename, refuse, largest_MB), refuse);
-  }
-
-
-
-  std::string
   plain_text(const std::string &bytes, const FileRefusal &refuse)
   {
     const auto begins_with = [&bytes](const char *const mark) {

@@ -179,14 +179,6 @@ namespace Debond
 
 
 
-  bool
-  is_study(const std::vector<SceneEntry> &entries)
-  {
-    return !varied_entries(entries).empty();
-  }
-
-
-
   std::vector<SceneEntry>
   varied_entries(const std::vector<SceneEntry> &entries)
   {

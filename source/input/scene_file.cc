@@ -16,6 +16,7 @@
 
 namespace Debond
 {
+  using boost::trim_fill_copy;
   using dealii::Utilities::trim;
 
 
@@ -41,15 +42,6 @@ namespace Debond
 
   namespace
   {
-    /** Makes one blank of every run of blanks, so that names may be aligned. */
-    std::string
-    single_blanks(const std::string &text)
-    {
-      return boost::trim_fill_copy(text, " ");
-    }
-
-
-
     constexpr unsigned int largest_MB = 10;
 
 
@@ -137,8 +129,9 @@ namespace Debond
       void
       read_set(const std::string &rest)
       {
-        const auto        equal = rest.find('=');
-        const std::string name  = single_blanks(rest.substr(0, equal));
+        const auto equal = rest.find('=');
+        // one blank for every run of blanks: names may be aligned
+        const std::string name = trim_fill_copy(rest.substr(0, equal), " ");
         if (equal == std::string::npos || name.empty())
           refuse("cannot read 'set " + shortened(rest) +
                  "': expected 'set NAME = VALUE'");
@@ -175,7 +168,8 @@ namespace Debond
           refuse_file("there is no such file (names of files stand without "
                       "quotes and are looked for in the working directory)");
         const std::string text =
-          read_input_text(filename, refuse_file, largest_MB);
+          plain_text(read_input_bytes(filename, refuse_file, largest_MB),
+                     refuse_file);
         for (const std::string &file : files)
           if (fs::equivalent(file, filename, unknown))
             refuse_file("this file includes itself, directly or through "
@@ -190,7 +184,7 @@ namespace Debond
         if (path.size() == deepest)
           refuse("more than " + std::to_string(deepest) +
                  " subsections are open: is an 'end' missing?");
-        path.push_back(single_blanks(name));
+        path.push_back(trim_fill_copy(name, " "));
         path_places.push_back(place);
       }
 
@@ -244,21 +238,7 @@ namespace Debond
   read_scene_file(const std::string &filename)
   {
     return read_scene_text(
-      read_input_text(filename, refusal_at(filename), largest_MB), filename);
-  }
-
-
-
-  void
-  set_entry(std::vector<SceneEntry> &entries, const SceneEntry &entry)
-  {
-    for (SceneEntry &other : entries)
-      if (other.full_name() == entry.full_name())
-        {
-          other = entry;
-          return;
-        }
-    entries.push_back(entry);
+      read_input_bytes(filename, refusal_at(filename), largest_MB), filename);
   }
 
 
@@ -268,7 +248,16 @@ namespace Debond
                  const std::vector<std::string> &overrides)
   {
     for (const std::string &text : overrides)
-      set_entry(entries, read_override(text));
+      {
+        const SceneEntry entry = read_override(text);
+        // in the place of one with the same name if there is one
+        const auto same =
+          std::find_if(entries.begin(), entries.end(), [&](const auto &other) {
+            return other.full_name() == entry.full_name();
+          });
+        entries.insert(same == entries.end() ? same : entries.erase(same),
+                       entry);
+      }
     return entries;
   }
 
@@ -291,7 +280,7 @@ namespace Debond
 
     SceneEntry entry{split(text.substr(0, equal), "/"), "", value, "--set"};
     for (std::string &name : entry.subsections)
-      name = single_blanks(name);
+      name = trim_fill_copy(name, " ");
     if (equal == std::string::npos ||
         std::count(entry.subsections.begin(), entry.subsections.end(), "") > 0)
       refuse("expected \"SUBSECTION/ENTRY=VALUE\"");

@@ -79,7 +79,7 @@ namespace Debond
     table.add(
       "Expression",
       expression,
-      Allowed::text("an expression in x, y, r, angle, pi, R"),
+      Allowed::text("an expression in x, y, r, angle, pi, R", false),
       "Pattern expression: phi_0 in [0, 1] as a function of the place "
       "(muParser): x, y and the distance r from the axis in mm, angle from the "
       "x axis towards the y axis in degrees, above -180 and up to 180, pi, and "
@@ -87,7 +87,7 @@ namespace Debond
     table.add(
       "File",
       file,
-      Allowed::optional_text("the name of a file"),
+      Allowed::text("the name of a file"),
       "Pattern image: PNG or PGM, grey levels from 0 (black) to 1 (white) are "
       "phi_0; the picture spans the square around the contact face (of a "
       "block: the rectangle), its right is +x and its top +y. Pattern file: "

@@ -1,11 +1,11 @@
-#include <math.h> // pchip expects isnan() outside of any namespace
-
 #include <debond/input/csv_table.h>
 #include <debond/interface/bond_friction.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 
 #include <boost/math/interpolators/pchip.hpp>
+
+#include <math.h> // pchip expects isnan() outside of any namespace
 
 #include <algorithm>
 
@@ -240,7 +240,7 @@ namespace Debond
         {{"",
           "Friction table",
           "",
-          Allowed::optional_text("the name of a CSV file"),
+          Allowed::text("the name of a CSV file"),
           "CSV file with the columns slip_mm, the sliding distance g_s [mm], "
           "ascending from 0, and phi, the bonding state there of a point that "
           "was fully bonded, from 1 to 0, dimensionless, which may not rise. "

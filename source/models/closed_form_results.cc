@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <ostream>
 
 namespace Debond
@@ -76,29 +77,33 @@ namespace Debond
                           scene.interface.bonding.bonded_fraction;
     if (scene.model == ModelKind::analytical)
       settings.full_sliding_angle_deg = scene.closed_form.full_sliding;
-    RunSummary summary;
-    summary.steps        = n_steps;
-    summary.converged    = true;
-    summary.reason       = "all planned steps are done";
-    summary.wall_seconds = clock.wall_time();
-    summary.seconds      = {{"before steps", seconds_before_steps},
-                            {"stepping",
-                             summary.wall_seconds - seconds_before_steps}};
 
     const auto or_nothing = [](const double stiffness) {
-      return stiffness > 0. ? stiffness : CurveMeasures::undefined;
+      return stiffness > 0. ? stiffness :
+                              std::numeric_limits<double>::quiet_NaN();
     };
-    nlohmann::ordered_json facts{{"normal_stiffness_MPa_per_mm",
-                                  or_nothing(solution.normal_stiffness)},
-                                 {"torsional_stiffness_MPa_per_mm",
-                                  or_nothing(solution.torsional_stiffness)}};
+    const double           seconds = clock.wall_time();
+    nlohmann::ordered_json facts{
+      {"steps", n_steps},
+      {"newton_iterations", 0},
+      {"dofs", 0},
+      {"unknowns", 0},
+      {"condensed_unknowns", 0},
+      {"converged", true},
+      {"reason", "all planned steps are done"},
+      {"wall_seconds", seconds},
+      {"seconds_before_steps", seconds_before_steps},
+      {"seconds_stepping", seconds - seconds_before_steps},
+      {"normal_stiffness_MPa_per_mm", or_nothing(solution.normal_stiffness)},
+      {"torsional_stiffness_MPa_per_mm",
+       or_nothing(solution.torsional_stiffness)}};
     if (scene.chuck.component[ChuckComponent::rotation_z].stiffness > 0.)
       {
         facts["jumps"] = solution.jumps.size();
         facts["released_energy_Nm"] =
           1e-3 * solution.rows.back().released_energy_Nmm;
       }
-    report.finish(solution.rows, summary, settings, facts);
+    report.finish(solution.rows, settings, facts);
   }
 
 

@@ -16,6 +16,7 @@
 #include <iostream>
 #include <map>
 #include <optional>
+#include <regex>
 #include <sstream>
 
 namespace Debond
@@ -253,27 +254,9 @@ namespace Debond
       void
       finish(const bool converged, const std::string &reason)
       {
-        const CoupledSystem &system = simulation.system();
-        const BodyMesh      &bone   = system.bone.mesh(),
-                       &implant     = system.implant.mesh();
-        RunSummary summary          = simulation.effort();
-        summary.dofs =
-          bone.n_dofs_as_published() + implant.n_dofs_as_published();
-        summary.unknowns           = bone.n_unknowns() + implant.n_unknowns();
-        summary.condensed_unknowns = system.n_unknowns();
-        summary.converged          = converged;
-        summary.reason             = reason;
-        const auto seconds         = this->seconds();
-        for (const auto &section :
-             timer.get_summary_data(dealii::TimerOutput::total_wall_time))
-          summary.seconds.emplace_back(section.first,
-                                       seconds.at(section.first));
-        for (const std::string section : {"before steps", "stepping"})
-          summary.seconds.emplace_back(section, seconds.at(section));
-        if (const double shared = system.bodies()->seconds_shared; shared > 0.)
-          summary.seconds.emplace_back("shared set-up", shared);
-        summary.wall_seconds = seconds.at("all");
-
+        const CoupledSystem &system    = simulation.system();
+        const BodyMesh      &bone      = system.bone.mesh(),
+                       &implant        = system.implant.mesh();
         const auto           &bonding  = system.interface.bonding().report();
         const auto           &released = simulation.checks().released();
         CurveSettings         settings;
@@ -285,15 +268,36 @@ namespace Debond
           shape.shape == BodyShape::cap ?
             2. * M_PI * shape.cap_radius * shape.rise() :
             system.interface.implant_area();
-        report.finish(simulation.rows(),
-                      summary,
-                      settings,
-                      {{"phi_0_mean", bonding.mean},
-                       {"bonded_area_mm2", bonding.bonded_area},
-                       {"bonded_patches", bonding.patches},
-                       {"largest_bonded_patch_mm2", bonding.largest_patch},
-                       {"jumps", released.n_jumps()},
-                       {"released_energy_Nm", 1e-3 * released.total()}});
+        const auto            &effort  = simulation.effort();
+        const auto             seconds = this->seconds();
+        nlohmann::ordered_json facts{
+          {"steps", effort.steps},
+          {"smallest_step", effort.smallest_step},
+          {"newton_iterations", effort.newton_iterations},
+          {"dofs", bone.n_dofs_as_published() + implant.n_dofs_as_published()},
+          {"unknowns", bone.n_unknowns() + implant.n_unknowns()},
+          {"condensed_unknowns", system.n_unknowns()},
+          {"converged", converged},
+          {"reason", reason},
+          {"wall_seconds", seconds.at("all")}};
+        std::vector<std::string> parts;
+        for (const auto &section :
+             timer.get_summary_data(dealii::TimerOutput::total_wall_time))
+          parts.push_back(section.first);
+        parts.insert(parts.end(), {"before steps", "stepping"});
+        // {"dense solve", 1.5} becomes "seconds_dense_solve": 1.5
+        for (const std::string &part : parts)
+          facts["seconds_" + std::regex_replace(part, std::regex("\\W"), "_")] =
+            seconds.at(part);
+        if (const double shared = system.bodies()->seconds_shared; shared > 0.)
+          facts["seconds_shared_set_up"] = shared;
+        facts.update({{"phi_0_mean", bonding.mean},
+                      {"bonded_area_mm2", bonding.bonded_area},
+                      {"bonded_patches", bonding.patches},
+                      {"largest_bonded_patch_mm2", bonding.largest_patch},
+                      {"jumps", released.n_jumps()},
+                      {"released_energy_Nm", 1e-3 * released.total()}});
+        report.finish(simulation.rows(), settings, facts);
         if (!converged)
           return;
         checkpoints.remove(); // there is nothing to go on with

@@ -10,7 +10,7 @@
 namespace Debond
 {
   RunReport::RunReport(const Scene &scene, const ResultDirectory &directory)
-    : console(scene.output.console, std::cout)
+    : console(scene.output.quiet, std::cout)
     , scene(scene)
     , directory(directory)
     , reference(read_reference_curve(scene.output.reference_curve))
@@ -43,7 +43,6 @@ namespace Debond
 
   void
   RunReport::finish(const std::vector<TorqueRow> &rows,
-                    RunSummary                    summary,
                     CurveSettings                 settings,
                     const nlohmann::ordered_json &facts)
   {
@@ -55,28 +54,28 @@ namespace Debond
       settings.mean_phi_0 = output.observed_bonding;
     if (output.full_sliding_angle > 0)
       settings.full_sliding_angle_deg = output.full_sliding_angle;
-    settings.phase_times          = scene.load_steps.times;
-    settings.reference            = reference;
-    const CurveMeasures &measures = summary.measures =
-      measure_torque_curve(rows, settings);
-    if (summary.converged)
-      console.warn("reference", warning_about_reference(measures, settings));
-
-    summary.warnings            = console.warnings;
-    summary.profile_measures    = profiles.measures();
-    summary.peak_memory_MB      = peak_memory_MB();
-    nlohmann::ordered_json json = summary;
-    json.update(facts);
-    write_json(directory.file("summary.json"), json);
-    if (!summary.converged)
+    settings.phase_times           = scene.load_steps.times;
+    settings.reference             = reference;
+    nlohmann::ordered_json summary = measure_torque_curve(rows, settings);
+    summary.update(profiles.measures());
+    summary.update(facts);
+    const bool converged = summary["converged"];
+    if (converged && !reference.empty() && summary["reference_rows_used"] == 0)
+      console.warn("reference",
+                   "no row of the reference curve could be compared with");
+    summary["warnings"]       = console.warnings;
+    summary["peak_memory_MB"] = peak_memory_MB();
+    write_json(directory.file("summary.json"), summary);
+    if (!converged)
       return;
 
     Text        text;
     const auto &end = rows.back().chuck_reaction;
-    if (std::isfinite(measures.theta_max_deg))
-      text << "Largest torque " << measures.T_max_Nmm << " N mm at "
-           << measures.theta_max_deg << " deg, at the end "
-           << measures.T_inf_Nmm << " N mm. ";
+    if (const double theta_max = summary["theta_max_deg"];
+        std::isfinite(theta_max))
+      text << "Largest torque " << summary["T_max_Nmm"].get<double>()
+           << " N mm at " << theta_max << " deg, at the end "
+           << rows.back().torque_Nmm << " N mm. ";
     else
       text << "Force of the chuck at the end: " << end[0] << ", " << end[1]
            << ", " << end[2] << " N. ";

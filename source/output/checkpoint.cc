@@ -43,18 +43,9 @@ namespace Debond
 
 
 
-    /** What is in a file, and what wrote it. */
-    struct FileContent
-    {
-      Checkpoint  checkpoint;
-      std::string format, program;
-    };
-
-
-
     /** Nothing if these bytes of a file are damaged; no more than the versions
      *  if they are of another format. */
-    std::optional<FileContent>
+    std::optional<Checkpoint>
     read(const std::string &bytes)
     {
       // all CRC lines are equally long
@@ -64,18 +55,17 @@ namespace Debond
       const std::string text = bytes.substr(begin);
       if (bytes.compare(0, begin, first_line + crc_line(text)) != 0)
         return std::nullopt;
-      FileContent        content;
+      Checkpoint         content;
       std::istringstream lines(text.substr(0, 1000));
       std::string        word;
       std::size_t        n_parameters = 0, n_state = 0;
       lines >> word >> content.format >> word >> content.program;
       if (content.format != std::to_string(CheckpointFiles::format))
         return content;
-      auto &[step, parameters, state] = content.checkpoint;
-      lines >> word >> step >> word >> n_parameters >> word >> n_state;
+      lines >> word >> content.step >> word >> n_parameters >> word >> n_state;
       const std::size_t end_of_lines = std::size_t(lines.tellg()) + 1;
-      parameters                     = text.substr(end_of_lines, n_parameters);
-      state = text.substr(end_of_lines + n_parameters, n_state);
+      content.parameters             = text.substr(end_of_lines, n_parameters);
+      content.state = text.substr(end_of_lines + n_parameters, n_state);
       return content;
     }
   } // namespace
@@ -100,7 +90,7 @@ namespace Debond
   std::optional<Checkpoint>
   CheckpointFiles::newest(std::vector<std::string> &remarks)
   {
-    std::optional<FileContent> newest;
+    std::optional<Checkpoint> newest;
     for (unsigned int i = 0; i < 2; ++i)
       {
         const auto bytes = read_whole_file(files[i]);
@@ -109,22 +99,20 @@ namespace Debond
         auto content = read(*bytes);
         if (!content)
           remarks.push_back("'" + files[i] + "' is damaged");
-        else if (!newest || content->checkpoint.step >= newest->checkpoint.step)
+        else if (!newest || content->step >= newest->step)
           {
             newest = std::move(content);
             next   = 1 - i;
           }
       }
-    if (!newest)
-      return std::nullopt;
-    if (newest->format != std::to_string(format) ||
-        newest->program != DEBOND_VERSION)
+    if (newest && (newest->format != std::to_string(format) ||
+                   newest->program != DEBOND_VERSION))
       throw OtherProgram("'" + files[1 - next] + "' was written by debond " +
                          newest->program + ", format " + newest->format +
                          ", and this is debond " DEBOND_VERSION ", format " +
                          std::to_string(format) +
                          ": only the same program can go on with the run");
-    return std::move(newest->checkpoint);
+    return newest;
   }
 
 

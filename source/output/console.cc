@@ -9,8 +9,8 @@
 
 namespace Debond
 {
-  Console::Console(const ConsoleKind kind, std::ostream &out)
-    : quiet(kind == ConsoleKind::quiet)
+  Console::Console(const bool quiet, std::ostream &out)
+    : quiet(quiet)
     , out(out)
     , on_terminal(&out == &std::cout && isatty(STDOUT_FILENO))
     , start(std::chrono::steady_clock::now())

@@ -9,6 +9,7 @@
 #include <deal.II/numerics/rtree.h>
 
 #include <Eigen/Dense>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -125,13 +126,13 @@ namespace Debond
 
 
 
-  ProfileMeasures
+  nlohmann::ordered_json
   ProfileOutput::measures() const
   {
-    if (reference.empty() || !has_points)
-      return {};
-    return compare_profiles(read_profiles(directory.file("profiles.csv")),
-                            reference);
+    Profiles written;
+    if (has_points && !reference.empty())
+      written = read_profiles(directory.file("profiles.csv"));
+    return compare_profiles(written, reference);
   }
 
 
@@ -231,11 +232,11 @@ namespace Debond
 
 
 
-  ProfileMeasures
+  nlohmann::ordered_json
   compare_profiles(const Profiles &profiles, const Profiles &reference)
   {
-    ProfileMeasures measures;
-    Eigen::Array2d  sum(0, 0);
+    unsigned int   n_angles = 0;
+    Eigen::Array2d sum(0, 0);
     for (const auto &[angle_deg, expected] : reference)
       for (const auto &[own_angle_deg, points] : profiles)
         // angles go from degrees to radians and back
@@ -243,13 +244,12 @@ namespace Debond
             1e-9 * std::max(1., std::abs(angle_deg)))
           {
             sum += relative_mean_square(points, LocalFields(expected));
-            ++measures.angles_used;
+            ++n_angles;
           }
-    if (measures.angles_used > 0)
-      {
-        measures.pressure_difference = std::sqrt(sum[0] / measures.angles_used);
-        measures.slip_difference     = std::sqrt(sum[1] / measures.angles_used);
-      }
-    return measures;
+    // no angle in both: 0 / 0, which is undefined
+    const Eigen::Array2d rms = (sum / double(n_angles)).sqrt();
+    return {{"pressure_difference_rms", rms[0]},
+            {"slip_difference_rms", rms[1]},
+            {"reference_angles_used", n_angles}};
   }
 } // namespace Debond

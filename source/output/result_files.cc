@@ -10,18 +10,6 @@
 
 namespace Debond
 {
-  DirectoryContent
-  content_of_result_directory(const OutputParameters &output,
-                              const std::string      &completed_parameters)
-  {
-    const auto existing = read_whole_file(output.directory + "/parameters.prm");
-    return !existing                         ? DirectoryContent::no_results :
-           *existing == completed_parameters ? DirectoryContent::same_scene :
-                                               DirectoryContent::other_scene;
-  }
-
-
-
   void
   remove_results(const std::string &directory, const bool rungs_only)
   {
@@ -68,9 +56,8 @@ namespace Debond
     if (!lock) // there was no directory yet
       lock = lock_directory(directory);
 
-    const bool is_of_other_scene =
-      content_of_result_directory(output, completed_parameters) ==
-      DirectoryContent::other_scene;
+    const auto existing          = read_whole_file(file("parameters.prm"));
+    const bool is_of_other_scene = existing && existing != completed_parameters;
     if (is_of_other_scene && !output.overwrite_other_results)
       refuse("this directory holds results of another scene (compare its "
              "parameters.prm): choose another one, or overwrite them with "

@@ -1,3 +1,4 @@
+#include <debond/input/allowed_values.h>
 #include <debond/input/csv_table.h>
 #include <debond/output/torque_curve.h>
 
@@ -7,7 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <regex>
+#include <limits>
+#include <utility>
 
 namespace Debond
 {
@@ -52,14 +54,15 @@ namespace Debond
                                 torque_begin + (angle - begin) / (end - begin) *
                                                  (torque_end - torque_begin);
       }
-    return CurveMeasures::undefined;
+    return std::numeric_limits<double>::quiet_NaN();
   }
 
 
 
   namespace
   {
-    using Rows = std::vector<TorqueRow>;
+    using Rows     = std::vector<TorqueRow>;
+    using Measures = nlohmann::ordered_json;
 
     double
     radians(const double degrees)
@@ -105,12 +108,6 @@ namespace Debond
             furthest = std::max(furthest, direction * row.angle_deg);
           }
       }
-
-      bool
-      is_one_way() const
-      {
-        return direction != 0. && !reverses;
-      }
     };
 
 
@@ -141,32 +138,33 @@ namespace Debond
     measure_energies(const Rows          &rows,
                      const Rotation      &rotation,
                      const CurveSettings &settings,
-                     CurveMeasures       &measures)
+                     const double         T_max,
+                     Measures            &measures)
     {
       double E_deb = 0; // [N mm], as all energies here
       for (unsigned int i = 0; i + 1 < rows.size(); ++i)
         E_deb += 0.5 * (rows[i].torque_Nmm + rows[i + 1].torque_Nmm) *
                  radians(rows[i + 1].angle_deg - rows[i].angle_deg);
-      measures.E_deb_Nm = 1e-3 * E_deb;
+      measures["E_deb_Nm"] = 1e-3 * E_deb;
 
-      measures.theta_full_deg =
+      const double theta_full_deg =
         settings.full_sliding_angle_deg > 0. ?
           rotation.direction * settings.full_sliding_angle_deg :
-          last_angle_near_maximum(rows, measures.T_max_Nmm);
-      const double sliding_deg =
-        rows.back().angle_deg - measures.theta_full_deg;
+          last_angle_near_maximum(rows, T_max);
+      measures["theta_full_deg"] = theta_full_deg;
+      const double sliding_deg   = rows.back().angle_deg - theta_full_deg;
       if (rotation.direction * sliding_deg < -rotation.tolerance)
         return; // full sliding was not reached
-      const double E_fric = measures.T_inf_Nmm * radians(sliding_deg);
-      const double W_adh  = E_deb - E_fric;
-      measures.E_fric_Nm  = 1e-3 * E_fric;
-      measures.W_adh_Nm   = 1e-3 * W_adh;
+      const double E_fric   = rows.back().torque_Nmm * radians(sliding_deg);
+      const double W_adh    = E_deb - E_fric;
+      measures["E_fric_Nm"] = 1e-3 * E_fric;
+      measures["W_adh_Nm"]  = 1e-3 * W_adh;
 
       // 1 N mm / mm^2 = 1000 N / m
-      measures.w_adh_star_N_per_m = 1e3 * W_adh / settings.contact_area_mm2;
+      const double w_adh_star        = 1e3 * W_adh / settings.contact_area_mm2;
+      measures["w_adh_star_N_per_m"] = w_adh_star;
       if (settings.mean_phi_0 > 0.)
-        measures.w_adh_N_per_m =
-          measures.w_adh_star_N_per_m / settings.mean_phi_0;
+        measures["w_adh_N_per_m"] = w_adh_star / settings.mean_phi_0;
     }
 
 
@@ -177,7 +175,8 @@ namespace Debond
     measure_errors(const Rows           &rows,
                    const Rotation       &rotation,
                    const ReferenceCurve &reference,
-                   CurveMeasures        &measures)
+                   const double          T_max,
+                   Measures             &measures)
     {
       ReferenceCurve curve; // in ascending order
       for (const TorqueRow &row : rows)
@@ -203,13 +202,13 @@ namespace Debond
               ++n;
             }
         }
-      measures.reference_rows_used = n;
+      measures["reference_rows_used"] = n;
       if (n > 0)
         {
-          measures.e_mp            = sum_mp / n;
-          measures.e_rel           = sum_difference / n / measures.T_max_Nmm;
-          measures.difference_mean = sum_difference / n / largest;
-          measures.difference_max  = max_difference / largest;
+          measures["e_mp"]            = sum_mp / n;
+          measures["e_rel"]           = sum_difference / n / T_max;
+          measures["difference_mean"] = sum_difference / n / largest;
+          measures["difference_max"]  = max_difference / largest;
         }
     }
 
@@ -245,112 +244,75 @@ namespace Debond
 
 
 
-  CurveMeasures
+  nlohmann::ordered_json
+  empty_summary()
+  {
+    const char *const names =
+      "T_max_Nmm theta_max_deg theta_full_deg T_inf_Nmm pressure_MPa E_deb_Nm "
+      "E_fric_Nm W_adh_Nm w_adh_N_per_m w_adh_star_N_per_m D_adh_Nm "
+      "dissipation_Nm e_mp e_rel difference_max difference_mean steps "
+      "newton_iterations dofs unknowns wall_seconds converged reason warnings "
+      "condensed_unknowns peak_memory_MB reference_rows_used "
+      "initial_stiffness_Nm_per_rad theta_debonding_deg force_end_N work_Nm "
+      "E_bulk_Nm E_interface_Nm largest_energy_defect largest_reaction_defect "
+      "viscous_dissipation_Nm smallest_step pressure_difference_rms "
+      "slip_difference_rms reference_angles_used";
+    nlohmann::ordered_json summary;
+    for (const std::string &name : split(names, " "))
+      summary[name] = std::numeric_limits<double>::quiet_NaN();
+    summary["reference_rows_used"] = summary["reference_angles_used"] = 0;
+    return summary;
+  }
+
+
+
+  nlohmann::ordered_json
   measure_torque_curve(const std::vector<TorqueRow> &rows,
                        const CurveSettings          &settings)
   {
-    CurveMeasures measures;
+    Measures measures = empty_summary();
     if (rows.empty())
       return measures;
 
     const Rotation   rotation(rows);
-    const TorqueRow *peak          = &rows.front();
-    measures.largest_energy_defect = measures.largest_reaction_defect = 0;
+    const TorqueRow *peak = &rows.front(), &end = rows.back();
+    double           energy_defect = 0, reaction_defect = 0;
     for (const TorqueRow &row : rows)
       {
         if (std::abs(row.torque_Nmm) > std::abs(peak->torque_Nmm))
           peak = &row;
-        grow(measures.largest_energy_defect, std::abs(row.energy_defect));
-        grow(measures.largest_reaction_defect, row.reaction_defect);
+        grow(energy_defect, std::abs(row.energy_defect));
+        grow(reaction_defect, row.reaction_defect);
       }
-    measures.T_max_Nmm = std::abs(peak->torque_Nmm);
-    measures.T_inf_Nmm = rows.back().torque_Nmm;
-    measures.pressure_MPa =
-      pressure_before_rotation(rows, rotation, settings.phase_times);
-    measures.D_adh_Nm               = 1e-3 * rows.back().adhesive_work_Nmm;
-    measures.dissipation_Nm         = 1e-3 * rows.back().dissipation_Nmm;
-    measures.viscous_dissipation_Nm = 1e-3 * rows.back().viscous_work_Nmm;
-    measures.force_end_N            = rows.back().force_N;
-    measures.work_Nm                = 1e-3 * rows.back().work_Nmm;
-    measures.E_bulk_Nm              = 1e-3 * rows.back().energy_bulk_Nmm;
-    measures.E_interface_Nm         = 1e-3 * rows.back().energy_interface_Nmm;
-    if (rotation.is_one_way())
+    const double T_max = std::abs(peak->torque_Nmm);
+    measures.update(
+      {{"largest_energy_defect", energy_defect},
+       {"largest_reaction_defect", reaction_defect},
+       {"T_max_Nmm", T_max},
+       {"T_inf_Nmm", end.torque_Nmm},
+       {"pressure_MPa",
+        pressure_before_rotation(rows, rotation, settings.phase_times)},
+       {"D_adh_Nm", 1e-3 * end.adhesive_work_Nmm},
+       {"dissipation_Nm", 1e-3 * end.dissipation_Nmm},
+       {"viscous_dissipation_Nm", 1e-3 * end.viscous_work_Nmm},
+       {"force_end_N", end.force_N},
+       {"work_Nm", 1e-3 * end.work_Nmm},
+       {"E_bulk_Nm", 1e-3 * end.energy_bulk_Nmm},
+       {"E_interface_Nm", 1e-3 * end.energy_interface_Nmm}});
+    if (rotation.direction != 0. && !rotation.reverses)
       {
-        measures.theta_max_deg = peak->angle_deg;
-        const TorqueRow &first = rows[rotation.first_row];
-        measures.initial_stiffness_Nm_per_rad =
-          1e-3 * (first.torque_Nmm - rows[rotation.first_row - 1].torque_Nmm) /
-          radians(first.angle_deg - rows[rotation.first_row - 1].angle_deg);
+        measures["theta_max_deg"] = peak->angle_deg;
+        const TorqueRow &first    = rows[rotation.first_row],
+                        &before   = rows[rotation.first_row - 1];
+        measures["initial_stiffness_Nm_per_rad"] =
+          1e-3 * (first.torque_Nmm - before.torque_Nmm) /
+          radians(first.angle_deg - before.angle_deg);
         for (auto row = rows.rbegin(); row != rows.rend(); ++row)
           if (row->phi_mean < rows.front().phi_mean * (1. - 1e-12))
-            measures.theta_debonding_deg = row->angle_deg;
-        measure_energies(rows, rotation, settings, measures);
-        measure_errors(rows, rotation, settings.reference, measures);
+            measures["theta_debonding_deg"] = row->angle_deg;
+        measure_energies(rows, rotation, settings, T_max, measures);
+        measure_errors(rows, rotation, settings.reference, T_max, measures);
       }
     return measures;
-  }
-
-
-
-  std::string
-  warning_about_reference(const CurveMeasures &measures,
-                          const CurveSettings &settings)
-  {
-    return !settings.reference.empty() && measures.reference_rows_used == 0 ?
-             "no row of the reference curve could be compared with" :
-             "";
-  }
-
-
-
-  void
-  to_json(nlohmann::ordered_json &json, const RunSummary &summary)
-  {
-    const CurveMeasures   &m = summary.measures;
-    const ProfileMeasures &p = summary.profile_measures;
-
-    json = {{"T_max_Nmm", m.T_max_Nmm},
-            {"theta_max_deg", m.theta_max_deg},
-            {"theta_full_deg", m.theta_full_deg},
-            {"T_inf_Nmm", m.T_inf_Nmm},
-            {"pressure_MPa", m.pressure_MPa},
-            {"E_deb_Nm", m.E_deb_Nm},
-            {"E_fric_Nm", m.E_fric_Nm},
-            {"W_adh_Nm", m.W_adh_Nm},
-            {"w_adh_N_per_m", m.w_adh_N_per_m},
-            {"w_adh_star_N_per_m", m.w_adh_star_N_per_m},
-            {"D_adh_Nm", m.D_adh_Nm},
-            {"dissipation_Nm", m.dissipation_Nm},
-            {"e_mp", m.e_mp},
-            {"e_rel", m.e_rel},
-            {"difference_max", m.difference_max},
-            {"difference_mean", m.difference_mean},
-            {"steps", summary.steps},
-            {"newton_iterations", summary.newton_iterations},
-            {"dofs", summary.dofs},
-            {"unknowns", summary.unknowns},
-            {"wall_seconds", summary.wall_seconds},
-            {"converged", summary.converged},
-            {"reason", summary.reason},
-            {"warnings", summary.warnings},
-            {"condensed_unknowns", summary.condensed_unknowns},
-            {"peak_memory_MB", summary.peak_memory_MB},
-            {"reference_rows_used", m.reference_rows_used},
-            {"initial_stiffness_Nm_per_rad", m.initial_stiffness_Nm_per_rad},
-            {"theta_debonding_deg", m.theta_debonding_deg},
-            {"force_end_N", m.force_end_N},
-            {"work_Nm", m.work_Nm},
-            {"E_bulk_Nm", m.E_bulk_Nm},
-            {"E_interface_Nm", m.E_interface_Nm},
-            {"largest_energy_defect", m.largest_energy_defect},
-            {"largest_reaction_defect", m.largest_reaction_defect},
-            {"viscous_dissipation_Nm", m.viscous_dissipation_Nm},
-            {"smallest_step", summary.smallest_step},
-            {"pressure_difference_rms", p.pressure_difference},
-            {"slip_difference_rms", p.slip_difference},
-            {"reference_angles_used", p.angles_used}};
-    static const std::regex others("[^A-Za-z0-9]");
-    for (const auto &[name, seconds] : summary.seconds)
-      json["seconds_" + std::regex_replace(name, others, "_")] = seconds;
   }
 } // namespace Debond

@@ -9,6 +9,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
 #include <tuple>
 #include <utility>
@@ -120,53 +121,11 @@ namespace Debond
       const unsigned int fewest = std::min(n[0], n[1]);
       return std::clamp((pieces + fewest - 1) / fewest, least, most);
     }
-
-
-
-    /** The patches of one body: a cell each, cells at the curved surface finely
-     *  subdivided. */
-    void
-    draw(const Body &body, const Chuck &chuck, PatchSet<3> &output)
-    {
-      const BodyMesh       &mesh       = body.mesh();
-      const bool            is_implant = mesh.side() == Side::implant;
-      const Eigen::VectorXd v          = body.full_displacement();
-      const auto            stress     = body.vertex_stress(v);
-      Eigen::Matrix3d       Q          = Eigen::Matrix3d::Identity();
-      if (is_implant)
-        Q = chuck.rotation();
-      // A surface of degree one makes its cells trilinear.
-      const unsigned int n_enriched =
-        mesh.surface().degree() == 1 ? 1 : n_pieces(mesh.surface(), 24, 2, 8);
-      for (const BodyMesh::Cell &cell : mesh.cells())
-        output.add_patch(
-          cell.enriched ? n_enriched : 1,
-          [&](const Eigen::Vector3d &point, std::vector<double> &values) {
-            const std::vector<double> N = shape_functions(mesh, cell, point).N;
-            Eigen::Vector3d           X = Eigen::Vector3d::Zero(), v_point = X;
-            for (unsigned int a = 0; a < N.size(); ++a)
-              {
-                X += N[a] * mesh.reference_position(cell.nodes[a]);
-                v_point += N[a] * v.segment<3>(3 * cell.nodes[a]);
-              }
-            const auto      corners = trilinear(point);
-            Eigen::Matrix3d sigma   = Eigen::Matrix3d::Zero();
-            for (unsigned int a = 0; a < n_corners; ++a)
-              sigma += corners[a] * stress[cell.vertices[a]];
-
-            append_values(values,
-                          is_implant ? chuck.map(X, v_point) - X : v_point);
-            append_values(values, v_point);
-            append_values(values, (Q * sigma * Q.transpose()).eval());
-            values.push_back(von_mises(sigma));
-            values.push_back(is_implant ? 1. : 0.);
-            return X;
-          });
-    }
   } // namespace
 
 
 
+  // A patch is a cell; those at the curved surface are finely subdivided.
   std::string
   bulk_vtu(const std::array<const Body *, 2> &bodies, const Chuck &chuck)
   {
@@ -176,7 +135,43 @@ namespace Debond
                         {"von_Mises_MPa", 1},
                         {"body", 1}});
     for (const Body *const body : bodies)
-      draw(*body, chuck, output);
+      {
+        const BodyMesh       &mesh       = body->mesh();
+        const bool            is_implant = mesh.side() == Side::implant;
+        const Eigen::VectorXd v          = body->full_displacement();
+        const auto            stress     = body->vertex_stress(v);
+        Eigen::Matrix3d       Q          = Eigen::Matrix3d::Identity();
+        if (is_implant)
+          Q = chuck.rotation();
+        // A surface of degree one makes its cells trilinear.
+        const unsigned int n_enriched =
+          mesh.surface().degree() == 1 ? 1 : n_pieces(mesh.surface(), 24, 2, 8);
+        for (const BodyMesh::Cell &cell : mesh.cells())
+          output.add_patch(
+            cell.enriched ? n_enriched : 1,
+            [&](const Eigen::Vector3d &point, std::vector<double> &values) {
+              const std::vector<double> N =
+                shape_functions(mesh, cell, point).N;
+              Eigen::Vector3d X = Eigen::Vector3d::Zero(), v_point = X;
+              for (unsigned int a = 0; a < N.size(); ++a)
+                {
+                  X += N[a] * mesh.reference_position(cell.nodes[a]);
+                  v_point += N[a] * v.segment<3>(3 * cell.nodes[a]);
+                }
+              const auto      corners = trilinear(point);
+              Eigen::Matrix3d sigma   = Eigen::Matrix3d::Zero();
+              for (unsigned int a = 0; a < n_corners; ++a)
+                sigma += corners[a] * stress[cell.vertices[a]];
+
+              append_values(values,
+                            is_implant ? chuck.map(X, v_point) - X : v_point);
+              append_values(values, v_point);
+              append_values(values, (Q * sigma * Q.transpose()).eval());
+              values.push_back(von_mises(sigma));
+              values.push_back(is_implant ? 1. : 0.);
+              return X;
+            });
+      }
     return output.vtu();
   }
 
@@ -210,43 +205,30 @@ namespace Debond
         const SlavePoint                 *nearest;
       };
 
-      /** For fields that are continuous over the whole patch. */
-      Stencil
-      across_elements(const Eigen::Vector2d &xi) const
-      {
-        return stencil(xi,
-                       {{0, 0}},
-                       {{coordinates[0].size(), coordinates[1].size()}});
-      }
-
-      /** For fields that may jump at its borders: points of @p element only. */
-      Stencil
-      within(const unsigned int element, const Eigen::Vector2d &xi) const
-      {
-        const std::size_t i = n * (element % n_elements_1);
-        const std::size_t j = n * (element / n_elements_1);
-        return stencil(xi, {{i, j}}, {{i + n, j + n}});
-      }
-
-    private:
-      /** Between the points from @p begin to before @p end in each direction;
-       *  constant beyond these. */
+      /** Between all points, for fields that are continuous over the whole
+       *  patch, or those of @p element only, for fields that may jump at its
+       *  borders; constant beyond these. */
       Stencil
       stencil(const Eigen::Vector2d            &xi,
-              const std::array<std::size_t, 2> &begin,
-              const std::array<std::size_t, 2> &end) const
+              const std::optional<unsigned int> element = {}) const
       {
         std::array<unsigned int, 2> first, second;
         std::array<double, 2>       share; // of the second
         for (unsigned int d = 0; d < 2; ++d)
           {
-            const auto       &x     = coordinates[d];
-            const std::size_t upper = std::upper_bound(x.begin() + begin[d],
-                                                       x.begin() + end[d],
-                                                       xi[d]) -
-                                      x.begin();
-            first[d]  = std::max(upper, begin[d] + 1) - 1;
-            second[d] = std::min(upper, end[d] - 1);
+            const auto &x     = coordinates[d];
+            std::size_t begin = 0, end = x.size();
+            if (element)
+              {
+                begin = n * (d == 0 ? *element % n_elements_1 :
+                                      *element / n_elements_1);
+                end   = begin + n;
+              }
+            const std::size_t upper =
+              std::upper_bound(x.begin() + begin, x.begin() + end, xi[d]) -
+              x.begin();
+            first[d]  = std::max(upper, begin + 1) - 1;
+            second[d] = std::min(upper, end - 1);
             share[d]  = first[d] == second[d] ?
                           0. :
                           (xi[d] - x[first[d]]) / (x[second[d]] - x[first[d]]);
@@ -261,6 +243,7 @@ namespace Debond
         return result;
       }
 
+    private:
       /** Points are numbered element by element, the first parameter fastest in
        *  both; @p i and @p j count over the whole patch. */
       unsigned int
@@ -394,7 +377,7 @@ namespace Debond
           contract(basis, surface.control_points(), false, position);
           contract(basis, u, false, displacement);
 
-          const auto                  stencil = grid.across_elements(xi);
+          const auto                  stencil = grid.stencil(xi);
           Eigen::Matrix<double, 6, 1> continuous =
             Eigen::Matrix<double, 6, 1>::Zero();
           for (unsigned int a = 0; a < 4; ++a)
@@ -402,7 +385,7 @@ namespace Debond
               stencil.weight[a] * continuous_values(*stencil.point[a]);
           append_values(values, continuous);
           for (const double value :
-               bonding_values(law, stencil, grid.within(element, xi)))
+               bonding_values(law, stencil, grid.stencil(xi, element)))
             values.push_back(value);
           values.push_back(
             static_cast<double>(stencil.nearest->trial.state.status));

@@ -61,14 +61,14 @@ namespace Debond
 
 
     void
-    declare_campaigns(AutoParameters  &automatic,
+    declare_campaigns(unsigned int    &largest_number_of_unknowns,
                       StudyParameters &study,
                       EntryTable      &table)
     {
       table.enter_subsection("Auto");
       table.add(
         "Largest number of unknowns",
-        automatic.largest_number_of_unknowns,
+        largest_number_of_unknowns,
         Allowed::whole_number(1, 100000000),
         "With Model = auto: unknowns of both bodies up to which meshes "
         "are refined. The memory needed goes with it: 1 GB for 105 000, "
@@ -107,12 +107,12 @@ namespace Debond
     {
       table.add("Reference curve",
                 output.reference_curve,
-                Allowed::optional_text("the name of a CSV file"),
+                Allowed::text("the name of a CSV file"),
                 "CSV file with the columns angle_deg,torque_Nmm to compare the "
                 "torque curve with; empty: none.");
       table.add("Reference profiles",
                 output.reference_profiles,
-                Allowed::optional_text("the name of a CSV file"),
+                Allowed::text("the name of a CSV file"),
                 "CSV file with the columns angle_deg, x_mm, y_mm, area_mm2, "
                 "pressure_MPa and slip_mm, as profiles.csv of another run, to "
                 "compare local values with at those of its angles that Profile "
@@ -171,7 +171,7 @@ namespace Debond
         "SIGINT, SIGTERM or SIGHUP interrupts the run. For Model = finite "
         "elements.");
       table.add("Console",
-                output.console,
+                output.quiet,
                 Allowed::choice("steps | quiet"),
                 "`steps': lines about the steps (a hundred if very many are "
                 "planned), progress and timings. `quiet': warnings and errors "
@@ -187,7 +187,7 @@ namespace Debond
   {
     table.add("Title",
               title,
-              Allowed::optional_text("any text"),
+              Allowed::text("any text"),
               "Title of the scene, for people.");
     table.add("Model",
               model,
@@ -215,7 +215,7 @@ namespace Debond
     chuck.declare(table);
     load_steps.declare(table);
     declare_closed_form(closed_form, table);
-    declare_campaigns(automatic, study, table);
+    declare_campaigns(largest_number_of_unknowns, study, table);
     declare_output(output, table);
   }
 } // namespace Debond

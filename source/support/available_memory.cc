@@ -33,17 +33,6 @@ namespace Debond
 
 
 
-    /** What the system says it could give away without swapping [bytes]. */
-    double
-    memory_of_machine()
-    {
-      const double kB = entry("/proc/meminfo", "MemAvailable:");
-      return kB > 0. ? 1024. * kB :
-                       double(sysconf(_SC_PHYS_PAGES)) * sysconf(_SC_PAGESIZE);
-    }
-
-
-
     /** What a limit of the address space leaves [bytes]. */
     double
     memory_within_limit()
@@ -118,8 +107,11 @@ namespace Debond
   double
   available_memory_MB()
   {
-    return std::min(1e-6 * std::min(memory_of_machine(), memory_within_limit()),
-                    memory_within_control_groups_MB("/proc/self/cgroup",
-                                                    "/sys/fs/cgroup"));
+    // what the system says it could give away without swapping
+    const double kB = entry("/proc/meminfo", "MemAvailable:");
+    return std::min(
+      {kB > 0. ? 1024e-6 * kB : no_limit,
+       1e-6 * memory_within_limit(),
+       memory_within_control_groups_MB("/proc/self/cgroup", "/sys/fs/cgroup")});
   }
 } // namespace Debond

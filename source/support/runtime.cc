@@ -42,15 +42,10 @@ namespace Debond
 
 
 
-  ThreadedBlas::ThreadedBlas(const bool wanted)
+  void
+  thread_blas(const bool wanted)
   {
-    if (wanted)
-      openblas_set_num_threads(dealii::MultithreadInfo::n_threads());
-  }
-
-  ThreadedBlas::~ThreadedBlas()
-  {
-    openblas_set_num_threads(1);
+    openblas_set_num_threads(wanted ? dealii::MultithreadInfo::n_threads() : 1);
   }
 
 

@@ -34,13 +34,12 @@ namespace Debond
 
 
 
-    /** Whether what was written into a file or, with O_DIRECTORY in @p flags,
-     *  the names in a directory could be put on the disk; else errno says why
-     *  not. */
+    /** Whether what was written into a file, or the names in a directory, could
+     *  be put on the disk; else errno says why not. */
     bool
-    is_on_disk(const std::string &filename, const int flags)
+    is_on_disk(const std::string &filename)
     {
-      const int descriptor = open(filename.c_str(), flags | O_CLOEXEC);
+      const int descriptor = open(filename.c_str(), O_RDONLY | O_CLOEXEC);
       if (descriptor < 0)
         return false;
       const int reason = fsync(descriptor) == 0 ? 0 : errno;
@@ -78,7 +77,7 @@ namespace Debond
     std::ofstream     file(temporary, std::ios::binary);
     file << text;
     file.close();
-    if (!file || (on_disk && !is_on_disk(temporary, O_RDONLY)) ||
+    if (!file || (on_disk && !is_on_disk(temporary)) ||
         std::rename(temporary.c_str(), filename.c_str()) != 0)
       {
         const int reason = errno;
@@ -88,9 +87,7 @@ namespace Debond
       }
     const auto parent = std::filesystem::path(filename).parent_path();
     // some file systems cannot do that with a directory
-    if (on_disk &&
-        !is_on_disk(parent.empty() ? "." : parent.string(),
-                    O_RDONLY | O_DIRECTORY) &&
+    if (on_disk && !is_on_disk(parent.empty() ? "." : parent.string()) &&
         errno != EINVAL && errno != ENOTSUP)
       fail(filename);
   }
@@ -110,7 +107,7 @@ namespace Debond
   void
   put_on_disk(const std::string &filename)
   {
-    if (!is_on_disk(filename, O_RDONLY))
+    if (!is_on_disk(filename))
       fail(filename);
   }
 

@@ -46,7 +46,7 @@ LLVMFuzzerTestOneInput(const std::uint8_t *data, const std::size_t size)
     const auto entries = Debond::read_scene_text(text, "scene");
     if (!is_small(entries))
       return;
-    if (Debond::is_study(entries))
+    if (!Debond::varied_entries(entries).empty())
       Debond::study_variants(entries, 0);
     else
       Debond::Scene::from_entries(entries, "scene");

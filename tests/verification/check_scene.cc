@@ -54,7 +54,7 @@ namespace
       Debond::with_overrides(Debond::read_scene_file(scene_file),
                              overrides_of(scene_text)),
       more_overrides);
-    if (Debond::is_study(entries))
+    if (!Debond::varied_entries(entries).empty())
       {
         std::ostringstream log;
         Debond::Study      study(entries, scene_file);

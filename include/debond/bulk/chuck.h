@@ -58,8 +58,7 @@ namespace Debond
     TimeFunction
     value_over_time(double radius) const
     {
-      return function ? with_finite_values(function) :
-                        read_time_function(value, radius);
+      return read_time_function(value, radius, function);
     }
   };
 

@@ -25,11 +25,12 @@ namespace Debond
     Scene                    scene;
     std::vector<std::string> values;            ///< of the varied entries
     unsigned int             n_repetitions = 1; ///< runs that are wanted
-    DirectoryContent         content       = DirectoryContent::no_results;
-    nlohmann::ordered_json   summary       = nlohmann::ordered_json::object();
-    bool                     compared = false; ///< with the reference variant
-    bool                     done     = false;
-    std::string              failure; ///< why it failed, if it did
+    /** What results its directory holds, by the text of parameters.prm. */
+    bool                   has_this_scene = false, has_other_scene = false;
+    nlohmann::ordered_json summary  = nlohmann::ordered_json::object();
+    bool                   compared = false; ///< with the reference variant
+    bool                   done     = false;
+    std::string            failure; ///< why it failed, if it did
     std::vector<nlohmann::ordered_json> repetitions; ///< summaries of its runs
 
     /** Reads what its directory holds. */

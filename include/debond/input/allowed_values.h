@@ -65,13 +65,9 @@ namespace Debond
     AllowedValues
     choice(const std::string &choices);
 
-    /** Text that is not empty; @p what says what it is. */
+    /** Any text; @p what says what it is. */
     AllowedValues
-    text(const std::string &what);
-
-    /** Any text, also none; @p what says what it is. */
-    AllowedValues
-    optional_text(const std::string &what);
+    text(const std::string &what, bool may_be_empty = true);
 
     /** The name of a directory to write into, without what was meant for a
      *  shell or another system: no quotes, no backslash, no ~ or $ at the

@@ -27,13 +27,11 @@ namespace Debond
   /** A function of time. */
   using TimeFunction = std::function<double(double)>;
 
-  /** The same function; throws InputError where it has no finite value. */
+  /** That of an expression in `t`, see read_expression(), or @p given if there
+   *  is one. It throws InputError where it has no finite value. */
   TimeFunction
-  with_finite_values(const TimeFunction &function);
-
-  /** That of an expression in `t`, see read_expression(), with finite values.
-   */
-  TimeFunction
-  read_time_function(const std::string &expression, double radius);
+  read_time_function(const std::string  &expression,
+                     double              radius,
+                     const TimeFunction &given = nullptr);
 } // namespace Debond
 #endif

@@ -17,12 +17,6 @@ namespace Debond
                    const FileRefusal &refuse,
                    unsigned int       largest_MB);
 
-  /** The same for a text, as plain_text() makes it of the bytes. */
-  std::string
-  read_input_text(const std::string &filename,
-                  const FileRefusal &refuse,
-                  unsigned int       largest_MB);
-
   /** A text with lines that end in '\n' only, whatever system it is from, and
    *  without the mark that some editors begin a file with. Refuses what is no
    *  text: shown in a message it would be unreadable, and the cause is nearly

@@ -17,11 +17,8 @@ namespace Debond
     std::vector<std::string> values;
   };
 
-  /** Whether the value of any entry holds `{{`. */
-  bool
-  is_study(const std::vector<SceneEntry> &entries);
-
-  /** The entries that hold several values, in the order of the scene. */
+  /** The entries that hold several values, `{{` and what follows, in the order
+   * of the scene. A scene without any is no study. */
   std::vector<SceneEntry>
   varied_entries(const std::vector<SceneEntry> &entries);
 

@@ -45,11 +45,6 @@ namespace Debond
   std::vector<SceneEntry>
   read_scene_file(const std::string &filename);
 
-  /** Gives @p entries this entry, in the place of one with the same name if
-   *  there is one. */
-  void
-  set_entry(std::vector<SceneEntry> &entries, const SceneEntry &entry);
-
   /** @p entries with overrides "Subsection/Entry=value" in their order. */
   std::vector<SceneEntry>
   with_overrides(std::vector<SceneEntry>         entries,

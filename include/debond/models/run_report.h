@@ -28,13 +28,12 @@ namespace Debond
     add(const TorqueRow                                    &row,
         unsigned int                                        n_steps,
         const std::function<std::vector<InterfacePoint>()> &points);
-    /** Writes summary.json: @p summary, whose effort and end are set, and
-     *  @p facts, with the measures of the torque curve of all @p rows. Area
-     *  and mean bonding of @p settings are set, where the scene does not
-     *  observe the latter. */
+    /** Writes summary.json: the measures of the torque curve of all @p rows,
+     *  and @p facts, which tell the effort and the end. Area and mean bonding
+     * of
+     *  @p settings are set, where the scene does not observe the latter. */
     void
     finish(const std::vector<TorqueRow> &rows,
-           RunSummary                    summary,
            CurveSettings                 settings,
            const nlohmann::ordered_json &facts);
 

@@ -11,6 +11,7 @@
 
 #include <boost/signals2/signal.hpp>
 
+#include <limits>
 #include <memory>
 #include <variant>
 #include <vector>
@@ -108,7 +109,14 @@ namespace Debond
 
     /** What summary.json is to tell of the steps: `steps`, `smallest_step`,
      *  `newton_iterations`, also of attempts that failed. */
-    const RunSummary &
+    struct Effort
+    {
+      unsigned int steps = 0; ///< accepted, sub-steps included
+      /** Time of the shortest accepted step. */
+      double       smallest_step     = std::numeric_limits<double>::quiet_NaN();
+      unsigned int newton_iterations = 0;
+    };
+    const Effort &
     effort() const
     {
       return so_far;
@@ -160,7 +168,7 @@ namespace Debond
     StateChecks            state_checks;
     std::vector<TorqueRow> all_rows;
     std::vector<Warning>   all_warnings;
-    RunSummary             so_far;
+    Effort                 so_far;
     double                 reaction_defect = 0; ///< of the last accepted state
   };
 } // namespace Debond

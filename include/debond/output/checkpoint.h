@@ -25,6 +25,7 @@ namespace Debond
     unsigned int step = 0;   ///< of the last row
     std::string  parameters; ///< completed parameters of the scene
     std::string  state;      ///< an archive, see serialization.h
+    std::string  format = "", program = ""; ///< versions of what wrote it
   };
 
   /**

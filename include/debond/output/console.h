@@ -16,7 +16,7 @@ namespace Debond
   class Console
   {
   public:
-    Console(ConsoleKind kind, std::ostream &out);
+    Console(bool quiet, std::ostream &out);
 
     void
     headline(const std::string &text);

@@ -3,9 +3,10 @@
 
 #include <debond/scene/reference_data.h>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <array>
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -28,19 +29,12 @@ namespace Debond
 
 
 
-  /** Distance of local values from those of a reference; NaN where undefined.
-   */
-  struct ProfileMeasures
-  {
-    /** Root mean square of the difference over all points, weighted by their
-     *  areas, relative to the area mean of the reference, and then over the
-     *  angles that both have. */
-    double       pressure_difference = std::numeric_limits<double>::quiet_NaN();
-    double       slip_difference     = std::numeric_limits<double>::quiet_NaN();
-    unsigned int angles_used         = 0;
-  };
-
   /**
+   * Members of summary.json: pressure_difference_rms and slip_difference_rms,
+   * the root mean square of the difference over all points, weighted by their
+   * areas, relative to the area mean of the reference, and then over the angles
+   * that both have, whose number is reference_angles_used; NaN where undefined.
+   *
    * Compares local values at the points of @p profiles with those of a
    * reference, whose points lie elsewhere: at each point a parabola in x and y
    * is fitted to the 20 nearest points of the reference, the nearer the more
@@ -52,7 +46,7 @@ namespace Debond
    * that radius in every direction. Angles that only one of both has are left
    * out.
    */
-  ProfileMeasures
+  nlohmann::ordered_json
   compare_profiles(const Profiles &profiles, const Profiles &reference);
 
 
@@ -87,7 +81,7 @@ namespace Debond
 
     /** Distance of the written profiles from `Output / Reference profiles`;
      *  undefined without any. To be called after finish(). */
-    ProfileMeasures
+    nlohmann::ordered_json
     measures() const;
 
     /** See serialization.h. */

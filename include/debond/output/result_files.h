@@ -11,19 +11,6 @@
 
 namespace Debond
 {
-  enum class DirectoryContent
-  {
-    no_results,
-    same_scene,
-    other_scene
-  };
-
-  /** Whether the directory of @p output holds results, judged by the text of
-   *  its parameters.prm. */
-  DirectoryContent
-  content_of_result_directory(const OutputParameters &output,
-                              const std::string      &completed_parameters);
-
   /** Removes what debond has written into a directory, but for parameters.prm;
    *  images that others made of the results stay. @p rungs_only: nothing but
    * the directories rung-NUMBER of Model = auto; what else has such a name is

@@ -8,7 +8,6 @@
 #include <array>
 #include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace Debond
@@ -134,91 +133,37 @@ namespace Debond
     ReferenceCurve reference;
   };
 
+  /** The members of summary.json in their order, NaN; 0 for the numbers
+   *  of rows and angles used of references. */
+  nlohmann::ordered_json
+  empty_summary();
+
   /**
-   * What is read off a torque curve; NaN where undefined. Angles and energies
-   * are undefined if nothing rotates or if the rotation reverses; E_fric and
-   * what follows from it also if the run ends before full sliding.
+   * Evaluates a torque curve, be it complete, interrupted or empty. Integrals
+   * are trapezoids over the rows. Returns empty_summary() with what is read off
+   * the curve; NaN where undefined. Angles and energies are undefined if
+   * nothing rotates or if the rotation reverses; E_fric and what follows from
+   * it also if the run ends before full sliding. The names end in the units:
+   *
+   *  - T_max: largest |T| over the rows; theta_max: where it is first met;
+   *    theta_full: beginning of full sliding; T_inf: T of the last row;
+   *  - pressure: at the end of the last phase before the angle first changes;
+   *  - initial_stiffness: torque per angle up to the first row that has turned;
+   *  - E_deb, E_fric, W_adh: Eq. (20); w_adh: Eq. (21); w_adh_star: Eq. (21)
+   *    with a mean phi_0 of 1; D_adh: work the law spends on adhesion;
+   *  - dissipation, and viscous_dissipation, which is part of it;
+   *  - theta_debonding: angle of the first row whose mean bonding state is
+   * below the initial;
+   *  - force_end, work, E_bulk, E_interface: of the last row axial force, work
+   *    of the chuck, energy stored in bodies and interface;
+   *  - e_mp, e_rel: Eqs. (19) and (50), ratios; difference_max,
+   * difference_mean: largest and mean |T - T_reference| over the reference's
+   * rows, relative to the largest |T_reference|; reference_rows_used: in these;
+   *  - largest_energy_defect, largest_reaction_defect: largest magnitudes over
+   *    the rows.
    */
-  struct CurveMeasures
-  {
-    static constexpr double undefined =
-      std::numeric_limits<double>::quiet_NaN();
-
-    double T_max_Nmm      = undefined; ///< largest |T| over the rows
-    double theta_max_deg  = undefined; ///< where T_max is first met
-    double theta_full_deg = undefined; ///< beginning of full sliding
-    double T_inf_Nmm      = undefined; ///< T of the last row
-    /** At the end of the last phase before the angle first changes. */
-    double pressure_MPa = undefined;
-    /** Torque per angle up to the first row that has turned. */
-    double initial_stiffness_Nm_per_rad = undefined;
-    double E_deb_Nm                     = undefined; ///< Eq. (20)
-    double E_fric_Nm                    = undefined; ///< Eq. (20)
-    double W_adh_Nm                     = undefined; ///< Eq. (20)
-    double w_adh_N_per_m                = undefined; ///< Eq. (21)
-    double w_adh_star_N_per_m = undefined; ///< Eq. (21) with a mean phi_0 of 1
-    double D_adh_Nm           = undefined; ///< work the law spends on adhesion
-    double dissipation_Nm     = undefined;
-    double viscous_dissipation_Nm = undefined; ///< part of the dissipation
-    /** Angle of the first row whose mean bonding state is below the initial. */
-    double theta_debonding_deg = undefined;
-    double force_end_N         = undefined; ///< axial force of the last row
-    /** Of the last row: work of the chuck, energy stored in bodies and
-     *  interface. */
-    double work_Nm = undefined, E_bulk_Nm = undefined,
-           E_interface_Nm = undefined;
-    double e_mp           = undefined; ///< Eq. (19), a ratio
-    double e_rel          = undefined; ///< Eq. (50), a ratio
-    /** Largest and mean |T - T_reference| over the reference's rows, relative
-     *  to the largest |T_reference|. */
-    double       difference_max = undefined, difference_mean = undefined;
-    unsigned int reference_rows_used = 0; ///< in e_mp and e_rel
-    double       largest_energy_defect =
-      undefined; ///< largest magnitude over the rows
-    double largest_reaction_defect = undefined;
-  };
-
-  /** Evaluates a torque curve, be it complete, interrupted or empty. Integrals
-   *  are trapezoids over the rows. */
-  CurveMeasures
+  nlohmann::ordered_json
   measure_torque_curve(const std::vector<TorqueRow> &rows,
                        const CurveSettings          &settings);
-
-
-
-  /** A warning if there is a reference curve and no row of it could be used,
-   *  else nothing. */
-  std::string
-  warning_about_reference(const CurveMeasures &measures,
-                          const CurveSettings &settings);
-
-
-
-  /** Everything summary.json tells. */
-  struct RunSummary
-  {
-    CurveMeasures   measures;
-    ProfileMeasures profile_measures;
-    unsigned int    steps = 0; ///< accepted, sub-steps included
-    /** Time of the shortest accepted step. */
-    double       smallest_step      = std::numeric_limits<double>::quiet_NaN();
-    unsigned int newton_iterations  = 0;
-    unsigned int dofs               = 0; ///< as the paper counts them
-    unsigned int unknowns           = 0; ///< dofs less tied surface vertices
-    unsigned int condensed_unknowns = 0; ///< of the coupled system at the end
-    double       wall_seconds       = 0;
-    double       peak_memory_MB     = 0; ///< of the process
-    bool         converged          = false;
-    std::string  reason; ///< why the run ended
-    std::vector<std::string> warnings;
-    /** Parts of the wall time; {"dense solve", 1.5} becomes
-     *  "seconds_dense_solve": 1.5. */
-    std::vector<std::pair<std::string, double>> seconds;
-  };
-
-  /** The members of summary.json in their order: `nlohmann::ordered_json json =
-   *  summary;`. */
-  void
-  to_json(nlohmann::ordered_json &json, const RunSummary &summary);
 } // namespace Debond
 #endif

@@ -38,26 +38,12 @@ namespace Debond
     double adhesion_energy     = 22.2; ///< w_adh [N/m]
   };
 
-  /** The subsection `Auto`, for `Model = auto`. */
-  struct AutoParameters
-  {
-    unsigned int largest_number_of_unknowns = 250000;
-  };
-
   /** The subsection `Study`, for scenes whose entries hold several values. */
   struct StudyParameters
   {
     unsigned int reference_variant = 0; ///< 0: none
     unsigned int factors_at_once   = 0; ///< 0: all combinations
     unsigned int repetitions       = 1; ///< runs of each variant
-  };
-
-  /** steps: lines about the steps, progress and timings; quiet: warnings and
-   * errors only. */
-  enum class ConsoleKind
-  {
-    steps,
-    quiet
   };
 
   /** The subsection `Output` of a scene. */
@@ -73,7 +59,7 @@ namespace Debond
     std::vector<double> profile_angles; ///< [deg]
     bool                friction_law_curve = false; ///< write friction_law.csv
     unsigned int        checkpoint_every = 0; ///< rows; 0: if interrupted only
-    ConsoleKind         console          = ConsoleKind::steps;
+    bool                quiet            = false; ///< warnings only
     /** Use a directory that holds results of another scene, or the checkpoint
      * of an interrupted run. No entry of the scene: the option --force of the
      *  program. */
@@ -91,9 +77,10 @@ namespace Debond
     std::string          title;
     ModelKind            model = ModelKind::finite_elements;
     ClosedFormParameters closed_form;
-    AutoParameters       automatic;
-    StudyParameters      study;
-    OutputParameters     output;
+    /** The subsection `Auto`, for `Model = auto`. */
+    unsigned int     largest_number_of_unknowns = 250000;
+    StudyParameters  study;
+    OutputParameters output;
 
     /** The entries that the scene sets, and its name: where to look for a
      *  mistake. */

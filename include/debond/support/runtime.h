@@ -46,16 +46,9 @@ namespace Debond
       dealii::parallel::apply_to_subranges(0U, n_chunks, work_on, 1);
   }
 
-  /** While it lives, BLAS uses all these threads. */
-  class ThreadedBlas
-  {
-  public:
-    explicit ThreadedBlas(bool wanted);
-    ~ThreadedBlas();
-    ThreadedBlas(const ThreadedBlas &) = delete;
-    ThreadedBlas &
-    operator=(const ThreadedBlas &) = delete;
-  };
+  /** Whether BLAS uses all these threads, or one. */
+  void
+  thread_blas(bool wanted);
 
   /** Largest memory that this process has held so far [MB]. */
   double

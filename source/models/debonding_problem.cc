@@ -61,17 +61,28 @@ namespace Debond
 
 
 
+    /** The sizes of a summary. */
+    void
+    count_unknowns(const CoupledSystem &system, RunSummary &summary)
+    {
+      for (const Body *const body : {&system.bone, &system.implant})
+        {
+          summary.dofs += body->mesh().n_dofs_as_published();
+          summary.unknowns += body->mesh().n_unknowns();
+        }
+      summary.condensed_unknowns = system.n_unknowns();
+    }
+
+
+
     /** "N degrees of freedom, M of them unknowns, ..." */
     std::string
     unknowns_of(const CoupledSystem &system)
     {
-      const BodyMesh &bone    = system.bone.mesh();
-      const BodyMesh &implant = system.implant.mesh();
-      return Text() << bone.n_dofs_as_published() +
-                         implant.n_dofs_as_published()
-                    << " degrees of freedom, "
-                    << bone.n_unknowns() + implant.n_unknowns()
-                    << " of them unknowns, " << system.n_unknowns()
+      RunSummary sizes;
+      count_unknowns(system, sizes);
+      return Text() << sizes.dofs << " degrees of freedom, " << sizes.unknowns
+                    << " of them unknowns, " << sizes.condensed_unknowns
                     << " after condensation on the contact surfaces";
     }
 
@@ -186,14 +197,14 @@ namespace Debond
         const int signal = interrupting_signal();
         if (signal == 0)
           return;
-        std::string text = "interrupted by " + signal_name(signal) +
-                           " after step " +
-                           std::to_string(simulation.rows().back().step);
+        Text text;
+        text << "interrupted by " << signal_name(signal) << " after step "
+             << simulation.rows().back().step;
         if (scene.output.resumable)
           {
             save();
-            text +=
-              "; debond --resume '" + directory.path() + "' goes on from there";
+            text << "; debond --resume '" << directory.path()
+                 << "' goes on from there";
           }
         throw Interrupted(signal, text);
       }
@@ -253,17 +264,12 @@ namespace Debond
       void
       finish(const bool converged, const std::string &reason)
       {
-        const CoupledSystem &system = simulation.system();
-        const BodyMesh      &bone   = system.bone.mesh(),
-                       &implant     = system.implant.mesh();
-        RunSummary summary          = simulation.effort();
-        summary.dofs =
-          bone.n_dofs_as_published() + implant.n_dofs_as_published();
-        summary.unknowns           = bone.n_unknowns() + implant.n_unknowns();
-        summary.condensed_unknowns = system.n_unknowns();
-        summary.converged          = converged;
-        summary.reason             = reason;
-        const auto seconds         = this->seconds();
+        const CoupledSystem &system  = simulation.system();
+        RunSummary           summary = simulation.effort();
+        count_unknowns(system, summary);
+        summary.converged  = converged;
+        summary.reason     = reason;
+        const auto seconds = this->seconds();
         for (const auto &section :
              timer.get_summary_data(dealii::TimerOutput::total_wall_time))
           summary.seconds.emplace_back(section.first,
@@ -299,21 +305,6 @@ namespace Debond
         checkpoints.remove(); // there is nothing to go on with
         if (!report.console.quiet)
           timer.print_summary();
-      }
-
-      /** What an error says must not be lost, whatever becomes of the summary.
-       */
-      void
-      finish_after(const std::string &why)
-      {
-        try
-          {
-            finish(false, why);
-          }
-        catch (const WriteError &another)
-          {
-            report.console.warn("summary", another.what());
-          }
       }
 
       /** See serialization.h. To be called when everything is set up as at the
@@ -361,14 +352,23 @@ namespace Debond
           mistake ? scene.with_place(*mistake).what() : error.what();
         if (run)
           {
-            all_rows = run->simulation.rows();
-            run->finish_after(why);
+            rows = run->simulation.rows();
+            // What the error says must not be lost, whatever becomes of the
+            // summary.
+            try
+              {
+                run->finish(false, why);
+              }
+            catch (const WriteError &another)
+              {
+                run->report.console.warn("summary", another.what());
+              }
           }
         if (mistake)
           throw InputError(why);
         throw;
       }
-    all_rows = run->simulation.rows();
+    rows = run->simulation.rows();
     run->finish(true, run->simulation.control().reason_to_end());
   }
 

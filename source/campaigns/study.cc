@@ -41,6 +41,19 @@ namespace Debond
 
 
 
+    std::string
+    outcome_of(const Variant &variant)
+    {
+      const auto number_of = [&](const char *const name) {
+        return to_text(number_in(variant.summary, name), 4);
+      };
+      return variant.done ? "T_max " + number_of("T_max_Nmm") + " N mm, " +
+                              number_of("wall_seconds") + " s" :
+                            "failed: " + variant.failure;
+    }
+
+
+
     struct Study
     {
       std::vector<std::string> varied; ///< full names of the varied entries
@@ -234,15 +247,7 @@ namespace Debond
                 continue;
               }
             out << ++n_ended << '/' << variants.size() << ' ' << variant.name
-                << ": ";
-            const auto number_of = [&](const char *const name) {
-              return to_text(number_in(variant.summary, name), 4);
-            };
-            if (variant.done)
-              out << "T_max " << number_of("T_max_Nmm") << " N mm, "
-                  << number_of("wall_seconds") << " s" << std::endl;
-            else
-              out << "failed: " << variant.failure << std::endl;
+                << ": " << outcome_of(variant) << std::endl;
 
             // The table of a large study takes a while: most of the time is not
             // to go into it.

@@ -224,13 +224,13 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
   // not suffice, leaves the others alone. Threads within a run gain less: what
   // takes longest, the triangular solves, waits for the memory.
   void
-  run_study(const std::vector<SceneEntry> &entries, const Arguments &arguments)
+  act_on_study(const std::vector<SceneEntry> &entries,
+               const Arguments               &arguments)
   {
     // All variants are read before the first one runs, so that a mistake in the
     // last of them shows at once.
-    Study study(entries, arguments.scene_file);
     if (arguments.check)
-      return study.check(std::cout);
+      return check_study(entries, arguments.scene_file, std::cout);
     // With as many jobs as processors each variant gets one thread.
     const unsigned int n_jobs = or_processors(arguments.n_jobs);
     set_number_of_threads(arguments.n_threads > 0 ?
@@ -238,7 +238,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
                             std::max(1U, or_processors(0) / n_jobs));
     // From here on a signal only asks to stop. Variants that are done are kept.
     catch_interruptions();
-    study.run(n_jobs, arguments.force, std::cout);
+    run_study(
+      entries, arguments.scene_file, n_jobs, arguments.force, std::cout);
   }
 
 
@@ -303,7 +304,7 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     // A study's entries hold {{a|b}}: each of its variants is a scene, they
     // themselves are none.
     if (!varied_entries(entries).empty() && !arguments.print_parameters)
-      return run_study(entries, arguments);
+      return act_on_study(entries, arguments);
 
     // Here text becomes a plain value, with all numbers in mm, N and MPa. What
     // is not allowed, or makes no sense together, is refused with its place.
@@ -329,7 +330,7 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     // --check goes as far as building the meshes, so that it finds everything
     // that a run would refuse.
     if (arguments.check)
-      return check_scene(scene, std::cout);
+      return run_scene(scene, nullptr, &std::cout);
     // Closed forms are done before they could be asked to stop. Finite elements
     // leave a checkpoint after the step at work.
     if (scene.model == ModelKind::finite_elements ||

@@ -62,7 +62,7 @@ void
 check(const std::vector<std::string> &overrides)
 {
   std::ostringstream plan;
-  check_scene(Scene::from_text(scene_text, overrides), plan);
+  run_scene(Scene::from_text(scene_text, overrides), nullptr, &plan);
 }
 
 

@@ -111,7 +111,7 @@ run_scene(const std::string              &name,
   scene.output.overwrite_other_results = true;
   Debond::DebondingProblem problem(scene);
   problem.run();
-  return problem.rows();
+  return problem.rows;
 }
 
 

@@ -4,6 +4,7 @@
 #include <debond/campaigns/ensemble.h>
 #include <debond/campaigns/study.h>
 #include <debond/input/csv_table.h>
+#include <debond/output/result_files.h>
 #include <debond/support/input_error.h>
 
 #include <nlohmann/json.hpp>
@@ -145,8 +146,8 @@ check_study()
   std::ostringstream log;
   try
     {
-      Study(read_scene_text(scene_text, "ensemble"), "ensemble")
-        .run(2, false, log);
+      run_study(
+        read_scene_text(scene_text, "ensemble"), "ensemble", 2, false, log);
     }
   catch (const RunError &error)
     {

@@ -101,7 +101,7 @@ test()
   catch (const Debond::RunError &error)
     {
       check_message(error.what());
-      check_torque_curve(problem.rows());
+      check_torque_curve(problem.rows);
       const std::string summary = contents_of("results/summary.json");
       report("the summary says that it did not converge",
              contains(summary, "\"converged\": false"));

@@ -132,7 +132,7 @@ check_repetitions()
              "Output/Directory=results/repetitions"});
   std::filesystem::remove_all("results/repetitions");
   std::ostringstream log;
-  Study(study_entries, "study").run(2, false, log);
+  run_study(study_entries, "study", 2, false, log);
   const std::string place = "results/repetitions/variant-002/";
   const auto        file  = [&](const unsigned int number) {
     return place + "repetition-" + std::to_string(number) + ".json";
@@ -156,7 +156,7 @@ check_repetitions()
   const auto first  = std::filesystem::last_write_time(file(1));
   const auto others = std::filesystem::last_write_time(
     "results/repetitions/variant-001/summary.json");
-  Study(study_entries, "study").run(2, false, log);
+  run_study(study_entries, "study", 2, false, log);
   report("a missing repetition is made up for",
          std::filesystem::exists(file(3)));
   report("and no other run is made",
@@ -211,11 +211,10 @@ test()
                                       "Chuck/Rotation x/Value={{0|1e-3 * t}}",
                                       "Study/Reference variant=1"});
   std::filesystem::remove_all("results/study");
-  Study              study(study_entries, "study");
   std::ostringstream log;
   try
     {
-      study.run(2, false, log);
+      run_study(study_entries, "study", 2, false, log);
     }
   catch (const RunError &error)
     {
@@ -248,10 +247,9 @@ test()
   };
   const auto before = last_change();
   log.str("");
-  study = Study(study_entries, "study");
   try
     {
-      study.run(2, false, log);
+      run_study(study_entries, "study", 2, false, log);
     }
   catch (const RunError &)
     {}
@@ -260,9 +258,11 @@ test()
   log.str("");
   try
     {
-      Study(entries(scene_text, {"Model={{foundation|finite elements}}"}),
-            "study")
-        .run(1, false, log);
+      run_study(entries(scene_text, {"Model={{foundation|finite elements}}"}),
+                "study",
+                1,
+                false,
+                log);
     }
   catch (const InputError &error)
     {

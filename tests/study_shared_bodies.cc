@@ -99,9 +99,12 @@ run_study(const Case &which)
   std::ostringstream log;
   try
     {
-      Study(with_overrides(read_scene_text(scene_text, "shared"), overrides),
-            "shared")
-        .run(2, false, log);
+      run_study(with_overrides(read_scene_text(scene_text, "shared"),
+                               overrides),
+                "shared",
+                2,
+                false,
+                log);
     }
   catch (const RunError &error)
     {

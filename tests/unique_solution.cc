@@ -63,7 +63,7 @@ run(const std::vector<std::string> &overrides)
     {
       outcome.why = error.what();
     }
-  outcome.rows = problem.rows();
+  outcome.rows = problem.rows;
   std::ostringstream text;
   text << std::ifstream("results/unique_solution/summary.json").rdbuf();
   outcome.summary = text.str();

@@ -62,10 +62,7 @@ namespace Debond
   {
     /** A member of summary.json that is NAME_UNIT, so that its statistics are
      *  NAME_mean_UNIT and so on. */
-    struct Quantity
-    {
-      std::string name, unit;
-    };
+    using Quantity = std::pair<std::string, std::string>;
 
     const Quantity quantities[] = {{"T_max", "_Nmm"},
                                    {"theta_max", "_deg"},
@@ -86,7 +83,7 @@ namespace Debond
     add_names(const Quantity &quantity, Fields &fields)
     {
       for (const char *const what : {"_mean", "_sd", "_p05", "_p50", "_p95"})
-        fields.push_back(quantity.name + what + quantity.unit);
+        fields.push_back(quantity.first + what + quantity.second);
     }
 
 
@@ -100,18 +97,9 @@ namespace Debond
 
 
 
-    /** Members that agree in their values. */
-    struct Group
-    {
-      Fields                                      values;
-      std::vector<ReferenceCurve>                 curves;
-      std::vector<const nlohmann::ordered_json *> summaries;
-      unsigned int                                n_failed = 0;
-    };
+    using Group = std::vector<const EnsembleMember *>;
 
-
-
-    /** In the order of their first members. */
+    /** Members that agree in their values, in the order of the first ones. */
     std::vector<Group>
     groups_of(const std::vector<EnsembleMember> &members)
     {
@@ -119,18 +107,10 @@ namespace Debond
       std::map<Fields, std::size_t> number_of;
       for (const EnsembleMember &member : members)
         {
-          const auto [known, is_new] =
-            number_of.emplace(member.values, groups.size());
-          if (is_new)
-            groups.push_back({member.values, {}, {}, 0});
-          Group &group = groups[known->second];
-          if (!member.converged)
-            {
-              ++group.n_failed;
-              continue;
-            }
-          group.curves.push_back(member.curve);
-          group.summaries.push_back(&member.summary);
+          const auto known =
+            number_of.emplace(member.values, groups.size()).first;
+          groups.resize(number_of.size());
+          groups[known->second].push_back(&member);
         }
       return groups;
     }
@@ -152,23 +132,29 @@ namespace Debond
 
     for (const Group &group : groups_of(members))
       {
-        const std::size_t n = group.curves.size();
-        of_summary          = group.values;
+        const Fields               &values = group.front()->values;
+        std::vector<ReferenceCurve> of_converged;
+        for (const EnsembleMember *const member : group)
+          if (member->converged)
+            of_converged.push_back(member->curve);
+        const std::size_t n = of_converged.size();
+        of_summary          = values;
         of_summary.push_back(std::to_string(n));
-        of_summary.push_back(std::to_string(group.n_failed));
-        for (const Quantity &quantity : quantities)
+        of_summary.push_back(std::to_string(group.size() - n));
+        for (const auto &[name, unit] : quantities)
           {
             std::vector<double> numbers;
-            for (const auto *const one : group.summaries)
-              numbers.push_back(number_in(*one, quantity.name + quantity.unit));
+            for (const EnsembleMember *const member : group)
+              if (member->converged)
+                numbers.push_back(number_in(member->summary, name + unit));
             add_statistics(sample_statistics(std::move(numbers)), of_summary);
           }
         summary += csv_line(of_summary);
 
-        const TorqueBand band(group.curves);
+        const TorqueBand band(of_converged);
         for (const TorqueBand::Row &row : band.rows)
           {
-            of_curves = group.values;
+            of_curves = values;
             of_curves.push_back(to_text(row.angle_deg));
             of_curves.push_back(std::to_string(row.torque.n));
             add_statistics(row.torque, of_curves);
@@ -179,8 +165,7 @@ namespace Debond
         notes += Text() << "ensemble.csv leaves out " << band.left_out << " of "
                         << n << " members";
         for (std::size_t i = 0; i < entries.size(); ++i)
-          notes +=
-            (i == 0 ? " of " : "; ") + entries[i] + " = " + group.values[i];
+          notes += (i == 0 ? " of " : "; ") + entries[i] + " = " + values[i];
         notes += ": their rotation reverses, so that an angle has more than "
                  "one torque\n";
       }

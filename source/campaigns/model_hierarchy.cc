@@ -1,8 +1,10 @@
 #include <debond/campaigns/model_choice.h>
+#include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace Debond
 {
@@ -26,14 +28,70 @@ namespace Debond
 
 
 
-    double
-    number_of_unknowns(const BodyParameters &body)
+    /** What the scene prescribes, densely: expressions may do anything between
+     *  planned steps. Each phase has at least a thousand points, the ends of
+     *  planned steps among them. */
+    std::vector<Chuck::Vector6>
+    prescribed_values(const Scene &scene)
     {
-      if (body.is_rigid())
-        return 0.;
-      const double x = body.cells[0], y = body.cells[1], z = body.cells[2];
-      const double more = body.contact_surface == SurfaceKind::nurbs ? 2. : 1.;
-      return 3. * ((x + 1.) * (y + 1.) * z + (x + more) * (y + more));
+      const Chuck                 chuck(scene.chuck,
+                        Eigen::Vector3d::Zero(),
+                        scene.implant.characteristic_radius());
+      const std::vector<double>  &times = scene.load_steps.times;
+      std::vector<Chuck::Vector6> values{chuck.values(times.front())};
+      for (std::size_t p = 0; p + 1 < times.size(); ++p)
+        {
+          const unsigned int steps = scene.load_steps.steps[p],
+                             n     = steps * ((999 + steps) / steps);
+          for (double i = 1.; i <= n; ++i)
+            values.push_back(
+              chuck.values((1. - i / n) * times[p] + i / n * times[p + 1]));
+        }
+      return values;
+    }
+
+
+
+    void
+    refuse_what_has_no_curve(const Scene &scene)
+    {
+      constexpr auto    z     = ChuckComponent::rotation_z;
+      const std::string entry = "Chuck / Rotation z / ";
+      if (scene.chuck.component[z].loaded)
+        throw EntryError(entry + "Control",
+                         "Model = auto compares torques and takes this "
+                         "rotation as prescribed");
+      const std::vector<Chuck::Vector6> values = prescribed_values(scene);
+      Chuck::Vector6 rounding = Chuck::Vector6::Zero(), moved = rounding;
+      for (const Chuck::Vector6 &value : values)
+        rounding = rounding.cwiseMax(1e-12 * value.cwiseAbs());
+      unsigned int moves_in_hold = z; // another component, if there is one
+      for (std::size_t i = 1; i < values.size(); ++i)
+        {
+          const Chuck::Vector6 change =
+            (values[i] - values[i - 1]).cwiseAbs().eval();
+          moved += change;
+          for (unsigned int k = 0; k < z && moves_in_hold == z; ++k)
+            if (moved[z] > rounding[z] && change[z] <= rounding[z] &&
+                change[k] > rounding[k])
+              moves_in_hold = k;
+        }
+      if (moved[z] == 0.)
+        throw EntryError(entry + "Value",
+                         "Model = auto judges a model by its torque curve, and "
+                         "nothing rotates about z in this scene: choose a "
+                         "model with Model");
+      if (moved[z] >
+          std::abs(values.back()[z] - values.front()[z]) * (1. + 1e-9))
+        throw EntryError(entry + "Value",
+                         "Model = auto compares torques over the angle and "
+                         "knows no rotation that reverses");
+      if (moves_in_hold != z)
+        throw EntryError(ChuckParameters::entry_name(moves_in_hold, "Value"),
+                         "Model = auto compares torques over the angle and "
+                         "would not see what this does while the rotation "
+                         "about z pauses or has ended; it may change before "
+                         "the rotation begins and during it");
     }
   } // namespace
 
@@ -78,9 +136,17 @@ namespace Debond
   double
   ModelLevel::unknowns() const
   {
-    return is_foundation() ?
-             0. :
-             number_of_unknowns(scene.bone) + number_of_unknowns(scene.implant);
+    double sum = 0.;
+    for (const BodyParameters *const body : {&scene.bone, &scene.implant})
+      if (!is_foundation() && !body->is_rigid())
+        {
+          const auto  &n = body->cells;
+          const double more =
+                         body->contact_surface == SurfaceKind::nurbs ? 2. : 1.,
+                       on_face = (n[0] + more) * (n[1] + more);
+          sum += 3. * ((n[0] + 1.) * (n[1] + 1.) * n[2] + on_face);
+        }
+    return sum;
   }
 
 
@@ -91,6 +157,7 @@ namespace Debond
     , step_tolerance(step_tolerance)
     , coarsest{{scene.bone.cells, scene.implant.cells}}
   {
+    refuse_what_has_no_curve(scene);
     // None richer than a limit, in the order of their cost.
     const auto limited_to = [&](const Material limit) {
       return Materials{{std::min(scene.bone.material, limit),
@@ -179,8 +246,7 @@ namespace Debond
   {
     if (mesh > largest_mesh)
       return Text() << "the mesh has been refined " << largest_mesh << " times";
-    const ModelLevel next     = finite_elements(materials, mesh);
-    const double     unknowns = next.unknowns();
+    const ModelLevel next    = finite_elements(materials, mesh);
     double           n_cells = 0., contact_unknowns = 0.;
     for (const BodyParameters *const body :
          {&next.scene.bone, &next.scene.implant})
@@ -193,17 +259,61 @@ namespace Debond
         if (!body->is_rigid())
           contact_unknowns += 3. * share * on_face;
       }
-    if (unknowns > scene.largest_number_of_unknowns)
-      return Text() << "the next mesh has " << unknowns
-                    << " unknowns, more than "
-                    << scene.largest_number_of_unknowns
-                    << " (Auto / Largest number of unknowns)";
-    if (contact_unknowns > largest_number_of_contact_unknowns)
-      return Text() << "the next mesh has some " << contact_unknowns
-                    << " unknowns on the contact surfaces, more than "
-                    << largest_number_of_contact_unknowns;
-    if (n_cells > largest_number_of_cells)
-      return Text() << "the next mesh has " << n_cells << " cells";
+    for (const auto &[n, largest, what, entry] :
+         {std::make_tuple(next.unknowns(),
+                          double(scene.largest_number_of_unknowns),
+                          " unknowns",
+                          " (Auto / Largest number of unknowns)"),
+          std::make_tuple(contact_unknowns,
+                          largest_number_of_contact_unknowns,
+                          " unknowns on the contact surfaces",
+                          ""),
+          std::make_tuple(n_cells, largest_number_of_cells, " cells", "")})
+      if (n > largest)
+        return Text() << "the next mesh has " << n << what << ", more than "
+                      << largest << entry;
     return "";
+  }
+
+
+
+  double
+  largest_difference(const std::vector<TorqueRow> &rows,
+                     const std::vector<TorqueRow> &reference)
+  {
+    // two polygons differ most at a corner of one of them
+    const auto measures = [](const std::vector<TorqueRow> &rows,
+                             const std::vector<TorqueRow> &others) {
+      CurveSettings settings;
+      for (const TorqueRow &row : others)
+        settings.reference.emplace_back(row.angle_deg, row.torque_Nmm);
+      return measure_torque_curve(rows, settings);
+    };
+    const auto   there           = measures(rows, reference);
+    const auto   back            = measures(reference, rows);
+    const double difference_back = back["difference_max"].get<double>() *
+                                   there["T_max_Nmm"].get<double>() /
+                                   back["T_max_Nmm"].get<double>();
+    return std::isnan(difference_back) ?
+             difference_back :
+             std::max(difference_back, there["difference_max"].get<double>());
+  }
+
+
+
+  double
+  discretisation_error(const std::vector<double> &differences)
+  {
+    constexpr double reserve = 1.25, lowest_order = 0.5, highest_order = 2.;
+    const double     last = differences.back();
+    if (last == 0.)
+      return 0.;
+    double order = 1.;
+    if (differences.size() > 1)
+      order = std::min(std::log2(differences[differences.size() - 2] / last),
+                       highest_order);
+    if (!(order >= lowest_order))
+      return ModelLevel::undefined;
+    return reserve * last / (std::exp2(order) - 1.);
   }
 } // namespace Debond

@@ -1,6 +1,7 @@
 #include <debond/campaigns/ensemble.h>
 #include <debond/campaigns/run_scene.h>
 #include <debond/campaigns/study.h>
+#include <debond/campaigns/variant.h>
 #include <debond/campaigns/variant_queue.h>
 #include <debond/input/csv_table.h>
 #include <debond/input/parameter_loop.h>
@@ -11,303 +12,356 @@
 
 #include <deal.II/base/timer.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
-#include <cstdio>
+#include <csignal>
 #include <filesystem>
+#include <iomanip>
 #include <ostream>
 #include <sstream>
 
 namespace Debond
 {
-  Study::Study(const std::vector<SceneEntry> &entries, const std::string &name)
-  {
-    for (const SceneEntry &entry : varied_entries(entries))
-      {
-        varied.push_back(entry.full_name());
-        if (entry.full_name() == "Output / Directory")
-          throw EntryError(entry.full_name(),
-                           "a study gives each variant a directory of its own "
-                           "below this one: expected one value",
-                           entry.value,
-                           entry.place);
-      }
-    const Scene first =
-      Scene::from_entries(study_variants(entries)[0].entries, name);
-    directory         = first.output.directory;
-    reference         = first.study.reference_variant;
-    auto combinations = study_variants(entries, first.study.factors_at_once);
-    if (reference > combinations.size())
-      throw first.with_place(EntryError("Study / Reference variant",
-                                        "this study has " +
-                                          std::to_string(combinations.size()) +
-                                          " variants"));
-    for (StudyVariant &combination : combinations)
-      {
-        char variant_name[32];
-        std::snprintf(variant_name,
-                      sizeof(variant_name),
-                      "variant-%03zu",
-                      variants.size() + 1);
-        // what only the study uses must not make another scene of a variant
-        const auto own = with_overrides(std::move(combination.entries),
-                                        {"Study/Reference variant=0",
-                                         "Study/Factors varied at once=0",
-                                         "Study/Repetitions=1",
-                                         "Output/Console=quiet",
-                                         "Output/Directory=" + directory + "/" +
-                                           variant_name});
-        Variant    next;
-        next.name          = variant_name;
-        next.values        = combination.values;
-        next.n_repetitions = first.study.repetitions;
-        next.scene         = Scene::from_entries(own, name);
-        variants.push_back(std::move(next));
-      }
-  }
-
-
-
-  std::string
-  Study::describe(const Variant &variant) const
-  {
-    std::string text = variant.name + ":";
-    for (unsigned int i = 0; i < varied.size(); ++i)
-      text += (i == 0 ? " " : "; ") + varied[i] + " = " + variant.values[i];
-    return text;
-  }
-
-
-
-  unsigned int
-  Study::n_done() const
-  {
-    return std::count_if(variants.begin(),
-                         variants.end(),
-                         [](const Variant &variant) { return variant.done; });
-  }
-
-
-
-  void
-  Study::check(std::ostream &out)
-  {
-    out << variants.size() << " variants\n";
-    for (Variant &variant : variants)
-      {
-        variant.look_up();
-        out << describe(variant) << (variant.done ? " (done already)" : "")
-            << '\n';
-        std::ostringstream none; // only refuses what it cannot do
-        if (variant.scene.model != ModelKind::finite_elements)
-          check_scene(variant.scene, none);
-      }
-  }
-
-
-
-  // Refuses before anything runs, and finds what is there already.
-  DirectoryLock
-  Study::prepare(const bool force)
-  {
-    std::error_code error;
-    std::filesystem::create_directories(directory, error);
-    if (error)
-      throw EntryError("Output / Directory",
-                       "this directory cannot be created: " + error.message(),
-                       directory);
-    const auto lock = lock_directory(directory);
-    for (Variant &variant : variants)
-      {
-        OutputParameters &output       = variant.scene.output;
-        output.overwrite_other_results = force;
-        variant.look_up();
-        if (variant.has_other_scene && !force)
-          throw EntryError("Output / Directory",
-                           output.directory +
-                             " holds results of another scene (compare its "
-                             "parameters.prm): choose another directory, or "
-                             "overwrite them with --force",
-                           directory);
-        variant.done = variant.done && !force;
-        // what is left over from another scene, or not wanted any more
-        if (force || !variant.has_this_scene)
-          variant.forget_repetitions();
-      }
-    return lock;
-  }
-
-
-
-  void
-  Study::run(const unsigned int n_jobs, const bool force, std::ostream &out)
-  {
-    const auto lock = prepare(force);
-    out << variants.size() << " variants in " << directory;
-    if (n_done() > 0)
-      out << ", " << n_done() << " of them done already";
-    out << std::endl;
-    run_variants(n_jobs, out);
-    write_table();
-    write_ensemble(out);
-    out << "Results are in " << directory << "/study.csv" << std::endl;
-    if (n_done() < variants.size())
-      throw RunError(Text() << variants.size() - n_done() << " of "
-                            << variants.size() << " variants failed: "
-                            << directory << "/study.csv says why");
-  }
-
-
-
   namespace
   {
+    /** A member of a summary as a field of a table: lists joined, null as nan.
+     */
+    std::string
+    text_of(const nlohmann::ordered_json &value)
+    {
+      if (value.is_string())
+        return value;
+      if (value.is_number_float())
+        return to_text(value);
+      if (value.is_array())
+        return boost::join(value.get<std::vector<std::string>>(), "; ");
+      return value.is_null() ? "nan" : value.dump();
+    }
+
+
+
     std::string
     outcome_of(const Variant &variant)
     {
-      if (!variant.done)
-        return "failed: " + variant.failure;
-      return "T_max " + to_text(number_in(variant.summary, "T_max_Nmm"), 4) +
-             " N mm, " +
-             to_text(number_in(variant.summary, "wall_seconds"), 4) + " s";
+      const auto number_of = [&](const char *const name) {
+        return to_text(number_in(variant.summary, name), 4);
+      };
+      return variant.done ? "T_max " + number_of("T_max_Nmm") + " N mm, " +
+                              number_of("wall_seconds") + " s" :
+                            "failed: " + variant.failure;
     }
+
+
+
+    struct Study
+    {
+      std::vector<std::string> varied; ///< full names of the varied entries
+      std::vector<Variant>     variants;
+      std::string              directory;
+      unsigned int             reference = 0; ///< number of a variant, 0: none
+
+      /** Reads all variants. */
+      Study(const std::vector<SceneEntry> &entries, const std::string &name)
+      {
+        for (const SceneEntry &entry : varied_entries(entries))
+          {
+            varied.push_back(entry.full_name());
+            if (entry.full_name() == "Output / Directory")
+              throw EntryError(
+                entry.full_name(),
+                "a study gives each variant a directory of its own "
+                "below this one: expected one value",
+                entry.value,
+                entry.place);
+          }
+        const Scene first =
+          Scene::from_entries(study_variants(entries)[0].entries, name);
+        directory = first.output.directory;
+        reference = first.study.reference_variant;
+        auto combinations =
+          study_variants(entries, first.study.factors_at_once);
+        if (reference > combinations.size())
+          throw first.with_place(
+            EntryError("Study / Reference variant",
+                       "this study has " + std::to_string(combinations.size()) +
+                         " variants"));
+        for (StudyVariant &combination : combinations)
+          {
+            const std::string variant_name =
+              Text() << "variant-" << std::setw(3) << std::setfill('0')
+                     << variants.size() + 1;
+            // what only the study uses must not make another scene of a variant
+            const auto own = with_overrides(std::move(combination.entries),
+                                            {"Study/Reference variant=0",
+                                             "Study/Factors varied at once=0",
+                                             "Study/Repetitions=1",
+                                             "Output/Console=quiet",
+                                             "Output/Directory=" + directory +
+                                               "/" + variant_name});
+            Variant    next;
+            next.name = variant_name + ":";
+            for (unsigned int i = 0; i < varied.size(); ++i)
+              next.name += (i == 0 ? " " : "; ") + varied[i] + " = " +
+                           combination.values[i];
+            next.values        = combination.values;
+            next.n_repetitions = first.study.repetitions;
+            next.scene         = Scene::from_entries(own, name);
+            variants.push_back(std::move(next));
+          }
+      }
+
+
+
+      unsigned int
+      n_done() const
+      {
+        return std::count_if(variants.begin(),
+                             variants.end(),
+                             [](const Variant &variant) {
+                               return variant.done;
+                             });
+      }
+
+
+
+      void
+      check(std::ostream &out)
+      {
+        out << variants.size() << " variants\n";
+        for (Variant &variant : variants)
+          {
+            variant.look_up();
+            out << variant.name << (variant.done ? " (done already)" : "")
+                << '\n';
+            std::ostringstream none; // only refuses what it cannot do
+            if (variant.scene.model != ModelKind::finite_elements)
+              run_scene(variant.scene, nullptr, &none);
+          }
+      }
+
+
+
+      // Refuses before anything runs, and finds what is there already.
+      DirectoryLock
+      prepare(const bool force)
+      {
+        std::error_code error;
+        std::filesystem::create_directories(directory, error);
+        if (error)
+          throw EntryError("Output / Directory",
+                           "this directory cannot be created: " +
+                             error.message(),
+                           directory);
+        const auto lock = lock_directory(directory);
+        for (Variant &variant : variants)
+          {
+            OutputParameters &output       = variant.scene.output;
+            output.overwrite_other_results = force;
+            variant.look_up();
+            if (variant.has_other_scene && !force)
+              throw EntryError(
+                "Output / Directory",
+                output.directory +
+                  " holds results of another scene (compare its "
+                  "parameters.prm): choose another directory, or "
+                  "overwrite them with --force",
+                directory);
+            variant.done = variant.done && !force;
+            // what is left over from another scene, or not wanted any more
+            if (force || !variant.has_this_scene)
+              variant.forget_repetitions();
+          }
+        return lock;
+      }
+
+
+
+      void
+      run(const unsigned int n_jobs, const bool force, std::ostream &out)
+      {
+        const auto lock = prepare(force);
+        out << variants.size() << " variants in " << directory;
+        if (n_done() > 0)
+          out << ", " << n_done() << " of them done already";
+        out << std::endl;
+        run_variants(n_jobs, out);
+        write_table();
+        write_ensemble(out);
+        out << "Results are in " << directory << "/study.csv" << std::endl;
+        if (n_done() < variants.size())
+          throw RunError(Text() << variants.size() - n_done() << " of "
+                                << variants.size() << " variants failed: "
+                                << directory << "/study.csv says why");
+      }
+
+
+
+      void
+      run_variants(const unsigned int n_jobs, std::ostream &out)
+      {
+        VariantQueue                waiting(n_jobs);
+        std::vector<VariantProcess> running;
+        unsigned int                n_ended = n_done();
+        for (unsigned int i = 0; i < variants.size(); ++i)
+          if (!variants[i].done)
+            waiting.add(i, variants[i].scene, variants[i].n_repetitions == 1);
+        dealii::Timer since_table;
+        double        time_between_tables = 2; // [s]
+        while (true)
+          {
+            while (!waiting.empty() && running.size() < n_jobs)
+              {
+                const auto [number, bodies] = waiting.next();
+                running.push_back(
+                  start_process(number, variants[number].scene, bodies));
+              }
+            if (running.empty())
+              return;
+
+            const auto ended = wait_for_one(running);
+            if (ended == running.end())
+              {
+                for (const VariantProcess &process : running)
+                  {
+                    kill(process.id, SIGTERM);
+                    end_of(process);
+                  }
+                write_table();
+                throw Interrupted(
+                  interrupting_signal(),
+                  Text() << "interrupted by "
+                         << signal_name(interrupting_signal()) << ": "
+                         << n_done() << " of " << variants.size()
+                         << " variants are done; the same study "
+                            "without --force goes on with the others");
+              }
+            const unsigned int number  = ended->variant;
+            Variant           &variant = variants[number];
+            const std::string  why     = end_of(*ended);
+            running.erase(ended);
+            if (variant.end_run(why))
+              {
+                running.push_back(
+                  start_process(number, variant.scene, nullptr));
+                continue;
+              }
+            out << ++n_ended << '/' << variants.size() << ' ' << variant.name
+                << ": " << outcome_of(variant) << std::endl;
+
+            // The table of a large study takes a while: most of the time is not
+            // to go into it.
+            if (since_table.wall_time() < time_between_tables)
+              continue;
+            const dealii::Timer clock;
+            write_table();
+            time_between_tables = std::max(2., 50. * clock.wall_time());
+            since_table.restart();
+          }
+      }
+
+
+
+      void
+      write_table()
+      {
+        using Fields = std::vector<std::string>;
+        std::map<std::string, std::size_t> column_of;
+        Fields                             header{"variant"};
+        std::vector<Fields>                rows(variants.size());
+        header.insert(header.end(), varied.begin(), varied.end());
+        // finished variants first: they know all columns and their order
+        for (const bool done : {true, false})
+          for (unsigned int i = 0; i < variants.size(); ++i)
+            {
+              Variant &variant = variants[i];
+              if (variant.done != done)
+                continue;
+              if (reference > 0)
+                variant.compare_with(variants[reference - 1]);
+              nlohmann::ordered_json summary = variant.summary;
+              if (!done)
+                {
+                  summary["converged"] = false;
+                  summary["reason"] =
+                    variant.failure.empty() ? "not run yet" : variant.failure;
+                }
+              Fields &row = rows[i] = {std::to_string(i + 1)};
+              row.insert(row.end(),
+                         variant.values.begin(),
+                         variant.values.end());
+              for (const auto &[name, value] : summary.items())
+                {
+                  const std::size_t column =
+                    column_of.emplace(name, header.size()).first->second;
+                  header.resize(std::max(header.size(), column + 1), name);
+                  row.resize(std::max(row.size(), column + 1), "nan");
+                  row[column] = text_of(value);
+                }
+            }
+        std::string text = csv_line(header);
+        for (Fields &row : rows)
+          {
+            row.resize(header.size(), "nan");
+            text += csv_line(row);
+          }
+        write_file(directory + "/study.csv", text);
+      }
+
+
+
+      // The seed is what stands for chance.
+      void
+      write_ensemble(std::ostream &out) const
+      {
+        const auto seed =
+          std::find(varied.begin(), varied.end(), "Interface / Bonding / Seed");
+        if (seed == varied.end())
+          return;
+        const auto without_seed = [&](std::vector<std::string> items) {
+          items.erase(items.begin() + (seed - varied.begin()));
+          return items;
+        };
+        std::vector<EnsembleMember> members;
+        for (const Variant &variant : variants)
+          {
+            const std::string curve =
+              variant.scene.output.directory + "/torque.csv";
+            members.push_back(
+              {without_seed(variant.values),
+               variant.done,
+               variant.summary,
+               read_reference_curve(variant.done ? curve : "")});
+          }
+        const Ensemble ensemble(without_seed(varied), members);
+        write_file(directory + "/ensemble.csv", ensemble.curves);
+        write_file(directory + "/ensemble_summary.csv", ensemble.summary);
+        out << ensemble.notes << "Statistics over all seeds are in "
+            << directory << "/ensemble.csv and ensemble_summary.csv"
+            << std::endl;
+      }
+    };
   } // namespace
 
 
 
   void
-  Study::run_variants(const unsigned int n_jobs, std::ostream &out)
+  run_study(const std::vector<SceneEntry> &entries,
+            const std::string             &name,
+            const unsigned int             n_jobs,
+            const bool                     force,
+            std::ostream                  &out)
   {
-    VariantQueue                waiting(n_jobs);
-    std::vector<VariantProcess> running;
-    unsigned int                n_ended = n_done();
-    for (unsigned int i = 0; i < variants.size(); ++i)
-      if (!variants[i].done)
-        waiting.add(i, variants[i].scene, variants[i].n_repetitions == 1);
-    dealii::Timer since_table;
-    double        time_between_tables = 2; // [s]
-    while (true)
-      {
-        while (!waiting.empty() && running.size() < n_jobs)
-          {
-            const auto [number, bodies] = waiting.next();
-            running.push_back(
-              start_process(number, variants[number].scene, bodies));
-          }
-        if (running.empty())
-          return;
-
-        const auto ended = wait_for_one(running);
-        if (ended == running.end())
-          {
-            stop(running);
-            write_table();
-            throw Interrupted(interrupting_signal(),
-                              Text()
-                                << "interrupted by "
-                                << signal_name(interrupting_signal()) << ": "
-                                << n_done() << " of " << variants.size()
-                                << " variants are done; the same study "
-                                   "without --force goes on with the others");
-          }
-        const unsigned int number  = ended->variant;
-        Variant           &variant = variants[number];
-        const std::string  why     = end_of(*ended);
-        running.erase(ended);
-        if (variant.end_run(why))
-          {
-            running.push_back(start_process(number, variant.scene, nullptr));
-            continue;
-          }
-        out << ++n_ended << '/' << variants.size() << ' ' << describe(variant)
-            << ": " << outcome_of(variant) << std::endl;
-
-        // The table of a large study takes a while: most of the time is not to
-        // go into it.
-        if (since_table.wall_time() < time_between_tables)
-          continue;
-        const dealii::Timer clock;
-        write_table();
-        time_between_tables = std::max(2., 50. * clock.wall_time());
-        since_table.restart();
-      }
+    Study(entries, name).run(n_jobs, force, out);
   }
 
 
 
   void
-  Study::write_table()
+  check_study(const std::vector<SceneEntry> &entries,
+              const std::string             &name,
+              std::ostream                  &out)
   {
-    using Fields = std::vector<std::string>;
-    std::map<std::string, std::size_t> column_of;
-    Fields                             header;
-    std::vector<Fields>                rows(variants.size());
-    // finished variants first: they know all columns and their order
-    for (const bool done : {true, false})
-      for (unsigned int i = 0; i < variants.size(); ++i)
-        {
-          Variant &variant = variants[i];
-          if (variant.done != done)
-            continue;
-          if (reference > 0)
-            variant.compare_with(variants[reference - 1]);
-          const auto add = [&](const std::string &name,
-                               const std::string &value) {
-            const auto [column, is_new] =
-              column_of.emplace(name, header.size());
-            if (is_new)
-              header.push_back(name);
-            rows[i].resize(std::max(rows[i].size(), column->second + 1), "nan");
-            rows[i][column->second] = value;
-          };
-          add("variant", std::to_string(i + 1));
-          for (unsigned int k = 0; k < varied.size(); ++k)
-            add(varied[k], variant.values[k]);
-          nlohmann::ordered_json summary = variant.summary;
-          if (!done)
-            {
-              summary["converged"] = false;
-              summary["reason"] =
-                variant.failure.empty() ? "not run yet" : variant.failure;
-            }
-          for (const auto &member : summary.items())
-            add(member.key(), text_of(member.value()));
-        }
-    std::string text = csv_line(header);
-    for (Fields &row : rows)
-      {
-        row.resize(header.size(), "nan");
-        text += csv_line(row);
-      }
-    write_file(directory + "/study.csv", text);
-  }
-
-
-
-  // The seed is what stands for chance.
-  void
-  Study::write_ensemble(std::ostream &out) const
-  {
-    const auto seed =
-      std::find(varied.begin(), varied.end(), "Interface / Bonding / Seed");
-    if (seed == varied.end())
-      return;
-    const auto without_seed = [&](std::vector<std::string> items) {
-      items.erase(items.begin() + (seed - varied.begin()));
-      return items;
-    };
-    std::vector<EnsembleMember> members;
-    for (const Variant &variant : variants)
-      {
-        const std::string curve =
-          variant.scene.output.directory + "/torque.csv";
-        members.push_back({without_seed(variant.values),
-                           variant.done,
-                           variant.summary,
-                           read_reference_curve(variant.done ? curve : "")});
-      }
-    const Ensemble ensemble(without_seed(varied), members);
-    write_file(directory + "/ensemble.csv", ensemble.curves);
-    write_file(directory + "/ensemble_summary.csv", ensemble.summary);
-    out << ensemble.notes << "Statistics over all seeds are in " << directory
-        << "/ensemble.csv and ensemble_summary.csv" << std::endl;
+    Study(entries, name).check(out);
   }
 } // namespace Debond

@@ -1,28 +1,11 @@
 #include <debond/campaigns/variant.h>
 #include <debond/output/torque_curve.h>
-#include <debond/support/number_text.h>
 #include <debond/support/sample_statistics.h>
-
-#include <boost/algorithm/string/join.hpp>
 
 #include <filesystem>
 
 namespace Debond
 {
-  std::string
-  text_of(const nlohmann::ordered_json &value)
-  {
-    if (value.is_string())
-      return value;
-    if (value.is_number_float())
-      return to_text(value);
-    if (value.is_array())
-      return boost::join(value.get<std::vector<std::string>>(), "; ");
-    return value.is_null() ? "nan" : value.dump();
-  }
-
-
-
   double
   number_in(const nlohmann::ordered_json &summary, const std::string &name)
   {
@@ -36,47 +19,11 @@ namespace Debond
 
   namespace
   {
-    /** Gives the members that are seconds the medians over all runs. */
-    void
-    take_medians(nlohmann::ordered_json                    &summary,
-                 const std::vector<nlohmann::ordered_json> &repetitions)
-    {
-      for (auto &member : summary.items())
-        if (member.key() == "wall_seconds" ||
-            member.key().rfind("seconds_", 0) == 0)
-          {
-            std::vector<double> seconds;
-            for (const auto &repetition : repetitions)
-              seconds.push_back(number_in(repetition, member.key()));
-            member.value() = sample_statistics(std::move(seconds)).p50;
-          }
-    }
-
-
-
     std::string
     repetition_file(const Variant &variant, const std::size_t number)
     {
       return variant.scene.output.directory + "/repetition-" +
              std::to_string(number) + ".json";
-    }
-
-
-
-    /** Distance of one torque curve from another, both from files. */
-    nlohmann::ordered_json
-    compare_curves(const std::string &file, const std::string &reference_file)
-    {
-      std::vector<TorqueRow> rows;
-      for (const auto &[angle, torque] : read_reference_curve(file))
-        {
-          rows.emplace_back();
-          rows.back().angle_deg  = angle;
-          rows.back().torque_Nmm = torque;
-        }
-      CurveSettings settings;
-      settings.reference = read_reference_curve(reference_file);
-      return measure_torque_curve(rows, settings);
     }
   } // namespace
 
@@ -104,8 +51,16 @@ namespace Debond
           break;
         repetitions.push_back(next);
       }
-    if (!repetitions.empty())
-      take_medians(summary, repetitions);
+    // the members that are seconds are medians over all runs
+    for (auto &member : summary.items())
+      if (!repetitions.empty() && (member.key() == "wall_seconds" ||
+                                   member.key().rfind("seconds_", 0) == 0))
+        {
+          std::vector<double> seconds;
+          for (const auto &repetition : repetitions)
+            seconds.push_back(number_in(repetition, member.key()));
+          member.value() = sample_statistics(std::move(seconds)).p50;
+        }
     done = done && repetitions.size() == n_repetitions;
   }
 
@@ -154,8 +109,17 @@ namespace Debond
       {
         const std::string own       = scene.output.directory + "/",
                           reference = other.scene.output.directory + "/";
-        distances =
-          compare_curves(own + "torque.csv", reference + "torque.csv");
+        std::vector<TorqueRow> rows;
+        for (const auto &[angle, torque] :
+             read_reference_curve(own + "torque.csv"))
+          {
+            rows.emplace_back();
+            rows.back().angle_deg  = angle;
+            rows.back().torque_Nmm = torque;
+          }
+        CurveSettings settings;
+        settings.reference = read_reference_curve(reference + "torque.csv");
+        distances          = measure_torque_curve(rows, settings);
         if (std::filesystem::exists(own + "profiles.csv") &&
             std::filesystem::exists(reference + "profiles.csv"))
           distances.update(

@@ -22,6 +22,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <regex>
 #include <system_error>
 #include <thread>
 
@@ -37,6 +38,8 @@ namespace Debond
     {
       if (scene.model != ModelKind::finite_elements)
         return "";
+      static const std::regex of_bodies(
+        "(Bone|Implant) / [^/]*|Interface / (Slave|Quadrature points)");
       std::string text;
       Chuck       chuck(scene.chuck,
                   Eigen::Vector3d(0, 0, scene.implant.thickness()),
@@ -48,10 +51,7 @@ namespace Debond
            read_scene_text(scene.completed_parameters, scene.name))
         {
           const std::string name = entry.full_name();
-          if (entry.subsections == std::vector<std::string>{"Bone"} ||
-              entry.subsections == std::vector<std::string>{"Implant"} ||
-              name == "Interface / Slave" ||
-              name == "Interface / Quadrature points")
+          if (std::regex_match(name, of_bodies))
             text += name + " = " + entry.value + "\n";
         }
       return text;
@@ -99,7 +99,7 @@ namespace Debond
     const std::string  key = may_share ? common_part(scene) : "";
     const unsigned int group =
       group_of.emplace(key, group_of.size()).first->second;
-    waiting.insert({group, {variant, &scene, !key.empty()}});
+    waiting.insert({group, {variant, key.empty() ? nullptr : &scene}});
   }
 
 
@@ -111,12 +111,13 @@ namespace Debond
     if (group != last_group)
       {
         bodies.reset(); // before there are others
-        if (first.may_share && waiting.count(group) >= std::max(2U, n_jobs))
-          bodies = condensed_bodies(*first.scene);
+        if (first.second != nullptr &&
+            waiting.count(group) >= std::max(2U, n_jobs))
+          bodies = condensed_bodies(*first.second);
         last_group = group;
       }
     waiting.erase(waiting.begin());
-    const Next result{first.variant, bodies};
+    const Next result{first.first, bodies};
     if (waiting.find(group) == waiting.end())
       bodies.reset();
     return result;
@@ -155,12 +156,11 @@ namespace Debond
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       leave_interruptions_to_parent();
       std::string message;
-      if (std::freopen("/dev/null", "w", stdout) == nullptr)
-        message = "cannot redirect the output";
       try
         {
-          if (message.empty())
-            run_variant(scene, bodies);
+          if (std::freopen("/dev/null", "w", stdout) == nullptr)
+            throw RunError("cannot redirect the output");
+          run_variant(scene, bodies);
         }
       catch (const std::bad_alloc &)
         {
@@ -245,17 +245,5 @@ namespace Debond
              std::string("the process was ended by the system: ") +
                strsignal(WTERMSIG(status)) :
              words;
-  }
-
-
-
-  void
-  stop(const std::vector<VariantProcess> &processes)
-  {
-    for (const VariantProcess &process : processes)
-      {
-        kill(process.id, SIGTERM);
-        end_of(process);
-      }
   }
 } // namespace Debond

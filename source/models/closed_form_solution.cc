@@ -187,39 +187,19 @@ namespace Debond
     {
       const Scene                &scene = solution.scene;
       const ClosedFormParameters &given = scene.closed_form;
-      solution.normal_stiffness         = given.normal_stiffness;
-      solution.torsional_stiffness      = given.torsional_stiffness;
-      const bool needs_normal           = given.normal_stiffness == 0. &&
-                                given.pressure == 0. &&
+      double &normal = solution.normal_stiffness = given.normal_stiffness;
+      double &torsional = solution.torsional_stiffness =
+        given.torsional_stiffness;
+      const bool needs_normal = normal == 0. && given.pressure == 0. &&
                                 !scene.chuck.component[push].loaded;
-      const bool needs_torsional =
-        given.torsional_stiffness == 0. && scene.model == ModelKind::foundation;
-      if (!needs_normal && !needs_torsional)
+      if (!needs_normal &&
+          (torsional != 0. || scene.model != ModelKind::foundation))
         return;
       solution.linear_solution = foundation_stiffness(scene);
-      if (given.normal_stiffness == 0.)
-        solution.normal_stiffness = solution.linear_solution.normal;
-      if (given.torsional_stiffness == 0.)
-        solution.torsional_stiffness = solution.linear_solution.torsional;
-    }
-
-
-
-    /** @p final_push: that of the last row. */
-    double
-    pressure(const ClosedFormSolution &solution,
-             const Load               &load,
-             const double              final_push)
-    {
-      const Scene &scene = solution.scene;
-      const double given = scene.closed_form.pressure, R = scene.implant.radius;
-      if (given > 0.)
-        return final_push > 0. ? given * std::max(0., load.push) / final_push :
-                                 given;
-      return std::max(0.,
-                      scene.chuck.component[push].loaded ?
-                        load.push / (M_PI * R * R) :
-                        load.push * solution.normal_stiffness);
+      if (normal == 0.)
+        normal = solution.linear_solution.normal;
+      if (torsional == 0.)
+        torsional = solution.linear_solution.torsional;
     }
 
 
@@ -318,7 +298,15 @@ namespace Debond
     const Load   last          = history.loads.back();
     const double largest_angle = std::abs(last.angle);
     const auto   pressure_at   = [&](const Load &load) {
-      return pressure(*this, load, last.push);
+      const double prescribed = scene.closed_form.pressure;
+      const double R          = scene.implant.radius;
+      if (prescribed > 0. && last.push <= 0.)
+        return prescribed;
+      return std::max(0.,
+                      prescribed > 0. ? prescribed * load.push / last.push :
+                          scene.chuck.component[push].loaded ?
+                                            load.push / (M_PI * R * R) :
+                                            load.push * normal_stiffness);
     };
     model = make_model(*this, pressure_at(last));
 
@@ -327,12 +315,9 @@ namespace Debond
     if (const double k = scene.chuck.component[twist].stiffness; k > 0.)
       machine.emplace(*model, k, largest_angle);
     if (machine)
-      std::copy_if(machine->jumps.begin(),
-                   machine->jumps.end(),
-                   std::back_inserter(jumps),
-                   [&](const auto &jump) {
-                     return jump.machine_angle < largest_angle;
-                   });
+      for (const auto &jump : machine->jumps)
+        if (jump.machine_angle < largest_angle)
+          jumps.push_back(jump);
     const auto angle_of_disk = [&](const Load &load) {
       return machine && load.angle != 0. ?
                std::copysign(machine->angle(std::abs(load.angle)), load.angle) :

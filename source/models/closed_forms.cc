@@ -47,30 +47,6 @@ namespace Debond
 
 
 
-  double
-  TorsionModel::initial_bonding(const double r) const
-  {
-    return r <= disk.bonded_radius ? disk.phi_0 : 0.;
-  }
-
-
-
-  FrictionCoefficient
-  TorsionModel::friction(const double phi_0, const double slip) const
-  {
-    return disk.friction->coefficient({phi_0, slip}, 0.);
-  }
-
-
-
-  std::vector<double>
-  TorsionModel::kinks(double) const
-  {
-    return {};
-  }
-
-
-
   TorsionModel::Point
   TorsionModel::point_with(const bool   sticks,
                            const double r,
@@ -139,23 +115,6 @@ namespace Debond
 
 
 
-  bool
-  RigidBodiesTorsion::has_unique_solution(const Disk &disk)
-  {
-    return disk.friction->steepest_fall({disk.phi_0}) * disk.pressure <
-           disk.stiffness;
-  }
-
-
-
-  double
-  RigidBodiesTorsion::path(const double slip, const double phi_0) const
-  {
-    return slip + friction(phi_0, slip).mu * disk.pressure / disk.stiffness;
-  }
-
-
-
   double
   RigidBodiesTorsion::slip(const double r, const double theta) const
   {
@@ -172,15 +131,6 @@ namespace Debond
     return zero_of([&](const double g) { return path(g, phi_0) - distance; },
                    begin,
                    end);
-  }
-
-
-
-  TorsionModel::Point
-  RigidBodiesTorsion::point(const double r, const double theta) const
-  {
-    const double g_s = slip(r, theta);
-    return point_with(g_s == 0., r, g_s, theta);
   }
 
 
@@ -221,19 +171,19 @@ namespace Debond
     : bodies(bodies)
     , stiffness(stiffness)
     , largest_angle(largest_angle)
-    , limit_points(find_limit_points())
-    , jumps(find_jumps())
-  {}
-
-
-
-  std::vector<CompliantMachineTorsion::LimitPoint>
-  CompliantMachineTorsion::find_limit_points() const
   {
-    std::vector<LimitPoint> limits;
-    constexpr unsigned int  n    = 4000;
-    const double            step = largest_angle / n;
-    std::array<double, 3>   last{{0., 0., machine_angle(step)}};
+    find_limit_points();
+    find_jumps();
+  }
+
+
+
+  void
+  CompliantMachineTorsion::find_limit_points()
+  {
+    constexpr unsigned int n    = 4000;
+    const double           step = largest_angle / n;
+    std::array<double, 3>  last{{0., 0., machine_angle(step)}};
     for (unsigned int i = 2; i <= n; ++i)
       {
         last = {{last[1], last[2], machine_angle(i * step)}};
@@ -246,27 +196,25 @@ namespace Debond
                 (i - 2) * step,
                 i * step,
                 std::numeric_limits<double>::digits / 2);
-              limits.push_back({minimum.first,
-                                sign * minimum.second,
-                                bodies.torque(minimum.first),
-                                sign < 0.});
+              limit_points.push_back({minimum.first,
+                                      sign * minimum.second,
+                                      bodies.torque(minimum.first),
+                                      sign < 0.});
             }
       }
-    return limits;
   }
 
 
 
-  std::vector<CompliantMachineTorsion::Jump>
-  CompliantMachineTorsion::find_jumps() const
+  void
+  CompliantMachineTorsion::find_jumps()
   {
     const auto stored_or_dissipated = [&](const double theta, const double at) {
       const auto state = bodies.state(theta);
       return 0.5 * stiffness * std::pow(at - theta, 2) + state.stored_energy +
              state.dissipation;
     };
-    std::vector<Jump> found;
-    double            reached = 0.; // the largest machine angle so far
+    double reached = 0.; // the largest machine angle so far
     for (auto from = limit_points.begin(); from != limit_points.end(); ++from)
       if (from->is_maximum && from->machine_angle > reached)
         // the next branch that rises and leads high enough
@@ -278,7 +226,7 @@ namespace Debond
             if (to->is_maximum || machine_angle(end) < at)
               continue;
             const double after = angle_between(to->angle, end, at);
-            found.push_back({at,
+            jumps.push_back({at,
                              from->angle,
                              after,
                              from->torque,
@@ -288,12 +236,10 @@ namespace Debond
             reached = at;
             break;
           }
-    return found;
   }
 
 
 
-  // On a branch that rises.
   double
   CompliantMachineTorsion::angle_between(const double begin,
                                          const double end,

@@ -305,21 +305,6 @@ namespace Debond
           timer.print_summary();
       }
 
-      /** What an error says must not be lost, whatever becomes of the summary.
-       */
-      void
-      finish_after(const std::string &why)
-      {
-        try
-          {
-            finish(false, why);
-          }
-        catch (const WriteError &another)
-          {
-            report.console.warn("summary", another.what());
-          }
-      }
-
       /** See serialization.h. To be called when everything is set up as at the
        *  beginning of the run. */
       template <class Archive>
@@ -365,14 +350,23 @@ namespace Debond
           mistake ? scene.with_place(*mistake).what() : error.what();
         if (run)
           {
-            all_rows = run->simulation.rows();
-            run->finish_after(why);
+            rows = run->simulation.rows();
+            // What the error says must not be lost, whatever becomes of the
+            // summary.
+            try
+              {
+                run->finish(false, why);
+              }
+            catch (const WriteError &another)
+              {
+                run->report.console.warn("summary", another.what());
+              }
           }
         if (mistake)
           throw InputError(why);
         throw;
       }
-    all_rows = run->simulation.rows();
+    rows = run->simulation.rows();
     run->finish(true, run->simulation.control().reason_to_end());
   }
 

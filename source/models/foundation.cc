@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 namespace Debond
 {
@@ -40,22 +40,19 @@ namespace Debond
     const TorqueRow &
     next_row(Simulation &simulation)
     {
-      std::string why;
       try
         {
           simulation.advance();
           if (simulation.rows().back().share_stick < 1.)
-            why = ", which do not touch all over";
+            throw RunError("they do not touch all over");
         }
       catch (const RunError &error)
         {
-          why = std::string(": ") + error.what();
+          throw EntryError("Closed form",
+                           "the stiffness of the foundation cannot be found "
+                           "from the bodies of this scene: " +
+                             std::string(error.what()));
         }
-      if (!why.empty())
-        throw EntryError("Closed form",
-                         "the stiffness of the foundation cannot be found from "
-                         "the bodies of this scene" +
-                           why);
       return simulation.rows().back();
     }
   } // namespace
@@ -188,35 +185,32 @@ namespace Debond
     // With the points as they are, and with the same torsional stiffness
     // and pressure everywhere: on the same points, so that errors of the
     // quadrature cancel.
-    const auto torques = [&](const FoundationStiffness &points,
-                             const double               mean_pressure) {
+    const auto torques = [&](FoundationStiffness         points,
+                             const double                mean_pressure,
+                             const std::optional<double> torsional = {}) {
+      if (torsional)
+        for (FoundationStiffness::Point &point : points.points)
+          {
+            point.pressure  = 1.;
+            point.stiffness = *torsional;
+          }
       return torque_of_points(points,
                               scene.interface.friction,
                               mean_pressure,
                               angles);
     };
-    const auto uniform = [&](FoundationStiffness points,
-                             const double        torsional,
-                             const double        mean_pressure) {
-      for (FoundationStiffness::Point &point : points.points)
-        {
-          point.pressure  = 1.;
-          point.stiffness = torsional;
-        }
-      return torques(points, mean_pressure);
-    };
     const auto largest = [](const Eigen::ArrayXd &values) {
       return values.abs().maxCoeff<Eigen::PropagateNaN>();
     };
     const Eigen::ArrayXd uniform_fine =
-      uniform(stiffness, stiffness.torsional, pressure);
+      torques(stiffness, pressure, stiffness.torsional);
     const Eigen::ArrayXd distribution =
       torques(stiffness, pressure) - uniform_fine;
     const Eigen::ArrayXd distribution_on_coarse =
       torques(coarse, coarse_pressure) -
-      uniform(coarse, coarse.torsional, coarse_pressure);
+      torques(coarse, coarse_pressure, coarse.torsional);
     const double from_mesh =
-      largest(uniform(stiffness, coarse.torsional, coarse_pressure) -
+      largest(torques(stiffness, coarse_pressure, coarse.torsional) -
               uniform_fine) +
       largest(distribution_on_coarse - distribution);
     return (2. * largest(distribution) + from_mesh / (cell_ratio - 1.)) /

@@ -1,13 +1,12 @@
 #include <debond/interface/contact_interface.h>
 #include <debond/models/memory_estimate.h>
 #include <debond/scene/scene.h>
+#include <debond/support/number_text.h>
 #include <debond/support/runtime.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 namespace Debond
 {
@@ -98,10 +97,10 @@ namespace Debond
 
 
 
-    /** The parts of an estimate [bytes]. */
+    /** An estimate and its parts [MB]. */
     struct Parts
     {
-      double bone, implant, points;
+      double bone, implant, points, total;
 
       explicit Parts(const Scene &scene)
       {
@@ -132,30 +131,20 @@ namespace Debond
         const auto &cells = (on_implant ? scene.implant : scene.bone).cells;
         points = 2. * sizeof(SlavePoint) * double(cells[0]) * cells[1] *
                  std::pow(scene.interface.quadrature_points, 2);
-      }
-
-      double
-      total_MB() const
-      {
         constexpr double program = 150e6; // with its libraries
-        return 1e-6 * (program + bone + implant + points);
+        total                    = program + bone + implant + points;
+        for (double *const part : {&bone, &implant, &points, &total})
+          *part *= 1e-6;
       }
     };
 
 
 
-    /** Two digits, without exponent. */
     std::string
     in_words(const double MB)
     {
-      if (MB < 0.1)
-        return "0 MB";
-      const double number = MB < 1000. ? MB : 1e-3 * MB;
-      const double unit   = std::pow(10., std::floor(std::log10(number)) - 1.);
-      std::ostringstream text;
-      text << std::fixed << std::setprecision(number < 10. ? 1 : 0)
-           << unit * std::round(number / unit) << (MB < 1000. ? " MB" : " GB");
-      return text.str();
+      return MB < 1e3 ? to_text(std::round(MB)) + " MB" :
+                        to_text(0.1 * std::round(1e-2 * MB)) + " GB";
     }
   } // namespace
 
@@ -164,7 +153,7 @@ namespace Debond
   double
   estimated_memory_MB(const Scene &scene)
   {
-    return Parts(scene).total_MB();
+    return Parts(scene).total;
   }
 
 
@@ -174,18 +163,17 @@ namespace Debond
   {
     const Parts  parts(scene);
     const double available = available_memory_MB();
-    if (parts.total_MB() <= available)
+    if (parts.total <= available)
       return;
     throw NotEnoughMemory(
       parts.points > std::max(parts.bone, parts.implant) ?
         "Interface / Quadrature points" :
       parts.bone > parts.implant ? "Bone / Cells" :
                                    "Implant / Cells",
-      "this scene needs some " + in_words(parts.total_MB()) +
-        " of memory, and " + in_words(available) +
+      "this scene needs some " + in_words(parts.total) + " of memory, and " +
+        in_words(available) +
         " are available: lower this first (of the memory, Bone / Cells take " +
-        in_words(1e-6 * parts.bone) + ", Implant / Cells " +
-        in_words(1e-6 * parts.implant) + ", Interface / Quadrature points " +
-        in_words(1e-6 * parts.points) + ")");
+        in_words(parts.bone) + ", Implant / Cells " + in_words(parts.implant) +
+        ", Interface / Quadrature points " + in_words(parts.points) + ")");
   }
 } // namespace Debond

@@ -40,12 +40,7 @@ namespace Debond
           const std::string &text = which == 0 ? parameters : earlier;
           const auto         note = [&](const std::string &name,
                                 const std::string &value) {
-            auto &both = values
-                           .try_emplace(name,
-                                        std::array<std::string, 2>{
-                                          {"not there", "not there"}})
-                           .first->second;
-            both[which] = value.empty() ? "empty" : value;
+            values[name][which] = value.empty() ? "empty" : value;
           };
           for (const SceneEntry &entry : read_scene_text(text, "checkpoint"))
             if (free_entries.count(entry.full_name()) == 0)
@@ -57,56 +52,14 @@ namespace Debond
               note(line.substr(2, colon - 2), line.substr(colon + 2));
         }
       std::string list;
+      const auto  shown = [](const std::string &value) {
+        return value.empty() ? "not there" : value;
+      };
       for (const auto &[name, value] : values)
         if (value[0] != value[1])
-          list += (list.empty() ? "" : "; ") + name + " is " + value[0] +
-                  ", the checkpoint's " + value[1];
+          list += (list.empty() ? "" : "; ") + name + " is " + shown(value[0]) +
+                  ", the checkpoint's " + shown(value[1]);
       return list;
-    }
-
-
-
-    /** Why a directory holds no run that could have a checkpoint; empty if it
-     *  does. */
-    std::string
-    reason_against(const std::string &directory)
-    {
-      if (!fs::is_directory(directory))
-        return "there is no such directory";
-      if (fs::exists(directory + "/study.csv") ||
-          fs::exists(directory + "/variant-001"))
-        return "this is the directory of a study; run its scene again: "
-               "variants that are done are kept, the others go on from their "
-               "checkpoints or begin anew";
-      if (!fs::exists(directory + "/parameters.prm"))
-        return "this directory holds no results of debond (there is no "
-               "parameters.prm in it)";
-      if (Scene::from_file(directory + "/parameters.prm").model !=
-          ModelKind::finite_elements)
-        return "only Model = finite elements leaves checkpoints; run the scene "
-               "again";
-      return "";
-    }
-
-
-
-    /** The same of overrides: the results of the run that goes on stay where
-     *  they are. */
-    std::string
-    reason_against(const std::vector<std::string> &overrides,
-                   const std::string              &directory)
-    {
-      for (const std::string &text : overrides)
-        {
-          const SceneEntry entry = read_override(text);
-          if (entry.full_name() == "Output / Directory" &&
-              fs::weakly_canonical(ResultDirectory(entry.value).path()) !=
-                fs::weakly_canonical(directory))
-            return "--set '" + text +
-                   "' names another directory, but a run goes on in the "
-                   "directory of its results";
-        }
-      return "";
     }
   } // namespace
 
@@ -117,26 +70,48 @@ namespace Debond
                        const std::string              &scene_file,
                        const std::vector<std::string> &overrides)
   {
-    const auto refuse_for = [&](const std::string &why) {
-      if (!why.empty())
+    const auto refuse_if = [&](const bool is_so, const std::string &why) {
+      if (is_so)
         throw InputError("--resume '" + directory + "': " + why);
     };
-    refuse_for(reason_against(directory));
+    const auto there_is = [&](const std::string &name) {
+      return fs::exists(directory + "/" + name);
+    };
+    // Why a directory holds no run that could have a checkpoint.
+    refuse_if(!fs::is_directory(directory), "there is no such directory");
+    refuse_if(there_is("study.csv") || there_is("variant-001"),
+              "this is the directory of a study; run its scene again: "
+              "variants that are done are kept, the others go on from their "
+              "checkpoints or begin anew");
+    refuse_if(!there_is("parameters.prm"),
+              "this directory holds no results of debond (there is no "
+              "parameters.prm in it)");
+    refuse_if(Scene::from_file(directory + "/parameters.prm").model !=
+                ModelKind::finite_elements,
+              "only Model = finite elements leaves checkpoints; run the scene "
+              "again");
     ResumedRun run;
     run.directory = std::make_shared<const ResultDirectory>(directory);
     const ResultDirectory &results = *run.directory;
-    refuse_for(reason_against(overrides, results.path()));
+    // The results of the run that goes on stay where they are.
+    for (const std::string &text : overrides)
+      {
+        const SceneEntry entry = read_override(text);
+        refuse_if(entry.full_name() == "Output / Directory" &&
+                    fs::weakly_canonical(ResultDirectory(entry.value).path()) !=
+                      fs::weakly_canonical(results.path()),
+                  "--set '" + text +
+                    "' names another directory, but a run goes on in the "
+                    "directory of its results");
+      }
     if (read_json(results.file("summary.json"))["converged"] == true)
       return std::nullopt;
 
     const auto checkpoint = CheckpointFiles(results).newest(run.remarks);
-    if (!checkpoint)
-      {
-        run.remarks.insert(run.remarks.begin(),
-                           "there is no checkpoint to go on from");
-        run.remarks.push_back("run the scene again");
-        refuse_for(boost::join(run.remarks, "; "));
-      }
+    refuse_if(!checkpoint,
+              "there is no checkpoint to go on from; " +
+                boost::join(run.remarks, "; ") +
+                (run.remarks.empty() ? "" : "; ") + "run the scene again");
     run.checkpoint = *checkpoint;
     run.scene      = scene_file.empty() ?
                        Scene::from_text(checkpoint->parameters,
@@ -145,8 +120,8 @@ namespace Debond
                        Scene::from_file(scene_file, overrides);
     const std::string different =
       differences(run.scene.completed_parameters, checkpoint->parameters);
-    if (!different.empty())
-      refuse_for("the scene is not that of the checkpoint: " + different);
+    refuse_if(!different.empty(),
+              "the scene is not that of the checkpoint: " + different);
     run.scene.output.directory = results.path();
     return run;
   }

@@ -57,14 +57,16 @@ namespace
     if (!Debond::varied_entries(entries).empty())
       {
         std::ostringstream log;
-        Debond::Study      study(entries, scene_file);
         try
           {
-            study.run(2, true, log);
+            Debond::run_study(entries, scene_file, 2, true, log);
           }
         catch (const Debond::RunError &) // study.csv says which variant failed
           {}
-        return read_study(study.result_directory());
+        return read_study(
+          Debond::Scene::from_entries(
+            Debond::study_variants(entries)[0].entries, scene_file)
+            .output.directory);
       }
 
     Debond::Scene scene = Debond::Scene::from_entries(entries, scene_file);

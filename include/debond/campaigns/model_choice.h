@@ -5,7 +5,7 @@
 #include <debond/scene/scene.h>
 
 #include <array>
-#include <functional>
+#include <iosfwd>
 #include <limits>
 #include <string>
 #include <utility>
@@ -68,7 +68,9 @@ namespace Debond
   class ModelHierarchy
   {
   public:
-    /** @p step_tolerance is that of the adaptive steps of all models. */
+    /** @p step_tolerance is that of the adaptive steps of all models. Throws
+     *  EntryError if the scene has no torque curve that models could be
+     *  compared by. */
     ModelHierarchy(const Scene &scene, double step_tolerance);
 
     /** Finite elements. */
@@ -123,71 +125,17 @@ namespace Debond
   double
   discretisation_error(const std::vector<double> &differences);
 
-  /** "4.4 %", or "unknown". */
-  std::string
-  percent(double ratio);
+  /** `Model = auto`: runs models from the cheapest until one will do. Results
+   *  of the answer are then in the scene's directory, those of every level in
+   *  DIR/rung-1 and so on, and auto.csv lists them. If the tolerance was not
+   *  reached the answer is the best model, and summary.json says so. Throws
+   *  EntryError if the scene has no torque curve that models could be compared
+   *  by. */
+  void
+  run_auto(const Scene &scene);
 
-  /**
-   * Runs the models of a ModelHierarchy from the cheapest until the error of
-   * one of their torque curves is estimated to be within `Load steps /
-   * Tolerance`, and answers with the cheapest one that is. The error is the
-   * largest difference from the curve of the scene's own bodies on a converged
-   * mesh, relative to the largest torque; doc/auto.md says how it is estimated.
-   */
-  class ModelChoice
-  {
-  public:
-    /** Throws EntryError if the scene has no torque curve that models could be
-     *  compared by. */
-    explicit ModelChoice(const Scene &scene);
-
-    /** Tries the models, each in a directory DIR/rung-1 and so on. @p report is
-     *  called after each of them, when its error is mostly not known yet. */
-    void
-    climb(const std::function<void(const ModelLevel &)> &report);
-
-    /** Those that were tried, by cost. */
-    const std::vector<ModelLevel> &
-    levels() const
-    {
-      return tried;
-    }
-    /** The cheapest within the tolerance, else the best; none if no model could
-     *  be run. */
-    const ModelLevel *
-    answer() const;
-    bool
-    is_sufficient(const ModelLevel &level) const
-    {
-      return level.done && level.estimate <= tolerance;
-    }
-    /** Why the answer is no better than it is, in words. */
-    std::string
-    reason() const;
-
-    const double         tolerance;
-    const ModelHierarchy hierarchy;
-
-  private:
-    void
-    run(ModelLevel &level) const;
-    void
-    try_level(ModelLevel level);
-    const ModelLevel *
-    find(const Materials &materials, unsigned int mesh) const;
-    const ModelLevel *
-    best() const;
-    const ModelLevel *
-    sufficient() const;
-    void
-    estimate_errors();
-    double
-    linearisation_error() const;
-
-    const double            step_error; ///< what steps add to an estimate
-    std::vector<ModelLevel> tried;
-    std::string             why_no_further; ///< if the tolerance is not reached
-    Materials               refined;        ///< those of the finer meshes
-  };
+  /** Prints which models it would try. */
+  void
+  check_auto(const Scene &scene, std::ostream &out);
 } // namespace Debond
 #endif

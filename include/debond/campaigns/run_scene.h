@@ -18,13 +18,12 @@ namespace Debond
    *  Throws InputError, with file and line, if the model does not apply to the
    *  scene; RunError if it cannot be finished: what was written before stays,
    *  and summary.json then says `converged: false` and why; Interrupted if a
-   *  signal asks to stop. */
+   *  signal asks to stop.
+   *
+   *  With @p plan it prints there what a run would do, and runs nothing. */
   void
-  run_scene(const Scene &scene, std::shared_ptr<BodyPair> bodies = nullptr);
-
-  /** Prints what a run would do, and runs nothing. Throws InputError as a run
-   *  would. */
-  void
-  check_scene(const Scene &scene, std::ostream &out);
+  run_scene(const Scene              &scene,
+            std::shared_ptr<BodyPair> bodies = nullptr,
+            std::ostream             *plan   = nullptr);
 } // namespace Debond
 #endif

@@ -1,12 +1,9 @@
 #ifndef debond_campaigns_study_h
 #define debond_campaigns_study_h
 
-#include <debond/campaigns/variant.h>
-#include <debond/support/written_files.h>
-#include <debond/support/input_error.h>
+#include <debond/input/scene_file.h>
 
 #include <iosfwd>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,52 +21,25 @@ namespace Debond
    * With `Study / Repetitions` every variant is run several times, one after
    * the other in its directory, which keeps the summary of each run as
    * repetition-1.json and so on; seconds in study.csv are medians over them.
+   *
+   * Reads all variants before anything runs, runs what is not there yet,
+   * @p n_jobs at a time, and writes study.csv every few seconds and at the end,
+   * then, if seeds are varied, the statistics of class Ensemble. @p force: runs
+   * all, whatever their directories hold. Throws InputError, as Scene does, if
+   * any of the variants is no valid scene, RunError at the end if any of them
+   * failed, and Interrupted if a signal asks to stop.
    */
-  class Study
-  {
-  public:
-    /** Reads all variants. Throws InputError, as Scene does, if any of them is
-     *  no valid scene. */
-    Study(const std::vector<SceneEntry> &entries, const std::string &name);
+  void
+  run_study(const std::vector<SceneEntry> &entries,
+            const std::string             &name,
+            unsigned int                   n_jobs,
+            bool                           force,
+            std::ostream                  &out);
 
-    /** Runs what is not there yet, @p n_jobs at a time, and writes study.csv
-     *  every few seconds and at the end, then, if seeds are varied, the
-     *  statistics of class Ensemble. @p force: runs all, whatever their
-     *  directories hold. Throws RunError at the end if any of them failed, and
-     *  Interrupted if a signal asks to stop. */
-    void
-    run(unsigned int n_jobs, bool force, std::ostream &out);
-
-    /** The directory of study.csv. */
-    const std::string &
-    result_directory() const
-    {
-      return directory;
-    }
-
-    /** Says what would be run. */
-    void
-    check(std::ostream &out);
-
-  private:
-    std::string
-    describe(const Variant &variant) const;
-    /** Returns what keeps others out of the directory of the study. */
-    DirectoryLock
-    prepare(bool force);
-    void
-    run_variants(unsigned int n_jobs, std::ostream &out);
-    unsigned int
-    n_done() const;
-    void
-    write_table();
-    void
-    write_ensemble(std::ostream &out) const;
-
-    std::vector<std::string> varied; ///< full names of the varied entries
-    std::vector<Variant>     variants;
-    std::string              directory;
-    unsigned int             reference = 0; ///< number of a variant, 0: none
-  };
+  /** Says what would be run. */
+  void
+  check_study(const std::vector<SceneEntry> &entries,
+              const std::string             &name,
+              std::ostream                  &out);
 } // namespace Debond
 #endif

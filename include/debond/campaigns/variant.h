@@ -11,9 +11,6 @@
 
 namespace Debond
 {
-  /** A member of a summary as a field of a table: lists joined, null as nan. */
-  std::string
-  text_of(const nlohmann::ordered_json &value);
   /** A number of a summary; NaN if there is none of this name. */
   double
   number_in(const nlohmann::ordered_json &summary, const std::string &name);
@@ -21,7 +18,7 @@ namespace Debond
   /** A variant of a study, and what its directory holds. */
   struct Variant
   {
-    std::string              name; ///< "variant-001"
+    std::string              name; ///< "variant-001: ENTRY = VALUE; ..."
     Scene                    scene;
     std::vector<std::string> values;            ///< of the varied entries
     unsigned int             n_repetitions = 1; ///< runs that are wanted

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Debond
@@ -56,16 +57,10 @@ namespace Debond
     next();
 
   private:
-    struct Waiting
-    {
-      unsigned int variant;
-      const Scene *scene;
-      bool         may_share;
-    };
-
     const unsigned int n_jobs;
-    /** By the number of their group, those of a group in the order of add(). */
-    std::multimap<unsigned int, Waiting> waiting;
+    /** By the number of their group, those of a group in the order of add();
+     *  none for the scene of one that shares nothing. */
+    std::multimap<unsigned int, std::pair<unsigned int, const Scene *>> waiting;
     /** Numbers of the groups by what their scenes agree in. */
     std::map<std::string, unsigned int> group_of;
     unsigned int                        last_group = -1; ///< one that is begun
@@ -97,9 +92,5 @@ namespace Debond
   /** Waits for the end of a process. Returns why it failed, if it did. */
   std::string
   end_of(const VariantProcess &process);
-
-  /** Asks all of them to end, and waits until they have. */
-  void
-  stop(const std::vector<VariantProcess> &processes);
 } // namespace Debond
 #endif

@@ -81,14 +81,23 @@ namespace Debond
     /** Radii [mm] where the fields of point() are not smooth, in any order;
      *  those outside of ]0, R[ do not matter. */
     virtual std::vector<double>
-    kinks(double theta) const;
+    kinks(double) const
+    {
+      return {};
+    }
     /** phi_0 at a radius [mm]. */
     double
-    initial_bonding(double r) const;
+    initial_bonding(const double r) const
+    {
+      return r <= disk.bonded_radius ? disk.phi_0 : 0.;
+    }
     /** The friction coefficient of a bond after the sliding distance
      *  @p slip [mm]. */
     FrictionCoefficient
-    friction(double phi_0, double slip) const;
+    friction(const double phi_0, const double slip) const
+    {
+      return disk.friction->coefficient({phi_0, slip}, 0.);
+    }
     /** The point at the radius @p r after the sliding distance @p slip. */
     Point
     point_with(bool sticks, double r, double slip, double theta) const;
@@ -123,7 +132,11 @@ namespace Debond
     /** Whether the law softens slowly enough, |d mu/d g_s| p < eps_t
      *  everywhere; otherwise the traction jumps at some angle. */
     static bool
-    has_unique_solution(const Disk &disk);
+    has_unique_solution(const Disk &disk)
+    {
+      return disk.friction->steepest_fall({disk.phi_0}) * disk.pressure <
+             disk.stiffness;
+    }
 
     /** Sliding distance g_s [mm] at the radius @p r [mm] and the angle @p theta
      *  [rad] of a rotation that began at zero and never reversed. */
@@ -131,7 +144,11 @@ namespace Debond
     slip(double r, double theta) const;
 
     Point
-    point(double r, double theta) const override;
+    point(const double r, const double theta) const override
+    {
+      const double g_s = slip(r, theta);
+      return point_with(g_s == 0., r, g_s, theta);
+    }
     double
     stick_radius(double theta) const override;
 
@@ -140,7 +157,10 @@ namespace Debond
     kinks(double theta) const override;
     /** The path r theta at which the sliding distance is @p slip [mm]. */
     double
-    path(double slip, double phi_0) const;
+    path(const double slip, const double phi_0) const
+    {
+      return slip + friction(phi_0, slip).mu * disk.pressure / disk.stiffness;
+    }
   };
 
 
@@ -191,7 +211,7 @@ namespace Debond
       bool   is_maximum    = false;
     };
     /** In the order of theta. */
-    const std::vector<LimitPoint> limit_points;
+    std::vector<LimitPoint> limit_points;
 
     /** What a machine that turns on and on cannot follow. */
     struct Jump
@@ -201,7 +221,7 @@ namespace Debond
       double torque_before = 0, torque_after = 0; ///< [N mm]
       double released_energy = 0;                 ///< [N mm]
     };
-    const std::vector<Jump> jumps;
+    std::vector<Jump> jumps;
 
     /** theta [rad] when a machine that turns on and on has come to @p
      *  machine_angle <= `largest_angle` [rad]; at a jump the angle before. */
@@ -209,10 +229,11 @@ namespace Debond
     angle(double machine_angle) const;
 
   private:
-    std::vector<LimitPoint>
-    find_limit_points() const;
-    std::vector<Jump>
-    find_jumps() const;
+    void
+    find_limit_points();
+    void
+    find_jumps();
+    /** On a branch that rises. */
     double
     angle_between(double begin, double end, double machine_angle) const;
   };

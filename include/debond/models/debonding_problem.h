@@ -18,9 +18,8 @@ namespace Debond
    * Runs a Simulation as the program does: into a directory, with lines on the
    * console, fields, a summary, and checkpoints to go on from.
    */
-  class DebondingProblem
+  struct DebondingProblem
   {
-  public:
     /** @p bodies: see CoupledSystem. Throws NotEnoughMemory. */
     explicit DebondingProblem(const Scene              &scene,
                               std::shared_ptr<BodyPair> bodies = nullptr);
@@ -38,17 +37,10 @@ namespace Debond
     void
     check(std::ostream &out) const;
 
-    /** Those of the run, also of one that failed. */
-    const std::vector<TorqueRow> &
-    rows() const
-    {
-      return all_rows;
-    }
-
-  private:
     const Scene               scene;
     std::shared_ptr<BodyPair> bodies;
-    std::vector<TorqueRow>    all_rows;
+    /** Those of the run, also of one that failed. */
+    std::vector<TorqueRow> rows;
   };
 } // namespace Debond
 #endif

@@ -33,12 +33,15 @@ namespace Debond
 
 
 
-    // The transpose: what forces on w amount to at the control points.
+    // Forces on w; none acts on y_n, which the traction does not see.
+    using LocalForce = Matrix<double, 12, 1>;
+
+    // The transpose: what they amount to at the control points.
     void
-    spread_local(const SlavePoint  &point,
-                 const Side         slave,
-                 const LocalVector &force,
-                 NodalSums         &sums)
+    spread_local(const SlavePoint &point,
+                 const Side        slave,
+                 const LocalForce &force,
+                 NodalSums        &sums)
     {
       const SurfaceBasis &basis  = point.trial.basis;
       ControlNet         &master = sums[other(slave)];
@@ -48,8 +51,6 @@ namespace Debond
           basis.N[b] * force.segment<3>(3) +
           basis.N_1[b] * force.segment<3>(6) +
           basis.N_2[b] * force.segment<3>(9);
-      if (point.trial.state.status == PointStatus::slip)
-        spread(point.trial.old_basis, force.tail<3>(), master);
     }
 
 
@@ -58,15 +59,15 @@ namespace Debond
     // the master, Eq. (36). They change in two ways: t changes, and xi_hat
     // moves along the master, where N_B becomes N_B + N_B,alpha dxi^alpha. As
     // forces on w:
-    LocalVector
-    change_of_force(const SlavePoint      &point,
-                    const Vector3d        &dt,
-                    const Eigen::Vector2d &dxi)
+    LocalForce
+    change_of_force(const SlavePoint &point, const LocalVector &dw)
     {
-      const Vector3d &t = point.trial.traction;
-      LocalVector     force;
-      force << dt, -dt, -dxi[0] * t, -dxi[1] * t, Vector3d::Zero();
-      return point.JxW * force;
+      const Vector3d        dt  = point.JxW * (point.trial.dt * dw);
+      const Vector3d        t   = point.JxW * point.trial.traction;
+      const Eigen::Vector2d dxi = point.trial.dxi * dw;
+      LocalForce            force;
+      force << dt, -dt, -dxi[0] * t, -dxi[1] * t;
+      return force;
     }
 
 
@@ -117,13 +118,8 @@ namespace Debond
       {
         for (unsigned int j = 0; j < n; ++j)
           {
-            const LocalVector force =
-              change_of_force(point,
-                              point.trial.dt * dw.col(j),
-                              point.trial.dxi * dw.col(j));
-            // no force acts on y_n
-            const Rows rows =
-              dw.topLeftCorner(12, n).transpose() * force.head<12>();
+            const Rows rows = dw.topLeftCorner(12, n).transpose() *
+                              change_of_force(point, dw.col(j));
             for (unsigned int i = 0; i < n; ++i)
               matrix(number[i], number[j]) += rows[i];
           }
@@ -188,22 +184,15 @@ namespace Debond
                                   const Eigen::VectorXd        &direction,
                                   Eigen::VectorXd              &result) const
   {
-    const NodalSums moved = nodal_motion(direction, configuration);
-    const NodalSums change =
-      sum_in_chunks(points.size(),
-                    configuration,
-                    [&](const unsigned int q, NodalSums &sums) {
-                      const SlavePoint &point = points[q];
-                      if (point.trial.state.status == PointStatus::open)
-                        return;
-                      const auto dw = local_motion(point, slave, moved);
-                      spread_local(point,
-                                   slave,
-                                   change_of_force(point,
-                                                   point.trial.dt * dw,
-                                                   point.trial.dxi * dw),
-                                   sums);
-                    });
+    const NodalSums moved  = nodal_motion(direction, configuration);
+    const NodalSums change = sum_in_chunks(
+      points.size(), configuration, [&](const unsigned int q, NodalSums &sums) {
+        const SlavePoint &point = points[q];
+        if (point.trial.state.status == PointStatus::open)
+          return;
+        const auto dw = local_motion(point, slave, moved);
+        spread_local(point, slave, change_of_force(point, dw), sums);
+      });
     add_in_unknowns(change, configuration, 1., result);
   }
 
@@ -240,7 +229,9 @@ namespace Debond
           Eigen::Vector2d(direction.dot(y.a1), direction.dot(y.a2));
         d.segment<3>(3) += direction;
         d.segment<3>(12) -= direction;
-        spread_local(point, slave, point.JxW * d, result.gradient);
+        d *= point.JxW;
+        spread_local(point, slave, d.head<12>(), result.gradient);
+        spread(trial.old_basis, d.tail<3>(), result.gradient[master_side()]);
       }
     result.value /= area;
     for (ControlNet &gradient : result.gradient)

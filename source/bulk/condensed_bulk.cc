@@ -2,8 +2,6 @@
 #include <debond/bulk/condensation.h>
 #include <debond/bulk/enriched_cells.h>
 
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -33,27 +31,16 @@ namespace Debond
               free_number[dof] = free_dofs.size();
               free_dofs.push_back(dof);
             }
-        // the pattern of K, which is made once
-        dealii::DynamicSparsityPattern pattern(free_dofs.size());
+        // the pattern of K, which is made once; a column of a quadratic
+        // contact layer has some 100 entries
+        tangent.resize(free_dofs.size(), free_dofs.size());
+        tangent.reserve(Eigen::VectorXi::Constant(free_dofs.size(), 100));
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
           {
-            std::vector<dealii::types::global_dof_index> numbers;
-            for (const int number : free_numbers(cell))
-              if (number >= 0)
-                numbers.push_back(number);
-            std::sort(numbers.begin(), numbers.end());
-            for (auto i = numbers.begin(); i != numbers.end(); ++i)
-              pattern.add_entries(*i, i, numbers.end(), true);
+            const unsigned int n = 3 * cells.n_nodes(cell);
+            add_to_tangent(cell, Eigen::MatrixXd::Zero(n, n));
           }
-        tangent.resize(free_dofs.size(), free_dofs.size());
-        tangent.reserve(pattern.n_nonzero_elements());
-        for (int column = 0; column < tangent.cols(); ++column)
-          {
-            tangent.startVec(column);
-            for (unsigned int k = 0; k < pattern.row_length(column); ++k)
-              tangent.insertBack(pattern.column_number(column, k), column) = 0.;
-          }
-        tangent.finalize();
+        tangent.makeCompressed();
       }
 
       // c: the free components of these control points. Three numberings meet
@@ -86,12 +73,8 @@ namespace Debond
         Eigen::MatrixXd K;
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
           {
-            const auto numbers = free_numbers(cell);
             cells.tangent(cell, v, K);
-            for (unsigned int j = 0; j < numbers.size(); ++j)
-              for (unsigned int i = 0; i < numbers.size(); ++i)
-                if (numbers[j] >= 0 && numbers[i] >= numbers[j])
-                  tangent.coeffRef(numbers[i], numbers[j]) += K(i, j);
+            add_to_tangent(cell, K);
           }
         Condensation attempt;
         if (!attempt.factorise(tangent, contact))
@@ -208,16 +191,18 @@ namespace Debond
       }
 
     private:
-      /** Numbers of a cell's degrees of freedom among the free ones, -1: fixed.
-       */
-      std::vector<int>
-      free_numbers(const unsigned int cell) const
+      /** Adds the free part of what one cell contributes. */
+      void
+      add_to_tangent(const unsigned int cell, const Eigen::MatrixXd &K)
       {
-        std::vector<int> numbers;
+        std::vector<int> numbers; // -1: fixed
         for (unsigned int a = 0; a < cells.n_nodes(cell); ++a)
           for (unsigned int c = 0; c < 3; ++c)
             numbers.push_back(free_number[3 * cells.nodes(cell)[a] + c]);
-        return numbers;
+        for (unsigned int j = 0; j < numbers.size(); ++j)
+          for (unsigned int i = 0; i < numbers.size(); ++i)
+            if (numbers[j] >= 0 && numbers[i] >= numbers[j])
+              tangent.coeffRef(numbers[i], numbers[j]) += K(i, j);
       }
 
       const BodyMesh           &mesh;

@@ -86,7 +86,7 @@ namespace Debond
         for (unsigned int a = 0; a < point.basis.size; ++a)
           add(configuration.side[slave],
               point.basis.control_point[a],
-              {{point.basis.N[a], 0., 0., 0., 0.}});
+              {point.basis.N[a], 0., 0., 0., 0.});
         // y_n depends on the same control points as y, unless the point slid
         // from one element of the master to another
         const SurfaceBasis &now = point.trial.basis,
@@ -96,9 +96,9 @@ namespace Debond
         for (unsigned int b = 0; b < now.size; ++b)
           add(master,
               now.control_point[b],
-              {{0., now.N[b], now.N_1[b], now.N_2[b], same ? old.N[b] : 0.}});
+              {0., now.N[b], now.N_1[b], now.N_2[b], same ? old.N[b] : 0.});
         for (unsigned int b = 0; slips && !same && b < old.size; ++b)
-          add(master, old.control_point[b], {{0., 0., 0., 0., old.N[b]}});
+          add(master, old.control_point[b], {0., 0., 0., 0., old.N[b]});
       }
 
       void
@@ -129,15 +129,11 @@ namespace Debond
       void
       add(const InterfaceConfiguration::Surface &side,
           const unsigned int                     control_point,
-          const std::array<double, 5>           &factors)
+          const Matrix<double, 1, 5>            &factors)
       {
         for (unsigned int c = 0; c < 3; ++c)
-          {
-            LocalVector motion;
-            for (unsigned int k = 0; k < 5; ++k)
-              motion.segment<3>(3 * k) = factors[k] * side.frame.col(c);
-            add(side.unknown_of[3 * control_point + c], motion);
-          }
+          add(side.unknown_of[3 * control_point + c],
+              (side.frame.col(c) * factors).reshaped());
       }
 
       static constexpr int max_unknowns = 3 * 27 + 6;

@@ -72,8 +72,11 @@ check(const std::string &name,
   double       first = 0, direction = 0, second = 0;
   for (unsigned int k = 0; k < 6; ++k)
     {
-      const Vector3d          velocity = chuck.velocity(k, x);
-      const Vector3d          rate     = chuck.velocity_of_direction(k, turned);
+      const Vector3d velocity = chuck.velocity(k, x);
+      // a direction carried along
+      const Vector3d          rate = is_rotation(k) ?
+                                       Vector3d(chuck.axis(k).cross(turned)) :
+                                       Vector3d(Vector3d::Zero());
       std::array<Vector3d, 6> derivatives;
       for (unsigned int l = 0; l < 6; ++l)
         derivatives[l] = chuck.second_derivative(k, l, x);

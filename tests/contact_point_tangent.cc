@@ -120,7 +120,8 @@ struct MasterPoint
               const std::array<Number, 2>       &xi)
   {
     const NurbsSurface &surface = *master.surface;
-    const auto          n_1d    = surface.n_control_points_per_direction();
+    const unsigned int  n_1d[]{surface.knots(0).n_basis_functions(),
+                               surface.knots(1).n_basis_functions()};
     std::array<std::vector<Number>, 2> B, dB;
     for (unsigned int d = 0; d < 2; ++d)
       for (unsigned int i = 0; i < n_1d[d]; ++i)

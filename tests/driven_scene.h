@@ -82,7 +82,7 @@ private:
     options.points.frictionless =
       step > 0 &&
       times[step - 1] < scene.interface.friction_starts_at - 1e-9 * times[step];
-    system.predict(times[step], !options.points.stick_first);
+    system.predict(times[step], times[step], !options.points.stick_first);
     const Debond::NewtonResult result = solve_newton(system, options);
     iterations                        = result.iterations;
     if (!result.converged)

@@ -86,7 +86,8 @@ patch_test(const BodyParameters &parameters, const Side side)
     for (unsigned int a = 0; a < point.basis.size; ++a)
       integral[point.basis.control_point[a]] += point.basis.N[a] * point.JxW;
   const Eigen::Vector3d traction = mesh.outward_sign() * stress.col(2);
-  const auto            n        = surface.n_control_points_per_direction();
+  const unsigned int    n[]{surface.knots(0).n_basis_functions(),
+                            surface.knots(1).n_basis_functions()};
   for (unsigned int j = 1; j + 1 < n[1]; ++j)
     for (unsigned int i = 1; i + 1 < n[0]; ++i)
       {

@@ -47,7 +47,7 @@ check(const std::string &slave)
   CoupledSystem    system(scene);
   ContactPointMode mode;
   system.start(0.);
-  system.predict(0., false);
+  system.predict(0., 0., false);
   system.evaluate(mode);
   system.commit(0.);
 

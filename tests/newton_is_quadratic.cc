@@ -59,12 +59,12 @@ check(const std::string &name, const std::string &changes, const double angle)
   std::cout << name << std::endl;
   for (const double time : {0., 1.})
     {
-      system.predict(time, false);
+      system.predict(time, time, false);
       report("  push-in converges", solve_newton(system, options).converged);
       system.commit(time);
     }
 
-  system.predict(1. + angle, false);
+  system.predict(1. + angle, 1. + angle, false);
   const NewtonResult result  = solve_newton(system, options);
   const auto         summary = system.interface.summarise();
   report("  the step converges", result.converged);

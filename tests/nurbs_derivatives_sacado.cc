@@ -61,7 +61,8 @@ reference_basis(const NurbsSurface &surface, const Eigen::Vector2d &point)
       xi[d].val() = First(2, d, point[d]);
     }
 
-  const auto          n = surface.n_control_points_per_direction();
+  const unsigned int  n[]{surface.knots(0).n_basis_functions(),
+                          surface.knots(1).n_basis_functions()};
   std::vector<Number> R(n[0] * n[1]);
   Number              W = 0.;
   for (unsigned int j = 0; j < n[1]; ++j)

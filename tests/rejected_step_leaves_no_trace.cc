@@ -47,7 +47,7 @@ public:
     options.points.stick_first     = !extrapolate;
     options.max_iterations         = max_iterations;
     options.points.duration        = time - accepted_time;
-    system.predict(time, extrapolate);
+    system.predict(time, time, extrapolate);
     const bool converged = solve_newton(system, options).converged;
     if (converged)
       {
@@ -74,7 +74,7 @@ public:
         result.displacements[side]         = body->full_displacement();
         ++side;
       }
-    system.predict(accepted_time, false);
+    system.predict(accepted_time, accepted_time, false);
     system.evaluate(ContactPointMode());
     result.forces        = {{system.interface.force(Side::bone),
                              system.interface.force(Side::implant)}};

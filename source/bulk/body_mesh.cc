@@ -5,7 +5,6 @@
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/tria.h>
-#include <deal.II/lac/affine_constraints.h>
 
 #include <cmath>
 
@@ -34,25 +33,14 @@ namespace Debond
 
 
 
-  struct BodyMesh::Grid
-  {
-    dealii::Triangulation<3>          triangulation;
-    dealii::FESystem<3>               fe{dealii::FE_Q<3>(1), 3};
-    dealii::DoFHandler<3>             dof_handler{triangulation};
-    dealii::AffineConstraints<double> constraints;
-  };
-
-
-
   BodyMesh::BodyMesh(const BodyParameters &parameters, const Side side)
     : body_parameters(parameters)
     , body_side(side)
     , contact_surface(make_contact_surface(parameters))
-    , grid(std::make_shared<Grid>())
   {
     make_grid();
     number_nodes();
-    collect_cells();
+    complete_cells();
     make_constraints();
   }
 
@@ -64,27 +52,39 @@ namespace Debond
   void
   BodyMesh::make_grid()
   {
-    const auto &n = body_parameters.cells;
-    dealii::GridGenerator::subdivided_hyper_rectangle(grid->triangulation,
+    const auto              &n = body_parameters.cells;
+    dealii::Triangulation<3> triangulation;
+    dealii::GridGenerator::subdivided_hyper_rectangle(triangulation,
                                                       {n[0], n[1], n[2]},
                                                       dealii::Point<3>(),
                                                       dealii::Point<3>(n[0],
                                                                        n[1],
                                                                        n[2]));
-    grid->dof_handler.distribute_dofs(grid->fe);
+    const dealii::FESystem<3> fe(dealii::FE_Q<3>(1), 3);
+    dealii::DoFHandler<3>     dof_handler(triangulation);
+    dof_handler.distribute_dofs(fe);
 
-    lattice.resize(grid->dof_handler.n_dofs() / 3);
-    for (const auto &cell : grid->dof_handler.active_cell_iterators())
-      for (const unsigned int v : cell->vertex_indices())
-        {
-          const dealii::Point<3> p = cell->vertex(v);
-          auto &index              = lattice[cell->vertex_dof_index(v, 0) / 3];
-          for (unsigned int d = 0; d < 3; ++d)
-            index[d] = std::lround(p[d]);
-          // count layers from the contact face, which is the bone's top
-          if (body_side == Side::bone)
-            index[2] = n[2] - index[2];
-        }
+    lattice.resize(dof_handler.n_dofs() / 3);
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      {
+        Cell info;
+        for (const unsigned int v : cell->vertex_indices())
+          {
+            info.vertices[v] = cell->vertex_dof_index(v, 0) / 3;
+            for (unsigned int c = 0; c < 3; ++c)
+              AssertThrow(cell->vertex_dof_index(v, c) ==
+                            3 * info.vertices[v] + c,
+                          dealii::ExcInternalError());
+            const dealii::Point<3> p     = cell->vertex(v);
+            auto                  &index = lattice[info.vertices[v]];
+            for (unsigned int d = 0; d < 3; ++d)
+              index[d] = std::lround(p[d]);
+            // count layers from the contact face, which is the bone's top
+            if (body_side == Side::bone)
+              index[2] = n[2] - index[2];
+          }
+        bulk_cells.push_back(info);
+      }
   }
 
 
@@ -114,21 +114,12 @@ namespace Debond
 
   // The first vertex of a cell is the one with the least coordinates.
   void
-  BodyMesh::collect_cells()
+  BodyMesh::complete_cells()
   {
     const unsigned int n_functions =
       (contact_surface.degree() + 1) * (contact_surface.degree() + 1);
-    for (const auto &cell : grid->dof_handler.active_cell_iterators())
+    for (Cell &info : bulk_cells)
       {
-        Cell info;
-        for (const unsigned int v : cell->vertex_indices())
-          {
-            info.vertices[v] = cell->vertex_dof_index(v, 0) / 3;
-            for (unsigned int c = 0; c < 3; ++c)
-              AssertThrow(cell->vertex_dof_index(v, c) ==
-                            3 * info.vertices[v] + c,
-                          dealii::ExcInternalError());
-          }
         const auto &corner = lattice[info.vertices.front()];
         info.enriched =
           is_tied(info.vertices.front()) || is_tied(info.vertices.back());
@@ -144,7 +135,6 @@ namespace Debond
         for (const unsigned int vertex : info.vertices)
           if (!is_tied(vertex))
             info.nodes.push_back(vertex);
-        bulk_cells.push_back(info);
       }
   }
 
@@ -155,10 +145,10 @@ namespace Debond
   void
   BodyMesh::make_constraints()
   {
-    const auto &n    = body_parameters.cells;
-    const auto  n_cp = contact_surface.n_control_points_per_direction();
+    const auto        &n = body_parameters.cells;
+    const unsigned int n_cp[]{contact_surface.knots(0).n_basis_functions(),
+                              contact_surface.knots(1).n_basis_functions()};
     fixed.assign(3 * n_nodes(), false);
-    SurfaceBasis basis;
     for (unsigned int node = 0; node < n_nodes(); ++node)
       {
         const bool                  is_vertex = node < n_vertices();
@@ -167,34 +157,21 @@ namespace Debond
         if (is_vertex)
           index = lattice[node];
         if (is_tied(node))
-          contact_surface.evaluate(
-            {contact_surface.knots(0).breakpoints()[index[0]],
-             contact_surface.knots(1).breakpoints()[index[1]]},
-            basis,
-            false);
+          {
+            const Eigen::Vector2d xi(
+              contact_surface.knots(0).breakpoints()[index[0]],
+              contact_surface.knots(1).breakpoints()[index[1]]);
+            contact_surface.evaluate(xi, tied[node], false);
+            continue;
+          }
         for (unsigned int c = 0; c < 3; ++c)
           {
-            const unsigned int dof = 3 * node + c;
-            if (is_tied(node))
-              {
-                grid->constraints.add_line(dof);
-                for (unsigned int a = 0; a < basis.size; ++a)
-                  if (basis.N[a] != 0.)
-                    grid->constraints.add_entry(
-                      dof,
-                      3 * control_point_node(basis.control_point[a]) + c,
-                      basis.N[a]);
-                continue;
-              }
             const unsigned int last = is_vertex ? n[c] : n_cp[c % 2] - 1;
-            fixed[dof]              = (is_vertex && index[2] == n[2]) ||
-                         (body_side == Side::bone && c < 2 &&
-                          (index[c] == 0 || index[c] == last));
-            if (fixed[dof])
-              grid->constraints.add_line(dof);
+            fixed[3 * node + c]     = (is_vertex && index[2] == n[2]) ||
+                                  (body_side == Side::bone && c < 2 &&
+                                   (index[c] == 0 || index[c] == last));
           }
       }
-    grid->constraints.close();
   }
 
 
@@ -202,12 +179,9 @@ namespace Debond
   void
   BodyMesh::distribute(Eigen::VectorXd &v) const
   {
-    for (const auto &line : grid->constraints.get_lines())
-      {
-        double value = 0.;
-        for (const auto &[dof, weight] : line.entries)
-          value += weight * v[dof];
-        v[line.index] = value;
-      }
+    const ControlNet moved = v.tail(3 * contact_surface.n_control_points())
+                               .reshaped(3, Eigen::AutoSize);
+    for (const auto &[vertex, basis] : tied)
+      v.segment<3>(3 * vertex) = interpolate(basis, moved);
   }
 } // namespace Debond

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 
 namespace Debond
 {
@@ -16,31 +15,21 @@ namespace Debond
 
 
 
-    void
-    check_knots(const unsigned int p, const std::vector<double> &U)
+    bool
+    is_open_knot_vector(const unsigned int p, const std::vector<double> &U)
     {
-      if (p < 1 || p > max_degree)
-        throw std::invalid_argument("A knot vector has degree 1 or 2, not " +
-                                    std::to_string(p) + ".");
-      if (U.size() < 2 * (p + 1))
-        throw std::invalid_argument(
-          "A knot vector of degree p needs 2 (p+1) knots at least.");
-
+      if (p < 1 || p > max_degree || U.size() < 2 * (p + 1))
+        return false;
+      bool result = true;
       for (unsigned int i = 0; i <= p; ++i)
-        if (U[i] != 0. || U[U.size() - 1 - i] != 1.)
-          throw std::invalid_argument(
-            "A knot vector must be open: p+1 zeros first, p+1 ones last.");
-
+        result = result && U[i] == 0. && U[U.size() - 1 - i] == 1.;
       for (unsigned int i = p; i + p + 1 < U.size(); ++i)
-        if (!(U[i + 1] == U[i] || U[i + 1] - U[i] > smallest_span))
-          throw std::invalid_argument(
-            "Knots must not decrease, and must be equal or clearly distinct.");
-
+        result =
+          result && (U[i + 1] == U[i] || U[i + 1] - U[i] > smallest_span);
       // p+1 equal knots inside would tear the surface apart.
       for (unsigned int i = 1; i + p + 1 < U.size(); ++i)
-        if (U[i] == U[i + p] && U[i] != 0. && U[i] != 1.)
-          throw std::invalid_argument(
-            "An inner knot can be repeated p times at most.");
+        result = result && (U[i] != U[i + p] || U[i] == 0. || U[i] == 1.);
+      return result;
     }
 
 
@@ -95,7 +84,11 @@ namespace Debond
     : p(degree)
     , knot_values(knots)
   {
-    check_knots(degree, knots);
+    if (!is_open_knot_vector(degree, knots))
+      throw std::invalid_argument(
+        "A knot vector has degree p = 1 or 2, p+1 zeros first and p+1 ones "
+        "last; its knots do not decrease, are equal or clearly distinct, and "
+        "inside at most p times the same.");
 
     breaks.push_back(knots.front());
     for (unsigned int i = 0; i + 1 < knots.size(); ++i)

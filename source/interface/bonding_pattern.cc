@@ -110,12 +110,12 @@ namespace Debond
           tolerance           = std::max(tolerance, 1e-9 * radius);
         }
     else if (pattern == Kind::random && parameters.correlation_length > 0.)
-      std::transform(centres.begin(),
-                     centres.end(),
-                     rank.begin(),
-                     [field = RandomField(parameters.seed,
-                                          parameters.correlation_length)](
-                       const auto &centre) { return -field(centre); });
+      {
+        const RandomField field(parameters.seed, parameters.correlation_length);
+        std::transform(centres.begin(), centres.end(), rank.begin(), field);
+        for (double &each : rank)
+          each = -each;
+      }
     else if (pattern == Kind::random)
       {
         const auto order = random_order(rank.size(), parameters.seed);

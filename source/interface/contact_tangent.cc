@@ -49,16 +49,19 @@ namespace Debond
 
 
 
-    // The transpose: what forces on w amount to at the control points.
+    // Forces on w; none acts on y_n, which the traction does not see.
+    using LocalForce = Matrix<double, 12, 1>;
+
+    // The transpose: what they amount to at the control points.
     //
     // That both use the same factors makes the tangent consistent with the
     // residual; it is also how the derivative of a function of w becomes one by
     // nodal positions, which mean_slip() needs.
     void
-    spread_local(const SlavePoint  &point,
-                 const Side         slave,
-                 const LocalVector &force,
-                 NodalSums         &sums)
+    spread_local(const SlavePoint &point,
+                 const Side        slave,
+                 const LocalForce &force,
+                 NodalSums        &sums)
     {
       const SurfaceBasis &basis  = point.trial.basis;
       ControlNet         &master = sums[other(slave)];
@@ -70,8 +73,6 @@ namespace Debond
           basis.N[b] * force.segment<3>(3) +
           basis.N_1[b] * force.segment<3>(6) +
           basis.N_2[b] * force.segment<3>(9);
-      if (point.trial.state.status == PointStatus::slip)
-        spread(point.trial.old_basis, force.tail<3>(), master);
     }
 
 
@@ -80,19 +81,18 @@ namespace Debond
     // the master, Eq. (36). They change in two ways: t changes, and xi_hat
     // moves along the master, where N_B becomes N_B + N_B,alpha dxi^alpha. As
     // forces on w:
-    LocalVector
-    change_of_force(const SlavePoint      &point,
-                    const Vector3d        &dt,
-                    const Eigen::Vector2d &dxi)
+    LocalForce
+    change_of_force(const SlavePoint &point, const LocalVector &dw)
     {
       // dt on x, -dt on y, and -t dxi^alpha on a_alpha: the force acts at the
       // old traction while its place moves. The reference area JxW [mm^2] does
-      // not change. Nothing acts on y_n, which is only where the path of the
-      // step began.
-      const Vector3d &t = point.trial.traction;
-      LocalVector     force;
-      force << dt, -dt, -dxi[0] * t, -dxi[1] * t, Vector3d::Zero();
-      return point.JxW * force;
+      // not change.
+      const Vector3d        dt  = point.JxW * (point.trial.dt * dw);
+      const Vector3d        t   = point.JxW * point.trial.traction;
+      const Eigen::Vector2d dxi = point.trial.dxi * dw;
+      LocalForce            force;
+      force << dt, -dt, -dxi[0] * t, -dxi[1] * t;
+      return force;
     }
 
 
@@ -116,7 +116,7 @@ namespace Debond
         for (unsigned int a = 0; a < point.basis.size; ++a)
           add(configuration.side[slave],
               point.basis.control_point[a],
-              {{point.basis.N[a], 0., 0., 0., 0.}});
+              {point.basis.N[a], 0., 0., 0., 0.});
         // y_n depends on the same control points as y, unless the point slid
         // from one element of the master to another
         const SurfaceBasis &now = point.trial.basis,
@@ -126,9 +126,9 @@ namespace Debond
         for (unsigned int b = 0; b < now.size; ++b)
           add(master,
               now.control_point[b],
-              {{0., now.N[b], now.N_1[b], now.N_2[b], same ? old.N[b] : 0.}});
+              {0., now.N[b], now.N_1[b], now.N_2[b], same ? old.N[b] : 0.});
         for (unsigned int b = 0; slips && !same && b < old.size; ++b)
-          add(master, old.control_point[b], {{0., 0., 0., 0., old.N[b]}});
+          add(master, old.control_point[b], {0., 0., 0., 0., old.N[b]});
       }
 
       void
@@ -153,13 +153,8 @@ namespace Debond
       {
         for (unsigned int j = 0; j < n; ++j)
           {
-            const LocalVector force =
-              change_of_force(point,
-                              point.trial.dt * dw.col(j),
-                              point.trial.dxi * dw.col(j));
-            // no force acts on y_n
-            const Rows rows =
-              dw.topLeftCorner(12, n).transpose() * force.head<12>();
+            const Rows rows = dw.topLeftCorner(12, n).transpose() *
+                              change_of_force(point, dw.col(j));
             for (unsigned int i = 0; i < n; ++i)
               matrix(number[i], number[j]) += rows[i];
           }
@@ -169,17 +164,13 @@ namespace Debond
       void
       add(const InterfaceConfiguration::Surface &side,
           const unsigned int                     control_point,
-          const std::array<double, 5>           &factors)
+          const Matrix<double, 1, 5>            &factors)
       {
         // Unknowns are displacements in the frame of their body: its axes are
         // turned into space by Q. Columns of Q are the three directions.
         for (unsigned int c = 0; c < 3; ++c)
-          {
-            LocalVector motion;
-            for (unsigned int k = 0; k < 5; ++k)
-              motion.segment<3>(3 * k) = factors[k] * side.frame.col(c);
-            add(side.unknown_of[3 * control_point + c], motion);
-          }
+          add(side.unknown_of[3 * control_point + c],
+              (side.frame.col(c) * factors).reshaped());
       }
 
       static constexpr int max_unknowns = 3 * 27 + 6;
@@ -237,22 +228,15 @@ namespace Debond
                                   const Eigen::VectorXd        &direction,
                                   Eigen::VectorXd              &result) const
   {
-    const NodalSums moved = nodal_motion(direction, configuration);
-    const NodalSums change =
-      sum_in_chunks(points.size(),
-                    configuration,
-                    [&](const unsigned int q, NodalSums &sums) {
-                      const SlavePoint &point = points[q];
-                      if (point.trial.state.status == PointStatus::open)
-                        return;
-                      const auto dw = local_motion(point, slave, moved);
-                      spread_local(point,
-                                   slave,
-                                   change_of_force(point,
-                                                   point.trial.dt * dw,
-                                                   point.trial.dxi * dw),
-                                   sums);
-                    });
+    const NodalSums moved  = nodal_motion(direction, configuration);
+    const NodalSums change = sum_in_chunks(
+      points.size(), configuration, [&](const unsigned int q, NodalSums &sums) {
+        const SlavePoint &point = points[q];
+        if (point.trial.state.status == PointStatus::open)
+          return;
+        const auto dw = local_motion(point, slave, moved);
+        spread_local(point, slave, change_of_force(point, dw), sums);
+      });
     add_in_unknowns(change, configuration, 1., result);
   }
 
@@ -298,7 +282,9 @@ namespace Debond
           Eigen::Vector2d(direction.dot(y.a1), direction.dot(y.a2));
         d.segment<3>(3) += direction;
         d.segment<3>(12) -= direction;
-        spread_local(point, slave, point.JxW * d, result.gradient);
+        d *= point.JxW;
+        spread_local(point, slave, d.head<12>(), result.gradient);
+        spread(trial.old_basis, d.tail<3>(), result.gradient[master_side()]);
       }
     // dimensionless gradient: mm of mean slip per mm of a control point
     result.value /= area;

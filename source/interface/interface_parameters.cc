@@ -56,14 +56,6 @@ namespace Debond
 
 
   void
-  InterfaceParameters::create_friction()
-  {
-    friction = create_friction_law(friction_choice);
-  }
-
-
-
-  void
   InterfaceParameters::declare_variants(EntryTable &table)
   {
     table.add(

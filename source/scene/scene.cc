@@ -47,7 +47,8 @@ namespace Debond
       scene.load_steps.adaptive = true;
     try
       {
-        scene.interface.create_friction();
+        scene.interface.friction =
+          create_friction_law(scene.interface.friction_choice);
         scene.check();
       }
     catch (const InputError &error)

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <sstream>
 
 // The coupled system, which stations 6 and 9 of doc/walk.md are about: two
@@ -169,11 +168,8 @@ namespace Debond
       return false;
     std::vector<bool> wanted = bone.contact_control_points();
     const auto        add    = [&wanted](const std::vector<bool> &more) {
-      std::transform(wanted.begin(),
-                     wanted.end(),
-                     more.begin(),
-                     wanted.begin(),
-                     std::logical_or<>());
+      for (unsigned int i = 0; i < more.size(); ++i)
+        wanted[i] = wanted[i] || more[i];
     };
     add(touched_bone_control_points(bone.surface(),
                                     interface.get_points(),
@@ -554,17 +550,16 @@ namespace Debond
     for (const Side side : both_sides)
       {
         const auto &numbers = configuration.side[side].unknown_of;
-        const auto  found   = std::find(numbers.begin(), numbers.end(), worst);
-        if (worst >= 0 && found != numbers.end())
-          {
-            // unknown_of counts three components to a control point.
-            const unsigned int index = found - numbers.begin();
-            const auto x = configuration.side[side].positions.col(index / 3);
-            text << " N in "
-                 << "xyz"[index % 3] << " at the " << name_of(side)
-                 << "'s control point at (" << x[0] << ", " << x[1] << ", "
-                 << x[2] << ") mm";
-          }
+        // unknown_of counts three components to a control point
+        for (unsigned int i = 0; i < numbers.size(); ++i)
+          if (worst >= 0 && numbers[i] == worst)
+            {
+              const auto x = configuration.side[side].positions.col(i / 3);
+              text << " N in "
+                   << "xyz"[i % 3] << " at the " << name_of(side)
+                   << "'s control point at (" << x[0] << ", " << x[1] << ", "
+                   << x[2] << ") mm";
+            }
       }
     for (const auto &[component, number] : configuration.chuck_unknowns)
       if (static_cast<int>(number) == worst)

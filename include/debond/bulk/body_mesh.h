@@ -6,7 +6,7 @@
 #include <debond/geometry/nurbs_surface.h>
 
 #include <array>
-#include <memory>
+#include <map>
 #include <vector>
 
 namespace Debond
@@ -140,7 +140,7 @@ namespace Debond
     void
     number_nodes();
     void
-    collect_cells();
+    complete_cells();
     void
     make_constraints();
 
@@ -148,16 +148,14 @@ namespace Debond
     const Side           body_side;
     const NurbsSurface   contact_surface;
 
-    /** deal.II's objects: triangulation, element, numbering, constraints. */
-    struct Grid;
-    std::shared_ptr<Grid> grid;
-
     /** Lattice index (i, j, layer from the contact face) of each vertex node.
      */
     std::vector<std::array<unsigned int, 3>> lattice;
     std::vector<Eigen::Vector3d>             reference_positions;
     std::vector<bool>                        fixed;
-    std::vector<Cell>                        bulk_cells;
+    /** What the vertices of the contact surface follow. */
+    std::map<unsigned int, SurfaceBasis> tied;
+    std::vector<Cell>                    bulk_cells;
   };
 } // namespace Debond
 #endif

@@ -15,26 +15,20 @@ namespace Debond
 {
   class EntryTable;
 
-  namespace Names
-  {
-    /** In a class of its own: found as ChuckComponent::rotation_z only. */
-    struct ChuckComponents
-    {
-      enum Component : unsigned int
-      {
-        translation_x,
-        translation_y,
-        translation_z,
-        rotation_x,
-        rotation_y,
-        rotation_z
-      };
-    };
-  } // namespace Names
-
   /** The six motions of the chuck, and the forces and moments conjugate to
    *  them, in the order of every vector of them. */
-  using ChuckComponent = Names::ChuckComponents::Component;
+  struct ChuckComponent
+  {
+    enum : unsigned int
+    {
+      translation_x,
+      translation_y,
+      translation_z,
+      rotation_x,
+      rotation_y,
+      rotation_z
+    };
+  };
 
   /** Whether a component is an angle or a moment. */
   constexpr bool
@@ -229,12 +223,6 @@ namespace Debond
     {
       return is_rotation(k) ? axis(k).cross(x - centre()) :
                               Eigen::Vector3d::Unit(k);
-    }
-    /** The same for a direction carried along: 0, or b_k x d. */
-    Eigen::Vector3d
-    velocity_of_direction(const unsigned int k, const Eigen::Vector3d &d) const
-    {
-      return is_rotation(k) ? axis(k).cross(d) : Eigen::Vector3d::Zero();
     }
     /** d^2 x / dq_k dq_l. */
     Eigen::Vector3d

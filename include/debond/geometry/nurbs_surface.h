@@ -84,12 +84,6 @@ namespace Debond
       return knot_vectors[0].n_basis_functions() *
              knot_vectors[1].n_basis_functions();
     }
-    std::array<unsigned int, 2>
-    n_control_points_per_direction() const
-    {
-      return {{knot_vectors[0].n_basis_functions(),
-               knot_vectors[1].n_basis_functions()}};
-    }
 
     const KnotVector &
     knots(const unsigned int direction) const

@@ -15,7 +15,7 @@ namespace Debond
     double       normal_penalty      = 585; ///< eps_n [MPa/mm]
     double       tangential_penalty  = 0;   ///< eps_t [MPa/mm], 0: as eps_n
     bool         opening_breaks_bond = false;
-    /** Never null; what a scene says of it is in friction_choice. */
+    /** Never null; made of what a scene says of it, friction_choice. */
     FrictionLawPointer friction = default_friction_law();
     FrictionLawChoice  friction_choice;
     double friction_starts_at = 0; ///< frictionless before this time
@@ -36,11 +36,6 @@ namespace Debond
     /** What governs the points. */
     ContactPointLaw
     law() const;
-
-    /** Makes the law of friction_choice, after it has been read. Throws
-     *  EntryError. */
-    void
-    create_friction();
 
     /** Refuses what makes no sense together. Throws EntryError. */
     void

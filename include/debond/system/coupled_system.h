@@ -86,11 +86,6 @@ namespace Debond
      *  and what was given to commit() with them. */
     void
     predict(double time, double parameter, bool extrapolate);
-    void
-    predict(const double time, const bool extrapolate)
-    {
-      predict(time, time, extrapolate);
-    }
     /** Puts the implant's contact unknowns back to where they are in space in
      *  the accepted state, after predict(). */
     void

@@ -3,13 +3,14 @@
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 
+#include <boost/crc.hpp>
 #include <boost/endian/conversion.hpp>
 
 #include <png.h>
 
 #include <algorithm>
 #include <charconv>
-#include <memory>
+#include <limits>
 
 namespace Debond
 {
@@ -89,6 +90,7 @@ namespace Debond
   namespace
   {
     using boost::endian::load_big_u16;
+    using boost::endian::load_big_u32;
 
     constexpr unsigned int largest_side = 10000; ///< pixels
 
@@ -126,92 +128,98 @@ namespace Debond
 
 
 
-    /** A PNG file in memory, for libpng to read from. */
-    struct PngSource
+    /** A PNG file with those chunks only that make up the picture, their sums
+     *  checked: others, such as those about colours, change no grey level. */
+    std::string
+    essence_of_png(const ImageFile &file, const std::string &bytes)
     {
-      const ImageFile   &file;
-      const std::string &bytes;
-      std::size_t        position = 0;
+      const std::size_t signature = 8, around = 12; // length, type, sum
+      if (bytes.compare(0, signature, "\x89PNG\r\n\x1a\n") != 0)
+        file.refuse("this PNG file is damaged");
+      std::string result   = bytes.substr(0, signature);
+      std::size_t position = signature;
+      for (std::string type; type != "IEND";)
+        {
+          const auto number = [&](const std::size_t from) {
+            return load_big_u32(bytes_at(bytes, position + from));
+          };
+          const std::size_t left   = bytes.size() - position;
+          const std::size_t length = left < around ? left : number(0);
+          if (left < around || length > left - around)
+            file.refuse("this PNG file is cut off");
+          type = bytes.substr(position + 4, 4);
+          boost::crc_32_type sum;
+          sum.process_bytes(bytes_at(bytes, position + 4), length + 4);
+          if (sum.checksum() != number(8 + length))
+            file.refuse("this PNG file is damaged");
+          if (type == "IHDR" && length == 13)
+            file.check_size(number(8), number(12));
+          for (const char *const wanted :
+               {"IHDR", "PLTE", "tRNS", "IDAT", "IEND"})
+            if (type == wanted)
+              result += bytes.substr(position, length + around);
+          position += length + around;
+        }
+      return result;
+    }
 
-      static void
-      read(png_structp png, png_bytep to, const std::size_t n)
-      {
-        auto &source = *static_cast<PngSource *>(png_get_io_ptr(png));
-        if (n > source.bytes.size() - source.position)
-          source.file.refuse("this PNG file is cut off");
-        std::copy_n(bytes_at(source.bytes, source.position), n, to);
-        source.position += n;
-      }
-
-      static void
-      refuse(png_structp png, const char *const why)
-      {
-        static_cast<PngSource *>(png_get_error_ptr(png))
-          ->file.refuse(std::string("this PNG file is damaged: ") + why);
-      }
-
-      static void
-      ignore(png_structp, const char *)
-      {}
-    };
 
 
-
-    // Pixels have one or more channels: grey or red, green and blue, then
-    // opacity if their number is even; what is transparent is black. libpng's
-    // simplified interface would change levels by what the file says of
-    // colours; Boost.GIL reads beyond the end of rows with fewer than 8 bits
-    // for a pixel. Errors leave libpng as exceptions, see PngSource.
-    GreyImage
-    read_png(const ImageFile &file, const std::string &bytes)
+    /** The levels of pixels with one or more channels: grey or red, green and
+     *  blue, then opacity if their number is even; what is transparent is
+     *  black. False if libpng cannot read what
+     *  png_image_begin_read_from_memory() has found. */
+    template <typename Channel>
+    bool
+    read_levels(png_image &png, std::vector<float> &levels)
     {
-      PngSource   source{file, bytes};
-      png_structp png  = png_create_read_struct(PNG_LIBPNG_VER_STRING,
-                                               &source,
-                                               PngSource::refuse,
-                                               PngSource::ignore);
-      png_infop   info = png_create_info_struct(png);
-      const std::shared_ptr<void> at_end(nullptr, [&](void *) {
-        png_destroy_read_struct(&png, &info, nullptr);
-      });
-      png_set_read_fn(png, &source, PngSource::read);
-      png_set_crc_action(png, PNG_CRC_DEFAULT, PNG_CRC_ERROR_QUIT);
-      // libpng would refuse sizes of its own choice
-      png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
-      png_read_info(png, info);
-      GreyImage image{png_get_image_width(png, info),
-                      png_get_image_height(png, info),
-                      {}};
-      file.check_size(image.width, image.height);
-      // palettes, fewer than 8 bits, and colours that stand for transparency
-      png_set_expand(png);
-      png_set_interlace_handling(png);
-      png_read_update_info(png, info);
-      const std::size_t          stride = png_get_rowbytes(png, info);
-      std::vector<unsigned char> data(stride * image.height);
-      std::vector<png_bytep>     rows;
-      for (unsigned int j = 0; j < image.height; ++j)
-        rows.push_back(&data[j * stride]);
-      png_read_image(png, rows.data());
-      png_read_end(png, nullptr);
-
-      const bool   wide  = png_get_bit_depth(png, info) == 16;
-      const double white = wide ? 65535. : 255.;
-      const auto   value = [&](const std::size_t i) -> double {
-        return wide ? load_big_u16(&data[2 * i]) : data[i];
-      };
-      const unsigned int n = png_get_channels(png, info);
-      for (std::size_t i = 0; i < data.size() / (wide ? 2 : 1); i += n)
+      std::vector<Channel> channels(PNG_IMAGE_SIZE(png) / sizeof(Channel));
+      if (png_image_finish_read(&png, nullptr, channels.data(), 0, nullptr) ==
+          0)
+        return false;
+      constexpr double   white = std::numeric_limits<Channel>::max();
+      const unsigned int n     = PNG_IMAGE_PIXEL_CHANNELS(png.format);
+      // libpng has multiplied channels of 16 bits by the opacity already
+      const bool multiply = n % 2 == 0 && sizeof(Channel) == 1;
+      for (auto pixel = channels.cbegin(); pixel != channels.cend(); pixel += n)
         {
           const double level =
             (n < 3 ?
-               value(i) :
-               (30. * value(i) + 59. * value(i + 1) + 11. * value(i + 2)) /
-                 100.) /
+               pixel[0] :
+               (30. * pixel[0] + 59. * pixel[1] + 11. * pixel[2]) / 100.) /
             white;
-          image.levels.push_back(n % 2 == 0 ? level * value(i + n - 1) / white :
-                                              level);
+          levels.push_back(multiply ? level * pixel[n - 1] / white : level);
         }
+      return true;
+    }
+
+
+
+    // libpng takes levels of 16 bits for linear in the intensity and others for
+    // sRGB: those that are asked for in the same way stay as they are.
+    // Boost.GIL reads beyond the end of rows with fewer than 8 bits for a
+    // pixel.
+    GreyImage
+    read_png(const ImageFile &file, const std::string &bytes)
+    {
+      const std::string essence = essence_of_png(file, bytes);
+      GreyImage         image;
+      png_image         png{};
+      png.version = PNG_IMAGE_VERSION;
+      bool is_read =
+        png_image_begin_read_from_memory(&png, essence.data(), essence.size());
+      if (is_read)
+        {
+          png.format &= ~PNG_FORMAT_FLAG_COLORMAP;
+          image.width  = png.width;
+          image.height = png.height;
+          is_read      = (png.format & PNG_FORMAT_FLAG_LINEAR) != 0 ?
+                           read_levels<png_uint_16>(png, image.levels) :
+                           read_levels<png_byte>(png, image.levels);
+        }
+      if (!is_read)
+        file.refuse("this file is damaged: it begins like a PNG file but "
+                    "cannot be read as one");
       return image;
     }
 

@@ -6,7 +6,6 @@
 #include <Eigen/CholmodSupport>
 
 #include <algorithm>
-#include <utility>
 
 // Static condensation by a sparse Cholesky factorisation: how a body of many
 // unknowns becomes the small matrix S that the contact face feels, station 9 of

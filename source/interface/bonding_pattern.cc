@@ -8,8 +8,6 @@
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <numeric>
 
 namespace Debond

@@ -4,7 +4,6 @@
 
 #include <Eigen/Dense>
 
-#include <cmath>
 
 namespace Debond
 {

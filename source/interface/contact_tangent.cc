@@ -97,6 +97,25 @@ namespace Debond
 
 
 
+    // The same at the control points at once, where both changes meet.
+    void
+    spread_change(const SlavePoint      &point,
+                  const Side             slave,
+                  const Vector3d        &dt,
+                  const Eigen::Vector2d &dxi,
+                  NodalSums             &sums)
+    {
+      const SurfaceBasis &basis  = point.trial.basis;
+      ControlNet         &master = sums[other(slave)];
+      const Vector3d      t      = point.JxW * point.trial.traction;
+      spread(point.basis, dt, sums[slave]);
+      for (unsigned int b = 0; b < basis.size; ++b)
+        master.col(basis.control_point[b]) -=
+          basis.N[b] * dt + (basis.N_1[b] * dxi[0] + basis.N_2[b] * dxi[1]) * t;
+    }
+
+
+
     // How the unknowns of the coupled system move w: a column dw for each that
     // does, control points of both surfaces in the frames of their bodies, and
     // components of the chuck.
@@ -228,15 +247,21 @@ namespace Debond
                                   const Eigen::VectorXd        &direction,
                                   Eigen::VectorXd              &result) const
   {
-    const NodalSums moved  = nodal_motion(direction, configuration);
-    const NodalSums change = sum_in_chunks(
-      points.size(), configuration, [&](const unsigned int q, NodalSums &sums) {
-        const SlavePoint &point = points[q];
-        if (point.trial.state.status == PointStatus::open)
-          return;
-        const auto dw = local_motion(point, slave, moved);
-        spread_local(point, slave, change_of_force(point, dw), sums);
-      });
+    const NodalSums moved = nodal_motion(direction, configuration);
+    const NodalSums change =
+      sum_in_chunks(points.size(),
+                    configuration,
+                    [&](const unsigned int q, NodalSums &sums) {
+                      const SlavePoint &point = points[q];
+                      if (point.trial.state.status == PointStatus::open)
+                        return;
+                      const auto dw = local_motion(point, slave, moved);
+                      spread_change(point,
+                                    slave,
+                                    point.JxW * (point.trial.dt * dw),
+                                    point.trial.dxi * dw,
+                                    sums);
+                    });
     add_in_unknowns(change, configuration, 1., result);
   }
 

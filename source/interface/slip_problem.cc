@@ -1,5 +1,4 @@
 #include <debond/interface/slip_problem.h>
-#include <debond/support/skew.h>
 
 #include <Eigen/Dense>
 
@@ -12,41 +11,14 @@ namespace Debond
   using Eigen::Vector2d;
   using Eigen::Vector3d;
 
-  // The tangents a_1 and a_2 follow from the parametrisation, Eq. (23), and so
-  // does the side to which their cross product points. The normal, Eq. (24), is
-  // to point to the slave whatever that is: on the disk's side it is turned.
-  MasterNormal::MasterNormal(const SurfaceGeometry &geometry,
-                             const double           outward_sign)
-    : geometry(geometry)
-  {
-    const Vector3d m = geometry.a1.cross(geometry.a2);
-    scale            = outward_sign / m.norm();
-    n                = scale * m;
-  }
-
-
-
   // What changes along a_1 x a_2 only makes it longer, and a unit vector has no
   // part in that: dn = (1 - n n^T) dm / |m| with m = a_1 x a_2.
-  Vector3d
+  inline Vector3d
   MasterNormal::change(const Vector3d &da1, const Vector3d &da2) const
   {
     const Vector3d dm =
       scale * (da1.cross(geometry.a2) + geometry.a1.cross(da2));
     return dm - n * n.dot(dm);
-  }
-
-
-
-  // The same as a matrix, for all six components of the tangents at once. With
-  // skew(a) b = a x b the change of a_1 x a_2 is -skew(a_2) da_1 + skew(a_1)
-  // da_2.
-  Eigen::Matrix<double, 3, 6>
-  MasterNormal::derivative() const
-  {
-    Eigen::Matrix<double, 3, 6> dm;
-    dm << -scale * skew(geometry.a2), scale * skew(geometry.a1);
-    return dm - n * (n.transpose() * dm);
   }
 
 
@@ -66,13 +38,13 @@ namespace Debond
   // needs the other. First comes the gap g = x - y, Eq. (26), and its part
   // along the normal there, Eq. (27), which gives the pressure; then the
   // direction of slip; then the traction that friction allows.
-  SlipEquations::SlipEquations(const ContactPointLaw &law,
-                               const PointFriction   &friction,
-                               const PointHistory    &history,
-                               const Vector3d        &x,
-                               const Vector3d        &y_old,
-                               const SurfaceGeometry &geometry,
-                               const double           outward_sign)
+  inline SlipEquations::SlipEquations(const ContactPointLaw &law,
+                                      const PointFriction   &friction,
+                                      const PointHistory    &history,
+                                      const Vector3d        &x,
+                                      const Vector3d        &y_old,
+                                      const SurfaceGeometry &geometry,
+                                      const double           outward_sign)
     : slip(geometry.y - y_old)
     , distance(slip.norm()) // the last term of the sum in Eq. (32)
     , law(law)
@@ -98,7 +70,7 @@ namespace Debond
   // the gap of the step before in its place. Then the new gap is parallel to
   // the old one, and slip never turns away from the direction in which it once
   // began, say that of the push-in; for comparison that gap can be given.
-  void
+  inline void
   SlipEquations::find_direction()
   {
     direction_is_given = !friction.slip_direction.isZero(0.);
@@ -127,7 +99,7 @@ namespace Debond
   // traction is the limit t_t = (mu p + eta V) tau, Eq. (30), V being that
   // length over the duration of the step. What the gap is more than the elastic
   // t_t / eps_t, its excess, must have no part in the surface, Eq. (29).
-  void
+  inline void
   SlipEquations::find_traction()
   {
     // The length of y - y_n has a derivative along its own direction; where
@@ -174,7 +146,7 @@ namespace Debond
   // It follows the evaluation above line by line: g_n, limit, tau, t_t, excess,
   // and in the end the traction t = -p n + t_t and h.
   template <int N>
-  SlipEquations::Derivative<N>
+  inline SlipEquations::Derivative<N>
   SlipEquations::along(const Eigen::Matrix<double, 3, N> &dgap,
                        const Eigen::Matrix<double, 3, N> &dtrial,
                        const Eigen::Matrix<double, 3, N> &dn,
@@ -227,7 +199,7 @@ namespace Debond
   // of (x - y, x - y_n, a_1, a_2), 12 numbers instead of 15, and its columns
   // are then dealt out: x gets those of both gaps, y and y_n theirs with the
   // opposite sign.
-  SlipEquations::Derivative<15>
+  inline SlipEquations::Derivative<15>
   SlipEquations::along_w() const
   {
     using Vectors = Eigen::Matrix<double, 3, 12>;
@@ -255,7 +227,7 @@ namespace Debond
 
   // With respect to xi_hat: y moves along the tangents, and the tangents change
   // with the second derivatives of the surface, a_alpha,beta. x and y_n stay.
-  SlipEquations::Derivative<2>
+  inline SlipEquations::Derivative<2>
   SlipEquations::along_surface() const
   {
     const SurfaceGeometry      &y = geometry;
@@ -404,7 +376,7 @@ namespace Debond
 
   // Second derivatives of the surface are needed for along_surface() only, but
   // there in every iteration.
-  void
+  inline void
   SlipProblem::evaluate(const Vector2d &xi, SurfaceBasis &basis)
   {
     master.surface->evaluate(xi, basis, true);
@@ -417,7 +389,7 @@ namespace Debond
 
   // h has the unit of a_alpha times a length. Over |a_alpha| it is the distance
   // in the surface by which the gap misses what is asked of it [mm].
-  double
+  inline double
   SlipProblem::distance_error() const
   {
     return Vector2d(equations->h[0] / geometry.a1.norm(),

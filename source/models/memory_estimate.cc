@@ -140,11 +140,15 @@ namespace Debond
 
 
 
+    /** Two digits: it is an estimate. */
     std::string
     in_words(const double MB)
     {
-      return MB < 1e3 ? to_text(std::round(MB)) + " MB" :
-                        to_text(0.1 * std::round(1e-2 * MB)) + " GB";
+      const double number = MB < 1e3 ? MB : 1e-3 * MB;
+      const double unit =
+        std::pow(10., std::floor(std::log10(std::max(number, 1.))) - 1.);
+      return to_text(unit * std::round(number / unit)) +
+             (MB < 1e3 ? " MB" : " GB");
     }
   } // namespace
 

@@ -5,7 +5,6 @@
 #include <debond/scene/scene.h>
 #include <debond/support/number_text.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <utility>

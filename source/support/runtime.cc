@@ -1,6 +1,5 @@
 #include <debond/support/runtime.h>
 
-#include <deal.II/base/exceptions.h>
 #include <deal.II/base/utilities.h>
 
 #include <csignal>

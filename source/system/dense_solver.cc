@@ -6,7 +6,6 @@
 #include <deal.II/lac/vector.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 
 // The linear solver: deal.II's GMRES for A x = b, A = B + C, unsymmetric and

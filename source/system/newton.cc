@@ -1,7 +1,6 @@
 #include <debond/system/newton.h>
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 
 // Station 5 of doc/walk.md: deal.II's solve_nonlinear_timestep of step-44 for

@@ -3,6 +3,9 @@
 
 #include <debond/geometry/surface_geometry.h>
 #include <debond/interface/contact_point_state.h>
+#include <debond/support/skew.h>
+
+#include <Eigen/Dense>
 
 #include <optional>
 
@@ -29,6 +32,33 @@ namespace Debond
     Eigen::Vector3d        n;
     double                 scale; ///< n = scale * a_1 x a_2
   };
+
+
+
+  // The tangents a_1 and a_2 follow from the parametrisation, Eq. (23), and so
+  // does the side to which their cross product points. The normal, Eq. (24), is
+  // to point to the slave whatever that is: on the disk's side it is turned.
+  inline MasterNormal::MasterNormal(const SurfaceGeometry &geometry,
+                                    const double           outward_sign)
+    : geometry(geometry)
+  {
+    const Eigen::Vector3d m = geometry.a1.cross(geometry.a2);
+    scale                   = outward_sign / m.norm();
+    n                       = scale * m;
+  }
+
+
+
+  // The same as a matrix, for all six components of the tangents at once. With
+  // skew(a) b = a x b the change of a_1 x a_2 is -skew(a_2) da_1 + skew(a_1)
+  // da_2.
+  inline Eigen::Matrix<double, 3, 6>
+  MasterNormal::derivative() const
+  {
+    Eigen::Matrix<double, 3, 6> dm;
+    dm << -scale * skew(geometry.a2), scale * skew(geometry.a1);
+    return dm - n * (n.transpose() * dm);
+  }
 
 
 

@@ -3,7 +3,6 @@
 
 #include <debond/support/input_error.h>
 
-#include <string>
 
 namespace Debond
 {

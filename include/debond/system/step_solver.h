@@ -5,7 +5,6 @@
 #include <debond/system/newton.h>
 #include <debond/system/step_control.h>
 
-#include <string>
 #include <vector>
 
 namespace Debond

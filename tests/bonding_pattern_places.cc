@@ -4,7 +4,7 @@
 
 #include <debond/bulk/body_mesh.h>
 #include <debond/interface/bonding_pattern.h>
-#include <debond/interface/grey_image.h>
+#include <debond/interface/bonding_source.h>
 #include <debond/scene/scene.h>
 #include <debond/support/input_error.h>
 

@@ -1,7 +1,7 @@
 // No byte of a PNG file can be changed or cut off unnoticed; interlaced
 // pictures are read as others are.
 
-#include <debond/interface/grey_image.h>
+#include <debond/interface/bonding_source.h>
 #include <debond/support/input_error.h>
 
 #include <algorithm>

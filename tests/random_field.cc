@@ -1,7 +1,7 @@
 // Random numbers for bonding patterns: the same on every machine, without
 // favour, and a field with the correlation it is said to have.
 
-#include <debond/interface/random_field.h>
+#include <debond/interface/bonding_source.h>
 
 #include "checks.h"
 

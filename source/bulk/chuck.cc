@@ -1,7 +1,7 @@
 #include <debond/bulk/chuck.h>
+#include <debond/geometry/surface_geometry.h>
 #include <debond/input/entry_table.h>
 #include <debond/support/input_error.h>
-#include <debond/support/skew.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
+#include <debond/campaigns/ensemble.h>
 #include <debond/campaigns/variant.h>
 #include <debond/output/torque_curve.h>
-#include <debond/support/sample_statistics.h>
 
 #include <filesystem>
 

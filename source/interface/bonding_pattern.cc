@@ -2,7 +2,6 @@
 #include <debond/bulk/body_parameters.h>
 #include <debond/interface/bonding_pattern.h>
 #include <debond/interface/bonding_source.h>
-#include <debond/interface/random_field.h>
 #include <debond/support/number_text.h>
 
 #include <deal.II/base/quadrature_lib.h>

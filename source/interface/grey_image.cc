@@ -1,5 +1,5 @@
 #include <debond/input/input_file.h>
-#include <debond/interface/grey_image.h>
+#include <debond/interface/bonding_source.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 

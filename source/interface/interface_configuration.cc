@@ -1,5 +1,8 @@
 #include <debond/bulk/chuck.h>
+#include <debond/geometry/closest_point.h>
 #include <debond/interface/interface_configuration.h>
+
+#include <algorithm>
 
 namespace Debond
 {
@@ -71,5 +74,101 @@ namespace Debond
         factor * sums[Side::implant]
                    .cwiseProduct(velocities(configuration, component))
                    .sum();
+  }
+
+
+
+  namespace
+  {
+    // The control points that belong to the marked elements.
+    std::vector<bool>
+    control_points_of(const NurbsSurface      &surface,
+                      const std::vector<bool> &elements)
+    {
+      std::vector<bool>  result(surface.n_control_points(), false);
+      const unsigned int n = (surface.degree() + 1) * (surface.degree() + 1);
+      for (unsigned int element = 0; element < elements.size(); ++element)
+        for (unsigned int a = 0; elements[element] && a < n; ++a)
+          result[surface.element_control_points(element)[a]] = true;
+      return result;
+    }
+
+
+
+    // Marks what lies between marked elements of a row or column: outlines of
+    // implants are convex, but samples may miss cells that grading made small.
+    void
+    fill_gaps(std::vector<bool> &marked, const std::array<unsigned int, 2> &n)
+    {
+      const std::array<unsigned int, 2> stride{{1, n[0]}};
+      for (unsigned int d = 0; d < 2; ++d)
+        for (unsigned int line = 0; line < n[1 - d]; ++line)
+          {
+            const auto element = [&](const unsigned int i) {
+              return i * stride[d] + line * stride[1 - d];
+            };
+            unsigned int first = 0, end = n[d];
+            while (first < end && !marked[element(first)])
+              ++first;
+            while (end > first && !marked[element(end - 1)])
+              --end;
+            for (unsigned int i = first; i < end; ++i)
+              marked[element(i)] = true;
+          }
+    }
+  } // namespace
+
+
+
+  std::vector<bool>
+  bone_control_points_under_implant(const NurbsSurface           &bone,
+                                    const NurbsSurface           &implant,
+                                    const InterfaceConfiguration &configuration)
+  {
+    std::vector<bool> under(bone.n_elements(), false);
+    // dense enough to meet every element of the bone that the edge crosses
+    unsigned int samples = 0;
+    for (const NurbsSurface *surface : {&bone, &implant})
+      for (const unsigned int n : surface->n_elements_per_direction())
+        samples = std::max(samples, 4 * n);
+    SurfaceBasis    basis;
+    Eigen::Vector2d guess(0.5, 0.5);
+    for (unsigned int j = 0; j <= samples; ++j)
+      for (unsigned int i = 0; i <= samples; ++i)
+        {
+          implant.evaluate({double(i) / samples, double(j) / samples},
+                           basis,
+                           false);
+          const ClosestPoint closest = closest_point(
+            bone,
+            configuration.side[Side::bone].positions,
+            interpolate(basis, configuration.side[Side::implant].positions),
+            &guess);
+          guess                              = closest.xi;
+          under[bone.element_of(closest.xi)] = true;
+        }
+    fill_gaps(under, bone.n_elements_per_direction());
+    return control_points_of(bone, under);
+  }
+
+
+
+  std::vector<bool>
+  touched_bone_control_points(const NurbsSurface            &bone,
+                              const std::vector<SlavePoint> &points,
+                              const Side                     slave)
+  {
+    std::vector<bool> touched(bone.n_elements(), false);
+    for (const SlavePoint &point : points)
+      {
+        const ContactPointResult &trial = point.trial;
+        if (trial.state.status == PointStatus::open)
+          continue;
+        const bool is_slave = slave == Side::bone;
+        touched[is_slave ? point.element : trial.basis.element] = true;
+        if (!is_slave && trial.state.status == PointStatus::slip)
+          touched[trial.old_basis.element] = true;
+      }
+    return control_points_of(bone, touched);
   }
 } // namespace Debond

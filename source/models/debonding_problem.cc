@@ -7,8 +7,8 @@
 #include <debond/output/field_output.h>
 #include <debond/support/interruption.h>
 #include <debond/support/number_text.h>
+#include <debond/support/runtime.h>
 #include <debond/support/serialization.h>
-#include <debond/support/timed_section.h>
 
 #include <nlohmann/json.hpp>
 

@@ -2,7 +2,7 @@
 #include <debond/models/simulation.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
-#include <debond/support/timed_section.h>
+#include <debond/support/runtime.h>
 
 #include <algorithm>
 #include <cmath>

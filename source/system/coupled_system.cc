@@ -1,5 +1,5 @@
-#include <debond/interface/contact_zone.h>
-#include <debond/support/timed_section.h>
+#include <debond/interface/interface_configuration.h>
+#include <debond/support/runtime.h>
 #include <debond/system/coupled_system.h>
 
 #include <Eigen/Geometry>

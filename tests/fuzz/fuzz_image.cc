@@ -1,7 +1,7 @@
 // Fuzz target: pictures, PNG and PGM. The check sums of PNG files, which no
 // mutation keeps, are put right first.
 
-#include <debond/interface/grey_image.h>
+#include <debond/interface/bonding_source.h>
 
 #include <boost/crc.hpp>
 

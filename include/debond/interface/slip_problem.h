@@ -3,7 +3,6 @@
 
 #include <debond/geometry/surface_geometry.h>
 #include <debond/interface/contact_point_state.h>
-#include <debond/support/skew.h>
 
 #include <Eigen/Dense>
 

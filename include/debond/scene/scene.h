@@ -3,7 +3,7 @@
 
 #include <debond/input/scene_file.h>
 #include <debond/support/input_error.h>
-#include <debond/system/model_parameters.h>
+#include <debond/system/load_step_parameters.h>
 
 #include <iosfwd>
 #include <string>

@@ -3,8 +3,11 @@
 
 #include <deal.II/base/multithread_info.h>
 #include <deal.II/base/parallel.h>
+#include <deal.II/base/timer.h>
 
 #include <filesystem>
+#include <optional>
+#include <string>
 
 namespace Debond
 {
@@ -70,5 +73,22 @@ namespace Debond
   double
   memory_within_control_groups_MB(const std::filesystem::path &groups,
                                   const std::filesystem::path &mount);
+
+
+
+  /** From here to the end of the block, seconds go to a section of a timer if
+   *  there is one. Nothing that is computed depends on it. */
+  class TimedSection
+  {
+  public:
+    TimedSection(dealii::TimerOutput *const timer, const std::string &name)
+    {
+      if (timer != nullptr)
+        scope.emplace(*timer, name);
+    }
+
+  private:
+    std::optional<dealii::TimerOutput::Scope> scope;
+  };
 } // namespace Debond
 #endif

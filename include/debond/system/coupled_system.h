@@ -5,7 +5,7 @@
 #include <debond/bulk/chuck.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/system/coupled_tangent.h>
-#include <debond/system/model_parameters.h>
+#include <debond/system/load_step_parameters.h>
 
 #include <memory>
 #include <string>

@@ -1,10 +1,6 @@
 #include <debond/campaigns/ensemble.h>
-#include <debond/campaigns/variant.h>
 #include <debond/input/csv_table.h>
 #include <debond/support/number_text.h>
-
-#include <boost/math/statistics/univariate_statistics.hpp>
-#include <boost/range/algorithm_ext/erase.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,36 +8,6 @@
 
 namespace Debond
 {
-  SampleStatistics
-  sample_statistics(std::vector<double> values)
-  {
-    boost::remove_erase_if(values,
-                           [](const double x) { return !std::isfinite(x); });
-    std::sort(values.begin(), values.end());
-
-    SampleStatistics result;
-    result.n = values.size();
-    if (result.n == 0)
-      return result;
-    result.mean = boost::math::statistics::mean(values);
-    if (result.n > 1)
-      result.sd = std::sqrt(boost::math::statistics::sample_variance(values));
-
-    const auto quantile = [&values](const double p) {
-      const double      position = p * (values.size() - 1);
-      const std::size_t below    = std::floor(position);
-      const std::size_t above    = std::min(below + 1, values.size() - 1);
-      return values[below] +
-             (position - below) * (values[above] - values[below]);
-    };
-    result.p05 = quantile(0.05);
-    result.p50 = quantile(0.50);
-    result.p95 = quantile(0.95);
-    return result;
-  }
-
-
-
   TorqueBand::TorqueBand(const std::vector<ReferenceCurve> &curves)
   {
     // differences of angles below this are rounding errors [deg]

@@ -1,7 +1,5 @@
 #include <debond/interface/slip_problem.h>
 
-#include <Eigen/Dense>
-
 #include <cmath>
 #include <limits>
 

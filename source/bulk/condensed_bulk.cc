@@ -2,6 +2,9 @@
 #include <debond/bulk/condensation.h>
 #include <debond/bulk/enriched_cells.h>
 
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+
+#include <algorithm>
 #include <utility>
 
 // The bulk of a body that deforms: hexahedra with a NURBS face (Corbett and
@@ -51,18 +54,32 @@ namespace Debond
               free_number[dof] = free_dofs.size();
               free_dofs.push_back(dof);
             }
-        // The pattern of K, which is made once: zeros that stay in it, so that
-        // later nothing has to be inserted. The lower triangle is stored,
-        // column by column, as CHOLMOD wants it; some 42 entries in a column of
-        // trilinear cells, more in the contact layer.
-        tangent.resize(free_dofs.size(), free_dofs.size());
-        tangent.reserve(Eigen::VectorXi::Constant(free_dofs.size(), 60));
+        // The pattern of K, which is made once. Cells couple all their degrees
+        // of freedom with each other; the lower triangle is stored, column by
+        // column, as CHOLMOD wants it. Rows of the pattern are columns of K:
+        // entry (j, i), i >= j, is put into row j.
+        dealii::DynamicSparsityPattern pattern(free_dofs.size());
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
           {
-            const unsigned int n = 3 * cells.n_nodes(cell);
-            add_to_tangent(cell, Eigen::MatrixXd::Zero(n, n));
+            std::vector<dealii::types::global_dof_index> numbers;
+            for (const int number : free_numbers(cell))
+              if (number >= 0)
+                numbers.push_back(number);
+            std::sort(numbers.begin(), numbers.end());
+            for (auto i = numbers.begin(); i != numbers.end(); ++i)
+              pattern.add_entries(*i, i, numbers.end(), true);
           }
-        tangent.makeCompressed();
+        // The same as Eigen's matrix, with zeros that stay in the pattern, so
+        // that coeffRef() below never has to insert.
+        tangent.resize(free_dofs.size(), free_dofs.size());
+        tangent.reserve(pattern.n_nonzero_elements());
+        for (int column = 0; column < tangent.cols(); ++column)
+          {
+            tangent.startVec(column);
+            for (unsigned int k = 0; k < pattern.row_length(column); ++k)
+              tangent.insertBack(pattern.column_number(column, k), column) = 0.;
+          }
+        tangent.finalize();
       }
 
       // c: the free components of these control points. Their order here is the
@@ -103,8 +120,16 @@ namespace Debond
         Eigen::MatrixXd K;
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
           {
+            // The cell's K is full and symmetric. Rows of fixed components are
+            // left out, and of each pair of equal entries the one below the
+            // diagonal of the whole matrix is taken; the order of a cell's
+            // nodes is not that of the free numbers.
+            const auto numbers = free_numbers(cell);
             cells.tangent(cell, v, K);
-            add_to_tangent(cell, K);
+            for (unsigned int j = 0; j < numbers.size(); ++j)
+              for (unsigned int i = 0; i < numbers.size(); ++i)
+                if (numbers[j] >= 0 && numbers[i] >= numbers[j])
+                  tangent.coeffRef(numbers[i], numbers[j]) += K(i, j);
           }
         // The unknowns are those of the last set_contact(): condensing is where
         // their choice takes effect.
@@ -254,21 +279,16 @@ namespace Debond
       }
 
     private:
-      /** Adds what one cell contributes. Its K is full and symmetric. Rows of
-       *  fixed components are left out, and of each pair of equal entries the
-       *  one below the diagonal of the whole matrix is taken; the order of a
-       *  cell's nodes is not that of the free numbers. */
-      void
-      add_to_tangent(const unsigned int cell, const Eigen::MatrixXd &K)
+      /** Numbers of a cell's degrees of freedom among the free ones, -1: fixed.
+       */
+      std::vector<int>
+      free_numbers(const unsigned int cell) const
       {
-        std::vector<int> numbers; // -1: fixed
+        std::vector<int> numbers;
         for (unsigned int a = 0; a < cells.n_nodes(cell); ++a)
           for (unsigned int c = 0; c < 3; ++c)
             numbers.push_back(free_number[3 * cells.nodes(cell)[a] + c]);
-        for (unsigned int j = 0; j < numbers.size(); ++j)
-          for (unsigned int i = 0; i < numbers.size(); ++i)
-            if (numbers[j] >= 0 && numbers[i] >= numbers[j])
-              tangent.coeffRef(numbers[i], numbers[j]) += K(i, j);
+        return numbers;
       }
 
       const BodyMesh           &mesh;

@@ -4,7 +4,7 @@
 // should be, an affine map, and closest points that are found.
 
 #include <debond/bulk/body_mesh.h>
-#include <debond/geometry/closest_point.h>
+#include <debond/geometry/surface_geometry.h>
 #include <debond/geometry/surface_geometry.h>
 
 #include <Eigen/Geometry>

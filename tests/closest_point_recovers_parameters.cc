@@ -1,7 +1,7 @@
 // The closest point projection recovers the parameters of points set off along
 // the normal, tells points beyond the edge, finds ridges and always ends.
 
-#include <debond/geometry/closest_point.h>
+#include <debond/geometry/surface_geometry.h>
 
 #include <Eigen/Geometry>
 

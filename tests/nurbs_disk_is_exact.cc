@@ -1,7 +1,7 @@
 // The disk is exact: its edges are on the circle, its area is pi R^2 and its
 // normal is +z, as one element and refined.
 
-#include <debond/geometry/closest_point.h>
+#include <debond/geometry/surface_geometry.h>
 
 #include <deal.II/base/quadrature_lib.h>
 

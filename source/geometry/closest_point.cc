@@ -1,4 +1,4 @@
-#include <debond/geometry/closest_point.h>
+#include <debond/geometry/surface_geometry.h>
 
 #include <Eigen/Dense>
 
@@ -110,10 +110,11 @@ namespace Debond
           H.determinant() > 1e-13 * H(0, 0) * H(1, 1))
         return H;
       const double shift = 1e-8 * s.lengths.squaredNorm() + least_curvature;
-      const Eigen::SelfAdjointEigenSolver<Matrix2d> eigen(H);
-      const Matrix2d                               &V = eigen.eigenvectors();
-      return V * eigen.eigenvalues().cwiseAbs().asDiagonal() * V.transpose() +
-             shift * Matrix2d::Identity();
+      // |H| is the root of H^2; P^2 - tr(P) P + det(P) I = 0 for P = |H|
+      const double   det   = std::abs(H.determinant());
+      const double   trace = std::sqrt(H.squaredNorm() + 2. * det);
+      const Matrix2d I     = Matrix2d::Identity();
+      return (H * H + det * I) / std::max(trace, least_curvature) + shift * I;
     }
 
 

@@ -1,5 +1,5 @@
 #include <debond/bulk/body_parameters.h>
-#include <debond/geometry/closest_point.h>
+#include <debond/geometry/surface_geometry.h>
 #include <debond/input/csv_table.h>
 #include <debond/input/expression_parser.h>
 #include <debond/interface/bonding_source.h>

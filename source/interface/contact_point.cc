@@ -1,4 +1,3 @@
-#include <debond/geometry/closest_point.h>
 #include <debond/interface/contact_point.h>
 #include <debond/interface/slip_problem.h>
 

@@ -1,5 +1,4 @@
 #include <debond/bulk/chuck.h>
-#include <debond/geometry/closest_point.h>
 #include <debond/interface/interface_configuration.h>
 
 #include <algorithm>

@@ -189,7 +189,9 @@ namespace Debond
             A.row(i) *= weight;
             b.row(i) << weight * neighbour.pressure, weight * neighbour.slip;
           }
-        const Eigen::MatrixXd c = A.colPivHouseholderQr().solve(b);
+        // (coordinates are scaled: the normal equations are good enough)
+        const Eigen::MatrixXd c =
+          (A.transpose() * A).ldlt().solve(A.transpose() * b);
         return c.row(0).transpose();
       }
 

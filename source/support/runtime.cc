@@ -2,7 +2,15 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <csignal>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <string>
 
 // Declared here because the headers of OpenBLAS declare LAPACK, too, and
 // because this program does not use OpenMP itself.
@@ -55,5 +63,111 @@ namespace Debond
     dealii::Utilities::System::MemoryStats memory;
     dealii::Utilities::System::get_memory_stats(memory);
     return memory.VmHWM / 1024.; // from kB
+  }
+
+
+
+  namespace
+  {
+    constexpr double no_limit = std::numeric_limits<double>::infinity();
+
+
+
+    /** The number behind a name in a file of lines `name number`; 0 if it is
+     *  not there. */
+    double
+    entry(const std::filesystem::path &filename, const std::string &wanted)
+    {
+      std::ifstream file(filename);
+      std::string   name, rest;
+      double        number = 0.;
+      while (file >> name >> number && std::getline(file, rest))
+        if (name == wanted)
+          return number;
+      return 0.;
+    }
+
+
+
+    /** What a limit of the address space leaves [bytes]. */
+    double
+    memory_within_limit()
+    {
+      rlimit limit{};
+      if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+        return no_limit;
+      double pages = 0.;
+      std::ifstream("/proc/self/statm") >> pages;
+      return std::max(0., limit.rlim_cur - pages * sysconf(_SC_PAGESIZE));
+    }
+
+
+
+    /** What the limit of one control group of version 1 or 2 leaves
+     *  [bytes]. */
+    double
+    memory_within(const std::filesystem::path &group, const bool is_version_2)
+    {
+      double limit = 0., taken = 0.;
+      // without a limit the file says `max', or is not there
+      if (!(std::ifstream(group / (is_version_2 ? "memory.max" :
+                                                  "memory.limit_in_bytes")) >>
+            limit) ||
+          !(std::ifstream(group / (is_version_2 ? "memory.current" :
+                                                  "memory.usage_in_bytes")) >>
+            taken))
+        return no_limit;
+      // in version 1 these are sums over the groups that it holds
+      const std::string prefix = is_version_2 ? "" : "total_";
+      for (const char *const files : {"inactive_file", "active_file"})
+        taken -= entry(group / "memory.stat", prefix + files);
+      return std::max(0., limit - std::max(0., taken));
+    }
+  } // namespace
+
+
+
+  double
+  memory_within_control_groups_MB(const std::filesystem::path &groups,
+                                  const std::filesystem::path &mount)
+  {
+    double        bytes = no_limit;
+    std::ifstream file(groups);
+    // number:controllers:path, version 2 being `0::path'
+    for (std::string line; std::getline(file, line);)
+      {
+        std::istringstream fields(line);
+        std::string        number, controllers, path;
+        std::getline(fields, number, ':');
+        std::getline(fields, controllers, ':');
+        std::getline(fields, path);
+        const bool is_version_2 = number == "0" && controllers.empty();
+        if (!is_version_2 && controllers != "memory")
+          continue;
+        const auto top = is_version_2 ? mount : mount / "memory";
+        // in a container, of these only the last may be there
+        for (std::filesystem::path group = path;; group = group.parent_path())
+          {
+            bytes = std::min(bytes,
+                             memory_within(top / group.relative_path(),
+                                           is_version_2));
+            if (!group.has_relative_path())
+              break;
+          }
+      }
+    return 1e-6 * bytes;
+  }
+
+
+
+  double
+  available_memory_MB()
+  {
+    // what the system says it could give away without swapping
+    const double kB = entry("/proc/meminfo", "MemAvailable:");
+    return std::min(
+      {kB > 0. ? 1024e-6 * kB : no_limit,
+       1e-6 * memory_within_limit(),
+       memory_within_control_groups_MB("/proc/self/cgroup", "/sys/fs/cgroup")});
   }
 } // namespace Debond

@@ -4,7 +4,6 @@
 #include <debond/interface/bonding_pattern.h>
 #include <debond/interface/interface_configuration.h>
 #include <debond/interface/interface_parameters.h>
-#include <debond/interface/slave_point.h>
 
 #include <memory>
 #include <string>

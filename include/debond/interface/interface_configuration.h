@@ -2,8 +2,7 @@
 #define debond_interface_interface_configuration_h
 
 #include <debond/bulk/side.h>
-#include <debond/geometry/nurbs_surface.h>
-#include <debond/interface/slave_point.h>
+#include <debond/interface/contact_point.h>
 #include <debond/support/runtime.h>
 
 #include <array>

@@ -145,6 +145,46 @@ namespace Debond
 
 
 
+  // A point beyond the edge of the master that the step takes over it begins to
+  // interact where it crosses the edge, and what it moves along the surface
+  // from there on counts as slip. Starting where the step ends it would have no
+  // tangential gap, and friction would depend on the size of the steps.
+  //
+  // Both surfaces go straight from the accepted state to the trial state; the
+  // share of the step at which the point first faces the master is found by
+  // bisection. Few points cross in a step, so that this may take its time. The
+  // tangent takes xi_hat^n as fixed in the surface.
+  ContactPointState
+  ContactInterface::entry(const SlavePoint             &point,
+                          const InterfaceConfiguration &configuration) const
+  {
+    ContactPointState start = point.accepted;
+    const auto        faces = [&](const double share) {
+      const auto between = [&](const Side side) -> ControlNet {
+        return (1. - share) * accepted_positions[side] +
+               share * configuration.side[side].positions;
+      };
+      const ControlNet positions = between(master_side());
+      MasterSurface    surface   = master(configuration);
+      surface.positions          = &positions;
+      const Projection projection =
+        project(surface, interpolate(point.basis, between(slave)), &start.xi);
+      if (projection.faces)
+        start.xi = projection.xi;
+      return projection.faces;
+    };
+    start.has_partner = faces(1.);
+    double outside = 0., inside = 1.;
+    while (start.has_partner && inside - outside > 1e-9)
+      {
+        const double share                = 0.5 * (inside + outside);
+        (faces(share) ? inside : outside) = share;
+      }
+    return start;
+  }
+
+
+
   // Every point of a surface is a convex combination of control points, so none
   // moves further than the control point that moves most.
   //
@@ -212,6 +252,11 @@ namespace Debond
           leave_open(law, point.accepted, point.trial);
           return;
         }
+      ContactPointState entered;
+      if (!point.accepted.has_partner)
+        entered = entry(point, configuration);
+      const ContactPointState &start =
+        point.accepted.has_partner ? point.accepted : entered;
       // the previous gap of Eq. (31) as printed has the direction of the
       // previous traction, which is kept in the frame of the master
       ContactPointMode mode_here = mode;
@@ -223,7 +268,7 @@ namespace Debond
       const Eigen::Vector3d x =
         interpolate(point.basis, sides[slave].positions);
       update_contact_point(
-        law, point.accepted, point.phi_0, x, surface, mode_here, point.trial);
+        law, start, point.phi_0, x, surface, mode_here, point.trial);
       if (point.trial.state.status == PointStatus::open)
         return;
       // f_A = int N_A t dA on the slave, and the opposite on the master at
@@ -455,8 +500,14 @@ namespace Debond
     // did: up to all of its stored energy may have gone into friction, which
     // cannot be told from the two ends of the step.
     const bool opens = trial.state.status == PointStatus::open;
+    // One that goes over the edge is rubbed on the way there, and lets go of
+    // the bulk as well: no more than its force times that way.
     if (opens)
-      friction_bound += point.JxW * point.accepted_energy;
+      friction_bound +=
+        point.JxW *
+        (point.accepted_energy +
+         std::hypot(point.accepted_pressure, point.accepted_traction.norm()) *
+           trial.path_over_edge);
     if (opens || mode.frictionless)
       return;
     // The law is integrated over the distance that the point slides, from its

@@ -35,7 +35,8 @@ namespace Debond
     // out of forces and tangent.
     result.traction = result.tangential_traction = result.viscous_traction =
       result.slip_increment                      = Vector3d::Zero();
-    result.normal_gap = result.pressure = result.energy = result.softening = 0.;
+    result.normal_gap = result.pressure = result.energy = result.softening =
+      result.path_over_edge                             = 0.;
     result.dt.setZero();
     result.dxi.setZero();
   }
@@ -110,28 +111,11 @@ namespace Debond
     struct PointStep
     {
       const ContactPointLaw   &law;
-      const ContactPointState &old_state;
+      const ContactPointState &start;
       const Vector3d          &x;
       const MasterSurface     &master;
       const ContactPointMode  &mode;
       ContactPointResult      &result;
-      ContactPointState        start;
-
-      // An open point beyond the edge of the master has no xi_hat^n: it starts
-      // where it is now, if it faces the master at all.
-      //
-      // Only such points pay for a projection here: all others come with the
-      // xi_hat^n that commit() has left them.
-      bool
-      find_partner()
-      {
-        if (start.has_partner)
-          return true;
-        const Projection projection = project(master, x, nullptr);
-        start.xi                    = projection.xi;
-        start.has_partner           = projection.faces;
-        return start.has_partner;
-      }
 
       // What the friction law is to know of the point: the state at the
       // beginning, and with it the bond that is left.
@@ -168,7 +152,7 @@ namespace Debond
       void
       open(const double g_n)
       {
-        leave_open(law, old_state, result);
+        leave_open(law, start, result);
         result.normal_gap = g_n;
       }
 
@@ -229,31 +213,6 @@ namespace Debond
           (response.pressure + eps_t * g_n) * dn;
       }
 
-      // A point that closes without an xi_hat^n of its own sticks where it is:
-      // it has no tangential gap, and xi_hat, its projection, moves with it as
-      // on a frictionless interface.
-      //
-      // Its traction is that of stick(); the derivatives are those of the
-      // sliding problem with mu = 0, whose solution is the projection. They are
-      // needed because the next iteration projects the point again, at another
-      // place. If that problem has no solution the stick tangent stays:
-      // Newton's method is slower there, and not wrong.
-      void
-      follow_projection(const Vector3d &y)
-      {
-        const PointFriction none{*law.friction,
-                                 friction_state(start, 0.),
-                                 true,
-                                 law.explicit_friction};
-        ContactPointResult  projected;
-        SlipProblem         problem(law, none, start, x, y, master);
-        if (problem.solve(start.xi, projected) != SlipOutcome::solved)
-          return;
-        problem.report(projected);
-        result.dt  = projected.dt;
-        result.dxi = projected.dxi;
-      }
-
       // The point slides, or opens: with p = 0 the same equations project it,
       // and the sign of the gap found there decides. @p y_old: y(xi_hat^n).
       // Newton's method starts from xi_hat^n; if that fails, from the
@@ -304,6 +263,8 @@ namespace Debond
         const bool failed = outcome == SlipOutcome::not_found;
         open(failed ? 0. : g_n);
         result.failed = failed;
+        if (outcome == SlipOutcome::left_patch)
+          result.path_over_edge = (x - y_old).norm();
       }
     };
   } // namespace
@@ -321,7 +282,7 @@ namespace Debond
   // strain.
   void
   update_contact_point(const ContactPointLaw   &law,
-                       const ContactPointState &old_state,
+                       const ContactPointState &start,
                        const double             phi_0,
                        const Vector3d          &x,
                        const MasterSurface     &master,
@@ -329,8 +290,8 @@ namespace Debond
                        ContactPointResult      &result)
   {
     result.failed = result.negative_friction = false;
-    PointStep step{law, old_state, x, master, mode, result, old_state};
-    if (!step.find_partner())
+    PointStep step{law, start, x, master, mode, result};
+    if (!start.has_partner) // beyond the edge
       {
         step.open(0.);
         return;
@@ -338,8 +299,7 @@ namespace Debond
 
     // The gap to the old interacting point, Eq. (26) at xi_hat^n, where that is
     // now; and its normal part, Eq. (27), along the normal of Eq. (24).
-    const ContactPointState &start = step.start;
-    SurfaceGeometry          geometry;
+    SurfaceGeometry geometry;
     master.surface->evaluate(start.xi, result.basis, false);
     contract(result.basis, *master.positions, false, geometry);
     const Vector3d     gap = x - geometry.y;
@@ -366,11 +326,7 @@ namespace Debond
     // joined by springs, and the iteration cannot begin with a cycle of stick
     // and slip. The true law takes over in the next one.
     if (closed && (mode.stick_first || trial_traction <= limit))
-      {
-        step.stick(friction, gap, normal);
-        if (!old_state.has_partner && g_n < 0.)
-          step.follow_projection(geometry.y);
-      }
+      step.stick(friction, gap, normal);
     else if (mode.stick_first)
       step.open(g_n);
     else

@@ -1,25 +1,46 @@
 // Stands in for libFuzzer where the fuzz targets are tests: calls the target
-// with each of the files named on the command line, once.
+// named by the first argument with each of the files named by the others, once.
+// All targets are in one program, which is compiled in a quarter of the time.
 
 #include <fstream>
+#include <functional>
 #include <iostream>
+#include <map>
 #include <sstream>
 
-#include "fuzz_target.h"
+#define LLVMFuzzerTestOneInput fuzz_scene
+#include "fuzz_scene.cc"
+#undef LLVMFuzzerTestOneInput
+#define LLVMFuzzerTestOneInput fuzz_csv
+#include "fuzz_csv.cc"
+#undef LLVMFuzzerTestOneInput
+#define LLVMFuzzerTestOneInput fuzz_image
+#include "fuzz_image.cc"
+#undef LLVMFuzzerTestOneInput
+#define LLVMFuzzerTestOneInput fuzz_expression
+#include "fuzz_expression.cc"
 
 int
 main(int argc, char *argv[])
 {
+  const std::map<std::string,
+                 std::function<int(const std::uint8_t *, std::size_t)>>
+    targets{{"scene", fuzz_scene},
+            {"csv", fuzz_csv},
+            {"image", fuzz_image},
+            {"expression", fuzz_expression}};
+  if (argc < 3)
+    return 1;
   LLVMFuzzerInitialize(&argc, &argv);
-  for (int i = 1; i < argc; ++i)
+  for (int i = 2; i < argc; ++i)
     {
       std::cout << argv[i] << std::endl;
       std::ostringstream bytes;
       bytes << std::ifstream(argv[i], std::ios::binary).rdbuf();
       const std::string text = bytes.str();
-      LLVMFuzzerTestOneInput(
-        reinterpret_cast<const std::uint8_t *>(text.data()), text.size());
+      targets.at(argv[1])(reinterpret_cast<const std::uint8_t *>(text.data()),
+                          text.size());
     }
-  std::cout << argc - 1 << " inputs were read or refused\n";
-  return argc > 1 ? 0 : 1;
+  std::cout << argc - 2 << " inputs were read or refused\n";
+  return 0;
 }

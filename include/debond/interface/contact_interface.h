@@ -249,6 +249,11 @@ namespace Debond
     project_accepted(SlavePoint                   &point,
                      const InterfaceConfiguration &configuration,
                      bool                          use_guess);
+    /** The state that a point without a partner begins this step with: where
+     *  it crosses the master's edge, or without a partner if it does not. */
+    ContactPointState
+    entry(const SlavePoint             &point,
+          const InterfaceConfiguration &configuration) const;
     /** Bound of how far points of the two surfaces have moved towards each
      *  other since the accepted configuration [mm]. */
     double

@@ -55,7 +55,7 @@ namespace Debond
    */
   void
   update_contact_point(const ContactPointLaw   &law,
-                       const ContactPointState &old_state,
+                       const ContactPointState &start,
                        double                   phi_0,
                        const Eigen::Vector3d   &x,
                        const MasterSurface     &master,

@@ -40,7 +40,8 @@ namespace Debond
                   Allowed::choice(rotation ? "angle | moment" :
                                              "displacement | force"),
                   std::string("What Value means: ") +
-                    (rotation ? "`angle' [deg] or `moment' [N mm] of the "
+                    (rotation ? "`angle' [deg], or the `moment' [N mm] that "
+                                "does the work along it (doc/model.md), of the "
                                 "chuck, positive about +" :
                                 "`displacement' [mm] or `force' [N] of the "
                                 "chuck, positive along +") +

@@ -366,6 +366,39 @@ namespace Debond
 
 
 
+  // Surfaces that are pressed together touch over a patch. Open points inside
+  // of it tell that the faces of the elements cannot take the shape that a
+  // stiff interface asks for: each touches in some places only, with too large
+  // a pressure.
+  unsigned int
+  ContactInterface::n_enclosed() const
+  {
+    const unsigned int n      = parameters.quadrature_points;
+    const auto         closed = [&](const unsigned int q) {
+      return points[q].accepted.status != PointStatus::open;
+    };
+    // closed points on both sides of the one at @p place of a line of n
+    const auto is_enclosed = [&](const unsigned int first,
+                                 const unsigned int stride,
+                                 const unsigned int place) {
+      bool on_side[2] = {false, false};
+      for (unsigned int k = 0; k < n; ++k)
+        on_side[k > place] |= closed(first + k * stride);
+      return on_side[0] && on_side[1];
+    };
+    unsigned int count = 0;
+    for (unsigned int q = 0; q < points.size(); ++q)
+      if (!closed(q))
+        {
+          // element by element, the first parameter fastest
+          const unsigned int i = q % n, j = q / n % n;
+          count += is_enclosed(q - i, 1, i) || is_enclosed(q - j * n, n, j);
+        }
+    return count;
+  }
+
+
+
   // What a step is judged by. Areas count where the implant is faced, forces
   // and energies everywhere. The local problem of a sliding point has one
   // solution while |dmu/dg_s| p < eps_t + eta/dt: the slope is asked for where
@@ -419,6 +452,8 @@ namespace Debond
           std::max(summary.max_softening, trial.softening);
         summary.max_penetration =
           std::max(summary.max_penetration, -trial.normal_gap);
+        summary.max_traction =
+          std::max(summary.max_traction, trial.traction.norm());
         // With mu taken at g_s^n the local problem has no slope and so is never
         // ambiguous; the variant lags behind instead.
         if (law.explicit_friction || mode_now.frictionless)

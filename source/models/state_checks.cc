@@ -81,9 +81,14 @@ namespace Debond
                        "equilibrium: the load cannot be followed there, the "
                        "state jumped to another branch. "
                     << advice(parameters));
+      // A jump needs a law that falls faster than all springs in series let go.
+      // How compliant bodies and machine are, compared with the interface, is
+      // what they store; a quarter is for the pressure's part of it.
       else if (released_energy.may_hide_a_jump() &&
-               (!parameters.bone.is_rigid() || !parameters.implant.is_rigid() ||
-                chuck.has_compliant_machine()))
+               summary.steepest_softening *
+                   (summary.energy + system.bulk_energy() +
+                    chuck.machine_energy()) >
+                 0.25 * summary.energy)
         note("steep fall",
              "in one step " + change +
                ": too much to tell a jump from a steep fall; smaller steps do");
@@ -119,6 +124,26 @@ namespace Debond
                     << summary.max_penetration << " mm, more than " << too_deep
                     << " mm, a tenth of the thinner one or a whole surface "
                        "element: lengths are mm, is the push-in right?");
+      if (interface.n_enclosed() > 0.1 * summary.n_closed)
+        note(
+          "enclosed",
+          Text() << interface.n_enclosed()
+                 << " open points lie between closed ones of the same "
+                    "element: the faces of these cells cannot follow a stiff "
+                    "interface, and pressure and stiffness are too large: "
+                    "finer Cells, or a smaller Penalty stiffness");
+      // What is linearised is of the order of the strains, which next to the
+      // contact face are those of its tractions.
+      for (const auto &[body, name] :
+           {std::make_pair(&parameters.bone, "Bone"),
+            std::make_pair(&parameters.implant, "Implant")})
+        if (const double strain = summary.max_traction / body->young_modulus;
+            body->material == Material::linear && strain > 0.05)
+          note(Text() << "strain of " << name,
+               Text() << "tractions of " << summary.max_traction
+                      << " MPa strain the " << name << " by some " << strain
+                      << ", too much for Material = linear: compare with "
+                         "neo-hookean");
       if (interface.n_unprojected() > 0)
         note("projection",
              Text() << "for " << interface.n_unprojected()

@@ -28,6 +28,7 @@ namespace Debond
     /** p, and |d mu/d g_s| of that point [MPa, 1/mm]. */
     double       softening_pressure = 0, softening_slope = 0;
     double       max_penetration = 0; ///< [mm]
+    double       max_traction    = 0; ///< [MPa]
     unsigned int bonded_opened =
       0; ///< points with phi > 0 that opened in this step
     unsigned int n_closed = 0;
@@ -169,6 +170,11 @@ namespace Debond
     /** Whether any point of the last evaluate() is open. */
     bool
     has_open_points() const;
+
+    /** How many points were left open between closed ones of their row or
+     *  column of the same element in the accepted state. */
+    unsigned int
+    n_enclosed() const;
 
     const std::vector<SlavePoint> &
     get_points() const

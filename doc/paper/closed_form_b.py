@@ -3,16 +3,14 @@ measured curves, prm/paper/data/closed_form_b_data_set_[12].csv, and prints the 
 
     python3 doc/paper/closed_form_b.py [--print-only]
 
-needs numpy. theta_max = 1.33 degrees of data set 2 is not printed but inferred: doc/reproduction.md, section Contradictions.
+theta_max = 1.33 degrees of data set 2 is not printed but inferred: doc/reproduction.md, section Contradictions.
 """
 
+import math
 import os
 import sys
 
-import numpy as np
-
 R, MU_B = 2.5, 0.40  # [mm], -
-POINTS, WEIGHTS = np.polynomial.legendre.leggauss(40)
 ANGLES = [0.02, 0.05] + [round(0.1 * i, 1) for i in range(101)]
 
 # p [MPa] from T(10 degrees); theta_lin, theta_max, and where sliding distances begin in Eq. (49) [degrees]; a_s [mm]
@@ -22,31 +20,35 @@ BONDING = 0.73, 0.72  # observed on the implants
 
 
 def mu(slip, c):
-    s = np.clip((slip / c["a_s"] - 1) / (2 * c["b_s"]), 0, 1)  # 0: bonded, 1: broken
-    return MU_B + (c["mu_ub"] - MU_B) * (0.5 + 0.5 * np.cos(np.pi * s))
+    s = min(max((slip / c["a_s"] - 1) / (2 * c["b_s"]), 0), 1)  # 0: bonded, 1: broken
+    return MU_B + (c["mu_ub"] - MU_B) * (0.5 + 0.5 * math.cos(math.pi * s))
+
+
+def integral(function, a, b, n=200):
+    """By Simpson's rule."""
+    values = [function(a + (b - a) * i / n) for i in range(n + 1)]
+    return (b - a) / (3 * n) * (values[0] + values[-1] + 4 * sum(values[1:-1:2]) + 2 * sum(values[2:-1:2]))
 
 
 def torque(degrees, c):
     """Eq. (37) [N mm], the integral of r^2 times Eq. (18), between its kinks."""
     stick = R if degrees <= c["lin"] else R * c["lin"] / degrees
-    slip_per_radius = 0. if degrees < c["slide"] else np.radians(degrees - c["slide"] + c["lin"])
+    slip_per_radius = 0. if degrees < c["slide"] else math.radians(degrees - c["slide"] + c["lin"])
     kinks = [length / slip_per_radius for length in (c["a_s"], c["a_s"] * (1 + 2 * c["b_s"])) if slip_per_radius > 0]
     ends = [stick] + sorted(r for r in kinks if stick < r < R) + [R]
-    total = np.pi / 2 * stick**3 * c["mu_ub"] * c["p"] * min(1., degrees / c["lin"])
+    total = math.pi / 2 * stick**3 * c["mu_ub"] * c["p"] * min(1., degrees / c["lin"])
     for a, b in zip(ends, ends[1:]):
-        r = a + (b - a) * (POINTS + 1) / 2
-        total += np.pi * (b - a) * np.dot(WEIGHTS, r * r * mu(r * slip_per_radius, c) * c["p"])
+        total += 2 * math.pi * integral(lambda r: r * r * mu(r * slip_per_radius, c) * c["p"], a, b)
     return total
 
 
 def energies(c, bonding):
     """T_max, T_inf [N mm]; E_deb, E_fric, W_adh [1e-3 N m]; w_adh, w*_adh [N/m]."""
-    degrees = np.arange(0, 10.0001, 0.01)
-    T = np.array([torque(angle, c) for angle in degrees])
-    E_deb = np.trapz(T, np.radians(degrees))
-    E_fric = T[-1] * np.radians(10 - c["end"])
-    w = 1e3 * (E_deb - E_fric) / (np.pi * R**2)
-    return T.max(), T[-1], E_deb, E_fric, E_deb - E_fric, w / bonding, w
+    T = [torque(0.01 * i, c) for i in range(1001)]
+    E_deb = (sum(T) - 0.5 * T[-1]) * math.radians(0.01)
+    E_fric = T[-1] * math.radians(10 - c["end"])
+    w = 1e3 * (E_deb - E_fric) / (math.pi * R**2)
+    return max(T), T[-1], E_deb, E_fric, E_deb - E_fric, w / bonding, w
 
 
 def write(number, c, remark):

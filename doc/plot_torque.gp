@@ -2,6 +2,10 @@
 #
 #   gnuplot -e "dir='output/coin'" doc/plot_torque.gp
 #
+# With published values marked, T_max and T_inf [N mm], theta_lin and theta_max [degrees]:
+#
+#   gnuplot -e "dir='output/data_set_1_calibrated'; published='53.8 36.8 0.13 1.13'" doc/plot_torque.gp
+#
 # Together with another run, with the seconds that each took:
 #
 #   gnuplot -e "dir='output/coin'; other='output/coin_fast'" doc/plot_torque.gp
@@ -9,20 +13,25 @@
 # With a curve to compare with (CSV with the columns angle_deg,torque_Nmm; another run's torque.csv will do):
 #
 #   gnuplot -e "dir='output/coin'; reference='measured.csv'" doc/plot_torque.gp
+#
+# With the bonding state phi on the contact face below, from the profiles.csv of a run with Output / Profile angles:
+# faces='DIRECTORY' and angles='1 1.5 2.5 5' [degrees], as in doc/first_picture.sh.
 
 if (!exists("dir")) {
   print "usage: gnuplot -e \"dir='output/coin'\" doc/plot_torque.gp"
   exit status 1
 }
 file = dir . "/torque.csv"
+if (!exists("faces")) { angles = "" }
+n_faces = words(angles)
 
-set terminal pngcairo size 1200,800 enhanced font "Sans,16" linewidth 1.5
+set terminal pngcairo size 1200, n_faces ? 1150 : 800 enhanced font "Sans,16" linewidth 1.5
 set output dir . "/torque.png"
 set encoding utf8
 set datafile separator comma
 set datafile columnheaders
+set datafile missing NaN
 
-set title "Torque on the implant: " . dir noenhanced
 set xlabel "Rotation angle {/:Italic θ} [°]"
 set ylabel "Torque {/:Italic T} [N mm]"
 set grid linetype 1 linecolor rgb "#dddddd" linewidth 0.7
@@ -35,9 +44,34 @@ if (STATS_max > 0 && STATS_min > -1e-3 * STATS_max) {
   set yrange [0:*] # begins at zero in spite of rounding errors
 }
 
-seconds(d) = real(system("sed -n 's/.*\"wall_seconds\": *\\([0-9.e+-]*\\).*/\\1/p' " . d . "/summary.json"))
+text(d, pattern) = system("sed -n '" . pattern . "' " . d)
+title_of(d) = text(d . "/parameters.prm", "s/^ *set Title *= *//p")
+seconds(d) = real(text(d . "/summary.json", "s/.*\"wall_seconds\": *\\([0-9.e+-]*\\).*/\\1/p"))
 label(d) = sprintf("%s, %.2g s", d, seconds(d))
+set title title_of(dir) noenhanced
 
+at_face(i) = abs(column("angle_deg") - word(angles, i)) < 1e-6
+
+do for [i=1:n_faces] { # where on the curve the faces are
+  stats faces . "/torque.csv" using (at_face(i) ? column("torque_Nmm") : NaN) nooutput
+  set label 10 + i "" at first real(word(angles, i)), first STATS_max point pointtype 7 pointsize 1.3 linecolor rgb "#c03028"
+}
+
+set multiplot
+if (n_faces) { set lmargin at screen 0.08; set rmargin at screen 0.97; set tmargin at screen 0.955; set bmargin at screen 0.38 }
+if (exists("published")) {
+  T_max = real(word(published, 1))
+  T_inf = real(word(published, 2))
+  lin   = real(word(published, 3))
+  peak  = real(word(published, 4))
+  do for [i=1:2] {
+    T = real(word(published, i))
+    set arrow i from graph 0, first T to graph 1, first T nohead dashtype 2 linewidth 1 linecolor rgb "#2c1e5c" back
+    set label i sprintf("published {/:Italic T}_{%s} = %.1f N mm", i == 1 ? "max" : "∞", T) \
+      at graph 0.985, first T right offset 0, 0.7 textcolor rgb "#2c1e5c" enhanced
+  }
+  unset key
+}
 if (exists("other")) {
   plot file using "angle_deg":"torque_Nmm" with lines linewidth 2 linecolor rgb "#c03028" title label(dir), \
        other . "/torque.csv" using "angle_deg":"torque_Nmm" with linespoints pointtype 7 pointsize 0.6 \
@@ -48,3 +82,60 @@ if (exists("other")) {
 } else {
   plot file using "angle_deg":"torque_Nmm" with lines linewidth 2 linecolor rgb "#c03028" notitle
 } }
+
+if (exists("published")) { # the beginning, enlarged
+  high = n_faces ? 0.60 : 0.49
+  set lmargin at screen 0.45
+  set rmargin at screen 0.94
+  set bmargin at screen (n_faces ? 0.44 : 0.19)
+  set tmargin at screen high
+  unset title
+  unset xlabel
+  unset ylabel
+  unset label
+  unset arrow 2
+  unset offsets
+  set xrange [0:2.2 * peak]
+  set yrange [0:1.25 * T_max]
+  do for [i=3:4] {
+    angle = real(word(published, i))
+    set arrow i from first angle, graph 0 to first angle, graph 1 nohead dashtype 2 linewidth 1 linecolor rgb "#2c1e5c" back
+    set label i sprintf("{/:Italic θ}_{%s} = %g°", i == 3 ? "lin" : "max", angle) \
+      at first angle, graph 0.12 left offset 0.7, 0 textcolor rgb "#2c1e5c" enhanced
+  }
+  set label 1 sprintf("published {/:Italic T}_{max}") at graph 0.985, first T_max right offset 0, 0.7 textcolor rgb "#2c1e5c" enhanced
+  plot file using "angle_deg":"torque_Nmm" with lines linewidth 2 linecolor rgb "#c03028" notitle
+  unset label
+  unset arrow
+}
+
+if (n_faces) {
+  unset key
+  unset label
+  unset grid
+  unset border
+  unset tics
+  unset xlabel
+  unset ylabel
+  unset offsets
+  set size ratio -1
+  set xrange [-2.6:2.6]
+  set yrange [-2.6:2.6]
+  set cbrange [0:1]
+  set palette defined (0 "#2c1e5c", 0.5 "#d04a62", 1 "#fbe9a0")
+  set tmargin at screen 0.28
+  set bmargin at screen 0.03
+  do for [i=1:n_faces] {
+    set lmargin at screen 0.04 + 0.83 / n_faces * (i - 1)
+    set rmargin at screen 0.03 + 0.83 / n_faces * i
+    set title word(angles, i) . "°" offset 0, -0.7
+    if (i == n_faces) {
+      set colorbox user origin 0.885, 0.06 size 0.015, 0.19
+      set cbtics ("0 broken" 0, "0.5" 0.5, "1 bonded" 1)
+      set label 1 "{/:Italic φ}" at screen 0.8925, 0.275 center enhanced
+    } else { unset colorbox }
+    plot faces . "/profiles.csv" using (at_face(i) ? column("x_mm") : NaN):"y_mm":"phi" \
+      with points pointtype 5 pointsize 0.6 palette
+  }
+}
+unset multiplot

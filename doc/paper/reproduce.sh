@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes tables and figures of the paper again: doc/paper/reproduce.sh [--jobs N] [--force] NAME...
-#   NAME: calibrated contradictions table_3 table_4_set_1 table_4_set_2 table_5 table_7 table_7_meshes table_7_steps table_7_layers
+#   NAME: calibrated closed_form_b contradictions table_1 table_3 table_4_set_1 table_4_set_2 table_5 table_7 table_7_meshes table_7_steps table_7_layers
 #         table_7_layers_printed fig_1 fig_3_12 fig_4 fig_5_6 fig_7_8 fig_9 fig_10 fig_13
 #         partial_equal_parameters partial_fitted_parameters all
 # Results go to output/paper. Variants of studies that are there already are not run again. Pictures need gnuplot.
@@ -15,6 +15,10 @@ picture() { gnuplot "doc/paper/$1.gp" && echo "Picture: output/paper/$2"; }
 
 reproduce() {
   case $1 in
+    closed_form_b) python3 doc/paper/closed_form_b.py --print-only ;;
+    table_1) for cells in "15, 15, 2|3, 2" "30, 30, 2|6, 2" "60, 60, 2|12, 2"; do
+        "$debond" --check prm/paper/data_set_1_calibrated.prm --set "Bone/Cells=${cells%|*}" --set "Implant/Cells=${cells#*|}"
+      done ;;
     fig_1) run fig_1; picture fig_1 fig_1/fig_1.png ;;
     fig_3_12) run fig_3_12; picture fig_3_12 fig_3_12/fig_3_12.png ;;
     fig_4) run table_5; picture fig_4 table_5/fig_4.png ;;
@@ -25,8 +29,8 @@ reproduce() {
     fig_13) run table_7; picture fig_13 table_7/fig_13.png ;;
     all)
       local name
-      for name in calibrated contradictions table_3 table_4_set_1 table_4_set_2 fig_4 fig_1 fig_3_12 fig_5_6 fig_7_8 fig_9 fig_10 \
-        table_7_meshes table_7_steps table_7_layers table_7_layers_printed fig_13; do
+      for name in table_1 calibrated contradictions table_3 table_4_set_1 table_4_set_2 fig_4 fig_1 fig_3_12 fig_5_6 fig_7_8 fig_9 fig_10 \
+        table_7_meshes table_7_steps table_7_layers table_7_layers_printed fig_13 closed_form_b; do
         reproduce "$name"
       done
       ;;

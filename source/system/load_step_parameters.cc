@@ -108,7 +108,9 @@ namespace Debond
               tolerance,
               Allowed::number_between(1e-7, 1, ""),
               "Relative accuracy wanted of the torque curve. With Adaptive "
-              "that of drawing it as straight lines between the steps; with "
+              "that of drawing it as straight lines between the steps, whose "
+              "states are taken to be exact: they are in a pure twist, but of "
+              "first order in the step where the direction of slip turns; with "
               "Model = auto the largest difference, relative to the largest "
               "torque, from the curve of the scene's bodies on a converged "
               "mesh. Else not used.");

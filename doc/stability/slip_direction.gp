@@ -18,7 +18,7 @@ do for [format in "png svg"] {
 
   set title "Friction coefficient"
   set xrange [0.4:2.2]
-  set yrange [36:58]
+  set yrange [36:62]
   plot results("implicit") using "angle_deg":"torque_Nmm" with lines linetype 10 title "implicit, steps of 0.01°", \
     results("explicit_1000") using "angle_deg":"torque_Nmm" with lines linetype 1 title "explicit, steps of 0.01°", \
     results("explicit_100") using "angle_deg":"torque_Nmm" with lines linetype 2 title "explicit, steps of 0.1°", \

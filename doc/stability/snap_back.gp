@@ -9,7 +9,7 @@ do for [format in "png svg"] {
   set multiplot layout 1, 2
   set ylabel torque_label
   set key bottom right
-  set yrange [27:52]
+  set yrange [24:52]
 
   set title "Rigid bodies, machine of 3000 N mm/rad"
   set xlabel "Angle of the machine [°]"
@@ -18,7 +18,7 @@ do for [format in "png svg"] {
       linetype 10 title "closed form", \
     results("snap_back") using "machine_angle_deg":"torque_Nmm" with linespoints linewidth 1 pointtype 6 pointsize 0.6 linetype 4 \
       title "rotation control", \
-    results("snap_back_viscous") using "machine_angle_deg":"torque_Nmm" with lines linetype 3 title "viscosity 0.2 MPa per mm/unit of time", \
+    results("snap_back_viscous") using "machine_angle_deg":"torque_Nmm" with lines linetype 3 title "viscosity 0.2 MPa / (mm per unit of time)", \
     results("snap_back_path") using "machine_angle_deg":"torque_Nmm" with points pointsize 0.5 linetype 1 title "path following"
 
   set title "Soft implant, rigid machine"

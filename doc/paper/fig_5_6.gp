@@ -3,7 +3,7 @@
 dir = "output/paper/fig_5_6/"
 file = dir . "profiles.csv"
 angles = "1.15 1.5 2 3 5 10"
-# an eighth of the points: the others lie on the same curves
+# an eighth of the points, joined in the order of their radii: the others lie on the same curves
 at(angle) = abs(column("angle_deg") - angle) < 1e-6 && column("y_mm") > 0 && column("x_mm") > column("y_mm")
 
 format = "map"
@@ -45,8 +45,7 @@ do for [format in "png svg"] {
   set xrange [0:2.5]
   set yrange [0.38:0.66]
   set key top right maxrows 2
-  plot for [angle in angles] file using (at(angle) ? column("r_mm") : NaN):"mu" with points pointsize 0.35 notitle, \
-    for [i=1:6] NaN with points pointsize 1 linetype i title word(angles, i) . "°"
+  plot for [angle in angles] file using (at(angle) ? column("r_mm") : NaN):"mu" smooth unique with lines title angle . "°"
   set title "(b) {/:Italic a}_s = 42 μm, {/:Italic b}_s = 0.74"
   set xlabel "Sliding distance {/:Italic g}_s [μm]"
   set xrange [0:160]

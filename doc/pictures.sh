@@ -69,7 +69,7 @@ publish_figures() {
       fig_1 | fig_3_12) publish $dir/$name/$name ;;
       fig_4) publish $dir/table_5/fig_4 ;;
       fig_5_6) publish $dir/fig_5_6/fig_5 $dir/fig_5_6/fig_6 ;;
-      fig_7_8) publish $dir/partial_fitted_parameters/fig_7 $dir/partial_fitted_parameters/fig_8 ;;
+      fig_7_8) publish $dir/fig_7_8/fig_7 $dir/fig_7_8/fig_8 ;;
       fig_9) publish $dir/partial_fitted_parameters/fig_9 ;;
       fig_10) publish $dir/partial_equal_parameters/fig_10 ;;
       fig_13) publish $dir/table_7/fig_13 ;;

@@ -4,7 +4,7 @@ dir = "output/paper/fig_5_6/"
 file = dir . "profiles.csv"
 angles = "1.15 1.5 2 3 5 10"
 # an eighth of the points, joined in the order of their radii: the others lie on the same curves
-at(angle) = abs(column("angle_deg") - angle) < 1e-6 && column("y_mm") > 0 && column("x_mm") > column("y_mm")
+over_radius(angle) = sprintf("< head -n 1 %s; awk -F, '$1 == %s && $3 > 0 && $2 > $3' %s | sort -t, -g -k4,4", file, angle, file)
 
 format = "map"
 load "doc/style.gp"
@@ -45,7 +45,7 @@ do for [format in "png svg"] {
   set xrange [0:2.5]
   set yrange [0.38:0.66]
   set key top right maxrows 2
-  plot for [angle in angles] file using (at(angle) ? column("r_mm") : NaN):"mu" smooth unique with lines title angle . "°"
+  plot for [angle in angles] over_radius(angle) using "r_mm":"mu" with lines title angle . "°"
   set title "(b) {/:Italic a}_s = 42 μm, {/:Italic b}_s = 0.74"
   set xlabel "Sliding distance {/:Italic g}_s [μm]"
   set xrange [0:160]

@@ -1,6 +1,6 @@
 # Figs. 7 and 8: patterns of the initial bonding, and friction coefficient and sliding distance on the contact face for each,
-# with the parameters of Table 6. Needs output/paper/partial_fitted_parameters (prm/paper/partial_fitted_parameters.prm).
-dir = "output/paper/partial_fitted_parameters/"
+# with the parameters of Table 6. Needs output/paper/fig_7_8 (prm/paper/partial_fitted_parameters.prm with 6 quadrature points).
+dir = "output/paper/fig_7_8/"
 file(i) = sprintf("%svariant-%03d/profiles.csv", dir, i)
 angles = "1.15 1.5 2 3 5 10"
 array name[4] = ["homogeneous", "(b)", "(c) disk", "(d) random"]
@@ -19,7 +19,7 @@ do for [i=1:4] {
     set cblabel "Initial bonding φ_0"
   } else { unset colorbox }
   set title name[i]
-  splot face(file(i), "0.1", 3) using "x_mm":"y_mm":"phi" with pm3d
+  splot face(file(i), "0.1", 6) using "x_mm":"y_mm":"phi" with pm3d
 }
 unset multiplot
 
@@ -29,6 +29,7 @@ do for [quantity in "mu slip_mm"] {
   eval picture(dir . (quantity eq "mu" ? "fig_8" : "fig_8_slip"), 1500, 1000)
   set multiplot layout 4, 6 margins 0.045, 0.88, 0.02, 0.95 spacing 0.005, 0.01
   load "doc/paper/faces.gp"
+  set pm3d interpolate 2, 2
   set cbrange [(quantity eq "mu" ? 0.4 : 0):(quantity eq "mu" ? 0.97 : 0.44)]
   do for [row=1:4] {
     do for [i=1:6] {
@@ -38,7 +39,7 @@ do for [quantity in "mu slip_mm"] {
       } else { unset colorbox }
       if (row == 1) { set title word(angles, i) . "°" } else { unset title }
       if (i == 1) { set label 1 name[row] at graph -0.12, 0.5 center rotate } else { unset label 1 }
-      splot face(file(row), word(angles, i), 3) using "x_mm":"y_mm":quantity with pm3d
+      splot face(file(row), word(angles, i), 6) using "x_mm":"y_mm":quantity with pm3d
     }
   }
   unset multiplot

@@ -18,7 +18,7 @@ do for [format in "png svg"] {
       linetype 10 title "closed form", \
     results("snap_back") using "machine_angle_deg":"torque_Nmm" with linespoints linewidth 1 pointtype 6 pointsize 0.6 linetype 4 \
       title "rotation control", \
-    results("snap_back_viscous") using "machine_angle_deg":"torque_Nmm" with lines linetype 3 title "viscosity 0.2 MPa / (mm per unit of time)", \
+    results("snap_back_viscous") using "machine_angle_deg":"torque_Nmm" with lines linetype 3 title "viscosity 0.2 MPa / (mm / time)", \
     results("snap_back_path") using "machine_angle_deg":"torque_Nmm" with points pointsize 0.5 linetype 1 title "path following"
 
   set title "Soft implant, rigid machine"

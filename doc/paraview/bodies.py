@@ -84,9 +84,8 @@ class Picture:
 
 
 def body(source, number):
-    # a Threshold would join nothing and lose nothing: cells belong to one body
-    return simple.Threshold(Input=source, Scalars=["CELLS" if "body" in source.CellData.keys() else "POINTS", "body"],
-                            LowerThreshold=number - 0.5, UpperThreshold=number + 0.5, ThresholdMethod="Between")
+    return simple.Threshold(Input=source, Scalars=["POINTS", "body"], LowerThreshold=number - 0.5,
+                            UpperThreshold=number + 0.5, ThresholdMethod="Between")
 
 
 def edges_of_cells(source):
@@ -126,6 +125,8 @@ def draw_stress(arguments):
         cut.ClipType.Origin, cut.ClipType.Normal = [0, 1e-4, 0], [0, 1, 0]
         cut.UpdatePipeline()
     high = max(cut.PointData["von_Mises_MPa"].GetRange()[1] for cut in cuts)
+    if high == 0:
+        raise Mistake("%s: there is no stress anywhere, as in rigid bodies" % arguments.directory)
     colours = simple.GetColorTransferFunction("von_Mises_MPa")
     colours.AutomaticRescaleRangeMode = "Never"
     colours.ColorSpace = "RGB"

@@ -10,7 +10,7 @@ array N_hertz[4] = [12, 16, 24, 32]
 array eps_hertz[4] = [2.5e5, 5e5, 1e6, 2e6]
 array N_sphere[3] = [16, 24, 32]
 array eps_sphere[3] = [2.5e5, 1e6, 4e6]
-power(x) = sprintf("%.3g·10^{%d}", x / 10**floor(log10(x)), floor(log10(x)))
+power(x) = sprintf("%.3g·10^{%d}", x / 10**floor(log10(x) + 1e-9), floor(log10(x) + 1e-9))
 do for [format in "png svg"] {
   load "doc/style.gp"
   eval picture("output/convergence", 1400, 1100)

@@ -3,7 +3,6 @@ dir = "output/studies/"
 do for [format in "png svg"] {
   # ---- torque band of 200 implants, and the same near the peak
   load "doc/style.gp"
-  band = sky
   eval picture(dir . "ensemble", 1400, 560)
   file = dir . "ensemble/ensemble.csv"
   homogeneous = dir . "ensemble_homogeneous/variant-007/torque.csv"
@@ -15,7 +14,7 @@ do for [format in "png svg"] {
     set xrange [0:(panel == 1 ? 10 : 2.5)]
     set yrange [(panel == 1 ? 0 : 44.4):(panel == 1 ? 50 : 46.9)]
     if (panel == 1) { set key bottom right } else { unset key }
-    plot file using "angle_deg":"torque_p05_Nmm":"torque_p95_Nmm" with filledcurves linecolor rgb band title "5 to 95 %", \
+    plot file using "angle_deg":"torque_p05_Nmm":"torque_p95_Nmm" with filledcurves fillstyle solid 0.5 noborder linecolor rgb sky title "5 to 95 %", \
       "" using "angle_deg":"torque_mean_Nmm" with lines linetype 1 title "mean", \
       homogeneous using "angle_deg":"torque_Nmm" with lines dashtype 2 linetype 4 title "homogeneous, φ_0 = 0.55"
   }
@@ -39,7 +38,7 @@ do for [format in "png svg"] {
     scale = (i == 1 ? 1. : 1e3)
     col(what) = scale * column(quantity[i] . "_" . what . unit[i])
     set ylabel label[i]
-    plot file using (column(fraction)):(col("p05")):(col("p95")) with filledcurves linecolor rgb band title "20 random patterns, 5 to 95 %", \
+    plot file using (column(fraction)):(col("p05")):(col("p95")) with filledcurves fillstyle solid 0.5 noborder linecolor rgb sky title "20 random patterns, 5 to 95 %", \
       "" using (column(fraction)):(col("mean")) with linespoints linetype 1 title "their mean", \
       homogeneous using (column(phi_0)):(scale * column(quantity[i] . unit[i])) with lines dashtype 2 linetype 4 \
         title "homogeneous, φ_0 = the fraction"
@@ -57,7 +56,7 @@ do for [format in "png svg"] {
   set xrange [0:2.1]
   set key top left
   set ylabel "Largest torque {/:Italic T}_{max} [N mm]"
-  plot file using (column(length)):"T_max_p05_Nmm":"T_max_p95_Nmm" with filledcurves linecolor rgb band title "40 random patterns, 5 to 95 %", \
+  plot file using (column(length)):"T_max_p05_Nmm":"T_max_p95_Nmm" with filledcurves fillstyle solid 0.5 noborder linecolor rgb sky title "40 random patterns, 5 to 95 %", \
     "" using (column(length)):"T_max_p50_Nmm" with linespoints linetype 1 title "median"
   set ylabel "Standard deviation / mean [%]"
   set yrange [0:*]

@@ -300,7 +300,8 @@ class Picture:
         else:
             low, high = self.scale(field)
             colours.ColorSpace = "RGB"
-            colours.RGBPoints = sum(([low + i * (high - low) / (len(PALETTE) - 1)] + rgb(colour) for i, colour in enumerate(PALETTE)), [])
+            step = (high - low) / (len(PALETTE) - 1)
+            colours.RGBPoints = sum(([low + i * step] + rgb(colour) for i, colour in enumerate(PALETTE)), [])
         return colours
 
     def draw_colour_bar(self, colours, field, first_row):

@@ -1,33 +1,36 @@
-# Picture of the torque curves of all variants of a study, DIR/study.png:
+# Picture of the torque curves of all variants of a study, DIR/study.png and study.svg, at the top of the project:
 #
 #   gnuplot -e "dir='output/study'" doc/plot_study.gp
+#
+# The curves are named by the entries that the study varies, or, if there are more than 12, only coloured, from
+# the first (dark) to the last (yellow).
 
 if (!exists("dir")) {
   print "usage: gnuplot -e \"dir='output/study'\" doc/plot_study.gp"
   exit status 1
 }
-set terminal pngcairo size 1200,800 enhanced font "Sans,16" linewidth 1.5
-set output dir . "/study.png"
-set encoding utf8
 set datafile separator comma
 set datafile columnheaders
-
 stats dir . "/study.csv" using "variant" nooutput
 n = int(STATS_max)
 file(i) = sprintf("%s/variant-%03d/torque.csv", dir, i)
-written(i) = int(system("test -s " . file(i) . " && echo 1 || echo 0"))
+curve(i) = system("test -s " . file(i) . " && echo 1 || echo 0") + 0 ? file(i) : "/dev/null"
+title_of_scene = system("sed -n 's/^set Title *= *//p' " . dir . "/variant-001/parameters.prm")
+name(i) = system(sprintf("awk -v variant=%d -f doc/studies/variant_name.awk %s/study.csv", i, dir))
 
-set title "Torque on the implant: " . dir noenhanced
-set xlabel "Rotation angle {/:Italic θ} [°]"
-set ylabel "Torque {/:Italic T} [N mm]"
-set grid linetype 1 linecolor rgb "#dddddd" linewidth 0.7
-set border linecolor rgb "#555555"
-set key top right noenhanced
-set xrange [*:*] noextend
-set offsets graph 0, graph 0, graph 0.05, graph 0
-set autoscale yfixmin
-set palette defined (0 "#2c1e5c", 0.5 "#d04a62", 1 "#e8a33d")
-unset colorbox
-frac(i) = n > 1 ? (i - 1.) / (n - 1) : 0.
-plot for [i=1:n] (written(i) ? file(i) : "/dev/null") using "angle_deg":"torque_Nmm" with lines linewidth 2 \
-  linecolor palette fraction frac(i) title (n <= 24 ? sprintf("variant %d", i) : "")
+do for [format in "png svg"] {
+  load "doc/style.gp"
+  eval picture(dir . "/study", 1000, n <= 12 ? 600 + 27 * n : 700)
+  set title title_of_scene noenhanced
+  set xlabel angle_label
+  set ylabel torque_label
+  set key at screen 0.05, 0.01 bottom left maxcols 1 noenhanced
+  set bmargin 4 + (n <= 12 ? 1.25 * n : 0)
+  set xrange [*:*] noextend
+  set offsets graph 0, graph 0, graph 0.05, graph 0
+  set autoscale yfixmin
+  unset colorbox
+  plot for [i=1:n] curve(i) using "angle_deg":"torque_Nmm" with lines linewidth 2 \
+    linecolor palette fraction (n > 1 ? (i - 1.) / (n - 1) : 0) title (n <= 12 ? name(i) : "")
+}
+unset output

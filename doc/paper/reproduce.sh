@@ -10,7 +10,7 @@ debond=${DEBOND:-build/release/debond}
 [[ -x $debond ]] || { echo "reproduce.sh: there is no $debond: build the program first, or set DEBOND" >&2; exit 1; }
 
 options=()
-run() { "$debond" "prm/paper/$1.prm" "${options[@]}"; }
+run() { "$debond" "prm/paper/$1.prm" "${options[@]}" "${@:2}"; }
 picture() { gnuplot "doc/paper/$1.gp" && echo "Picture: output/paper/$2"; }
 
 reproduce() {
@@ -23,7 +23,10 @@ reproduce() {
     fig_3_12) run fig_3_12; picture fig_3_12 fig_3_12/fig_3_12.png ;;
     fig_4) run table_5; picture fig_4 table_5/fig_4.png ;;
     fig_5_6) run fig_5_6; picture fig_5_6 "fig_5_6/fig_5.png and fig_6.png" ;;
-    fig_7_8) run partial_fitted_parameters; picture fig_7_8 "partial_fitted_parameters/fig_7.png, fig_8.png and fig_8_slip.png" ;;
+    fig_7_8) # a point every 0.04 mm, for smooth maps
+      run partial_fitted_parameters --set "Interface/Quadrature points=6" --set Output/Directory=output/paper/fig_7_8
+      picture fig_7_8 "fig_7_8/fig_7.png, fig_8.png and fig_8_slip.png"
+      ;;
     fig_9) run partial_fitted_parameters; picture fig_9 partial_fitted_parameters/fig_9.png ;;
     fig_10) run partial_equal_parameters; picture fig_10 partial_equal_parameters/fig_10.png ;;
     fig_13) run table_7; picture fig_13 table_7/fig_13.png ;;

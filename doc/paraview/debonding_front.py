@@ -8,7 +8,8 @@ xvfb-run (Debian: xvfb).
 
 The face is seen from above, through the implant, with +x to the right and +y up, as it lay at the start; with --turned as it
 lies at that angle. A field has the same colours in all columns and for all directories. The pictures are those of
-interface.pvd, so angles are those at which the run wrote files: doc/results.md says how to choose them.
+interface.pvd, so angles are those at which the run wrote files: doc/results.md says how to choose them. It holds what lies
+between the quadrature points of the run: where the front shows corners, take more points.
 """
 
 import argparse
@@ -31,8 +32,8 @@ FIELDS = {
     "state": ("state", 0, 2),
 }
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"  # knows Greek; without it fields go by their plain names
-STATES = {"open": "#d8d8d8", "stick": "#fbe9a0", "slip": "#d04a62"}
-PALETTE = ["#2c1e5c", "#d04a62", "#fbe9a0"]  # as in the other pictures
+STATES = {"open": "#d8d8d8", "stick": "#fde725", "slip": "#277f8e"}
+PALETTE = ["#440154", "#46327e", "#365c8d", "#277f8e", "#1fa187", "#4ac16d", "#a0da39", "#fde725"]  # as in doc/style.gp
 GREY = "#555555"
 
 
@@ -60,7 +61,7 @@ def read_arguments():
     parser.add_argument("--range", nargs="+", default=[], metavar="FIELD=LOW:HIGH",
                         help="ends of colour scales (default: all that occurs; phi and phi_0: 0 to 1)")
     parser.add_argument("--labels", nargs="+", metavar="TEXT",
-                        help="names of the directories in the picture (default: their last part)")
+                        help="names of the directories in the picture (default: titles of their scenes)")
     parser.add_argument("--turned", action="store_true", help="show the face as displaced")
     parser.add_argument("--output", metavar="FILE.png", help="default: debonding_front.png in the first directory")
     parser.add_argument("--width", type=int, default=1800, help="of the picture [pixels]; the height follows")
@@ -122,6 +123,15 @@ def read_frames(directory):
             raise Mistake("%s: named in interface.pvd but not there" % name)
         frames.append(Frame(time, min(rows, key=lambda row: abs(row[0] - time))[1], name))
     return frames
+
+
+def read_title(directory):
+    """Of the scene, or an empty text."""
+    try:
+        with open(os.path.join(directory, "parameters.prm")) as file:
+            return next((line.split("=", 1)[1].strip() for line in file if line.startswith("set Title")), "")
+    except OSError:
+        return ""
 
 
 def even_choice(frames, by_time, number=5):
@@ -222,6 +232,9 @@ class Picture:
     def name_of(self, directory):
         if self.arguments.labels:
             return self.arguments.labels[directory]
+        titles = [read_title(name) for name in self.arguments.directories]
+        if titles[directory] and len(set(titles)) == len(titles):
+            return titles[directory]
         return os.path.basename(os.path.normpath(self.arguments.directories[directory]))
 
     def draw_face(self, reader, field, colours, centre):
@@ -287,7 +300,8 @@ class Picture:
         else:
             low, high = self.scale(field)
             colours.ColorSpace = "RGB"
-            colours.RGBPoints = sum(([low + i * (high - low) / 2] + rgb(colour) for i, colour in enumerate(PALETTE)), [])
+            step = (high - low) / (len(PALETTE) - 1)
+            colours.RGBPoints = sum(([low + i * step] + rgb(colour) for i, colour in enumerate(PALETTE)), [])
         return colours
 
     def draw_colour_bar(self, colours, field, first_row):

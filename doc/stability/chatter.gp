@@ -1,13 +1,16 @@
 # The lateral force on a cap that slides without friction, output/stability/chatter.png. Called by doc/stability/stability.sh
 # --draw, which makes the runs.
-load "doc/paper/style.gp"
-set output "output/stability/chatter.png"
-set xlabel "Way of the cap [mm], two cells of the bone"
-set ylabel "Lateral force [N], of 77 N that press"
-set yrange [-0.015:0.02]
-set key top right
 results(name) = "output/stability/" . name . "/torque.csv"
-plot results("bilinear") using "chuck_ux_mm":(column("time") < 1 ? NaN : column("chuck_Fx_N")) with linespoints \
-    pointtype 7 pointsize 0.4 linecolor rgb "#c0392b" title "bilinear bone", \
-  results("nurbs") using "chuck_ux_mm":(column("time") < 1 ? NaN : column("chuck_Fx_N")) with linespoints \
-    pointtype 7 pointsize 0.4 linecolor rgb "#1f4e9c" title "NURBS"
+do for [format in "png svg"] {
+  load "doc/style.gp"
+  eval picture("output/stability/chatter", 1000, 600)
+  set xlabel "Path of the cap, two cells of the bone [mm]"
+  set ylabel "Lateral force, 77 N press [mN]"
+  set yrange [-15:20]
+  set key top right
+  plot results("bilinear") using "chuck_ux_mm":(column("time") < 1 ? NaN : 1e3 * column("chuck_Fx_N")) with linespoints \
+      pointsize 0.5 linetype 4 title "bilinear bone", \
+    results("nurbs") using "chuck_ux_mm":(column("time") < 1 ? NaN : 1e3 * column("chuck_Fx_N")) with linespoints \
+      pointsize 0.5 linetype 1 title "NURBS"
+}
+unset output

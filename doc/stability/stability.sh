@@ -2,7 +2,7 @@
 # Runs every scene of prm/stability with every method that its comments list, and prints the table of doc/stability.md; a line on
 # the error output says so if an outcome is not the expected one. Some three minutes. Runs stay in output/stability/runs.
 #   doc/stability/stability.sh [--draw] [--publish] [SCENE ...]
-#     --draw    make the pictures output/stability/*.png instead (some one minute)
+#     --draw    make the pictures output/stability/*.png and *.svg instead (some two minutes)
 #     --publish copy the pictures to doc/images
 #     SCENE     only these, for instance slip_direction
 # Before: cmake --build --preset release --target debond judge_method
@@ -12,6 +12,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 debond=${DEBOND:-build/release/debond}
 judge=${JUDGE:-build/release/tests/stability/judge_method}
 results=output/stability
+pictures="slip_direction chatter penalty snap_back"
 draw=false publish=false scenes=()
 for option in "$@"; do
   case $option in
@@ -21,7 +22,7 @@ for option in "$@"; do
     *) scenes+=("$option") ;;
   esac
 done
-for program in "$debond" "$judge"; do
+for program in "$debond" $([[ $draw == true || $publish == true ]] || echo "$judge"); do
   [[ -x $program ]] || { echo "stability.sh: there is no $program: build it first" >&2; exit 1; }
 done
 mkdir -p $results
@@ -54,8 +55,11 @@ draw_pictures() {
     done
     echo "$row" >> $results/penalty.csv
   done
-  for picture in slip_direction chatter penalty; do gnuplot doc/stability/$picture.gp; done
-  echo "Pictures: $results/slip_direction.png, chatter.png, penalty.png"
+  for scene in snap_back snap_back_viscous snap_back_path snap_back_bulk; do run $scene $scene; done
+  run snap_back snap_back_closed_form Model=foundation "Chuck/Rotation z/Stiffness=0"
+  run snap_back_bulk snap_back_bulk_jump "Load steps/Path following=none"
+  for picture in $pictures; do gnuplot doc/stability/$picture.gp; done
+  echo "Pictures, also as SVG:" $(printf "$results/%s.png " $pictures)
 }
 
 if [[ $draw == true ]]; then
@@ -74,6 +78,8 @@ elif [[ $publish == false ]]; then
   done
 fi
 if [[ $publish == true ]]; then
-  for picture in slip_direction chatter penalty; do cp $results/$picture.png doc/images/stability_$picture.png; done
+  for picture in $pictures; do
+    for format in png svg; do cp $results/$picture.$format doc/images/stability_$picture.$format; done
+  done
   echo "Published in doc/images"
 fi

@@ -39,8 +39,10 @@ for study in ensemble ensemble_fraction ensemble_correlation ensemble_homogeneou
     { echo "ensemble.sh: nothing to draw yet: there is no $results/$study/study.csv; run without --draw first" >&2; exit 1; }
 done
 gnuplot doc/studies/ensemble.gp
-echo "Pictures: $results/ensemble.png, ensemble_fraction.png, ensemble_correlation.png"
+echo "Pictures: $results/ensemble.png, ensemble_fraction.png, ensemble_correlation.png, and the same as SVG"
 if [[ $publish == true ]]; then
-  cp $results/ensemble.png $results/ensemble_fraction.png $results/ensemble_correlation.png doc/images/
+  for format in png svg; do
+    cp $results/ensemble.$format $results/ensemble_fraction.$format $results/ensemble_correlation.$format doc/images/
+  done
   echo "Published in doc/images"
 fi

@@ -55,11 +55,6 @@ pareto $results/work_precision.csv 8 14 > $results/front_pressure.csv
 pareto $results/work_precision.csv 8 15 > $results/front_slip.csv
 pareto $results/work_precision_coulomb.csv 8 12 > $results/front_coulomb.csv
 
-# a list of the first front beside its picture
-awk -F, 'BEGIN { print "set label 1 \"Best in their time:\" at graph 1.04, 0.46" }
-  NR > 1 { printf "set label %d \"%2d %6.3g s  %.1e  %s\" at graph 1.03, %.3f font \"DejaVu Sans Mono,11\" noenhanced\n",
-    NR + 8, NR - 1, $8, $12, $16, 0.46 - 0.034 * (NR - 1) }' $results/front_torque.csv > $results/front_labels.gp
-
 # the methods in the file of other codes, CODE/METHOD: the first word of a label; the rest of it are the cells
 codes="" methods=""
 if [[ -f $other_codes ]]; then
@@ -70,11 +65,17 @@ fi
 gnuplot -e "codes='$codes'; methods='$methods'" doc/studies/work_precision.gp
 echo "On the front of torque curves (seconds, largest error relative to T_max):"
 awk -F, 'NR > 1 { printf "%9.3f  %.1e  %s\n", $8, $12, $16 }' $results/front_torque.csv
-awk -f doc/studies/tables.awk $results/work_precision.csv > $results/work_precision.md
+{
+  awk -f doc/studies/tables.awk $results/work_precision.csv
+  printf '\n| number in the picture | seconds | error of the torque curve | choice |\n| --- | --- | --- | --- |\n'
+  awk -F, 'NR > 1 { printf "| %d | %.3g | %.1e | %s |\n", NR - 1, $8, $12, $16 }' $results/front_torque.csv
+} > $results/work_precision.md
 echo "Tables: $results/work_precision.md
-Pictures: $results/work_precision.png, work_precision_local.png, work_precision_codes.png; all rows: $results/work_precision.csv"
+Pictures: $results/work_precision.png, work_precision_local.png, work_precision_codes.png, and the same as SVG; all rows: $results/work_precision.csv"
 if [[ $publish == true ]]; then
-  cp $results/work_precision.png $results/work_precision_local.png $results/work_precision_codes.png doc/images/
+  for picture in work_precision work_precision_local work_precision_codes; do
+    for format in png svg; do cp $results/$picture.$format doc/images/; done
+  done
   page=doc/speed_and_accuracy.md
   awk -v tables=$results/work_precision.md '
     /^<!-- tables/ { print; while ((getline line < tables) > 0) print line; skip = 1 }

@@ -4,7 +4,7 @@ import sys
 
 from vtkmodules.vtkIOImage import vtkPNGReader
 
-WHITE, BONDED, BROKEN = (255, 255, 255), (0xFB, 0xE9, 0xA0), (0x2C, 0x1E, 0x5C)
+WHITE, BONDED, BROKEN = (255, 255, 255), (0xFD, 0xE7, 0x25), (0x44, 0x01, 0x54)
 R = 2.5  # mm
 
 reader = vtkPNGReader()

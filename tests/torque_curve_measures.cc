@@ -73,9 +73,9 @@ triangle()
 {
   return {{0, 0, 0, 0},
           {1, 0, 0, 2.5},
-          {1.2, 2, 50, 2.6},
-          {1.6, 6, 30, 2.7},
-          {2, 10, 30, 2.8}};
+          {1.2, 2, 50, 2.501},
+          {1.6, 6, 30, 2.502},
+          {2, 10, 30, 2.503}};
 }
 
 
@@ -146,13 +146,16 @@ check_triangle()
   check("E_deb", n["E_deb_Nm"], m["E_deb_Nm"]);
   check("W_adh", n["W_adh_Nm"], m["W_adh_Nm"]);
 
-  std::cout << "A curve that still rises slides fully at its end" << std::endl;
-  auto rising = triangle();
-  rising.resize(3);
-  const auto r = measure_torque_curve(make_rows(rising), settings());
-  check("angle of full sliding", r["theta_full_deg"], 2);
-  check("E_fric", r["E_fric_Nm"], 0);
-  check("W_adh", r["W_adh_Nm"], 1e-3 * 50 * radian);
+  std::cout << "What jumps release while it turns is no part of E_deb"
+            << std::endl;
+  std::vector<TorqueRow> jumping = make_rows(triangle());
+  for (unsigned int i = 1; i < jumping.size(); ++i)
+    jumping[i].released_energy_Nmm = i < 3 ? 0.1 : 0.3;
+  const auto j = measure_torque_curve(jumping, settings());
+  check("E_deb", j["E_deb_Nm"], m["E_deb_Nm"].get<double>() - 0.2e-3);
+  check("W_adh", j["W_adh_Nm"], m["W_adh_Nm"].get<double>() - 0.2e-3);
+  check("E_fric", j["E_fric_Nm"], m["E_fric_Nm"]);
+  check("a remark says so", j["remarks"].size(), m["remarks"].size() + 1);
 }
 
 
@@ -232,7 +235,32 @@ check_undefined_measures()
   check("E_fric", early["E_fric_Nm"], NAN);
   check("W_adh", early["W_adh_Nm"], NAN);
 
+  std::cout << "Nor one whose torque still rises" << std::endl;
+  auto rising = triangle();
+  rising.resize(3);
+  const auto r = measure_torque_curve(make_rows(rising), settings());
+  check("E_deb is defined", r["E_deb_Nm"], 1e-3 * 50 * radian);
+  check("angle of full sliding", r["theta_full_deg"], NAN);
+  check("E_fric", r["E_fric_Nm"], NAN);
+  check("W_adh", r["W_adh_Nm"], NAN);
+
+  std::cout << "Nor one whose pressure changes, or that keeps its bond"
+            << std::endl;
+  auto pressed = make_rows(triangle()), kept = pressed;
+  pressed.back().pressure_MPa = 2.53;
+  for (TorqueRow &row : kept)
+    row.phi_mean = row.angle_deg < 5 ? 0.7 : 0.071;
+  check("by 1.2 %", measure_torque_curve(pressed, settings())["W_adh_Nm"], NAN);
+  check("more than a tenth of it",
+        measure_torque_curve(kept, settings())["W_adh_Nm"],
+        NAN);
+
   std::cout << "Without a bond or a row" << std::endl;
+  CurveSettings frictional = settings();
+  frictional.is_bonded     = false;
+  check("W_adh",
+        measure_torque_curve(make_rows(triangle()), frictional)["W_adh_Nm"],
+        NAN);
   CurveSettings unbonded = settings();
   unbonded.mean_phi_0    = 0;
   check("w_adh",

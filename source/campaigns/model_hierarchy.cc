@@ -181,10 +181,11 @@ namespace Debond
                                   const unsigned int mesh) const
   {
     ModelLevel level;
-    level.materials    = materials;
-    level.mesh         = mesh;
-    level.scene        = scene;
-    level.scene.model  = ModelKind::finite_elements;
+    level.materials   = materials;
+    level.mesh        = mesh;
+    level.scene       = scene;
+    level.scene.model = ModelKind::finite_elements;
+    level.scene.changed_entries.clear();
     unsigned int which = 0;
     for (BodyParameters *const body : {&level.scene.bone, &level.scene.implant})
       {

@@ -14,6 +14,9 @@ namespace Debond
             std::ostream *const       plan)
   {
     const dealii::Timer clock;
+    if (plan != nullptr && scene.model != ModelKind::finite_elements)
+      for (const Warning &warning : scene.warnings())
+        *plan << "warning: " << warning.text << '\n';
     try
       {
         if (scene.model == ModelKind::finite_elements)

@@ -107,6 +107,7 @@ namespace Debond
             next.values        = combination.values;
             next.n_repetitions = first.study.repetitions;
             next.scene         = Scene::from_entries(own, name);
+            next.scene.changed_entries.clear();
             variants.push_back(std::move(next));
           }
       }

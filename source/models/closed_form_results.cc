@@ -1,4 +1,3 @@
-#include <debond/bulk/chuck.h>
 #include <debond/interface/contact_point_state.h>
 #include <debond/models/closed_form_solution.h>
 #include <debond/models/run_report.h>
@@ -56,6 +55,8 @@ namespace Debond
     RunReport             report(scene, directory);
     const unsigned int    n_steps = solution.rows.size() - 1;
     report.begin({});
+    for (const Warning &warning : scene.warnings())
+      report.console.warn(warning.check, warning.text);
     for (const TorqueRow &row : solution.rows)
       report.add(row, n_steps, [&] {
         return points_along_radius(*solution.model,
@@ -75,6 +76,9 @@ namespace Debond
     settings.contact_area_mm2 = M_PI * std::pow(scene.implant.radius, 2);
     settings.mean_phi_0       = scene.interface.bonding.initial_bonding *
                           scene.interface.bonding.bonded_fraction;
+    settings.is_bonded =
+      scene.model == ModelKind::mathieu ||
+      (settings.mean_phi_0 > 0. && scene.interface.friction->has_bond());
     if (scene.model == ModelKind::analytical)
       settings.full_sliding_angle_deg = scene.closed_form.full_sliding;
 
@@ -127,116 +131,5 @@ namespace Debond
         << solution.rows.size() - 1 << " planned steps from time "
         << solution.rows.front().time << " to " << last.time << '\n'
         << "at the end " << last.torque_Nmm << " N mm\n";
-  }
-
-
-
-  namespace
-  {
-    // Whether the law has one solution at every point, with the mean pressure
-    // for that of a point.
-    void
-    print_uniqueness(const Scene &scene, const double p, std::ostream &out)
-    {
-      const InterfaceParameters &interface = scene.interface;
-      const double               eps_t     = interface.tangential_stiffness();
-      const double               slope =
-        interface.friction->steepest_fall({interface.bonding.initial_bonding});
-      const double missing = slope * p - eps_t;
-      if (slope == 0. || interface.explicit_friction)
-        return;
-      out << "  p / eps_t " << p / eps_t
-          << " mm; the friction law has one solution below " << 1. / slope
-          << " mm\n";
-      if (missing >= 0. && interface.viscosity == 0.)
-        out << "  so the run will be refused: Interface / Viscosity, a larger "
-               "Tangential penalty stiffness, "
-            << interface.friction->entries_against_fall() << " helps\n";
-      else if (missing >= 0.)
-        out << "  so Viscosity makes it unique in steps shorter than "
-            << interface.viscosity / missing << " of time\n";
-    }
-
-
-
-    // Of rigid bodies on an interface with the compliance of all three in
-    // series.
-    void
-    print_torque(const TorsionModel::Disk &disk,
-                 const double              last_angle,
-                 std::ostream             &out)
-    {
-      if (!RigidBodiesTorsion::has_unique_solution(disk))
-        {
-          out << "  no closed form of the torque: with the bodies in series "
-                 "the law softens too fast, and the torque may jump\n";
-          return;
-        }
-      const RigidBodiesTorsion form(disk);
-      double                   T_max = 0.;
-      for (unsigned int i = 1; i <= 1000; ++i)
-        T_max = std::max(T_max, std::abs(form.torque(last_angle * i / 1000)));
-      out << "  largest torque " << T_max << " N mm, at the end "
-          << form.torque(last_angle) << " N mm\n";
-    }
-  } // namespace
-
-
-
-  void
-  print_forecast(const Scene &scene, std::ostream &out)
-  {
-    const double          R             = scene.implant.radius;
-    const BodyParameters &bone          = scene.bone;
-    const BodyParameters &implant       = scene.implant;
-    const auto            shear_modulus = [](const BodyParameters &body) {
-      return body.young_modulus / (2. * (1. + body.poisson_ratio));
-    };
-    // Stiffness per area [MPa/mm] of the interface, a half space of bone whose
-    // surface a rigid punch presses or twists (Reissner-Sagoci), and the
-    // implant as a bar of its height.
-    const auto in_series = [&](const double of_interface,
-                               const double of_bone,
-                               const double of_implant) {
-      return 1. / (1. / of_interface + (bone.is_rigid() ? 0. : 1. / of_bone) +
-                   (implant.is_rigid() ? 0. : 1. / of_implant));
-    };
-    const double k_n =
-      in_series(scene.interface.law().normal->initial_stiffness(),
-                2. * bone.young_modulus /
-                  ((1. - std::pow(bone.poisson_ratio, 2)) * M_PI * R),
-                implant.young_modulus / implant.height);
-
-    TorsionModel::Disk disk;
-    disk.stiffness = in_series(scene.interface.tangential_stiffness(),
-                               32. * shear_modulus(bone) / (3. * M_PI * R),
-                               shear_modulus(implant) / implant.height);
-
-    constexpr auto push  = ChuckComponent::translation_z,
-                   twist = ChuckComponent::rotation_z;
-    const auto last      = Chuck(scene.chuck, Eigen::Vector3d::Zero(), R)
-                        .values(scene.load_steps.times.back());
-    const double p = std::max(0.,
-                              scene.chuck.component[push].loaded ?
-                                -last[push] / (M_PI * R * R) :
-                                -last[push] * k_n);
-    out
-      << "Closed forms predict (bodies as springs in series with the interface, "
-         "to some 5 %):\n"
-      << "  mean pressure at the end " << p << " MPa, force "
-      << p * M_PI * R * R << " N\n"
-      << "  torsional stiffness while everything sticks "
-      << 0.5 * M_PI * std::pow(R, 4) * disk.stiffness << " N mm/rad\n";
-    print_uniqueness(scene, p, out);
-    if (p <= 0. || scene.interface.friction->depends_on_rate() ||
-        scene.chuck.component[twist].loaded || last[twist] == 0.)
-      return;
-
-    disk.radius   = R;
-    disk.pressure = p;
-    disk.phi_0    = scene.interface.bonding.initial_bonding *
-                 scene.interface.bonding.bonded_fraction;
-    disk.friction = scene.interface.friction;
-    print_torque(disk, last[twist], out);
   }
 } // namespace Debond

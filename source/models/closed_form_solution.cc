@@ -12,9 +12,10 @@ namespace Debond
 {
   namespace
   {
-    constexpr double degree = M_PI / 180.;
-    constexpr auto   push   = ChuckComponent::translation_z;
-    constexpr auto   twist  = ChuckComponent::rotation_z;
+    constexpr double  degree      = M_PI / 180.;
+    const char *const more_can_do = " (Model = finite elements can do more)";
+    constexpr auto    push        = ChuckComponent::translation_z;
+    constexpr auto    twist       = ChuckComponent::rotation_z;
 
 
 
@@ -24,7 +25,7 @@ namespace Debond
               const std::string &why)
     {
       if (is_so)
-        throw EntryError(entry, why + " (Model = finite elements can do more)");
+        throw EntryError(entry, why + more_can_do);
     }
 
     /** "Chuck / Rotation z / Value" and the like. */
@@ -286,6 +287,22 @@ namespace Debond
       return row;
     }
   } // namespace
+
+
+
+  std::string
+  why_no_closed_form(const Scene &scene)
+  {
+    try
+      {
+        const LoadHistory history(scene);
+        return history.loads.back().angle == 0. ? "nothing turns" : "";
+      }
+    catch (const EntryError &error)
+      {
+        return error.why.substr(0, error.why.find(more_can_do));
+      }
+  }
 
 
 

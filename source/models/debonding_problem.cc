@@ -1,5 +1,5 @@
-#include <debond/models/closed_form_solution.h>
 #include <debond/models/debonding_problem.h>
+#include <debond/models/forecast.h>
 #include <debond/models/memory_estimate.h>
 #include <debond/models/run_report.h>
 #include <debond/models/simulation.h>
@@ -262,6 +262,8 @@ namespace Debond
         CurveSettings         settings;
         const BodyParameters &shape = scene.implant;
         settings.mean_phi_0         = bonding.mean;
+        settings.is_bonded =
+          bonding.mean > 0. && scene.interface.friction->has_bond();
         settings.contact_area_mm2 =
           shape.shape == BodyShape::coin ?
             M_PI * shape.radius * shape.radius :
@@ -387,7 +389,9 @@ namespace Debond
         << ": " << interface.bonding().description() << '\n'
         << scene.load_steps.n_steps() << " planned steps from time "
         << times.front() << " to " << times.back() << '\n';
+    for (const Warning &warning : simulation.warnings())
+      out << "warning: " << warning.text << '\n';
     if (scene.implant.shape == BodyShape::coin)
-      print_forecast(scene, out);
+      print_forecast(scene, interface, out);
   }
 } // namespace Debond

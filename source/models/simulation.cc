@@ -33,35 +33,12 @@ namespace Debond
 
 
 
-    // What can be said of the scene before anything is solved. None of it is
-    // wrong in itself, but each has made results worse than they looked.
+    // What can be said before anything is solved, of the scene
+    // (Scene::warnings()) and of what it makes.
     std::vector<Warning>
     warnings_of(const Scene &scene, const ContactInterface &interface)
     {
-      std::vector<Warning> warnings;
-      for (const auto &[body, name] :
-           {std::make_pair(&scene.bone, "Bone"),
-            std::make_pair(&scene.implant, "Implant")})
-        // A trilinear cell cannot bend without a change of its volume, which
-        // a nearly incompressible material resists.
-        if (!body->is_rigid() && body->poisson_ratio > 0.45)
-          warnings.push_back(
-            {std::string("locking of ") + name,
-             Text() << name
-                    << " / Poisson ratio = " << to_text(body->poisson_ratio)
-                    << ": trilinear cells lock as it approaches 0.5, so that "
-                       "the body is too stiff: compare with finer Cells"});
-      // Adaptive steps look at the curve between states, and take the states
-      // to be exact. With friction that depends on the speed these depend on
-      // the step (backward Euler).
-      if (scene.load_steps.adaptive &&
-          (scene.interface.viscosity > 0. ||
-           scene.interface.friction->depends_on_rate()))
-        warnings.push_back(
-          {"rate",
-           "Load steps / Tolerance does not cover the error in time of "
-           "friction that depends on the speed, which is of first order in the "
-           "step: compare with smaller Steps"});
+      std::vector<Warning> warnings = scene.warnings();
       // The pattern of the initial bonding phi_0 belongs to the implant. If the
       // quadrature points are the bone's, they see it where they happen to lie.
       const auto  &report = interface.bonding().report();

@@ -1,6 +1,7 @@
 #include <debond/input/allowed_values.h>
 #include <debond/input/csv_table.h>
 #include <debond/output/torque_curve.h>
+#include <debond/support/number_text.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -132,6 +133,48 @@ namespace Debond
 
 
 
+    /** Why friction at the end of the curve does not tell what the bond has
+     *  taken of E_deb, Eq. (20); empty: it does. @p theta_full_deg is NaN if
+     * the torque is largest at the end. */
+    std::string
+    why_no_adhesion(const Rows          &rows,
+                    const Rotation      &rotation,
+                    const CurveSettings &settings,
+                    const double         theta_full_deg)
+    {
+      const TorqueRow &start = rows[rotation.first_row - 1], &end = rows.back();
+      const auto [least, most] =
+        std::minmax_element(rows.begin() + rotation.first_row,
+                            rows.end(),
+                            [](const TorqueRow &a, const TorqueRow &b) {
+                              return a.pressure_MPa < b.pressure_MPa;
+                            });
+      if (!settings.is_bonded)
+        return "nothing is bonded, or the friction law has no bond";
+      // the work of friction is several times that of the bond
+      if (most->pressure_MPa - least->pressure_MPa >
+          0.01 * std::abs(most->pressure_MPa))
+        return Text() << "the pressure goes from " << least->pressure_MPa
+                      << " to " << most->pressure_MPa
+                      << " MPa while it turns: friction at the end is not that "
+                         "before";
+      if (std::isnan(theta_full_deg))
+        return "the torque is largest at the end: no bond has broken yet, or "
+               "friction is no less without it";
+      if (rotation.direction * (end.angle_deg - theta_full_deg) <
+          -rotation.tolerance)
+        return "the run ends before Output / Full sliding angle";
+      // that much bond around the axis is a per cent of the torque
+      if (end.phi_mean > 0.1 * start.phi_mean)
+        return Text()
+               << "the run ends before the bond is broken: of a mean phi "
+                  "of "
+               << start.phi_mean << ", " << end.phi_mean << " is left";
+      return "";
+    }
+
+
+
     /** Eqs. (20) and (21). */
     void
     measure_energies(const Rows          &rows,
@@ -140,21 +183,35 @@ namespace Debond
                      const double         T_max,
                      Measures            &measures)
     {
-      double E_deb = 0; // [N mm], as all energies here
+      // The trapezoid over a jump holds what the jump releases as well.
+      const TorqueRow &end      = rows.back();
+      const double     released = end.released_energy_Nmm -
+                              rows[rotation.first_row - 1].released_energy_Nmm;
+      double E_deb = -released; // [N mm], as all energies here
       for (unsigned int i = 0; i + 1 < rows.size(); ++i)
         E_deb += 0.5 * (rows[i].torque_Nmm + rows[i + 1].torque_Nmm) *
                  radians(rows[i + 1].angle_deg - rows[i].angle_deg);
       measures["E_deb_Nm"] = 1e-3 * E_deb;
+      if (released > 0.)
+        measures["remarks"].push_back("E_deb, W_adh: without the " +
+                                      to_text(released, 4) +
+                                      " N mm that jumps have released");
 
-      const double theta_full_deg =
-        settings.full_sliding_angle_deg > 0. ?
-          rotation.direction * settings.full_sliding_angle_deg :
-          last_angle_near_maximum(rows, T_max);
+      double theta_full_deg = last_angle_near_maximum(rows, T_max);
+      if (settings.full_sliding_angle_deg > 0.)
+        theta_full_deg = rotation.direction * settings.full_sliding_angle_deg;
+      else if (theta_full_deg == end.angle_deg)
+        theta_full_deg = std::numeric_limits<double>::quiet_NaN();
       measures["theta_full_deg"] = theta_full_deg;
-      const double sliding_deg   = rows.back().angle_deg - theta_full_deg;
-      if (rotation.direction * sliding_deg < -rotation.tolerance)
-        return; // full sliding was not reached
-      const double E_fric   = rows.back().torque_Nmm * radians(sliding_deg);
+      const std::string why =
+        why_no_adhesion(rows, rotation, settings, theta_full_deg);
+      if (!why.empty())
+        {
+          measures["remarks"].push_back("E_fric, W_adh, w_adh: null, " + why);
+          return;
+        }
+      const double E_fric =
+        end.torque_Nmm * radians(end.angle_deg - theta_full_deg);
       const double W_adh    = E_deb - E_fric;
       measures["E_fric_Nm"] = 1e-3 * E_fric;
       measures["W_adh_Nm"]  = 1e-3 * W_adh;
@@ -255,11 +312,12 @@ namespace Debond
       "initial_stiffness_Nm_per_rad theta_debonding_deg force_end_N work_Nm "
       "E_bulk_Nm E_interface_Nm largest_energy_defect largest_reaction_defect "
       "viscous_dissipation_Nm smallest_step pressure_difference_rms "
-      "slip_difference_rms reference_angles_used";
+      "slip_difference_rms reference_angles_used remarks";
     nlohmann::ordered_json summary;
     for (const std::string &name : split(names, " "))
       summary[name] = std::numeric_limits<double>::quiet_NaN();
     summary["reference_rows_used"] = summary["reference_angles_used"] = 0;
+    summary["remarks"] = nlohmann::ordered_json::array();
     return summary;
   }
 
@@ -312,6 +370,10 @@ namespace Debond
         measure_energies(rows, rotation, settings, T_max, measures);
         measure_errors(rows, rotation, settings.reference, T_max, measures);
       }
+    else
+      measures["remarks"].push_back(
+        std::string("angles and energies of a rotation: null, ") +
+        (rotation.reverses ? "the rotation reverses" : "nothing rotates"));
     return measures;
   }
 } // namespace Debond

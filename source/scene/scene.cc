@@ -41,8 +41,16 @@ namespace Debond
     scene.name    = name;
     EntryTable table;
     scene.declare(table);
+    const auto usual = read_scene_text(table.text(), "defaults");
     for (const SceneEntry &entry : entries)
-      table.set(entry);
+      {
+        table.set(entry);
+        if (std::none_of(usual.begin(), usual.end(), [&](const SceneEntry &e) {
+              return e.full_name() == entry.full_name() &&
+                     e.value == entry.value;
+            }))
+          scene.changed_entries.push_back(entry);
+      }
     if (scene.model == ModelKind::automatic)
       scene.load_steps.adaptive = true;
     try

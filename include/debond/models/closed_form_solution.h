@@ -47,14 +47,13 @@ namespace Debond
   void
   write_results(const ClosedFormSolution &solution, const dealii::Timer &clock);
 
+  /** Why closed forms do not know what the chuck of a scene does; empty: they
+   *  do. */
+  std::string
+  why_no_closed_form(const Scene &scene);
+
   /** What `--check` says of it. */
   void
   describe(const ClosedFormSolution &solution, std::ostream &out);
-
-  /** Prints what closed forms predict of a scene with a coin: mean pressure,
-   *  torsional stiffness, largest torque, and whether the friction law has one
-   *  solution. */
-  void
-  print_forecast(const Scene &scene, std::ostream &out);
 } // namespace Debond
 #endif

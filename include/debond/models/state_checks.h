@@ -2,6 +2,7 @@
 #define debond_models_state_checks_h
 
 #include <debond/interface/contact_interface.h>
+#include <debond/scene/scene.h>
 #include <debond/system/chuck_path.h>
 #include <debond/system/energy_balance.h>
 
@@ -13,23 +14,6 @@
 namespace Debond
 {
   class CoupledSystem;
-  struct ModelParameters;
-
-  /** What a user has to know, once; @p check names what has not been passed. */
-  struct Warning
-  {
-    std::string check, text;
-
-    /** See serialization.h. */
-    template <class Archive>
-    void
-    serialize(Archive &archive, const unsigned int)
-    {
-      archive &check &text;
-    }
-  };
-
-
 
   /** What a user has to know about the states that a run has accepted. That
    *  they solve the equations, and are the only solution, was asked before. */

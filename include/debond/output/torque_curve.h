@@ -125,6 +125,8 @@ namespace Debond
     double contact_area_mm2 = std::numeric_limits<double>::quiet_NaN();
     /** Area mean of phi_0 over the contact face, Eq. (21). */
     double mean_phi_0 = 1;
+    /** Whether there is a bond to break; else nothing is said of adhesion. */
+    bool is_bonded = true;
     /** `Output / Full sliding angle` [deg]; 0: from the curve. */
     double full_sliding_angle_deg = 0;
     /** First time and ends of the phases, `Load steps / Times`. */
@@ -141,15 +143,18 @@ namespace Debond
   /**
    * Evaluates a torque curve, be it complete, interrupted or empty. Integrals
    * are trapezoids over the rows. Returns empty_summary() with what is read off
-   * the curve; NaN where undefined. Angles and energies are undefined if
-   * nothing rotates or if the rotation reverses; E_fric and what follows from
-   * it also if the run ends before full sliding. The names end in the units:
+   * the curve; NaN where undefined, and `remarks`, texts that say why. Angles
+   * and energies are undefined if nothing rotates or if the rotation reverses;
+   * E_fric and what follows from it also without a bond, if the pressure
+   * changes by more than a hundredth while it turns, and if the run ends before
+   * full sliding or with more than a tenth of the bond. The names end in the
+   * units:
    *
    *  - T_max: largest |T| over the rows; theta_max: where it is first met;
    *    theta_full: beginning of full sliding; T_inf: T of the last row;
    *  - pressure: at the end of the last phase before the angle first changes;
    *  - initial_stiffness: torque per angle up to the first row that has turned;
-   *  - E_deb, E_fric, W_adh: Eq. (20); w_adh: Eq. (21); w_adh_star: Eq. (21)
+   *  - E_deb, E_fric, W_adh: Eq. (20), without what jumps release; w_adh: Eq. (21); w_adh_star: Eq. (21)
    *    with a mean phi_0 of 1; D_adh: work the law spends on adhesion;
    *  - dissipation, and viscous_dissipation, which is part of it;
    *  - theta_debonding: angle of the first row whose mean bonding state is

@@ -69,6 +69,22 @@ namespace Debond
     bool resumable = true;
   };
 
+  /** What a user has to know, once; @p check names what has not been passed. */
+  struct Warning
+  {
+    std::string check, text;
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &check &text;
+    }
+  };
+
+
+
   /** Everything a `.prm` file says. A plain value: make one, copy it, change
    *  it, check() it, run it. One that nothing was said of is the paper's coin
    *  on bone, whose chuck does not move. */
@@ -86,6 +102,10 @@ namespace Debond
      *  mistake. */
     std::vector<SceneEntry> entries;
     std::string             name;
+    /** Those of them whose value is not the default. Empty for scenes that a
+     *  study or `Model = auto` has made of another one, which need not read all
+     *  entries. */
+    std::vector<SceneEntry> changed_entries;
 
     /** An EntryError with the value of the entry and the place where it is set,
      *  or the name of the scene if it is not; other errors as they are. */
@@ -123,6 +143,11 @@ namespace Debond
      *  from_text(); for scenes that a program has made or changed. */
     void
     check() const;
+
+    /** What is allowed, but has made results worse than they looked, or is
+     *  likely to be a slip of the pen. */
+    std::vector<Warning>
+    warnings() const;
   };
 
   /** Writes all entries with documentation, what they allow and their values:

@@ -1,0 +1,36 @@
+#ifndef debond_models_forecast_h
+#define debond_models_forecast_h
+
+#include <debond/interface/contact_interface.h>
+#include <debond/scene/scene.h>
+
+#include <iosfwd>
+#include <limits>
+
+namespace Debond
+{
+  /** What closed forms predict of a scene with a coin before it is run: the
+   *  bodies are springs in series with the interface. NaN where they do not
+   *  apply. */
+  struct Forecast
+  {
+    /** @p interface is that of the scene at the start. */
+    Forecast(const Scene &scene, const ContactInterface &interface);
+
+    static constexpr double none     = std::numeric_limits<double>::quiet_NaN();
+    double                  pressure = none; ///< at the end [MPa]
+    double torsional_stiffness       = none; ///< while all sticks [N mm/rad]
+    double T_max = none, T_end = none;       ///< [N mm]
+    /** Relative, of all of them: half a per cent for mesh and steps, and 0.15
+     *  of the bodies' share in the compliance (test `forecast`). */
+    double      error = none;
+    std::string why; ///< they do not apply; empty if there is a torque
+  };
+
+  /** Prints it, and whether the friction law has one solution. */
+  void
+  print_forecast(const Scene            &scene,
+                 const ContactInterface &interface,
+                 std::ostream           &out);
+} // namespace Debond
+#endif

@@ -1,0 +1,206 @@
+#include <debond/input/entry_table.h>
+#include <debond/scene/scene.h>
+#include <debond/support/number_text.h>
+
+#include <algorithm>
+#include <functional>
+#include <regex>
+
+namespace Debond
+{
+  namespace
+  {
+    /** Notes a warning if it is one: its name, and its text. */
+    using Note = std::function<
+      void(bool is_one, const std::string &, const std::string &)>;
+
+
+
+    void
+    judge_bodies(const Scene &scene, const Note &note)
+    {
+      for (const bool is_bone : {true, false})
+        {
+          const BodyParameters &body = is_bone ? scene.bone : scene.implant;
+          const std::string     name = is_bone ? "Bone / " : "Implant / ";
+          // What tables have in GPa: bone 0.1 to 30, polymers 1 to 10, metals
+          // and ceramics 50 to 400. A soft implant may be meant.
+          const double E = body.young_modulus;
+          const bool   in_GPa =
+            is_bone ? E <= 30. : E < 10. || (E >= 50. && E < 400.);
+          note(!body.is_rigid() && (in_GPa || E >= 1e8),
+               name + "modulus",
+               name + "Young modulus = " + to_text(E) + " MPa, where " +
+                 (is_bone ? "bone has 100 to 30 000" :
+                            "implants have 1000 to 400 000") +
+                 ": if it was meant in " + (in_GPa ? "GPa" : "Pa") +
+                 ", write " + to_text(in_GPa ? 1000. * E : 1e-6 * E));
+          // A trilinear cell cannot bend without a change of its volume, which
+          // a nearly incompressible material resists.
+          note(!body.is_rigid() && body.poisson_ratio > 0.45,
+               name + "locking",
+               name + "Poisson ratio = " + to_text(body.poisson_ratio) +
+                 ": trilinear cells lock as it approaches 0.5, so that the "
+                 "body is too stiff: compare with finer Cells");
+        }
+      for (const unsigned int d : {0, 1})
+        note(scene.implant.width(d) == scene.bone.size[d],
+             "width",
+             "the implant is as wide as the bone, " +
+               to_text(scene.bone.size[d]) + " mm in " + "xy"[d] +
+               ": its rim leaves the bone as soon as it moves. If there is "
+               "bone around it, enlarge Bone / Size");
+    }
+
+
+
+    void
+    judge_interface(const Scene &scene, const Note &note)
+    {
+      const FrictionLaw       &law     = *scene.interface.friction;
+      const BondingParameters &bonding = scene.interface.bonding;
+      // Adaptive steps look at the curve between states, and take the states
+      // to be exact. With friction that depends on the speed these depend on
+      // the step (backward Euler).
+      note(scene.load_steps.adaptive &&
+             (scene.interface.viscosity > 0. || law.depends_on_rate()),
+           "rate",
+           "Load steps / Tolerance does not cover the error in time of "
+           "friction that depends on the speed, which is of first order in the "
+           "step: compare with smaller Steps");
+      note(
+        law.has_bond() && law.coefficient({}, 0.).mu < law.mu_without_bond(),
+        "coefficients",
+        "the bond lowers friction: Interface / Friction coefficient unbroken "
+        "is less than broken, " +
+          to_text(law.mu_without_bond()) + ". Are they swapped?");
+      const double distance = law.characteristic_distance();
+      note(law.has_bond() &&
+             distance > 0.5 * scene.implant.characteristic_radius(),
+           "length of the bond",
+           "the bond breaks over a sliding distance of some " +
+             to_text(distance, 3) +
+             " mm, more than half the radius: lengths are mm, 22 um is 0.022");
+      const unsigned int n = scene.implant.cells[0] * scene.implant.cells[1];
+      note(bonding.pattern == BondingPatternKind::random &&
+             bonding.resolution == BondingResolution::element && n < 50,
+           "elements of the pattern",
+           "Interface / Bonding / Pattern = random draws from " +
+             std::to_string(n) +
+             " elements of the implant, too few to scatter: Implant / Cells = "
+             "20, 2 makes 400");
+    }
+
+
+
+    void
+    judge_chuck(const Scene &scene, const Note &note)
+    {
+      const std::vector<double> times = scene.load_steps.sample_times();
+      for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
+        {
+          const ChuckComponentParameters &component = scene.chuck.component[k];
+          const TimeFunction              value_at =
+            component.value_over_time(scene.implant.characteristic_radius());
+          std::vector<double> values;
+          for (const double time : times)
+            values.push_back(value_at(time));
+          const auto [least, most] =
+            std::minmax_element(values.begin(), values.end());
+          const std::string entry =
+            ChuckParameters::entry_name(k, "Value") + " = " + component.value;
+          note(*least == *most &&
+                 std::regex_search(component.value, std::regex("\\bt\\b")),
+               entry,
+               entry + " is " + to_text(*most) + " at all times from " +
+                 to_text(times.front()) + " to " + to_text(times.back()) +
+                 ": do Load steps / Times end too early?");
+          note(k == ChuckComponent::rotation_z && !component.loaded &&
+                 values[0] != 0. && *least != *most &&
+                 scene.has_friction_after(times.front()),
+               "start of the rotation",
+               entry + " begins with " + to_text(values[0]) +
+                 " degrees, and the implant turns from the first time on. What "
+                 "begins at t = 1 is for instance 10 * max(t - 1, 0)");
+          note(k == ChuckComponent::translation_z && *least >= 0. && *most > 0.,
+               "direction of the push",
+               entry + " is never negative: it pulls the implant off the bone. "
+                       "What presses is negative");
+        }
+    }
+
+
+
+    // Entries that were set, and that nothing reads in this scene.
+    void
+    judge_entries(const Scene &scene, const Note &note)
+    {
+      const std::string &law_name = scene.interface.friction_choice.law;
+      const FrictionLaw &law      = *scene.interface.friction;
+      const struct
+      {
+        const char *beginning; ///< of the names
+        bool        is_read;
+        const char *reader;
+      } table[] = {
+        {"Load steps / Tolerance", scene.load_steps.adaptive, "Adaptive steps"},
+        {"Load steps / Largest slip step",
+         scene.load_steps.follow_path,
+         "Path following = slip"},
+        {"Load steps / Path ends at slip",
+         scene.load_steps.follow_path,
+         "Path following = slip"},
+        {"Closed form / ",
+         scene.model != ModelKind::finite_elements,
+         "closed forms"},
+        {"Auto / ", scene.model == ModelKind::automatic, "Model = auto"},
+        {"Bone / Young", !scene.bone.is_rigid(), "bodies that deform"},
+        {"Implant / Young", !scene.implant.is_rigid(), "bodies that deform"},
+        {"Interface / Friction coefficient unbroken",
+         law_name != "coulomb",
+         "laws with a bond"},
+        {"Interface / Friction starts at",
+         !law.is_frictionless(),
+         "laws with friction"},
+        {"Interface / Bonding / ", law.has_bond(), "laws with a bond"},
+        {"Output / Observed bonding", law.has_bond(), "laws with a bond"}};
+      for (const SceneEntry &entry : scene.changed_entries)
+        {
+          const std::string name = entry.full_name();
+          const std::string text = name + " = " + shortened(entry.value) +
+                                   " has no effect in this scene: it is for ";
+          for (const auto &row : table)
+            note(!row.is_read && name.rfind(row.beginning, 0) == 0,
+                 name,
+                 text + row.reader);
+          bool is_of_law = false, is_of_others = false;
+          for (const FrictionLawPlugin &plugin : friction_law_plugins())
+            for (const LawEntry &other : plugin.entries)
+              if (other.name == entry.name && name.rfind("Interface", 0) == 0)
+                (plugin.name == law_name ? is_of_law : is_of_others) = true;
+          note(is_of_others && (!is_of_law || law.is_frictionless()),
+               name,
+               text + "another Friction law");
+        }
+    }
+  } // namespace
+
+
+
+  std::vector<Warning>
+  Scene::warnings() const
+  {
+    std::vector<Warning> found;
+    const Note           note = [&found](const bool         is_one,
+                               const std::string &check,
+                               const std::string &text) {
+      if (is_one)
+        found.push_back({check, text});
+    };
+    judge_bodies(*this, note);
+    judge_interface(*this, note);
+    judge_chuck(*this, note);
+    judge_entries(*this, note);
+    return found;
+  }
+} // namespace Debond

@@ -1,0 +1,109 @@
+// The forecast of --check against the finite elements of the scene: pressure,
+// stiffness and torques are within the error that it states, with a machine's
+// springs, stiff interfaces and patterns of the bonding. Where closed forms do
+// not hold it gives no number, and says why.
+
+#include <debond/models/forecast.h>
+#include <debond/models/simulation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "checks.h"
+
+using namespace Debond;
+
+const std::string coin = "subsection Bone\n set Material = linear\nend\n"
+                         "subsection Implant\n set Material = linear\nend\n"
+                         "subsection Chuck\n"
+                         " subsection Translation z\n"
+                         "  set Value = -0.0049 * min(t, 1)\n"
+                         " end\n"
+                         " subsection Rotation z\n"
+                         "  set Value = 10 * max(t - 1, 0)\n"
+                         " end\n"
+                         "end\n"
+                         "subsection Load steps\n"
+                         " set Times = 0, 1, 1.001, 1.1, 2\n"
+                         " set Steps = 1, 1, 20, 20\n"
+                         "end\n";
+
+
+
+void
+compare(const std::string &what, const std::vector<std::string> &overrides)
+{
+  Simulation     simulation(Scene::from_text(coin, overrides, "scene.prm"));
+  const Forecast forecast(simulation.scene, simulation.system().interface);
+  simulation.run();
+  const auto &rows  = simulation.rows();
+  double      T_max = 0.;
+  for (const TorqueRow &row : rows)
+    T_max = std::max(T_max, std::abs(row.torque_Nmm));
+  const TorqueRow &first = rows[2];
+  double           error = 0.;
+  const auto       note  = [&](const double said, const double is) {
+    grow(error, std::abs(said / is - 1.));
+  };
+  note(forecast.pressure, rows.back().pressure_MPa);
+  note(forecast.torsional_stiffness,
+       first.torque_Nmm / (first.angle_deg * M_PI / 180.));
+  note(forecast.T_max, T_max);
+  note(forecast.T_end, rows.back().torque_Nmm);
+  report(what + ": relative error over the one that is stated",
+         error / forecast.error,
+         1.);
+  report("  which is at most 9 %", forecast.error < 0.09);
+}
+
+
+
+void
+refuse(const std::string &what, const std::vector<std::string> &overrides)
+{
+  const Simulation simulation(Scene::from_text(coin, overrides, "scene.prm"));
+  const Forecast   forecast(simulation.scene, simulation.system().interface);
+  std::cout << what << ": " << forecast.why_no_torque;
+  if (!forecast.why_no_pressure.empty())
+    std::cout << "; no pressure either";
+  std::cout << std::endl;
+  report("  no torque", std::isnan(forecast.T_max + forecast.T_end));
+}
+
+
+
+int
+main()
+{
+  const std::string push = "Chuck/Translation z/", twist = "Chuck/Rotation z/",
+                    bonding = "Interface/Bonding/";
+  compare("main scene", {});
+  compare("both rigid", {"Bone/Material=rigid", "Implant/Material=rigid"});
+  compare("stiff interface", {"Interface/Penalty stiffness=6000"});
+  compare("deep bone", {"Bone/Size=12.5, 12.5, 10", "Bone/Cells=15, 15, 4"});
+  compare("spring against the push", {push + "Stiffness=5000"});
+  compare("spring against the rotation", {twist + "Stiffness=5000"});
+  compare("half bonded",
+          {bonding + "Pattern=disk", bonding + "Bonded fraction=0.5"});
+  compare("half bonded outside",
+          {bonding + "Pattern=annulus", bonding + "Bonded fraction=0.5"});
+  compare("half bonded in patches",
+          {bonding + "Pattern=random",
+           bonding + "Bonded fraction=0.5",
+           "Implant/Cells=8, 2"});
+  compare("under a force",
+          {push + "Control=force", push + "Value=-51 * min(t, 1)"});
+
+  refuse("deeper while it turns", {push + "Value=-0.0049 * t"});
+  refuse("half off the bone",
+         {"Chuck/Translation x/Value=6", "Load steps/Times=0, 1, 2, 3, 4"});
+  refuse("tilted", {"Chuck/Rotation x/Value=0.01 * min(t, 1)"});
+  refuse("moved sideways", {"Chuck/Translation x/Value=0.1 * max(t - 1, 0)"});
+  refuse("turned back", {twist + "Value=5 * sin(3 * max(t - 1, 0))"});
+  refuse("under a moment", {twist + "Control=moment"});
+  refuse("viscous", {"Interface/Viscosity=0.1"});
+  refuse("lifted at the end", {push + "Value=-0.0049 * t * (1.5 - t)"});
+}

@@ -1,0 +1,78 @@
+// What a scene warns of before anything is solved: values that are likely to be
+// a slip of the pen, with what was probably meant, and entries that nothing
+// reads. The same scene without the slip says nothing.
+
+#include <debond/scene/scene.h>
+
+#include <iostream>
+#include <string>
+#include <vector>
+
+using namespace Debond;
+
+const std::string coin = "subsection Chuck\n"
+                         " subsection Translation z\n"
+                         "  set Value = -0.0049 * min(t, 1)\n"
+                         " end\n"
+                         " subsection Rotation z\n"
+                         "  set Value = 10 * max(t - 1, 0)\n"
+                         " end\n"
+                         "end\n";
+
+
+
+void
+show(const std::vector<std::string> &overrides)
+{
+  for (const std::string &text : overrides)
+    std::cout << (&text == &overrides.front() ? "" : ", ") << text;
+  std::cout << ":\n";
+  for (const Warning &warning :
+       Scene::from_text(coin, overrides, "scene.prm").warnings())
+    std::cout << "  " << warning.text << "\n";
+}
+
+
+
+int
+main()
+{
+  const std::string push  = "Chuck/Translation z/",
+                    twist = "Chuck/Rotation z/Value=",
+                    law   = "Interface/Friction ";
+  show({"Title=nothing wrong"});
+
+  show({"Bone/Young modulus=18"});
+  show({"Bone/Young modulus=300"});
+  show({"Implant/Young modulus=113"});
+  show({"Implant/Young modulus=3.6"});
+  show({"Implant/Young modulus=1.13e11"});
+  show({"Implant/Young modulus=30"});
+  show({"Bone/Size=5, 12.5, 5"});
+
+  show({law + "coefficient broken=0.7"});
+  show({law + "coefficient broken=0.7", law + "law=coulomb"});
+  show({"Interface/Sliding threshold=22"});
+  show({"Interface/Bonding/Pattern=random",
+        "Interface/Bonding/Bonded fraction=0.5"});
+  show({"Interface/Bonding/Pattern=random",
+        "Interface/Bonding/Bonded fraction=0.5",
+        "Implant/Cells=20, 2"});
+
+  show({twist + "5 * (t - 1)"});
+  show({twist + "5 * (t - 1)", "Load steps/Times=1, 2, 3"});
+  show({"Load steps/Times=0, 0.5, 1"});
+  show({push + "Control=force", push + "Value=50 * min(t, 1)"});
+  show({push + "Control=force", push + "Value=-50 * min(t, 1)"});
+  show({push + "Value=0.0049 * (2 * t - 1)"});
+
+  show({"Load steps/Tolerance=1e-2"});
+  show({"Load steps/Tolerance=1e-2", "Load steps/Adaptive=true"});
+  show({"Load steps/Largest slip step=1e-3"});
+  show({"Closed form/Shear modulus=50", "Closed form/Pressure=2"});
+  show({"Closed form/Shear modulus=50", "Model=mathieu"});
+  show({"Bone/Material=rigid", "Bone/Young modulus=17"});
+  show({law + "law=frictionless", law + "coefficient broken=0.3"});
+  show({law + "law=coulomb", law + "coefficient unbroken=0.7"});
+  show({"Interface/Rate and state/Direct effect=0.02"});
+}

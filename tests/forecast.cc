@@ -66,8 +66,8 @@ refuse(const std::string &what, const std::vector<std::string> &overrides)
 {
   const Simulation simulation(Scene::from_text(coin, overrides, "scene.prm"));
   const Forecast   forecast(simulation.scene, simulation.system().interface);
-  std::cout << what << ": " << forecast.why_no_torque;
-  if (!forecast.why_no_pressure.empty())
+  std::cout << what << ": " << forecast.why;
+  if (std::isnan(forecast.pressure))
     std::cout << "; no pressure either";
   std::cout << std::endl;
   report("  no torque", std::isnan(forecast.T_max + forecast.T_end));

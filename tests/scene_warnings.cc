@@ -62,6 +62,7 @@ main()
   show({twist + "5 * (t - 1)"});
   show({twist + "5 * (t - 1)", "Load steps/Times=1, 2, 3"});
   show({"Load steps/Times=0, 0.5, 1"});
+  show({"Chuck/Rotation x/Value=0 * t"});
   show({push + "Control=force", push + "Value=50 * min(t, 1)"});
   show({push + "Control=force", push + "Value=-50 * min(t, 1)"});
   show({push + "Value=0.0049 * (2 * t - 1)"});

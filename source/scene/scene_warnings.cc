@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <regex>
 
 namespace Debond
 {
@@ -93,6 +92,25 @@ namespace Debond
 
 
 
+    bool
+    changes_later(const ChuckComponentParameters &component,
+                  const TimeFunction             &value_at,
+                  const std::vector<double>      &times)
+    {
+      const double end = times.back(), span = end - times.front();
+      try
+        {
+          for (unsigned int i = 1; i <= 20 && !component.function; ++i)
+            if (value_at(end + 0.5 * i * span) != value_at(end))
+              return true;
+        }
+      catch (const InputError &)
+        {} // no finite value there, where none is needed
+      return false;
+    }
+
+
+
     void
     judge_chuck(const Scene &scene, const Note &note)
     {
@@ -109,12 +127,11 @@ namespace Debond
             std::minmax_element(values.begin(), values.end());
           const std::string entry =
             ChuckParameters::entry_name(k, "Value") + " = " + component.value;
-          note(*least == *most &&
-                 std::regex_search(component.value, std::regex("\\bt\\b")),
+          note(*least == *most && changes_later(component, value_at, times),
                entry,
                entry + " is " + to_text(*most) + " at all times from " +
                  to_text(times.front()) + " to " + to_text(times.back()) +
-                 ": do Load steps / Times end too early?");
+                 ", and changes later: do Load steps / Times end too early?");
           note(k == ChuckComponent::rotation_z && !component.loaded &&
                  values[0] != 0. && *least != *most &&
                  scene.has_friction_after(times.front()),

@@ -147,7 +147,7 @@ namespace Debond
    * and energies are undefined if nothing rotates or if the rotation reverses;
    * E_fric and what follows from it also without a bond, if the pressure
    * changes by more than a hundredth while it turns, and if the run ends before
-   * full sliding or with more than a tenth of the bond. The names end in the
+   * full sliding or with more than a fifth of the bond. The names end in the
    * units:
    *
    *  - T_max: largest |T| over the rows; theta_max: where it is first met;

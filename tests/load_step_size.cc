@@ -32,8 +32,8 @@ check_main_scene()
   double     T_max = 0;
   for (const auto &row : fine)
     grow(T_max, row.torque_Nmm);
-  // tests/comparison/numpy with main_scene.prm has the same torques with these
-  // numbers of steps
+  // tests/comparison/numpy with main_scene.prm and these steps: 3e-6, 2e-5,
+  // 2.5e-3; the program divides the last one
   for (const auto &[n, limit] :
        {std::pair<unsigned int, double>{100, 3e-6}, {10, 2e-5}, {1, 2.5e-3}})
     {

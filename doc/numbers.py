@@ -3,7 +3,7 @@
 between <!-- numbers: NAME --> and <!-- end -->.
 
     doc/numbers.py                  all that take seconds, into the pages (some half a minute)
-    doc/numbers.py NAME...          only these; --all: those that take minutes, too; --list: names and what makes them
+    doc/numbers.py NAME...          only these; --all: those that take minutes, too; --list: all names
     doc/numbers.py --check [NAME]   changes no page; exit code 1 if a page says something else
 
 Each function below with @numbers is one NAME, and returns what stands there. Runs go to output/numbers; --force runs studies again
@@ -98,9 +98,9 @@ def last_angle(curve, torque):
     return curve[-1]['angle_deg']
 
 
-def small(value):
+def small(value, digits=1):
     """1.3e-6"""
-    return ('%.1e' % value).replace('e-0', 'e-')
+    return ('%.*e' % (digits, value)).replace('e-0', 'e-')
 
 
 def difference(result, reference):
@@ -201,7 +201,7 @@ def table_4():
             lines.append([data_set, '%.2f' % mu, '%.1f' % (1000 * -number(row['Chuck / Translation z / Value'].split()[0])),
                           '%.2f' % row['Interface / Friction coefficient unbroken'], printed[data_set][mu], '%.3f' % row['pressure_MPa'],
                           '%.2f' % row['T_max_Nmm'], '%.2f' % row['T_inf_Nmm'],
-                          '-' if mu == .4 else small(off).replace('.0', '') if off < 1e-3 else '%.1f %%' % (100 * off)])
+                          '-' if mu == .4 else small(off, 0) if off < 1e-3 else '%.1f %%' % (100 * off)])
     return table(['set', 'mu_b', 'd [um]', 'mu_ub', 'p: paper', 'p: ours', 'T_max [N mm]', 'T_inf [N mm]', 'difference'], lines)
 
 
@@ -381,6 +381,22 @@ def ensemble():
     return table(['200 implants, 55 % bonded', 'mean', 'standard deviation', '5 to 95 %', 'homogeneous 0.55'], lines)
 
 
+@numbers('minutes')
+def ensemble_correlation():
+    scene = 'prm/studies/ensemble_correlation.prm'
+    study(scene)
+    bonded = [run('prm/studies/ensemble_scene.prm', UNIFORM[0], 'Interface/Bonding/Initial bonding=%d' % phi)['T_max_Nmm'] for phi in (0, 1)]
+    lines = []
+    for row in rows_of(directory_of(scene, ()) + '/ensemble_summary.csv'):
+        length, sd = row['Interface / Bonding / Correlation length'], row['T_max_sd_Nmm']
+        lines.append(['%g' % length + ' (elements of 0.22 mm)' * (length == 0),
+                      '%.2f, %.2f, %.2f to %.2f' % (row['T_max_mean_Nmm'], sd, row['T_max_p05_Nmm'], row['T_max_p95_Nmm']),
+                      percent(sd / (bonded[1] - bonded[0])) + ' of the surface' * (length == 0),
+                      '%.2f %%' % (100 * row['D_adh_sd_Nm'] / row['D_adh_mean_Nm']), '%.1f' % row['largest_bonded_patch_mean_mm2']])
+    return table(['correlation length [mm]', 'T_max: mean, standard deviation, 5 to 95 % [N mm]',
+                  'the same in bonded fraction (standard deviation)', 'D_adh, standard deviation', 'largest patch, mean [mm2]'], lines)
+
+
 # Pages
 
 
@@ -445,6 +461,8 @@ def main():
     unknown = set(options.names) - set(NAMES)
     if unknown:
         sys.exit('numbers.py: no such NAME: %s; --list names all' % ', '.join(sorted(unknown)))
+    if not os.access(options.debond, os.X_OK):
+        sys.exit('numbers.py: there is no %s: build the program first, or set DEBOND' % options.debond)
     wanted = options.names or [name for name, (_, cost) in NAMES.items() if options.all or cost == 'seconds']
     results = [treat(page, wanted) for page in pages()]
     unused = set(NAMES) - set().union(*(found for _, found in results))

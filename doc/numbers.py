@@ -343,6 +343,17 @@ def partial_fitted():
                   for (name, printed), row in zip(paper, study('prm/paper/partial_fitted_parameters.prm'))])
 
 
+@numbers('minutes')
+def memory():
+    lines = []
+    for bone, implant in (('15, 15, 2', '3, 2'), ('30, 30, 2', '6, 2'), ('60, 60, 2', '12, 2'), ('30, 30, 12', '6, 12'), ('120, 120, 2', '24, 2')):
+        changes = ('Bone/Cells=' + bone, 'Implant/Cells=' + implant, 'Load steps/Steps=1, 1')
+        check = subprocess.run([options.debond, MAIN, '--check'] + [word for change in changes for word in ('--set', change)],
+                               stdout=subprocess.PIPE, text=True, check=True).stdout
+        lines.append([bone.replace(', ', ' x '), re.search(r'memory: some (\d+) MB', check)[1], '%.0f' % run(MAIN, *changes)['peak_memory_MB']])
+    return table(['cells of the bone', 'estimate [MB]', 'measured peak [MB]'], lines)
+
+
 # Random patterns
 
 RANDOM = ('Interface/Bonding/Pattern=random', 'Interface/Bonding/Bonded fraction=0.55')

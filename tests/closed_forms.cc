@@ -201,7 +201,8 @@ check_bonded_disk()
 
 
 /** Eq. (18) with a constant coefficient: 2/3 pi t_max (R^3 - c^3/4). With the
- *  modified law beyond theta_max the numbers of an independent computation. */
+ *  modified law beyond theta_max the numbers of tests/verification/
+ *  closed_form_b.prm, which says where they are from. */
 void
 check_analytical()
 {

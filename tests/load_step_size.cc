@@ -32,7 +32,8 @@ check_main_scene()
   double     T_max = 0;
   for (const auto &row : fine)
     grow(T_max, row.torque_Nmm);
-  // independent finite element code: 3e-6, 2e-5, 2.5e-3
+  // tests/comparison/numpy with main_scene.prm and these steps: 3e-6, 2e-5,
+  // 2.5e-3; the program divides the last one
   for (const auto &[n, limit] :
        {std::pair<unsigned int, double>{100, 3e-6}, {10, 2e-5}, {1, 2.5e-3}})
     {
@@ -74,7 +75,7 @@ check_stiff_interface()
       report("  contact and reaction differ",
              driven.system.reaction_defect(),
              1e-6);
-      // independent finite element code
+      // tests/comparison/numpy/stiff_interface.prm
       report("  torque at 0.1 degrees differs from 652 N mm",
              std::abs(driven.system.chuck_forces()[5] / 652 - 1),
              1e-3);

@@ -86,8 +86,7 @@ test()
 {
   // The points miss 2.77 and 0.055 % of the area and 4.13 and 0.083 % of the
   // integral of r, to which the torque is proportional if the pressure is
-  // uniform; the independent finite element code finds 4.8 and 0.085 % of the
-  // torque (4.8: if two of the four points on the edge are lost).
+  // uniform.
   compare({}, 0.0278, 0.028, 0.042);
   compare({"Bone/Cells=30, 30, 2", "Implant/Cells=6, 2"},
           0.00055,

@@ -3,7 +3,7 @@
 // The two bodies that deform, from the cheaper to the more accurate one. The
 // paper uses the Neo-Hookean law, Eq. (1), for both bodies. Their strains are
 // about 1e-3 in the body's own frame, so that the Neo-Hookean law changes
-// nothing that is visible in the torque, and takes two to five times as long
+// nothing that is visible in the torque, and takes up to four times as long
 // (doc/speed_and_accuracy.md). Both have the same K at rest.
 namespace Debond
 {

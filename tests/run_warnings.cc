@@ -1,6 +1,7 @@
 // What a run warns of by itself: each scene that deserves it, and the same with
 // the cure. The names of the checks are printed, not their texts.
 
+#include <debond/models/forecast.h>
 #include <debond/models/simulation.h>
 #include <debond/support/runtime.h>
 
@@ -30,11 +31,17 @@ const std::string coin = "subsection Bone\n"
 void
 show(const std::string &name, const std::vector<std::string> &overrides)
 {
-  Simulation simulation(Scene::from_text(coin, overrides, "scene.prm"));
+  const Scene scene = Scene::from_text(coin, overrides, "scene.prm");
+  Simulation  simulation(scene);
   simulation.run();
   std::cout << name << ":";
   for (const Warning &warning : simulation.warnings())
     std::cout << " [" << warning.check << "]";
+  if (!difference_from_forecast(scene,
+                                simulation.system().interface,
+                                simulation.rows())
+         .empty())
+    std::cout << " [forecast]";
   std::cout << "\n";
 }
 

@@ -152,6 +152,12 @@ namespace Debond
           }
         seconds_before_steps = wall_clock.wall_time();
         simulation.run();
+        const std::string difference =
+          difference_from_forecast(scene,
+                                   simulation.system().interface,
+                                   simulation.rows());
+        if (!difference.empty())
+          report.console.warn("forecast", difference);
         report.torque_curve->finish();
       }
 

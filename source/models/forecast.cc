@@ -1,5 +1,6 @@
 #include <debond/models/closed_form_solution.h>
 #include <debond/models/forecast.h>
+#include <debond/support/number_text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -145,6 +146,32 @@ namespace Debond
              std::abs(last[twist]);
            ++i)
         T_max = std::max(T_max, std::abs(T_end = torques[i]));
+  }
+
+
+
+  // Steps may have gone over the peak, or cells may be too coarse for it.
+  std::string
+  difference_from_forecast(const Scene                  &scene,
+                           const ContactInterface       &interface,
+                           const std::vector<TorqueRow> &rows)
+  {
+    // energy that a jump has released is not in the closed form
+    if (scene.implant.shape != BodyShape::coin ||
+        rows.back().released_energy_Nmm > 0.)
+      return "";
+    const Forecast forecast(scene, interface);
+    double         T_max = 0.;
+    for (const TorqueRow &row : rows)
+      T_max = std::max(T_max, std::abs(row.torque_Nmm));
+    // not so if there is no forecast
+    if (std::abs(T_max - forecast.T_max) > forecast.error * forecast.T_max)
+      return Text() << "the largest torque of all rows is " << T_max
+                    << " N mm, where closed forms predict " << forecast.T_max
+                    << " N mm to " << to_text(100. * forecast.error, 2)
+                    << " %: do the steps go over the peak, or are cells too "
+                       "coarse for the interface?";
+    return "";
   }
 
 

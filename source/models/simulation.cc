@@ -1,4 +1,3 @@
-#include <debond/models/forecast.h>
 #include <debond/models/memory_estimate.h>
 #include <debond/models/simulation.h>
 #include <debond/support/input_error.h>
@@ -158,22 +157,6 @@ namespace Debond
         load_steps.path_ends_at_slip == 0.)
       warn({"path",
             "the last time is not reached: " + step_control.reason_to_end()});
-    if (scene.implant.shape != BodyShape::coin ||
-        state_checks.released().n_jumps() > 0)
-      return;
-    // What closed forms know of the largest torque is worth a second look where
-    // the rows say something else. Steps may have gone over it.
-    const Forecast forecast(scene, coupled_system.interface);
-    double         T_max = 0.;
-    for (const TorqueRow &row : all_rows)
-      T_max = std::max(T_max, std::abs(row.torque_Nmm));
-    if (std::abs(T_max - forecast.T_max) > forecast.error * forecast.T_max)
-      warn({"forecast",
-            Text() << "the largest torque of all rows is " << T_max
-                   << " N mm, where closed forms predict " << forecast.T_max
-                   << " N mm to " << to_text(100. * forecast.error, 2)
-                   << " %: do the steps go over the peak, or are cells too "
-                      "coarse for the interface?"});
   }
 
 

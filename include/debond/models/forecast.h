@@ -2,10 +2,13 @@
 #define debond_models_forecast_h
 
 #include <debond/interface/contact_interface.h>
+#include <debond/output/torque_curve.h>
 #include <debond/scene/scene.h>
 
 #include <iosfwd>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace Debond
 {
@@ -26,6 +29,13 @@ namespace Debond
     double      error = none;
     std::string why; ///< they do not apply; empty if there is a torque
   };
+
+  /** What to say of rows whose largest torque is further from the forecast than
+   *  its error; empty: nothing. */
+  std::string
+  difference_from_forecast(const Scene                  &scene,
+                           const ContactInterface       &interface,
+                           const std::vector<TorqueRow> &rows);
 
   /** Prints it, and whether the friction law has one solution. */
   void

@@ -62,7 +62,8 @@ main()
   show("deep in soft bone", {soft, steps, push + "-0.3 * min(t, 1)"});
   show("the same, Neo-Hookean",
        {soft, steps, push + "-0.3 * min(t, 1)", "Bone/Material=neo-hookean"});
-  show("not so deep", {soft, steps, push + "-0.02 * min(t, 1)"});
+  show("deep in bone that is less soft",
+       {"Bone/Young modulus=4000", steps, push + "-0.3 * min(t, 1)"});
 
   const std::vector<std::string> stiff = {"Implant/Radius=1.7",
                                           "Bone/Young modulus=700",

@@ -146,39 +146,32 @@ namespace Debond
 
 
   // A point beyond the edge of the master that the step takes over it begins to
-  // interact where it crosses the edge, and what it moves along the surface
-  // from there on counts as slip. Starting where the step ends it would have no
-  // tangential gap, and friction would depend on the size of the steps.
+  // interact at the place of the edge that was closest to it before the step,
+  // and what it moves along the surface from there on counts as slip. Starting
+  // where the step ends it would have no tangential gap, and friction would
+  // depend on the size of the steps.
   //
-  // Both surfaces go straight from the accepted state to the trial state; the
-  // share of the step at which the point first faces the master is found by
-  // bisection. Few points cross in a step, so that this may take its time. The
-  // tangent takes xi_hat^n as fixed in the surface.
+  // If it comes square to the edge this is where it crosses it, else within the
+  // length of the step. The place where it crosses would depend on the trial
+  // state, by derivatives of the surface that the tangent does not know.
   ContactPointState
   ContactInterface::entry(const SlavePoint             &point,
                           const InterfaceConfiguration &configuration) const
   {
-    ContactPointState start = point.accepted;
-    const auto        faces = [&](const double share) {
-      const auto between = [&](const Side side) -> ControlNet {
-        return (1. - share) * accepted_positions[side] +
-               share * configuration.side[side].positions;
-      };
-      const ControlNet positions = between(master_side());
-      MasterSurface    surface   = master(configuration);
-      surface.positions          = &positions;
-      const Projection projection =
-        project(surface, interpolate(point.basis, between(slave)), &start.xi);
-      if (projection.faces)
-        start.xi = projection.xi;
-      return projection.faces;
-    };
-    start.has_partner = faces(1.);
-    double outside = 0., inside = 1.;
-    while (start.has_partner && inside - outside > 1e-9)
+    ContactPointState start   = point.accepted;
+    MasterSurface     surface = master(configuration);
+    start.has_partner =
+      project(surface,
+              interpolate(point.basis, configuration.side[slave].positions),
+              &start.xi)
+        .faces;
+    if (start.has_partner)
       {
-        const double share                = 0.5 * (inside + outside);
-        (faces(share) ? inside : outside) = share;
+        surface.positions = &accepted_positions[master_side()];
+        start.xi          = project(surface,
+                           interpolate(point.basis, accepted_positions[slave]),
+                           &start.xi)
+                     .xi;
       }
     return start;
   }

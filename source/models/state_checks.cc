@@ -83,12 +83,12 @@ namespace Debond
                     << advice(parameters));
       // A jump needs a law that falls faster than all springs in series let go.
       // How compliant bodies and machine are, compared with the interface, is
-      // what they store; a quarter is for the pressure's part of it.
+      // what they store; four times, as the pressure's part tells nothing.
       else if (released_energy.may_hide_a_jump() &&
                summary.steepest_softening *
-                   (summary.energy + system.bulk_energy() +
-                    chuck.machine_energy()) >
-                 0.25 * summary.energy)
+                   (summary.energy +
+                    4. * (system.bulk_energy() + chuck.machine_energy())) >
+                 summary.energy)
         note("steep fall",
              "in one step " + change +
                ": too much to tell a jump from a steep fall; smaller steps do");

@@ -255,8 +255,8 @@ namespace Debond
     project_accepted(SlavePoint                   &point,
                      const InterfaceConfiguration &configuration,
                      bool                          use_guess);
-    /** The state that a point without a partner begins this step with: where
-     *  it crosses the master's edge, or without a partner if it does not. */
+    /** The state that a point without a partner begins this step with: on the
+     *  edge that it comes over, or without a partner if it does not. */
     ContactPointState
     entry(const SlavePoint             &point,
           const InterfaceConfiguration &configuration) const;

@@ -174,8 +174,10 @@ namespace Debond
       return projection.faces;
     };
     start.has_partner = faces(1.);
+    // To the last digits: what the place jumps by from iteration to iteration
+    // is a residual that Newton's method cannot get below.
     double outside = 0., inside = 1.;
-    while (start.has_partner && inside - outside > 1e-9)
+    while (start.has_partner && inside - outside > 1e-15)
       {
         const double share                = 0.5 * (inside + outside);
         (faces(share) ? inside : outside) = share;

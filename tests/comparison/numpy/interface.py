@@ -11,30 +11,34 @@ import scipy.sparse as sparse
 def closest_points(surface, control_points, x, xi):
     """Parameters (m, 2) of the points of the surface closest to x (m, 3), and which x lie beyond its edge (m,).
 
-    Gauss-Newton iteration from xi (m, 2), damped by the distance, as the corners of a disk are singular; a parameter
-    that would leave [0, 1] stays at its end. Steps along the edge are shortened more, as it is curved. Points beyond
-    the edge are those that are not above their closest points, which need not be known well then.
+    The control points (n, 3) are those of one surface, or (m, n, 3) of one for each x.
+    Gauss-Newton iteration from xi (m, 2), damped by the distance beside, as the corners of a disk are singular; a
+    parameter that would leave [0, 1] stays at its end. Steps along the edge are shortened more, as it is curved, and
+    late steps, lest they go to and fro. Points beyond the edge are those that are not above their closest points,
+    which need not be known well then.
     """
-    size = np.abs(control_points[:, :2] - control_points[:, :2].mean(0)).max()
-    for _ in range(300):
+    size = np.ptp(control_points[..., 0], -1).max() / 2
+    xi = np.clip(xi, 0.01, 0.99)  # from a corner itself no slope leads away
+    for iteration in range(300):
         y, tangents = surface.point(control_points, xi)
         slope = np.einsum('mki,mi->mk', tangents, x - y)
         metric = np.einsum('mki,mli->mkl', tangents, tangents)
-        held = ((xi <= 0) & (slope < 0)) | ((xi >= 1) & (slope > 0))
-        at_edge = held.any(1)
-        metric[at_edge, 0, 1] = metric[at_edge, 1, 0] = 0
-        distance = np.linalg.norm(x - y, axis=1)[:, None, None]
-        metric = (1 + at_edge[:, None, None] * distance / size) * metric + (distance + 1e-14) * size * np.eye(2)
-        step = np.linalg.solve(metric, np.where(held, 0, slope)[..., None])[..., 0]
-        step *= np.minimum(1, 0.2 / np.maximum(np.abs(step).max(1), 1e-300))[:, None]
-        following = np.clip(xi + step, 0, 1)
-        way = np.linalg.norm(np.einsum('mki,mk->mi', tangents, following - xi), axis=1)
         normal = np.cross(tangents[:, 0], tangents[:, 1])
         normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
         beside = np.linalg.norm(x - y - _dot(x - y, normal)[:, None] * normal, axis=1)
         beyond = beside > 1e-6 * size
+        held = ((xi <= 0) & (slope < 0)) | ((xi >= 1) & (slope > 0))
+        at_edge = held.any(1)
+        metric[at_edge, 0, 1] = metric[at_edge, 1, 0] = 0
+        distance = np.linalg.norm(x - y, axis=1)[:, None, None]
+        metric = ((1 + at_edge[:, None, None] * distance / size) * metric
+                  + (beside + 1e-14)[:, None, None] * size * np.eye(2))
+        step = np.linalg.solve(metric, np.where(held, 0, slope)[..., None])[..., 0]
+        step *= np.minimum(1, 0.2 / np.maximum(np.abs(step).max(1), 1e-300))[:, None]
+        following = np.clip(xi + (step if iteration < 50 else step / 2), 0, 1)
+        way = np.linalg.norm(np.einsum('mki,mk->mi', tangents, following - xi), axis=1)
         xi = following
-        if (way < np.where(beyond, 1e-3 * beside, 1e-14 * size)).all():
+        if (way < np.where(beyond, 2e-3 * beside, 1e-14 * size)).all():
             return xi, beyond
     raise ArithmeticError('a closest point was not found')
 
@@ -69,6 +73,7 @@ class Interface:
         self.normal_stiffness, self.tangential_stiffness = stiffness
         self.viscosity = viscosity
         xi, self.area = face_quadrature(slave, points_per_direction)  # tractions are nominal
+        self.face_area = self.area  # of the points that shares and the mean bonding state are those of
         self.numbers, self.values, _ = slave.face.basis(xi)
         place = self.positions(slave.points[:slave.face.weights.size])
         self.bonded = np.broadcast_to(np.asarray(bonding(place[:, 0], place[:, 1]), float), self.area.shape)
@@ -76,6 +81,8 @@ class Interface:
         self.slid = np.zeros(len(xi))
         self.theta = np.full(len(xi), self.law.initial_theta)
         self.beyond = np.zeros(len(xi), bool)
+        self.nearest = self.xi.copy()  # parameters of the closest points of those beyond the edge
+        self.accepted = None  # control points of slave and master in the accepted state
         self.pressure, self.shear = np.zeros(len(xi)), np.zeros((len(xi), 3))  # of the accepted state
         self.viscous = np.zeros((len(xi), 3))  # traction, MPa
         self.dissipation = self.viscous_work = self.adhesive_work = 0.  # N mm
@@ -88,9 +95,50 @@ class Interface:
         """Give the points `which` (m,) the closest points of the master as partners, with no history of motion."""
         x = self.positions(slave_points)[which]
         if len(x):
-            xi, beyond = closest_points(self.master.face, master_points, x, np.clip(self.xi[which], 0, 1))
+            guess = np.where(self.beyond[which, None], self.nearest[which], np.clip(self.xi[which], 0, 1))
+            xi, beyond = closest_points(self.master.face, master_points, x, guess)
             self.xi[which] = np.where(beyond[:, None], 0.5, xi)  # anywhere: they have no partner
-            self.beyond[which] = beyond
+            self.nearest[which], self.beyond[which] = xi, beyond
+        self.accepted = slave_points, master_points
+
+    def leave_out_those_beyond(self):
+        """Bone that does not face the implant at the start is not bonded, and no part of the contact face."""
+        self.bonded = np.where(self.beyond, 0, self.bonded)
+        self.face_area = np.where(self.beyond, 0, self.area)
+
+    def _entries(self, slave_points, master_points):
+        """Numbers (k,) of points that come over the master from beyond its edge, and where, parameters (k, 2).
+
+        A point has come if it is above the master now. It enters at the place of the edge that was closest to it in the
+        accepted state.
+        """
+        numbers, xi = np.flatnonzero(self.beyond), self.nearest[self.beyond]
+        if len(numbers):
+            _, beyond = closest_points(self.master.face, master_points, self.positions(slave_points)[numbers], xi)
+            numbers, xi = numbers[~beyond], xi[~beyond]
+        if len(numbers):
+            slave_before, master_before = self.accepted
+            x = self.positions(slave_before)[numbers]
+            fixed = (np.minimum(xi, 1 - xi)).argmin(1)  # the parameter that the edge keeps
+            every = np.arange(len(numbers))
+
+            def slope(along):
+                """Of half the squared distance from the place of the edge, by its other parameter (k,)."""
+                xi[every, 1 - fixed] = along
+                y, tangents = self.master.face.point(master_before, xi)
+                return _dot(tangents[every, 1 - fixed], y - x)
+
+            # secants, from the neighbourhood
+            last, along = xi[every, 1 - fixed].copy(), xi[every, 1 - fixed] + 1e-4 * np.sign(0.5 - xi[every, 1 - fixed])
+            before, now = slope(last), slope(along)
+            for _ in range(30):
+                change = np.where(now == before, 0, -now * (along - last) / np.where(now == before, 1, now - before))
+                last, before = along, now
+                along = np.clip(along + change, 0, 1)
+                now = slope(along)
+                if (np.abs(change) < 1e-15).all():
+                    break
+        return numbers, xi
 
     def _place(self, master_points, xi):
         """The master at xi: functions, position, normal towards the slave, dual vectors a^1, a^2 (m, 2, 3)."""
@@ -129,22 +177,25 @@ class Interface:
         """
         history = self._history(friction, duration)
         x = self.positions(slave_points)
-        start = self._place(master_points, self.xi)
+        come, entries = self._entries(slave_points, master_points)
+        xi, beyond = self.xi.copy(), self.beyond.copy()
+        xi[come], beyond[come] = entries, False
+        start = self._place(master_points, xi)
         trial = x - start.point
         normal_gap = _dot(start.normal, trial)
         stretch = np.linalg.norm(trial - normal_gap[:, None] * start.normal, axis=1)
-        closed = (normal_gap < 0) & ~self.beyond
+        closed = (normal_gap < 0) & ~beyond
         sliding = closed & (stretch > self._reach(history, 0 * stretch, -normal_gap)[0])
         if all_stick:
             sliding[:] = False
 
-        xi, inside = self.xi.copy(), np.ones(len(x), bool)
+        inside = np.ones(len(x), bool)
         if sliding.any():
             history_there = self._history(friction, duration, sliding)
             xi[sliding], inside[sliding] = self._slide(x[sliding], trial[sliding], start.point[sliding], xi[sliding],
                                                        master_points, history_there)
         state = self._place(master_points, np.clip(xi, 0, 1))
-        state.start, state.xi, state.gap = start, xi, x - state.point
+        state.start, state.xi, state.beyond, state.gap = start, xi, beyond, x - state.point
         state.normal_gap = _dot(state.normal, state.gap)
         state.closed = closed & inside & (state.normal_gap < 0)
         state.sliding = sliding & state.closed
@@ -161,10 +212,11 @@ class Interface:
     def _slide(self, x, trial, origin, xi, master_points, history):
         """Parameters of the partners of sliding points (k, 2), and whether they lie on the master (k,).
 
-        Newton's method for the gap that the law asks for, with the law's slope but without the curvature of the master.
-        The partners were at `origin`, with parameters xi.
+        Newton's method for the gap that the law asks for, with the law's slope but without the curvature of the master;
+        late steps are halved, as a coefficient that rises and then stays makes them go to and fro. The partners were at
+        `origin`, with parameters xi.
         """
-        for _ in range(100):
+        for iteration in range(100):
             place = self._place(master_points, xi)
             gap = x - place.point
             depth = -_dot(place.normal, gap)
@@ -178,7 +230,7 @@ class Interface:
             along = _dot(excess, tau)
             excess += ((1 / (1 + by_way) - 1) * along)[:, None] * tau
             step = np.einsum('mki,mi->mk', place.dual, excess)
-            xi = np.where(inside[:, None], xi + step, xi)
+            xi = np.where(inside[:, None], xi + (step if iteration < 30 else step / 2), xi)
         raise ArithmeticError('the partner of a sliding point was not found')
 
     def nodal_forces(self, state):
@@ -255,7 +307,8 @@ class Interface:
             self.theta = np.where(state.closed, self.law.theta(history, state.way), self.theta)
         self.dissipation += (self.area * _dot(state.shear + self.shear @ turn.T, way) / 2).sum()
         self.viscous_work += (self.area * _dot(viscous + self.viscous @ turn.T, way) / 2).sum()
-        self.xi, self.pressure, self.shear, self.viscous = state.xi, state.pressure, state.shear, viscous
+        self.xi, self.beyond = state.xi, state.beyond
+        self.pressure, self.shear, self.viscous = state.pressure, state.shear, viscous
         self.face(slave_points, master_points, ~state.closed)
 
     def energy(self, state):

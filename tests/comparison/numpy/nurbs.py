@@ -58,9 +58,13 @@ class Surface:
         return numbers, values, slopes
 
     def point(self, control_points, xi):
-        """Positions (m, 3) and tangents a_1, a_2 (m, 2, 3) at xi (m, 2)."""
+        """Positions (m, 3) and tangents a_1, a_2 (m, 2, 3) at xi (m, 2).
+
+        The control points (n n, 3) are those of one surface, or (m, n n, 3) of one for each xi.
+        """
         numbers, values, slopes = self.basis(xi)
-        near = control_points[numbers]
+        near = np.take_along_axis(control_points, numbers[..., None], 1) if control_points.ndim == 3 \
+            else control_points[numbers]
         return np.einsum('ma,mai->mi', values, near), np.einsum('mak,mai->mki', slopes, near)
 
 

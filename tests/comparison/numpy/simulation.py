@@ -75,6 +75,8 @@ class Simulation:
         """The first state: undeformed bodies where the chuck is, then equilibrium as in a step."""
         self.move_chuck(components)
         self.interface.face(*self._control_points(), np.ones(len(self.interface.area), bool))
+        if self.interface.slave is self.bone:
+            self.interface.leave_out_those_beyond()
         self._solve(friction, 0.)
 
     def step(self, components, friction=True, duration=1.):
@@ -152,7 +154,7 @@ class Simulation:
         """Reactions, shares of the contact face, mean bonding state and energies, by the names of torque.csv."""
         force, moment = self.reactions()
         state = self.state
-        area = np.where(self.interface.beyond, 0, self.interface.area)
+        area = self.interface.face_area
 
         def share(which):
             return area[which].sum() / area.sum()

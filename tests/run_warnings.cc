@@ -75,7 +75,32 @@ main()
     return all;
   };
   show("too stiff for its cells", with("Interface/Penalty stiffness=1e5"));
+  show("the same in larger cells",
+       {stiff[0],
+        stiff[1],
+        "Bone/Cells=12, 12, 2",
+        stiff[3],
+        stiff[4],
+        stiff[5],
+        "Interface/Penalty stiffness=1e5"});
   show("not too stiff", with("Interface/Penalty stiffness=1e3"));
+
+  // A spring throws a block over the edge of the bone.
+  show("leap over the edge",
+       {"Bone/Material=rigid",
+        "Bone/Size=4.5, 4.5, 3",
+        "Bone/Cells=12, 12, 2",
+        "Implant/Material=rigid",
+        "Implant/Shape=block",
+        "Implant/Size=4, 4, 2",
+        "Implant/Cells=8, 8, 2",
+        "Interface/Sliding threshold=0.005",
+        "Interface/Transition factor=0.3",
+        "Chuck/Translation x/Value=4 * max(t - 1, 0)",
+        "Chuck/Translation x/Stiffness=10",
+        turn + "0",
+        "Load steps/Times=0, 1, 2",
+        "Load steps/Steps=1, 400"});
 
   // Friction falls by a third in few steps, and no spring could make a jump.
   show("fretting in large steps",

@@ -362,32 +362,37 @@ namespace Debond
   // Surfaces that are pressed together touch over a patch. Open points inside
   // of it tell that the faces of the elements cannot take the shape that a
   // stiff interface asks for: each touches in some places only, with too large
-  // a pressure.
+  // a pressure. Points lie in rows and columns over the whole surface.
   unsigned int
   ContactInterface::n_enclosed() const
   {
-    const unsigned int n      = parameters.quadrature_points;
-    const auto         closed = [&](const unsigned int q) {
-      return points[q].accepted.status != PointStatus::open;
+    const unsigned int n = parameters.quadrature_points;
+    const auto elements  = mesh[slave]->surface().n_elements_per_direction();
+    // element by element, and in each of them, the first parameter fastest
+    const auto number = [&](const unsigned int i, const unsigned int j) {
+      return ((j / n * elements[0] + i / n) * n + j % n) * n + i % n;
     };
-    // closed points on both sides of the one at @p place of a line of n
-    const auto is_enclosed = [&](const unsigned int first,
-                                 const unsigned int stride,
-                                 const unsigned int place) {
-      bool on_side[2] = {false, false};
-      for (unsigned int k = 0; k < n; ++k)
-        on_side[k > place] |= closed(first + k * stride);
-      return on_side[0] && on_side[1];
-    };
-    unsigned int count = 0;
-    for (unsigned int q = 0; q < points.size(); ++q)
-      if (!closed(q))
+    std::vector<bool> is_enclosed(points.size(), false);
+    for (const bool is_row : {true, false})
+      for (unsigned int line = 0; line < n * elements[is_row]; ++line)
         {
-          // element by element, the first parameter fastest
-          const unsigned int i = q % n, j = q / n % n;
-          count += is_enclosed(q - i, 1, i) || is_enclosed(q - j * n, n, j);
+          std::vector<unsigned int> since_closed; // open points
+          bool                      any_closed = false;
+          for (unsigned int k = 0; k < n * elements[!is_row]; ++k)
+            {
+              const unsigned int q = is_row ? number(k, line) : number(line, k);
+              if (points[q].accepted.status == PointStatus::open)
+                since_closed.push_back(q);
+              else
+                {
+                  for (const unsigned int open : since_closed)
+                    is_enclosed[open] = is_enclosed[open] || any_closed;
+                  since_closed.clear();
+                  any_closed = true;
+                }
+            }
         }
-    return count;
+    return std::count(is_enclosed.begin(), is_enclosed.end(), true);
   }
 
 
@@ -527,15 +532,21 @@ namespace Debond
     // A point that opens lets go of its springs, and may have slid before it
     // did: up to all of its stored energy may have gone into friction, which
     // cannot be told from the two ends of the step.
-    const bool opens = trial.state.status == PointStatus::open;
-    // One that goes over the edge is rubbed on the way there, and lets go of
-    // the bulk as well: no more than its force times that way.
+    const bool          opens = trial.state.status == PointStatus::open;
+    const FrictionState start =
+      friction_state(point.accepted, point.phi_0, mode.duration);
     if (opens)
-      friction_bound +=
-        point.JxW *
-        (point.accepted_energy +
-         std::hypot(point.accepted_pressure, point.accepted_traction.norm()) *
-           trial.path_over_edge);
+      {
+        // One that goes over the edge is rubbed on the way there, at a pressure
+        // that is known at the beginning only.
+        const double rubbed =
+          mode.frictionless ?
+            0. :
+            point.JxW * point.accepted_pressure *
+              law.friction_strength(start, trial.path_to_edge);
+        friction += rubbed;
+        friction_bound += point.JxW * point.accepted_energy + 0.5 * rubbed;
+      }
     if (opens || mode.frictionless)
       return;
     // The law is integrated over the distance that the point slides, from its
@@ -543,8 +554,6 @@ namespace Debond
     // mm are works per area. Of the friction the bond has its part, int (mu -
     // mu_b) dg_s: D_adh, which tells what the adhesion costs without reading it
     // off the torque curve as Eq. (20) does.
-    const FrictionState start =
-      friction_state(point.accepted, point.phi_0, mode.duration);
     const double distance = trial.state.slip - point.accepted.slip;
     const double p = point.accepted_pressure, mean = 0.5 * (p + trial.pressure);
     const double per_pressure =

@@ -36,7 +36,7 @@ namespace Debond
     result.traction = result.tangential_traction = result.viscous_traction =
       result.slip_increment                      = Vector3d::Zero();
     result.normal_gap = result.pressure = result.energy = result.softening =
-      result.path_over_edge                             = 0.;
+      result.path_to_edge                               = 0.;
     result.dt.setZero();
     result.dxi.setZero();
   }
@@ -264,7 +264,7 @@ namespace Debond
         open(failed ? 0. : g_n);
         result.failed = failed;
         if (outcome == SlipOutcome::left_patch)
-          result.path_over_edge = (x - y_old).norm();
+          result.path_to_edge = problem.at_end().distance;
       }
     };
   } // namespace

@@ -125,13 +125,12 @@ namespace Debond
                     << " mm, a tenth of the thinner one or a whole surface "
                        "element: lengths are mm, is the push-in right?");
       if (interface.n_enclosed() > 0.1 * summary.n_closed)
-        note(
-          "enclosed",
-          Text() << interface.n_enclosed()
-                 << " open points lie between closed ones of the same "
-                    "element: the faces of these cells cannot follow a stiff "
-                    "interface, and pressure and stiffness are too large: "
-                    "finer Cells, or a smaller Penalty stiffness");
+        note("enclosed",
+             Text() << interface.n_enclosed()
+                    << " open points lie between closed ones: "
+                       "the faces of these cells cannot follow a stiff "
+                       "interface, and pressure and stiffness are too large: "
+                       "finer Cells, or a smaller Penalty stiffness");
       // What is linearised is of the order of the strains, which next to the
       // contact face are those of its tractions.
       for (const auto &[body, name] :

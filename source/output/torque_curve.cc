@@ -143,21 +143,29 @@ namespace Debond
                     const double         theta_full_deg)
     {
       const TorqueRow &start = rows[rotation.first_row - 1], &end = rows.back();
-      const auto [least, most] =
-        std::minmax_element(rows.begin() + rotation.first_row,
-                            rows.end(),
-                            [](const TorqueRow &a, const TorqueRow &b) {
-                              return a.pressure_MPa < b.pressure_MPa;
-                            });
       if (!settings.is_bonded)
         return "nothing is bonded, or the friction law has no bond";
-      // the work of friction is several times that of the bond
-      if (most->pressure_MPa - least->pressure_MPa >
-          0.01 * std::abs(most->pressure_MPa))
-        return Text() << "the pressure goes from " << least->pressure_MPa
-                      << " to " << most->pressure_MPa
-                      << " MPa while it turns: friction at the end is not that "
-                         "before";
+      // The work of friction from theta_full on is several times that of the
+      // bond. Before, friction of the push-in may be released.
+      auto first = rows.begin() + rotation.first_row;
+      for (const double largest_change : {0.1, 0.01})
+        {
+          const auto [least, most] =
+            std::minmax_element(first,
+                                rows.end(),
+                                [](const TorqueRow &a, const TorqueRow &b) {
+                                  return a.pressure_MPa < b.pressure_MPa;
+                                });
+          if (most->pressure_MPa - least->pressure_MPa >
+              largest_change * std::abs(most->pressure_MPa))
+            return Text() << "the pressure goes from " << least->pressure_MPa
+                          << " to " << most->pressure_MPa
+                          << " MPa while it turns: friction at the end is not "
+                             "that before";
+          while (first + 1 != rows.end() &&
+                 rotation.direction * (first->angle_deg - theta_full_deg) < 0.)
+            ++first;
+        }
       if (std::isnan(theta_full_deg))
         return "the torque is largest at the end: no bond has broken yet, or "
                "friction is no less without it";
@@ -364,7 +372,14 @@ namespace Debond
         measures["initial_stiffness_Nm_per_rad"] =
           1e-3 * (first.torque_Nmm - before.torque_Nmm) /
           radians(first.angle_deg - before.angle_deg);
-        for (auto row = rows.rbegin(); row != rows.rend(); ++row)
+        // the stiffness of a face that sticks is asked for
+        if (first.share_slip - before.share_slip > 0.1)
+          measures["remarks"].push_back(
+            "initial_stiffness_Nm_per_rad: too small, " +
+            to_text(100. * first.share_slip, 2) +
+            " % of the face slides in the first row that has turned");
+        for (auto row = rows.rbegin(); row != rows.rend() && settings.is_bonded;
+             ++row)
           if (row->phi_mean < rows.front().phi_mean * (1. - 1e-12))
             measures["theta_debonding_deg"] = row->angle_deg;
         measure_energies(rows, rotation, settings, T_max, measures);

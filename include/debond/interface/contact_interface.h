@@ -172,7 +172,7 @@ namespace Debond
     has_open_points() const;
 
     /** How many points were left open between closed ones of their row or
-     *  column of the same element in the accepted state. */
+     *  column of the surface in the accepted state. */
     unsigned int
     n_enclosed() const;
 

@@ -99,9 +99,9 @@ namespace Debond
     double          normal_gap     = 0; ///< g_n [mm]
     double          pressure       = 0; ///< p >= 0 [MPa]
     double          energy         = 0; ///< stored per area [N/mm]
-    /** Of a point that left the master over its edge: no less than the way it
-     *  went before and after that in the step [mm]. Else 0. */
-    double path_over_edge = 0;
+    /** How far a point that left the master over its edge slid before [mm];
+     *  else 0. */
+    double path_to_edge = 0;
     /** |d mu/d g_s| p / (eps_t + eta / dt) where the law softens; the local
      *  solution is unique while this is below one. */
     double softening = 0;

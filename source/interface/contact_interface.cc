@@ -382,7 +382,10 @@ namespace Debond
             {
               const unsigned int q = is_row ? number(k, line) : number(line, k);
               if (points[q].accepted.status == PointStatus::open)
-                since_closed.push_back(q);
+                {
+                  if (points[q].accepted.has_partner) // not beyond the edge
+                    since_closed.push_back(q);
+                }
               else
                 {
                   for (const unsigned int open : since_closed)

@@ -375,7 +375,7 @@ namespace Debond
         // the stiffness of a face that sticks is asked for
         if (first.share_slip - before.share_slip > 0.1)
           measures["remarks"].push_back(
-            "initial_stiffness_Nm_per_rad: too small, " +
+            "initial_stiffness_Nm_per_rad is too small: " +
             to_text(100. * first.share_slip, 2) +
             " % of the face slides in the first row that has turned");
         for (auto row = rows.rbegin(); row != rows.rend() && settings.is_bonded;

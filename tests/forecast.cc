@@ -13,23 +13,18 @@
 #include <vector>
 
 #include "checks.h"
+#include "pressed_and_turned.h"
 
 using namespace Debond;
 
-const std::string coin = "subsection Bone\n set Material = linear\nend\n"
-                         "subsection Implant\n set Material = linear\nend\n"
-                         "subsection Chuck\n"
-                         " subsection Translation z\n"
-                         "  set Value = -0.0049 * min(t, 1)\n"
-                         " end\n"
-                         " subsection Rotation z\n"
-                         "  set Value = 10 * max(t - 1, 0)\n"
-                         " end\n"
-                         "end\n"
-                         "subsection Load steps\n"
-                         " set Times = 0, 1, 1.001, 1.1, 2\n"
-                         " set Steps = 1, 1, 20, 20\n"
-                         "end\n";
+const std::string coin =
+  std::string("subsection Bone\n set Material = linear\nend\n"
+              "subsection Implant\n set Material = linear\nend\n") +
+  pressed_and_turned +
+  "subsection Load steps\n"
+  " set Times = 0, 1, 1.001, 1.1, 2\n"
+  " set Steps = 1, 1, 20, 20\n"
+  "end\n";
 
 
 

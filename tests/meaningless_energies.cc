@@ -16,20 +16,14 @@
 #include <vector>
 
 #include "checks.h"
+#include "pressed_and_turned.h"
 
 using namespace Debond;
 
 const std::string rigid_coin =
-  "subsection Bone\n set Material = rigid\nend\n"
-  "subsection Implant\n set Material = rigid\nend\n"
-  "subsection Chuck\n"
-  " subsection Translation z\n"
-  "  set Value = -0.0049 * min(t, 1)\n"
-  " end\n"
-  " subsection Rotation z\n"
-  "  set Value = 10 * max(t - 1, 0)\n"
-  " end\n"
-  "end\n"
+  std::string("subsection Bone\n set Material = rigid\nend\n"
+              "subsection Implant\n set Material = rigid\nend\n") +
+  pressed_and_turned +
   "subsection Load steps\n set Steps = 1, 50\nend\n"
   "subsection Output\n"
   " set Directory = results\n"

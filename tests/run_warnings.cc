@@ -9,22 +9,17 @@
 #include <string>
 #include <vector>
 
+#include "pressed_and_turned.h"
+
 using namespace Debond;
 
-const std::string coin = "subsection Bone\n"
-                         " set Material = linear\n"
-                         "end\n"
-                         "subsection Implant\n"
-                         " set Material = linear\n"
-                         "end\n"
-                         "subsection Chuck\n"
-                         " subsection Translation z\n"
-                         "  set Value = -0.0049 * min(t, 1)\n"
-                         " end\n"
-                         " subsection Rotation z\n"
-                         "  set Value = 10 * max(t - 1, 0)\n"
-                         " end\n"
-                         "end\n";
+const std::string coin = std::string("subsection Bone\n"
+                                     " set Material = linear\n"
+                                     "end\n"
+                                     "subsection Implant\n"
+                                     " set Material = linear\n"
+                                     "end\n") +
+                         pressed_and_turned;
 
 
 

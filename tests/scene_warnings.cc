@@ -8,16 +8,9 @@
 #include <string>
 #include <vector>
 
-using namespace Debond;
+#include "pressed_and_turned.h"
 
-const std::string coin = "subsection Chuck\n"
-                         " subsection Translation z\n"
-                         "  set Value = -0.0049 * min(t, 1)\n"
-                         " end\n"
-                         " subsection Rotation z\n"
-                         "  set Value = 10 * max(t - 1, 0)\n"
-                         " end\n"
-                         "end\n";
+using namespace Debond;
 
 
 
@@ -28,7 +21,7 @@ show(const std::vector<std::string> &overrides)
     std::cout << (&text == &overrides.front() ? "" : ", ") << text;
   std::cout << ":\n";
   for (const Warning &warning :
-       Scene::from_text(coin, overrides, "scene.prm").warnings())
+       Scene::from_text(pressed_and_turned, overrides, "scene.prm").warnings())
     std::cout << "  " << warning.text << "\n";
 }
 

@@ -32,7 +32,7 @@ void
 compare(const std::string &what, const std::vector<std::string> &overrides)
 {
   Simulation     simulation(Scene::from_text(coin, overrides, "scene.prm"));
-  const Forecast forecast(simulation.scene, simulation.system().interface);
+  const Forecast forecast(simulation.scene, simulation.system());
   simulation.run();
   const auto &rows  = simulation.rows();
   double      T_max = 0.;
@@ -60,7 +60,7 @@ void
 refuse(const std::string &what, const std::vector<std::string> &overrides)
 {
   const Simulation simulation(Scene::from_text(coin, overrides, "scene.prm"));
-  const Forecast   forecast(simulation.scene, simulation.system().interface);
+  const Forecast   forecast(simulation.scene, simulation.system());
   std::cout << what << ": " << forecast.why;
   if (std::isnan(forecast.pressure))
     std::cout << "; no pressure either";
@@ -79,6 +79,18 @@ main()
   compare("both rigid", {"Bone/Material=rigid", "Implant/Material=rigid"});
   compare("stiff interface", {"Interface/Penalty stiffness=6000"});
   compare("deep bone", {"Bone/Size=12.5, 12.5, 10", "Bone/Cells=15, 15, 4"});
+  compare("thin bone", {"Bone/Size=12.5, 12.5, 1.5", "Bone/Cells=15, 15, 3"});
+  compare("narrow bone", {"Bone/Size=7, 7, 5", "Bone/Cells=9, 9, 3"});
+  compare("nearly incompressible",
+          {"Bone/Poisson ratio=0.45", "Bone/Cells=15, 15, 6"});
+  compare("nearly incompressible and thin",
+          {"Bone/Poisson ratio=0.45",
+           "Bone/Size=12.5, 12.5, 1.5",
+           "Bone/Cells=15, 15, 3"});
+  compare("stiff interface on thin bone",
+          {"Interface/Penalty stiffness=6000",
+           "Bone/Size=12.5, 12.5, 1.5",
+           "Bone/Cells=15, 15, 3"});
   compare("spring against the push", {push + "Stiffness=5000"});
   compare("spring against the rotation", {twist + "Stiffness=5000"});
   compare("half bonded",
@@ -91,6 +103,17 @@ main()
            "Implant/Cells=8, 2"});
   compare("under a force",
           {push + "Control=force", push + "Value=-51 * min(t, 1)"});
+
+  // it is the implant's face that turns, whichever side has the points
+  const auto T_max = [](const std::vector<std::string> &overrides) {
+    const Simulation simulation(Scene::from_text(coin, overrides, "scene.prm"));
+    return Forecast(simulation.scene, simulation.system()).T_max;
+  };
+  report("another slave, fewer points: the torque differs",
+         std::abs(T_max({"Interface/Slave=bone"}) /
+                    T_max({"Interface/Quadrature points=2"}) -
+                  1.),
+         1e-12);
 
   refuse("deeper while it turns", {push + "Value=-0.0049 * t"});
   refuse("half off the bone",

@@ -1,5 +1,8 @@
 #include <debond/bulk/body.h>
 
+#include <cmath>
+#include <limits>
+
 // The two bodies that deform, from the cheaper to the more accurate one. The
 // paper uses the Neo-Hookean law, Eq. (1), for both bodies. Their strains are
 // about 1e-3 in the body's own frame, so that the Neo-Hookean law changes
@@ -54,6 +57,22 @@ namespace Debond
         Eigen::VectorXd change = Eigen::VectorXd::Zero(v.size());
         change(unknown_dofs)   = dv;
         return change;
+      }
+
+      // In equilibrium the contact forces are -S v_c. With them, and the shape
+      // of the linear body, a Neo-Hookean one has the condensed residual r
+      // below. Energies alone would not do: in bending, the part of the third
+      // order that is stretched cancels the one that is pressed.
+      double
+      change_at_large_strains() const override
+      {
+        const Eigen::VectorXd v_c = v(unknown_dofs), f = own_bulk->product(v_c);
+        Eigen::VectorXd       forces = Eigen::VectorXd::Zero(v.size());
+        double                energy;
+        if (!own_bulk->internal_forces(full_displacement(v), forces, energy))
+          return std::numeric_limits<double>::infinity();
+        const Eigen::VectorXd r = own_bulk->condense(forces).condensed - f;
+        return std::sqrt(r.dot(own_bulk->solve(r)) / v_c.dot(f));
       }
 
     protected:

@@ -66,7 +66,7 @@ namespace Debond
     // all: osseointegration is over before the test begins (footnote 2 of the
     // paper).
     pattern =
-      std::make_unique<BondingPattern>(parameters.bonding,
+      std::make_unique<BondingPattern>(parameters.bonding_of_law(),
                                        mesh[Side::implant]->parameters(),
                                        mesh[Side::implant]->surface(),
                                        parameters.quadrature_points);

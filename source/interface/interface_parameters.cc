@@ -55,6 +55,18 @@ namespace Debond
 
 
 
+  BondingParameters
+  InterfaceParameters::bonding_of_law() const
+  {
+    if (friction->has_bond())
+      return bonding;
+    BondingParameters nothing;
+    nothing.initial_bonding = 0.;
+    return nothing;
+  }
+
+
+
   void
   InterfaceParameters::declare_variants(EntryTable &table)
   {

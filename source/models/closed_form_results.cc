@@ -72,13 +72,12 @@ namespace Debond
                << jump.torque_after << " N mm, and " << jump.released_energy
                << " N mm of stored energy are released without equilibrium");
 
-    CurveSettings settings;
+    const BondingParameters bonding = scene.interface.bonding_of_law();
+    CurveSettings           settings;
     settings.contact_area_mm2 = M_PI * std::pow(scene.implant.radius, 2);
-    settings.mean_phi_0       = scene.interface.bonding.initial_bonding *
-                          scene.interface.bonding.bonded_fraction;
+    settings.mean_phi_0 = bonding.initial_bonding * bonding.bonded_fraction;
     settings.is_bonded =
-      scene.model == ModelKind::mathieu ||
-      (settings.mean_phi_0 > 0. && scene.interface.friction->has_bond());
+      scene.model == ModelKind::mathieu || settings.mean_phi_0 > 0.;
     if (scene.model == ModelKind::analytical)
       settings.full_sliding_angle_deg = scene.closed_form.full_sliding;
 

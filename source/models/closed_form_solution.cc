@@ -210,7 +210,7 @@ namespace Debond
     {
       const Scene                &scene   = solution.scene;
       const ClosedFormParameters &given   = scene.closed_form;
-      const BondingParameters    &bonding = scene.interface.bonding;
+      const BondingParameters     bonding = scene.interface.bonding_of_law();
       TorsionModel::Disk          disk;
       disk.radius    = scene.implant.radius;
       disk.pressure  = final_pressure;

@@ -154,7 +154,7 @@ namespace Debond
         simulation.run();
         const std::string difference =
           difference_from_forecast(scene,
-                                   simulation.system().interface,
+                                   simulation.system(),
                                    simulation.rows());
         if (!difference.empty())
           report.console.warn("forecast", difference);
@@ -268,8 +268,7 @@ namespace Debond
         CurveSettings         settings;
         const BodyParameters &shape = scene.implant;
         settings.mean_phi_0         = bonding.mean;
-        settings.is_bonded =
-          bonding.mean > 0. && scene.interface.friction->has_bond();
+        settings.is_bonded          = bonding.mean > 0.;
         settings.contact_area_mm2 =
           shape.shape == BodyShape::coin ?
             M_PI * shape.radius * shape.radius :
@@ -398,6 +397,6 @@ namespace Debond
     for (const Warning &warning : simulation.warnings())
       out << "warning: " << warning.text << '\n';
     if (scene.implant.shape == BodyShape::coin)
-      print_forecast(scene, interface, out);
+      print_forecast(scene, system, out);
   }
 } // namespace Debond

@@ -1,6 +1,7 @@
 #include <debond/models/closed_form_solution.h>
 #include <debond/models/forecast.h>
 #include <debond/support/number_text.h>
+#include <debond/system/coupled_system.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,27 +11,26 @@ namespace Debond
 {
   namespace
   {
-    /** The points of the interface in rings, since mu is linear in phi_0, on a
-     *  foundation [MPa/mm] that they have in common. */
+    /** The implant's face in rings, since mu is linear in phi_0, on a
+     *  foundation [MPa/mm] that they have in common. Its own points, and many:
+     *  those of the run may be few, or the bone's. */
     FoundationStiffness
-    rings_of(const ContactInterface &interface,
-             const double            radius,
-             const double            stiffness)
+    rings_of(const CoupledSystem &system, const double stiffness)
     {
       constexpr unsigned int n = 50;
       FoundationStiffness    rings;
       rings.points.resize(n, {0., 0., 0., 1., stiffness});
-      for (const SlavePoint &point : interface.get_points())
-        if (point.faces_implant)
-          {
-            const double r = std::hypot(point.X[0], point.X[1]);
-            auto        &ring =
-              rings.points[std::min<unsigned int>(n * r / radius, n - 1)];
-            ring.area += point.JxW;
-            const double share = point.JxW / ring.area;
-            ring.radius += share * (r - ring.radius);
-            ring.phi_0 += share * (point.phi_0 - ring.phi_0);
-          }
+      for (const auto &point : surface_quadrature(system.implant.surface(), 8))
+        {
+          const double r = std::hypot(point.X[0], point.X[1]);
+          auto        &ring =
+            rings.points[std::min<unsigned int>(n * r / system.R, n - 1)];
+          ring.area += point.JxW;
+          const double share = point.JxW / ring.area;
+          ring.radius += share * (r - ring.radius);
+          ring.phi_0 +=
+            share * (system.interface.bonding().at(point.xi) - ring.phi_0);
+        }
       return rings;
     }
 
@@ -79,7 +79,7 @@ namespace Debond
 
 
 
-  Forecast::Forecast(const Scene &scene, const ContactInterface &interface)
+  Forecast::Forecast(const Scene &scene, const CoupledSystem &system)
   {
     constexpr auto push     = ChuckComponent::translation_z,
                    twist    = ChuckComponent::rotation_z;
@@ -128,12 +128,11 @@ namespace Debond
     // Denser where the torque has its maximum, however far it turns.
     const Eigen::ArrayXd angles =
       last[twist] * Eigen::ArrayXd::LinSpaced(301, 0., 1.).cube();
-    const Eigen::ArrayXd torques =
-      torque_of_points(rings_of(interface, R, stiffness),
-                       scene.interface.friction,
-                       pressure,
-                       angles);
-    const double machine = scene.chuck.component[twist].stiffness;
+    const Eigen::ArrayXd torques = torque_of_points(rings_of(system, stiffness),
+                                                    scene.interface.friction,
+                                                    pressure,
+                                                    angles);
+    const double         machine = scene.chuck.component[twist].stiffness;
     if (torques.isNaN().any())
       why = "with the bodies in series the law softens too fast, and the "
             "torque may jump";
@@ -153,7 +152,7 @@ namespace Debond
   // Steps may have gone over the peak, or cells may be too coarse for it.
   std::string
   difference_from_forecast(const Scene                  &scene,
-                           const ContactInterface       &interface,
+                           const CoupledSystem          &system,
                            const std::vector<TorqueRow> &rows)
   {
     // energy that a jump has released is not in the closed form, and a path may
@@ -161,7 +160,7 @@ namespace Debond
     if (scene.implant.shape != BodyShape::coin ||
         rows.back().released_energy_Nmm > 0. || scene.load_steps.follow_path)
       return "";
-    const Forecast forecast(scene, interface);
+    const Forecast forecast(scene, system);
     double         T_max = 0.;
     for (const TorqueRow &row : rows)
       T_max = std::max(T_max, std::abs(row.torque_Nmm));
@@ -180,11 +179,11 @@ namespace Debond
 
 
   void
-  print_forecast(const Scene            &scene,
-                 const ContactInterface &interface,
-                 std::ostream           &out)
+  print_forecast(const Scene         &scene,
+                 const CoupledSystem &system,
+                 std::ostream        &out)
   {
-    const Forecast forecast(scene, interface);
+    const Forecast forecast(scene, system);
     const double   p = forecast.pressure;
     if (std::isnan(p))
       {

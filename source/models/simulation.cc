@@ -294,6 +294,18 @@ namespace Debond
         << ". Where friction falls with the speed faster than the springs "
            "pull there is no quasi-static solution; Interface / Viscosity "
            "limits the speed";
+    const auto        &points = coupled_system.interface.get_points();
+    const unsigned int n_beyond =
+      std::count_if(points.begin(), points.end(), [](const SlavePoint &point) {
+        return point.faces_implant && !point.accepted.has_partner;
+      });
+    if (n_beyond > 0)
+      message
+        << ". " << n_beyond
+        << " points of the contact face are beyond the edge of the bone. "
+           "One that crosses it loses its force at once, and between with "
+           "and without it there may be no equilibrium. If no edge is "
+           "meant, enlarge Bone / Size";
     throw RunError(message);
   }
 

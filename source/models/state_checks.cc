@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace Debond
 {
   namespace
   {
-    /** Takes the name of a check that was not passed, and what to say of it. */
-    using Note = std::function<void(const std::string &, const std::string &)>;
+    using Note = StateChecks::Note;
 
 
 
@@ -131,18 +129,6 @@ namespace Debond
                        "the faces of these cells cannot follow a stiff "
                        "interface, and pressure and stiffness are too large: "
                        "finer Cells, or a smaller Penalty stiffness");
-      // What is linearised is of the order of the strains, which next to the
-      // contact face are those of its tractions.
-      for (const auto &[body, name] :
-           {std::make_pair(&parameters.bone, "Bone"),
-            std::make_pair(&parameters.implant, "Implant")})
-        if (const double strain = summary.max_traction / body->young_modulus;
-            body->material == Material::linear && strain > 0.05)
-          note(Text() << "strain of " << name,
-               Text() << "tractions of " << summary.max_traction
-                      << " MPa strain the " << name << " by some " << strain
-                      << ", too much for Material = linear: compare with "
-                         "neo-hookean");
       if (interface.n_unprojected() > 0)
         note("projection",
              Text() << "for " << interface.n_unprojected()
@@ -216,6 +202,39 @@ namespace Debond
 
 
 
+  // Asking costs as much as an iteration of a Neo-Hookean body. So it is done
+  // when the face has another shape than before, and not in bodies as stiff as
+  // bone and metal: even a slender one that bends has strains of not more than
+  // some twenty times the tractions over Young's modulus.
+  void
+  StateChecks::check_strains(const CoupledSystem &system,
+                             const double         max_traction,
+                             const Note          &note)
+  {
+    for (const auto &[side, body] :
+         {std::make_pair(Side::bone, &parameters.bone),
+          std::make_pair(Side::implant, &parameters.implant)})
+      {
+        const ControlNet v      = system.body[side]->contact_displacement();
+        ControlNet      &judged = judged_displacement[side];
+        if (body->material != Material::linear ||
+            max_traction < 5e-4 * body->young_modulus ||
+            (judged.size() > 0 && (v - judged).norm() < 0.3 * v.norm()))
+          continue;
+        judged              = v;
+        const double change = system.body[side]->change_at_large_strains();
+        if (change > 0.02)
+          note(Text() << "strain of the " << name_of(side),
+               Text() << "large strains or rotations of the " << name_of(side)
+                      << " would change its displacement by some "
+                      << to_text(100. * change, 2)
+                      << " %, too much for Material = linear: compare with "
+                         "neo-hookean");
+      }
+  }
+
+
+
   void
   StateChecks::add(const unsigned int      step,
                    const CoupledSystem    &system,
@@ -236,6 +255,7 @@ namespace Debond
       check_for_jump(
         parameters, system, summary, before.forces, released_energy, note);
     check_interface(parameters, system, summary, note);
+    check_strains(system, summary.max_traction, note);
 
     // Planned turns are divided; jumps and loaded chucks turn as far as they
     // like.

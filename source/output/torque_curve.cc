@@ -64,6 +64,16 @@ namespace Debond
     using Rows     = std::vector<TorqueRow>;
     using Measures = nlohmann::ordered_json;
 
+    /** A maximum that keeps a NaN. */
+    void
+    grow(double &maximum, const double value)
+    {
+      if (!std::isnan(maximum) && !(value <= maximum))
+        maximum = value;
+    }
+
+
+
     double
     radians(const double degrees)
     {
@@ -183,46 +193,103 @@ namespace Debond
 
 
 
-    /** Eqs. (20) and (21). */
+    /** The energies of Eqs. (20) and (21) [N mm]. */
+    struct Energies
+    {
+      double E_deb = 0, E_fric = 0;
+      double theta_full_deg = 0; ///< NaN: the torque is largest at the end
+
+      Energies(const Rows  &rows,
+               const double direction,
+               const double full_angle)
+        : theta_full_deg(direction * full_angle)
+      {
+        double T_max = 0.;
+        for (unsigned int i = 0; i < rows.size(); ++i)
+          {
+            T_max = std::max(T_max, std::abs(rows[i].torque_Nmm));
+            if (i > 0)
+              E_deb += 0.5 * (rows[i - 1].torque_Nmm + rows[i].torque_Nmm) *
+                       radians(rows[i].angle_deg - rows[i - 1].angle_deg);
+          }
+        const TorqueRow &end = rows.back();
+        if (full_angle == 0.)
+          theta_full_deg = last_angle_near_maximum(rows, T_max);
+        if (full_angle == 0. && theta_full_deg == end.angle_deg)
+          theta_full_deg = std::numeric_limits<double>::quiet_NaN();
+        E_fric = end.torque_Nmm * radians(end.angle_deg - theta_full_deg);
+      }
+
+      double
+      W_adh() const
+      {
+        return E_deb - E_fric;
+      }
+    };
+
+
+
+    /** By how much W_adh changes if every second row of the rotation is left
+     *  out, beginning with the first or the second: about what it is off if
+     *  rows are so far apart that the curve's peak falls between them. */
+    double
+    change_with_fewer_rows(const Rows     &rows,
+                           const Rotation &rotation,
+                           const double    full_angle,
+                           const double    W_adh)
+    {
+      double change = 0.;
+      for (const unsigned int first : {1, 2})
+        {
+          Rows fewer(rows.begin(), rows.begin() + rotation.first_row);
+          for (auto i = rotation.first_row - 1 + first; i < rows.size(); i += 2)
+            fewer.push_back(rows[i]);
+          if (fewer.back().step != rows.back().step)
+            fewer.push_back(rows.back());
+          grow(change,
+               std::abs(
+                 Energies(fewer, rotation.direction, full_angle).W_adh() -
+                 W_adh));
+        }
+      return change;
+    }
+
+
+
     void
     measure_energies(const Rows          &rows,
                      const Rotation      &rotation,
                      const CurveSettings &settings,
-                     const double         T_max,
                      Measures            &measures)
     {
+      const double   full_angle = settings.full_sliding_angle_deg;
+      const Energies energies(rows, rotation.direction, full_angle);
       // The trapezoid over a jump holds what the jump releases as well.
-      const TorqueRow &end      = rows.back();
-      const double     released = end.released_energy_Nmm -
+      const double released = rows.back().released_energy_Nmm -
                               rows[rotation.first_row - 1].released_energy_Nmm;
-      double E_deb = -released; // [N mm], as all energies here
-      for (unsigned int i = 0; i + 1 < rows.size(); ++i)
-        E_deb += 0.5 * (rows[i].torque_Nmm + rows[i + 1].torque_Nmm) *
-                 radians(rows[i + 1].angle_deg - rows[i].angle_deg);
-      measures["E_deb_Nm"] = 1e-3 * E_deb;
+      measures["E_deb_Nm"]       = 1e-3 * (energies.E_deb - released);
+      measures["theta_full_deg"] = energies.theta_full_deg;
       if (released > 0.)
         measures["remarks"].push_back("E_deb, W_adh: without the " +
                                       to_text(released, 4) +
                                       " N mm that jumps have released");
-
-      double theta_full_deg = last_angle_near_maximum(rows, T_max);
-      if (settings.full_sliding_angle_deg > 0.)
-        theta_full_deg = rotation.direction * settings.full_sliding_angle_deg;
-      else if (theta_full_deg == end.angle_deg)
-        theta_full_deg = std::numeric_limits<double>::quiet_NaN();
-      measures["theta_full_deg"] = theta_full_deg;
       const std::string why =
-        why_no_adhesion(rows, rotation, settings, theta_full_deg);
+        why_no_adhesion(rows, rotation, settings, energies.theta_full_deg);
       if (!why.empty())
         {
           measures["remarks"].push_back("E_fric, W_adh, w_adh: null, " + why);
           return;
         }
-      const double E_fric =
-        end.torque_Nmm * radians(end.angle_deg - theta_full_deg);
-      const double W_adh    = E_deb - E_fric;
-      measures["E_fric_Nm"] = 1e-3 * E_fric;
+      const double W_adh    = energies.W_adh() - released;
+      measures["E_fric_Nm"] = 1e-3 * energies.E_fric;
       measures["W_adh_Nm"]  = 1e-3 * W_adh;
+      const double change =
+        change_with_fewer_rows(rows, rotation, full_angle, energies.W_adh());
+      if (!(change < 0.05 * std::abs(W_adh)))
+        measures["remarks"].push_back(
+          "W_adh, w_adh: the rows are too far apart; with every second one "
+          "W_adh changes by " +
+          to_text(100. * change / std::abs(W_adh), 2) + " %");
 
       // 1 N mm / mm^2 = 1000 N / m
       const double w_adh_star        = 1e3 * W_adh / settings.contact_area_mm2;
@@ -293,16 +360,6 @@ namespace Debond
             return rows[i].pressure_MPa;
       // no phase ends before: the first row, or what there is without rotation
       return rows[rotation.direction == 0. ? last : 0].pressure_MPa;
-    }
-
-
-
-    /** A maximum that keeps a NaN. */
-    void
-    grow(double &maximum, const double value)
-    {
-      if (!std::isnan(maximum) && !(value <= maximum))
-        maximum = value;
     }
   } // namespace
 
@@ -382,7 +439,7 @@ namespace Debond
              ++row)
           if (row->phi_mean < rows.front().phi_mean * (1. - 1e-12))
             measures["theta_debonding_deg"] = row->angle_deg;
-        measure_energies(rows, rotation, settings, T_max, measures);
+        measure_energies(rows, rotation, settings, measures);
         measure_errors(rows, rotation, settings.reference, T_max, measures);
       }
     else

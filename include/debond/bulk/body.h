@@ -175,6 +175,16 @@ namespace Debond
     /** Cauchy stress at the mesh vertices, see Bulk. @p v: of all nodes. */
     std::vector<Eigen::Matrix3d>
     vertex_stress(const Eigen::VectorXd &v) const;
+    /** How far large strains and rotations, left out by a body with small ones,
+     *  would change its trial state under the same contact forces: Newton's
+     *  first correction of a Neo-Hookean body, over the displacement, in the
+     *  norm of S. Infinite if a cell is turned inside out. Costs about as much
+     *  as an iteration of such a body. */
+    virtual double
+    change_at_large_strains() const
+    {
+      return 0.;
+    }
     //@}
 
     /** See serialization.h. */

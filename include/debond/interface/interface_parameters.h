@@ -37,6 +37,11 @@ namespace Debond
     ContactPointLaw
     law() const;
 
+    /** What is bonded: nothing if the friction law has no bond, whatever the
+     *  scene says. */
+    BondingParameters
+    bonding_of_law() const;
+
     /** Refuses what makes no sense together. Throws EntryError. */
     void
     check(const BodyParameters &implant) const;

@@ -1,7 +1,6 @@
 #ifndef debond_models_forecast_h
 #define debond_models_forecast_h
 
-#include <debond/interface/contact_interface.h>
 #include <debond/output/torque_curve.h>
 #include <debond/scene/scene.h>
 
@@ -12,13 +11,15 @@
 
 namespace Debond
 {
+  class CoupledSystem;
+
   /** What closed forms predict of a scene with a coin before it is run: the
    *  bodies are springs in series with the interface. NaN where they do not
    *  apply. */
   struct Forecast
   {
-    /** @p interface is that of the scene at the start. */
-    Forecast(const Scene &scene, const ContactInterface &interface);
+    /** @p system is that of the scene at the start. */
+    Forecast(const Scene &scene, const CoupledSystem &system);
 
     static constexpr double none     = std::numeric_limits<double>::quiet_NaN();
     double                  pressure = none; ///< at the end [MPa]
@@ -34,13 +35,13 @@ namespace Debond
    *  its error; empty: nothing. */
   std::string
   difference_from_forecast(const Scene                  &scene,
-                           const ContactInterface       &interface,
+                           const CoupledSystem          &system,
                            const std::vector<TorqueRow> &rows);
 
   /** Prints it, and whether the friction law has one solution. */
   void
-  print_forecast(const Scene            &scene,
-                 const ContactInterface &interface,
-                 std::ostream           &out);
+  print_forecast(const Scene         &scene,
+                 const CoupledSystem &system,
+                 std::ostream        &out);
 } // namespace Debond
 #endif

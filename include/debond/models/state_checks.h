@@ -6,6 +6,8 @@
 #include <debond/system/chuck_path.h>
 #include <debond/system/energy_balance.h>
 
+#include <array>
+#include <functional>
 #include <set>
 #include <string>
 #include <utility>
@@ -67,18 +69,29 @@ namespace Debond
     serialize(Archive &archive, const unsigned int)
     {
       archive &energy_balance &released_energy &path;
+      for (ControlNet &displacement : judged_displacement)
+        archive &displacement;
     }
+
+    /** Takes the name of a check that was not passed, and what to say of it. */
+    using Note = std::function<void(const std::string &, const std::string &)>;
 
   private:
     void
     note(unsigned int step, const std::string &check, const std::string &text);
+    void
+    check_strains(const CoupledSystem &system,
+                  double               max_traction,
+                  const Note          &note);
 
     const ModelParameters &parameters;
     EnergyBalance          energy_balance;
     ReleasedEnergy         released_energy;
     ChuckPath              path;
-    std::set<std::string>  violated; ///< since the last row
-    std::vector<Warning>   found;    ///< since they were taken
+    /** Of the faces, by side, where check_strains() last asked [mm]. */
+    std::array<ControlNet, 2> judged_displacement;
+    std::set<std::string>     violated; ///< since the last row
+    std::vector<Warning>      found;    ///< since they were taken
   };
 } // namespace Debond
 #endif

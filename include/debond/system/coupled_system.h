@@ -178,8 +178,12 @@ namespace Debond
     double
     bulk_energy() const
     {
-      return bulk_residual[Side::bone].energy +
-             bulk_residual[Side::implant].energy;
+      return bulk_energy(Side::bone) + bulk_energy(Side::implant);
+    }
+    double
+    bulk_energy(const Side side) const
+    {
+      return bulk_residual[side].energy;
     }
     /** What the supports exert on a body in that state, see Body. */
     Chuck::Vector6

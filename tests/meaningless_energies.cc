@@ -75,6 +75,8 @@ main()
        {"Interface/Bonding/Initial bonding=0", "Output/Observed bonding=0.5"});
   show("Coulomb's law", {law + "law=coulomb"});
   show("pressed while turning", {push + "-0.0049 * t / 2"});
+  show("pulled off before it turns",
+       {push + "-0.0049 * min(1 - abs(2 * t - 1), 0.5)"});
   show("the end before the largest torque", {rotation + "0.2 * max(t - 1, 0)"});
   show("the end before the bond is broken", {rotation + "max(t - 1, 0)"});
   show("the end before full sliding", {"Output/Full sliding angle=11"});

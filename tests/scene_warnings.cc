@@ -46,6 +46,8 @@ main()
   show({law + "coefficient broken=0.7"});
   show({law + "coefficient broken=0.7", law + "law=coulomb"});
   show({"Interface/Sliding threshold=22"});
+  show({"Interface/Sliding threshold=22e-6"});
+  show({"Interface/Sliding threshold=22e-6", law + "law=coulomb"});
   show({"Interface/Bonding/Pattern=random",
         "Interface/Bonding/Bonded fraction=0.5"});
   show({"Interface/Bonding/Pattern=random",
@@ -54,14 +56,32 @@ main()
 
   show({twist + "5 * (t - 1)"});
   show({twist + "5 * (t - 1)", "Load steps/Times=1, 2, 3"});
+  show({twist + "2 + 10 * max(t - 1, 0)"});
+  show({twist + "5 * cos(pi * t)"});
+  show({twist + "5 * sin(pi * t)"});
+  // 10 degrees in radians; a little rotation that is meant; one to and fro
+  show({twist + "0.1745 * max(t - 1, 0)"});
+  show({twist + "0.1745 * max(t - 1, 0)", law + "law=coulomb"});
+  show({twist + "0.1745 * max(t - 1, 0)", "Load steps/Steps=1, 5"});
+  show({twist + "0.1745 * sin(20 * pi * t)"});
   show({"Load steps/Times=0, 0.5, 1"});
   show({"Chuck/Rotation x/Value=0 * t"});
   show({push + "Control=force", push + "Value=50 * min(t, 1)"});
   show({push + "Control=force", push + "Value=-50 * min(t, 1)"});
+  show({push + "Control=force", push + "Value=-0.0049 * min(t, 1)"});
+  show({push + "Control=force",
+        push + "Value=-0.0049 * min(t, 1)",
+        "Bone/Young modulus=0.5"});
   show({push + "Value=0.0049 * (2 * t - 1)"});
+  show({push + "Value=-4.9 * min(t, 1)"});
+  show({push + "Value=-4.9 * min(t, 1)", push + "Stiffness=10"});
+  show({push + "Value=-0.5 * min(t, 1)"});
 
   show({"Load steps/Tolerance=1e-2"});
   show({"Load steps/Tolerance=1e-2", "Load steps/Adaptive=true"});
+  show({"Load steps/Steps=1, 10", "Load steps/Adaptive=true"});
+  show({"Interface/Viscosity=1", "Load steps/Adaptive=true"});
+  show({"Model=auto"});
   show({"Load steps/Largest slip step=1e-3"});
   show({"Closed form/Shear modulus=50", "Closed form/Pressure=2"});
   show({"Closed form/Shear modulus=50", "Model=mathieu"});

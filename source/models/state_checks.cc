@@ -112,8 +112,8 @@ namespace Debond
                        ", and points that close again are bonded as before"));
       // Beyond that a point may find no partner, or the wrong one [mm].
       const double too_deep =
-        std::min({0.1 * parameters.bone.thickness(),
-                  0.1 * parameters.implant.thickness(),
+        std::min({parameters.bone.penetration_limit(),
+                  parameters.implant.penetration_limit(),
                   std::sqrt(interface.implant_area() /
                             system.implant.surface().n_elements())});
       if (summary.max_penetration > too_deep)

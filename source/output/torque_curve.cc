@@ -166,6 +166,8 @@ namespace Debond
                                 [](const TorqueRow &a, const TorqueRow &b) {
                                   return a.pressure_MPa < b.pressure_MPa;
                                 });
+          if (most->pressure_MPa <= 0.)
+            return "nothing is pressed while it turns: there is no torque";
           if (most->pressure_MPa - least->pressure_MPa >
               largest_change * std::abs(most->pressure_MPa))
             return Text() << "the pressure goes from " << least->pressure_MPa

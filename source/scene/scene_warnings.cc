@@ -3,6 +3,7 @@
 #include <debond/support/number_text.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace Debond
@@ -23,17 +24,18 @@ namespace Debond
           const BodyParameters &body = is_bone ? scene.bone : scene.implant;
           const std::string     name = is_bone ? "Bone / " : "Implant / ";
           // What tables have in GPa: bone 0.1 to 30, polymers 1 to 10, metals
-          // and ceramics 50 to 400. A soft implant may be meant.
+          // and ceramics 50 to 400. A soft implant or a foam may be meant.
           const double E = body.young_modulus;
           const bool   in_GPa =
             is_bone ? E <= 30. : E < 10. || (E >= 50. && E < 400.);
           note(!body.is_rigid() && (in_GPa || E >= 1e8),
                name + "modulus",
                name + "Young modulus = " + to_text(E) + " MPa, where " +
-                 (is_bone ? "bone has 100 to 30 000" :
-                            "implants have 1000 to 400 000") +
-                 ": if it was meant in " + (in_GPa ? "GPa" : "Pa") +
-                 ", write " + to_text(in_GPa ? 1000. * E : 1e-6 * E));
+                 (is_bone ? "bone has 100 to 30 000: " :
+                            "implants have 1000 to 400 000: ") +
+                 (in_GPa ? "is it that soft, or in GPa? Then write " :
+                           "if it was meant in Pa, write ") +
+                 to_text(in_GPa ? 1000. * E : 1e-6 * E));
           // A trilinear cell cannot bend without a change of its volume, which
           // a nearly incompressible material resists.
           note(!body.is_rigid() && body.poisson_ratio > 0.45,
@@ -58,28 +60,25 @@ namespace Debond
     {
       const FrictionLaw       &law     = *scene.interface.friction;
       const BondingParameters &bonding = scene.interface.bonding;
-      // Adaptive steps look at the curve between states, and take the states
-      // to be exact. With friction that depends on the speed these depend on
-      // the step (backward Euler).
-      note(scene.load_steps.adaptive &&
-             (scene.interface.viscosity > 0. || law.depends_on_rate()),
-           "rate",
-           "Load steps / Tolerance does not cover the error in time of "
-           "friction that depends on the speed, which is of first order in the "
-           "step: compare with smaller Steps");
       note(
         law.has_bond() && law.coefficient({}, 0.).mu < law.mu_without_bond(),
         "coefficients",
         "the bond lowers friction: Interface / Friction coefficient unbroken "
         "is less than broken, " +
           to_text(law.mu_without_bond()) + ". Are they swapped?");
-      const double distance = law.characteristic_distance();
-      note(law.has_bond() &&
-             distance > 0.5 * scene.implant.characteristic_radius(),
+      const double distance = law.characteristic_distance(),
+                   R        = scene.implant.characteristic_radius();
+      note(law.has_bond() && distance > 0.5 * R,
            "length of the bond",
            "the bond breaks over a sliding distance of some " +
              to_text(distance, 3) +
              " mm, more than half the radius: lengths are mm, 22 um is 0.022");
+      // that of the paper is a hundredth of the radius
+      note(law.has_bond() && distance < 5e-5 * R,
+           "short bond",
+           "the bond breaks over a sliding distance of some " +
+             to_text(distance, 3) + " mm: if it was meant in m, that is " +
+             to_text(1e3 * distance, 3) + " mm");
       const unsigned int n = scene.implant.cells[0] * scene.implant.cells[1];
       note(bonding.pattern == BondingPatternKind::random &&
              bonding.resolution == BondingResolution::element && n < 50,
@@ -88,6 +87,30 @@ namespace Debond
              std::to_string(n) +
              " elements of the implant, too few to scatter: Implant / Cells = "
              "20, 2 makes 400");
+    }
+
+
+
+    void
+    judge_steps(const Scene &scene, const Note &note)
+    {
+      const LoadSteppingParameters &steps    = scene.load_steps;
+      const bool                    has_rate = scene.interface.viscosity > 0. ||
+                            scene.interface.friction->depends_on_rate();
+      // Adaptive steps look at the curve between states, and take the states
+      // to be exact. With friction that depends on the speed these depend on
+      // the step (backward Euler).
+      note(steps.adaptive && has_rate,
+           "rate",
+           "Load steps / Tolerance does not cover the error in time of "
+           "friction that depends on the speed, which is of first order in the "
+           "step: compare with smaller Steps");
+      note(
+        steps.adaptive && !has_rate &&
+          steps.steps == LoadSteppingParameters().steps,
+        "largest steps",
+        "Load steps / Steps = 1, 1000, the default: adaptive steps are never "
+        "larger than these. Steps = 1, 10 leaves them a choice");
     }
 
 
@@ -111,6 +134,85 @@ namespace Debond
 
 
 
+    // Too large by far, or too small, is what has another unit.
+    void
+    judge_push(const Scene               &scene,
+               const std::string         &entry,
+               const std::vector<double> &values,
+               const Note                &note)
+    {
+      const ChuckComponentParameters &z =
+        scene.chuck.component[ChuckComponent::translation_z];
+      const BodyParameters &bone = scene.bone, &implant = scene.implant;
+      const auto [least, most] =
+        std::minmax_element(values.begin(), values.end());
+      note(*least >= 0. && *most > 0.,
+           "direction of the push",
+           entry + " is never negative: it pulls the implant off the bone. "
+                   "What presses is negative");
+      const double push = -*least; // a machine's springs may take a larger one
+      note(!z.loaded && z.stiffness == 0. &&
+             push >
+               std::max(bone.penetration_limit(), implant.penetration_limit()),
+           "depth of the push",
+           entry + " presses the implant in by " + to_text(push, 3) +
+             " mm, more than a tenth of its height and of the bone's: lengths "
+             "are mm. If it was meant in um, that is " +
+             to_text(1e-3 * push, 3) + " mm");
+      // Soft bodies may be meant to be pressed by little.
+      const double p = push / (implant.width(0) * implant.width(1) *
+                               (implant.is_round() ? 0.25 * M_PI : 1.));
+      note(z.loaded && push > 0. &&
+             p < std::min({1e-3,
+                           1e-6 * bone.young_modulus,
+                           1e-6 * implant.young_modulus}),
+           "force of the push",
+           entry + " is a force of " + to_text(push, 3) +
+             " N at most, a mean pressure of " + to_text(p, 3) +
+             " MPa: is it a displacement in mm? That is Control = "
+             "displacement");
+    }
+
+
+
+    void
+    judge_rotation(const Scene               &scene,
+                   const std::string         &entry,
+                   const std::vector<double> &values,
+                   const Note                &note)
+    {
+      double way = 0.; // [deg]
+      for (std::size_t i = 1; i < values.size(); ++i)
+        way += std::abs(values[i] - values[i - 1]);
+      if (scene.chuck.component[ChuckComponent::rotation_z].loaded || way == 0.)
+        return;
+      note(values[0] != 0. &&
+             scene.has_friction_after(scene.load_steps.times.front()),
+           "start of the rotation",
+           entry + " begins with " + to_text(values[0], 4) +
+             " degrees: the implant is placed so, which takes no torque. Is "
+             "that meant? What begins with 0 is 10 * max(t - 1, 0), from t = 1 "
+             "on, or a cycle, 5 * sin(pi * t)");
+      const FrictionLaw &law      = *scene.interface.friction;
+      const double       distance = law.characteristic_distance(),
+                   R              = scene.implant.characteristic_radius(),
+                   way_of_rim     = way * M_PI / 180. * R;
+      // Who wants to know what happens before the bond breaks takes few steps;
+      // next to nothing is a sine whose turns lie between the steps.
+      const bool is_short = way > 0.01 && way_of_rim < 0.5 * distance,
+                 is_curve =
+                   scene.load_steps.adaptive || scene.load_steps.n_steps() > 20;
+      note(law.has_bond() && distance < 0.5 * R && is_short && is_curve,
+           "short rotation",
+           entry + " turns by " + to_text(way, 4) +
+             " degrees in all, in which the rim moves by " +
+             to_text(way_of_rim, 3) + " mm; the bond breaks over some " +
+             to_text(distance, 3) + " mm. If it was meant in rad, that is " +
+             to_text(way * 180. / M_PI, 3) + " degrees");
+    }
+
+
+
     void
     judge_chuck(const Scene &scene, const Note &note)
     {
@@ -123,26 +225,18 @@ namespace Debond
           std::vector<double> values;
           for (const double time : times)
             values.push_back(value_at(time));
-          const auto [least, most] =
-            std::minmax_element(values.begin(), values.end());
           const std::string entry =
             ChuckParameters::entry_name(k, "Value") + " = " + component.value;
-          note(*least == *most && changes_later(component, value_at, times),
+          note(values == std::vector<double>(values.size(), values[0]) &&
+                 changes_later(component, value_at, times),
                entry,
-               entry + " is " + to_text(*most) + " at all times from " +
+               entry + " is " + to_text(values[0]) + " at all times from " +
                  to_text(times.front()) + " to " + to_text(times.back()) +
                  ", and changes later: do Load steps / Times end too early?");
-          note(k == ChuckComponent::rotation_z && !component.loaded &&
-                 values[0] != 0. && *least != *most &&
-                 scene.has_friction_after(times.front()),
-               "start of the rotation",
-               entry + " begins with " + to_text(values[0]) +
-                 " degrees, and the implant turns from the first time on. What "
-                 "begins at t = 1 is for instance 10 * max(t - 1, 0)");
-          note(k == ChuckComponent::translation_z && *least >= 0. && *most > 0.,
-               "direction of the push",
-               entry + " is never negative: it pulls the implant off the bone. "
-                       "What presses is negative");
+          if (k == ChuckComponent::translation_z)
+            judge_push(scene, entry, values, note);
+          if (k == ChuckComponent::rotation_z)
+            judge_rotation(scene, entry, values, note);
         }
     }
 
@@ -216,6 +310,7 @@ namespace Debond
     };
     judge_bodies(*this, note);
     judge_interface(*this, note);
+    judge_steps(*this, note);
     judge_chuck(*this, note);
     judge_entries(*this, note);
     return found;

@@ -70,6 +70,13 @@ namespace Debond
     {
       return is_round() ? height : size[2];
     }
+    /** A tenth of the thickness [mm]: what penetrates deeper has most likely a
+     *  wrong unit. */
+    double
+    penetration_limit() const
+    {
+      return 0.1 * thickness();
+    }
     /** Size of the contact face along x (0) or y (1), seen from above [mm]. */
     double
     width(const unsigned int direction) const

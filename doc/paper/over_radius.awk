@@ -4,8 +4,10 @@
 BEGIN { FS = ","; print "r_mm,mu" }
 FNR == NR { if (FNR > 1) { law_slip[n] = $1; law_mu[n++] = $3 } next }
 {
-  for (i = 1; i <= 8; ++i) # from the axis, where nothing slides
-    printf "%.6g,%.6g\n", r + i / 8 * ($4 - r), mu(slip + i / 8 * ($7 - slip))
+  if ($4 - r < 0.01) next # [mm]
+  n_parts = int(($4 - r) / 0.01)
+  for (i = 1; i <= n_parts; ++i) # from the axis, where nothing slides
+    printf "%.6g,%.6g\n", r + i / n_parts * ($4 - r), mu(slip + i / n_parts * ($7 - slip))
   r = $4; slip = $7
 }
 function mu(g,    low, high, middle) {

@@ -68,7 +68,7 @@ if (exists("published")) {
     T = real(word(published, i))
     set arrow i from graph 0, first T to graph 1, first T nohead dashtype 2 linewidth 1 linecolor rgb "#2c1e5c" back
     set label i sprintf("published {/:Italic T}_{%s} = %.1f N mm", i == 1 ? "max" : "∞", T) \
-      at graph 0.985, first T right offset 0, 0.7 textcolor rgb "#2c1e5c" enhanced
+      at graph 0.985, first T right offset 0, 0.9 textcolor rgb "#2c1e5c" enhanced
   }
   unset key
 }
@@ -84,7 +84,7 @@ if (exists("other")) {
 } }
 
 if (exists("published")) { # the beginning, enlarged
-  high = n_faces ? 0.60 : 0.49
+  high = n_faces ? 0.62 : 0.49
   set lmargin at screen 0.45
   set rmargin at screen 0.94
   set bmargin at screen (n_faces ? 0.44 : 0.19)
@@ -96,7 +96,7 @@ if (exists("published")) { # the beginning, enlarged
   unset arrow 2
   unset offsets
   set xrange [0:2.2 * peak]
-  set yrange [0:1.25 * T_max]
+  set yrange [0:1.4 * T_max]
   do for [i=3:4] {
     angle = real(word(published, i))
     set arrow i from first angle, graph 0 to first angle, graph 1 nohead dashtype 2 linewidth 1 linecolor rgb "#2c1e5c" back
@@ -130,9 +130,9 @@ if (n_faces) {
     set rmargin at screen 0.03 + 0.83 / n_faces * i
     set title word(angles, i) . "°" offset 0, -0.7
     if (i == n_faces) {
-      set colorbox user origin 0.885, 0.06 size 0.015, 0.19
+      set colorbox user origin 0.875, 0.06 size 0.015, 0.19
       set cbtics ("0 broken" 0, "0.5" 0.5, "1 bonded" 1)
-      set label 1 "{/:Italic φ}" at screen 0.8925, 0.275 center enhanced
+      set label 1 "{/:Italic φ}" at screen 0.8825, 0.275 center enhanced
     } else { unset colorbox }
     plot faces . "/profiles.csv" using (at_face(i) ? column("x_mm") : NaN):"y_mm":"phi" \
       with points pointtype 5 pointsize 0.6 palette

@@ -7,12 +7,12 @@
 #   }
 #   unset output
 #
-# Maps are PNG only, format = "map": as SVG they are megabytes of cells, and antialiasing would show the seams between cells.
+# Maps are PNG only, format = "map": as SVG they are megabytes of cells.
 reset
 if (!exists("format")) { format = "png" }
 picture(name, width, height) = sprintf("set terminal %s size %d, %d enhanced; set output '%s.%s'", \
   format eq "svg" ? "svg font 'DejaVu Sans,15' linewidth 1.5 background 'white'" : \
-  format eq "map" ? "png truecolor font 'DejaVuSans' 15" : "pngcairo font 'DejaVu Sans,15' linewidth 1.5", \
+  format eq "map" ? "pngcairo font 'DejaVu Sans,15'" : "pngcairo font 'DejaVu Sans,15' linewidth 1.5", \
   width, height, name, format eq "svg" ? "svg" : "png")
 set encoding utf8
 set datafile separator comma

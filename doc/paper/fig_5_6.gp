@@ -3,8 +3,9 @@
 dir = "output/paper/fig_5_6/"
 file = dir . "profiles.csv"
 angles = "1.15 1.5 2 3 5 10"
-# an eighth of the points, joined in the order of their radii: the others lie on the same curves
-over_radius(angle) = sprintf("< head -n 1 %s; awk -F, '$1 == %s && $3 > 0 && $2 > $3' %s | sort -t, -g -k4,4", file, angle, file)
+# an eighth of the points in the order of their radii: the others lie on the same curves
+over_radius(angle) = sprintf("< awk -F, '$1 == %s && $3 > 0 && $2 > $3' %s | sort -t, -g -k4,4 | \
+  awk -f doc/paper/over_radius.awk %sfriction_law.csv -", angle, file, dir)
 
 format = "map"
 load "doc/style.gp"
@@ -14,6 +15,7 @@ load "doc/paper/faces.gp"
 # where debonding begins and where it ends, a_s and (1 + 2 b_s) a_s
 set contour base
 set cntrparam levels discrete 0.042, 0.10416
+set cntrparam cubicspline points 10
 set cntrparam firstlinetype 11
 set for [i=11:12] linetype i linecolor rgb "#ffffff" linewidth 1
 do for [row=1:2] {
@@ -39,14 +41,15 @@ do for [format in "png svg"] {
   load "doc/style.gp"
   eval picture(dir . "fig_6", 1400, 560)
   set multiplot layout 1, 2
-  set title "(a)"
+  set bmargin 4.5
+  set title "(a) over the contact face"
   set xlabel "Radius {/:Italic r} [mm]"
   set ylabel "Friction coefficient {/:Italic μ}"
   set xrange [0:2.5]
   set yrange [0.38:0.66]
   set key top right maxrows 2
   plot for [angle in angles] over_radius(angle) using "r_mm":"mu" with lines title angle . "°"
-  set title "(b) {/:Italic a}_s = 42 μm, {/:Italic b}_s = 0.74"
+  set title "(b) the law, {/:Italic a}_s = 42 μm, {/:Italic b}_s = 0.74"
   set xlabel "Sliding distance {/:Italic g}_s [μm]"
   set xrange [0:160]
   plot dir . "friction_law.csv" using (1000 * column("slip_mm")):"mu" with lines title "at every point", \

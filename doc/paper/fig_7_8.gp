@@ -12,7 +12,7 @@ eval picture(dir . "fig_7", 1300, 360)
 set multiplot layout 1, 4 margins 0.01, 0.88, 0.03, 0.88 spacing 0.01, 0
 load "doc/paper/faces.gp"
 set cbrange [0:1]
-set pm3d corners2color c1 interpolate 1, 1 # what jumps from element to element has no values in between
+set pm3d corners2color c1 interpolate 1, 1 border retrace linewidth 1 # what jumps from element to element has no values in between
 do for [i=1:4] {
   if (i == 4) {
     set colorbox user origin 0.895, 0.08 size 0.012, 0.76

@@ -29,7 +29,7 @@ do for [format in "png svg"] {
   phi_0 = "Interface / Bonding / Initial bonding"
   array quantity[2] = ["T_max", "D_adh"]
   array unit[2] = ["_Nmm", "_Nm"]
-  array label[2] = ["Largest torque {/:Italic T}_{max} [N mm]", "Work of adhesion {/:Italic D}_{adh} [10^{-3} N m]"]
+  array label[2] = ["Largest torque {/:Italic T}_{max} [N mm]", "Adhesive dissipation {/:Italic D}_{adh} [10^{-3} N m]"]
   set multiplot layout 1, 2
   set xlabel "Bonded fraction of the surface"
   set xrange [0:1]

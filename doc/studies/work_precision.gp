@@ -27,6 +27,12 @@ n_before(cells) = count_of_semicolons(all_cells[1:strstrt(";" . all_cells, ";" .
 count_of_semicolons(text) = strstrt(text, ";") == 0 ? 0 : 1 + count_of_semicolons(text[strstrt(text, ";") + 1:])
 surfaces = "nurbs bilinear"
 array open_symbol[6] = [4, 6, 8, 10, 12, 14]
+# entries of the key: the methods of the first code fill rows up to a multiple of 4
+n_first = 0
+do for [m in methods] { if (code(m) eq code(word(methods, 1))) { n_first = n_first + 1 } }
+n_blank = (4 - n_first % 4) % 4
+blank(k) = k > n_first && k <= n_first + n_blank
+entry(k) = k <= n_first ? k : k - n_blank
 code_colour(m) = code(m) eq "CalculiX" ? red : orange
 
 do for [format in "png svg"] {
@@ -92,25 +98,29 @@ do for [format in "png svg"] {
   set ylabel "Largest error of the torque at 0.05, 0.1, ... 1° / {/:Italic T}_{max}"
   set xrange [0.02:1000]
   set yrange [1e-4:0.2]
-  set bmargin 10
-  set key at screen 0.5, 0.01 bottom center maxrows 5 samplen 1.5
+  set bmargin 9
+  # columns of the key: debond, its meshes, the first of the other codes, the others
+  set key at screen 0.5, 0.01 bottom center maxrows 4 samplen 1.5 width -5
+  set style textbox opaque noborder fillcolor rgb "#ffffff"
   front = dir . "front_coulomb.csv"
   if (codes ne "") {
     do for [n=1:count_of_semicolons(all_cells)] {
       rest = all_cells
       do for [skipped=2:n] { rest = rest[strstrt(rest, ";") + 1:] }
-      set label n letter(rest[1:strstrt(rest, ";") - 1]) . ": " . rest[1:strstrt(rest, ";") - 1] at graph 0.03, 0.04 + 0.035 * (count_of_semicolons(all_cells) - n)
+      set label n letter(rest[1:strstrt(rest, ";") - 1]) . ": " . rest[1:strstrt(rest, ";") - 1] at graph 0.03, 0.04 + 0.035 * (count_of_semicolons(all_cells) - n) boxed
     }
-    set label 100 "Cells of other codes, bone / implant" at graph 0.02, 0.04 + 0.035 * count_of_semicolons(all_cells)
+    set label 100 "Cells of other codes, bone / implant" at graph 0.02, 0.04 + 0.035 * count_of_semicolons(all_cells) boxed
   }
   plot for [s=1:2] for [m=2:6] ours using (strcol("surface") eq word(surfaces, s) && is("linear", word(meshes, m)) ? column("seconds") : NaN):"error_torque" \
       with points pointtype symbol[m] pointsize 1.5 linecolor rgb (surface_colour[s] + 0x40000000) notitle, \
     front using "seconds":"error_torque" with steps linewidth 1.5 linecolor rgb "#000000" title "debond, best in its time", \
     for [s=1:2] NaN with points pointtype 7 pointsize 1.6 linecolor rgb surface_colour[s] title "debond, " . (s == 1 ? "NURBS" : "bilinear") . " surfaces", \
+    keyentry with points pointtype -1 linecolor rgb "#ffffff" title " ", \
     for [m=2:5] NaN with points pointtype symbol[m] pointsize 1.6 linecolor rgb "#444444" title mesh_name(m), \
     for [k=1:words(methods)] others using (of(word(methods, k)) ? column("seconds") : NaN):"error_torque" \
-      with points pointtype open_symbol[k] pointsize 2 linewidth 1.5 linecolor rgb code_colour(word(methods, k)) \
-      title code(word(methods, k)) . " " . method(word(methods, k)), \
+      with points pointtype open_symbol[k] pointsize 2 linewidth 1.5 linecolor rgb code_colour(word(methods, k)) notitle, \
+    for [k=1:words(methods) + n_blank] keyentry with points pointtype (blank(k) ? -1 : open_symbol[entry(k)]) pointsize 2 linewidth 1.5 \
+      linecolor rgb (blank(k) ? 0xffffff : code_colour(word(methods, entry(k)))) title (blank(k) ? " " : code(word(methods, entry(k))) . " " . method(word(methods, entry(k)))), \
     for [k=1:words(methods)] others using (of(word(methods, k)) ? column("seconds") : NaN):"error_torque":(codes eq "" ? "" : letter(cells(strcol("label")))) \
       with labels offset (k % 2 ? -1.5 : 1.5), 0 textcolor rgb code_colour(word(methods, k)) noenhanced notitle
 }

@@ -10,7 +10,8 @@ array N_hertz[4] = [12, 16, 24, 32]
 array eps_hertz[4] = [2.5e5, 5e5, 1e6, 2e6]
 array N_sphere[3] = [16, 24, 32]
 array eps_sphere[3] = [2.5e5, 1e6, 4e6]
-power(x) = sprintf("%.3g·10^{%d}", x / 10**floor(log10(x) + 1e-9), floor(log10(x) + 1e-9))
+digits(x) = x / 10**floor(log10(x) + 1e-9)
+power(x) = (abs(digits(x) - 1) < 1e-6 ? "" : sprintf("%.3g·", digits(x))) . sprintf("10^{%d}", floor(log10(x) + 1e-9))
 do for [format in "png svg"] {
   load "doc/style.gp"
   eval picture("output/convergence", 1400, 1100)
@@ -19,9 +20,9 @@ do for [format in "png svg"] {
   set xlabel "Cells across the bone, {/:Italic N}"
   set format y "10^{%L}"
   set key bottom left
-  set xtics (12, 16, 20, 24, 30, 40, 60)
 
-  set title "Reissner-Sagoci: disk bonded by a layer of stiffness ε_t"
+  set xtics (20, 30, 40, 60)
+  set title "Reissner-Sagoci: disk bonded by a layer"
   set ylabel "Relative error of the torque"
   set xrange [18:66]
   set yrange [1e-4:1]
@@ -35,7 +36,8 @@ do for [format in "png svg"] {
   plot for [i=1:3] study("torsional_partial_slip") using (N[int(column("variant") - 1) % 4 + 1]):"difference_max" \
       every ::(4 * i - 4)::(4 * i - 1) with linespoints title "ε_t = " . stiffness_2[i] . unit
 
-  set title "Hertz: force at 5 μm, less the first-order effect of the interface"
+  set xtics (12, 16, 24, 32)
+  set title "Hertz: sphere pressed in by 5 μm"
   set ylabel "Relative error of the force"
   set xrange [10:36]
   set yrange [1e-3:0.1]
@@ -43,6 +45,7 @@ do for [format in "png svg"] {
       every ::(4 * i - 4)::(4 * i - 1) with linespoints title "ε = " . power(eps_hertz[i]) . unit, \
     8 * x**-2 with lines dashtype 2 linecolor rgb grey title "slope -2"
 
+  set xtics (16, 24, 32)
   set title "Lubkin: torsion of a sphere"
   set ylabel "Largest difference / {/:Italic T}_{max}"
   set xrange [14:36]

@@ -75,6 +75,11 @@ main()
        {"Interface/Bonding/Initial bonding=0", "Output/Observed bonding=0.5"});
   show("Coulomb's law", {law + "law=coulomb"});
   show("pressed while turning", {push + "-0.0049 * t / 2"});
+  show("turned from the first time on, in one step with the push",
+       {rotation + "5 * t", "Load steps/Times=0, 2", "Load steps/Steps=2"});
+  show("the angle of another curve", {"Output/Full sliding angle=2"});
+  show("rows that stand still between the others",
+       {rotation + "if(t > 1, floor((t - 1) * 25 + 1e-9) / 2.5, 0)"});
   show("pulled off before it turns",
        {push + "-0.0049 * min(1 - abs(2 * t - 1), 0.5)"});
   show("the end before the largest torque", {rotation + "0.2 * max(t - 1, 0)"});

@@ -87,6 +87,10 @@ main()
   show({"Closed form/Shear modulus=50", "Model=mathieu"});
   show({"Bone/Material=rigid", "Bone/Young modulus=17"});
   show({law + "law=frictionless", law + "coefficient broken=0.3"});
+  show({law + "coefficient unbroken=58", law + "coefficient broken=40"});
+  show({"Implant/Radius=0.0025"});
+  show({"Bone/Young modulus=113000", "Implant/Young modulus=18000"});
+  show({"Chuck/Translation z/Value=-4.9e-6 * min(t, 1)"});
   show({law + "law=coulomb", law + "coefficient unbroken=0.7"});
   show({"Interface/Rate and state/Direct effect=0.02"});
 }

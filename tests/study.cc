@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <iostream>
 #include <map>
 #include <sstream>
@@ -71,7 +72,13 @@ read_study(const std::string &filename)
       std::istringstream items(line);
       for (const std::string &column : columns)
         {
-          std::getline(items, item, ',');
+          if (items.peek() == '"') // a text with commas in it
+            {
+              items >> std::quoted(item, '"', '"');
+              items.ignore();
+            }
+          else
+            std::getline(items, item, ',');
           table[column].push_back(item);
         }
     }

@@ -124,11 +124,12 @@ check_triangle()
   check("no error without a reference", m["e_mp"], NAN);
   check("no error without a reference", m["e_rel"], NAN);
 
-  std::cout << "The entry Full sliding angle overrides" << std::endl;
+  std::cout << "The entry Full sliding angle is what E_fric is counted from"
+            << std::endl;
   CurveSettings given          = settings();
   given.full_sliding_angle_deg = 4;
   const auto overridden = measure_torque_curve(make_rows(triangle()), given);
-  check("angle of full sliding", overridden["theta_full_deg"], 4);
+  check("that of the curve stays", overridden["theta_full_deg"], 2.01);
   check("E_fric", overridden["E_fric_Nm"], 1e-3 * 30 * 6 * radian);
   check("E_deb", overridden["E_deb_Nm"], m["E_deb_Nm"]);
 
@@ -302,6 +303,20 @@ check_errors()
   check("largest difference", m["difference_max"], 10. / 50);
   check("mean difference", m["difference_mean"], (5. + 10. + 0.) / 3 / 50);
   check("rows read without a file", read_reference_curve("").size(), 0);
+
+  // in N m, in radians, with the other sign: what is said of the file's curve
+  for (const auto &[angle, torque] : {std::make_pair(1., 1e-3),
+                                      std::make_pair(M_PI / 180., 1.),
+                                      std::make_pair(1., -1.)})
+    {
+      CurveSettings other = with_reference;
+      for (auto &row : other.reference)
+        row = {angle * row.first, torque * row.second};
+      for (const auto &remark :
+           measure_torque_curve(make_rows(triangle()), other)["remarks"])
+        if (remark.get<std::string>().rfind("e_mp", 0) == 0)
+          std::cout << remark << std::endl;
+    }
 }
 
 

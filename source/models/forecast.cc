@@ -107,8 +107,18 @@ namespace Debond
     const double                    p_over_depth =
       1. / (normal + 1. / scene.interface.law().normal->initial_stiffness() +
             (z.stiffness > 0. ? area / z.stiffness : 0.));
-    error = 0.005 + 0.15 * std::max(z.loaded ? 0. : normal * p_over_depth,
-                                    torsional * stiffness);
+    // Held at its top, and by friction at its face, a short implant is stiffer
+    // than a bar, and a narrow bone softer than a layer.
+    const double in_implant =
+      std::max(z.loaded ? 0. : of_bodies(0., implant.height) * p_over_depth,
+               of_bodies(0.,
+                         2. * (1. + implant.poisson_ratio) * implant.height) *
+                 stiffness);
+    error = 0.005 +
+            0.15 * std::max(z.loaded ? 0. : normal * p_over_depth,
+                            torsional * stiffness) +
+            0.3 * in_implant * in_implant +
+            (std::min(bone.size[0], bone.size[1]) < 2.3 * R ? 0.15 : 0.);
     if (last[ChuckComponent::rotation_x] != 0. ||
         last[ChuckComponent::rotation_y] != 0.)
       why = "the implant is tilted";
@@ -138,13 +148,21 @@ namespace Debond
             "torque may jump";
     else
       T_max = T_end = 0.;
-    if (why.empty())
-      for (unsigned int i = 0;
-           i < angles.size() &&
-           std::abs(angles[i] + (machine > 0. ? torques[i] / machine : 0.)) <=
-             std::abs(last[twist]);
-           ++i)
-        T_max = std::max(T_max, std::abs(T_end = torques[i]));
+    // The machine turns further than the implant, by the torque over its
+    // stiffness; the last torque lies between two angles.
+    const auto turned = [&](const unsigned int i) {
+      return std::abs(angles[i] + (machine > 0. ? torques[i] / machine : 0.));
+    };
+    for (unsigned int i = 1; why.empty() && i < angles.size(); ++i)
+      {
+        const double part =
+          (std::abs(last[twist]) - turned(i - 1)) / (turned(i) - turned(i - 1));
+        T_end =
+          torques[i - 1] + std::min(part, 1.) * (torques[i] - torques[i - 1]);
+        T_max = std::max(T_max, std::abs(T_end));
+        if (part < 1.)
+          break;
+      }
   }
 
 
@@ -160,6 +178,11 @@ namespace Debond
     if (scene.implant.shape != BodyShape::coin ||
         rows.back().released_energy_Nmm > 0. || scene.load_steps.follow_path)
       return "";
+    // points that lie badly or are few are another cause
+    if (scene.interface.slave == Side::bone ||
+        scene.interface.quadrature_points < 3 ||
+        scene.interface.friction->is_frictionless())
+      return "";
     const Forecast forecast(scene, system);
     double         T_max = 0.;
     for (const TorqueRow &row : rows)
@@ -172,7 +195,8 @@ namespace Debond
                     << " %: "
                     << (T_max < forecast.T_max ?
                           "do the steps go over the peak?" :
-                          "are the cells too coarse for the interface?");
+                          "are the cells too coarse for the interface, or the "
+                          "closed forms for these bodies?");
     return "";
   }
 

@@ -71,11 +71,15 @@ namespace Debond
 
     Text        text;
     const auto &end = rows.back().chuck_reaction;
-    if (const double theta_max = summary["theta_max_deg"];
+    if (const double theta_max = summary["theta_max_deg"],
+        theta_full             = summary["theta_full_deg"];
         std::isfinite(theta_max))
       text << "Largest torque " << summary["T_max_Nmm"].get<double>()
-           << " N mm at " << theta_max << " deg, at the end "
-           << rows.back().torque_Nmm << " N mm. ";
+           << " N mm at " << theta_max << " deg"
+           << (std::isfinite(theta_full) ?
+                 ", 99.9 % of it up to " + to_text(theta_full) + " deg" :
+                 "")
+           << ", at the end " << rows.back().torque_Nmm << " N mm. ";
     else
       text << "Force of the chuck at the end: " << end[0] << ", " << end[1]
            << ", " << end[2] << " N. ";

@@ -152,6 +152,8 @@ namespace Debond
           return row.share_open == 1.;
         }))
       warn({"no contact", "the bodies are never in contact"});
+    for (const Warning &warning : state_checks.judge_strains(coupled_system))
+      warn(warning);
     const LoadSteppingParameters &load_steps = scene.load_steps;
     if (solver.time() != load_steps.times.back() &&
         load_steps.path_ends_at_slip == 0.)

@@ -207,9 +207,8 @@ namespace Debond
   // bone and metal: even a slender one that bends has strains of not more than
   // some twenty times the tractions over Young's modulus.
   void
-  StateChecks::check_strains(const CoupledSystem &system,
-                             const double         max_traction,
-                             const Note          &note)
+  StateChecks::ask_for_strains(const CoupledSystem &system,
+                               const double         max_traction)
   {
     for (const auto &[side, body] :
          {std::make_pair(Side::bone, &parameters.bone),
@@ -219,18 +218,37 @@ namespace Debond
         ControlNet      &judged = judged_displacement[side];
         if (body->material != Material::linear ||
             max_traction < 5e-4 * body->young_modulus ||
-            (judged.size() > 0 && (v - judged).norm() < 0.3 * v.norm()))
+            (judged.size() > 0 && (v - judged).norm() < 0.2 * v.norm()))
           continue;
-        judged              = v;
-        const double change = system.body[side]->change_at_large_strains();
-        if (change > 0.02)
-          note(Text() << "strain of the " << name_of(side),
-               Text() << "large strains or rotations of the " << name_of(side)
-                      << " would change its displacement by some "
-                      << to_text(100. * change, 2)
-                      << " %, too much for Material = linear: compare with "
-                         "neo-hookean");
+        judged = v;
+        change_at_strains[side] =
+          std::max(change_at_strains[side],
+                   system.body[side]->change_at_large_strains());
       }
+  }
+
+
+
+  std::vector<Warning>
+  StateChecks::judge_strains(const CoupledSystem &system)
+  {
+    std::vector<Warning> warnings;
+    for (const Side side : both_sides)
+      {
+        double &change = change_at_strains[side];
+        if (judged_displacement[side].size() > 0)
+          change =
+            std::max(change, system.body[side]->change_at_large_strains());
+        if (change > 0.02)
+          warnings.push_back(
+            {Text() << "strain of the " << name_of(side),
+             Text() << "large strains or rotations of the " << name_of(side)
+                    << " would change its displacement by up to some "
+                    << to_text(100. * change, 2)
+                    << " %, and forces perhaps by more: too much for Material "
+                       "= linear; compare with neo-hookean"});
+      }
+    return warnings;
   }
 
 
@@ -255,7 +273,7 @@ namespace Debond
       check_for_jump(
         parameters, system, summary, before.forces, released_energy, note);
     check_interface(parameters, system, summary, note);
-    check_strains(system, summary.max_traction, note);
+    ask_for_strains(system, summary.max_traction);
 
     // Planned turns are divided; jumps and loaded chucks turn as far as they
     // like.

@@ -144,8 +144,8 @@ namespace Debond
 
 
     /** Why friction at the end of the curve does not tell what the bond has
-     *  taken of E_deb, Eq. (20); empty: it does. @p theta_full_deg is NaN if
-     * the torque is largest at the end. */
+     *  taken of E_deb, Eq. (20); empty: it does. @p theta_full_deg: what E_fric
+     * is counted from; NaN if the torque is largest at the end. */
     std::string
     why_no_adhesion(const Rows          &rows,
                     const Rotation      &rotation,
@@ -155,9 +155,11 @@ namespace Debond
       const TorqueRow &start = rows[rotation.first_row - 1], &end = rows.back();
       if (!settings.is_bonded)
         return "nothing is bonded, or the friction law has no bond";
+      if (end.adhesive_work_Nmm < 0.)
+        return "the bond lowers friction";
       // The work of friction from theta_full on is several times that of the
       // bond. Before, friction of the push-in may be released.
-      auto first = rows.begin() + rotation.first_row;
+      auto first = rows.begin() + rotation.first_row - 1;
       for (const double largest_change : {0.1, 0.01})
         {
           const auto [least, most] =
@@ -199,12 +201,12 @@ namespace Debond
     struct Energies
     {
       double E_deb = 0, E_fric = 0;
-      double theta_full_deg = 0; ///< NaN: the torque is largest at the end
+      double theta_full_deg; ///< NaN: the torque is largest at the end
+      double from_deg;       ///< what E_fric is counted from
 
       Energies(const Rows  &rows,
                const double direction,
                const double full_angle)
-        : theta_full_deg(direction * full_angle)
       {
         double T_max = 0.;
         for (unsigned int i = 0; i < rows.size(); ++i)
@@ -215,11 +217,11 @@ namespace Debond
                        radians(rows[i].angle_deg - rows[i - 1].angle_deg);
           }
         const TorqueRow &end = rows.back();
-        if (full_angle == 0.)
-          theta_full_deg = last_angle_near_maximum(rows, T_max);
-        if (full_angle == 0. && theta_full_deg == end.angle_deg)
+        theta_full_deg       = last_angle_near_maximum(rows, T_max);
+        if (theta_full_deg == end.angle_deg)
           theta_full_deg = std::numeric_limits<double>::quiet_NaN();
-        E_fric = end.torque_Nmm * radians(end.angle_deg - theta_full_deg);
+        from_deg = full_angle > 0. ? direction * full_angle : theta_full_deg;
+        E_fric   = end.torque_Nmm * radians(end.angle_deg - from_deg);
       }
 
       double
@@ -228,6 +230,20 @@ namespace Debond
         return E_deb - E_fric;
       }
     };
+
+
+
+    /** The torque at an angle that the rows turn through [N mm]. */
+    double
+    torque_between(const Rows &rows, const double angle)
+    {
+      ReferenceCurve curve;
+      for (const TorqueRow &row : rows)
+        curve.emplace_back(row.angle_deg, row.torque_Nmm);
+      if (curve.back().first < curve.front().first)
+        std::reverse(curve.begin(), curve.end());
+      return torque_at(curve, angle, 0.);
+    }
 
 
 
@@ -240,14 +256,24 @@ namespace Debond
                            const double    full_angle,
                            const double    W_adh)
     {
+      // rows at the same angle, of which the last one counts, are one
+      Rows turning;
+      for (auto i = rotation.first_row - 1; i < rows.size(); ++i)
+        {
+          if (!turning.empty() &&
+              std::abs(turning.back().angle_deg - rows[i].angle_deg) <=
+                rotation.tolerance)
+            turning.pop_back();
+          turning.push_back(rows[i]);
+        }
       double change = 0.;
       for (const unsigned int first : {1, 2})
         {
-          Rows fewer(rows.begin(), rows.begin() + rotation.first_row);
-          for (auto i = rotation.first_row - 1 + first; i < rows.size(); i += 2)
-            fewer.push_back(rows[i]);
-          if (fewer.back().step != rows.back().step)
-            fewer.push_back(rows.back());
+          Rows fewer(turning.begin(), turning.begin() + 1);
+          for (auto i = first; i < turning.size(); i += 2)
+            fewer.push_back(turning[i]);
+          if (fewer.back().step != turning.back().step)
+            fewer.push_back(turning.back());
           grow(change,
                std::abs(
                  Energies(fewer, rotation.direction, full_angle).W_adh() -
@@ -262,6 +288,7 @@ namespace Debond
     measure_energies(const Rows          &rows,
                      const Rotation      &rotation,
                      const CurveSettings &settings,
+                     const double         T_max,
                      Measures            &measures)
     {
       const double   full_angle = settings.full_sliding_angle_deg;
@@ -276,12 +303,20 @@ namespace Debond
                                       to_text(released, 4) +
                                       " N mm that jumps have released");
       const std::string why =
-        why_no_adhesion(rows, rotation, settings, energies.theta_full_deg);
+        why_no_adhesion(rows, rotation, settings, energies.from_deg);
       if (!why.empty())
         {
           measures["remarks"].push_back("E_fric, W_adh, w_adh: null, " + why);
           return;
         }
+      if (const double angle = rotation.direction * full_angle,
+          T                  = std::abs(torque_between(rows, angle));
+          full_angle > 0. && T < 0.99 * T_max)
+        measures["remarks"].push_back(
+          "E_fric, W_adh, w_adh: of the largest torque there are " +
+          to_text(100. * T / T_max, 3) + " % at " + to_text(angle) +
+          " degrees, the Output / Full sliding angle: is it that of another "
+          "curve?");
       const double W_adh    = energies.W_adh() - released;
       measures["E_fric_Nm"] = 1e-3 * energies.E_fric;
       measures["W_adh_Nm"]  = 1e-3 * W_adh;
@@ -289,9 +324,11 @@ namespace Debond
         change_with_fewer_rows(rows, rotation, full_angle, energies.W_adh());
       if (!(change < 0.05 * std::abs(W_adh)))
         measures["remarks"].push_back(
-          "W_adh, w_adh: the rows are too far apart; with every second one "
-          "W_adh changes by " +
-          to_text(100. * change / std::abs(W_adh), 2) + " %");
+          "W_adh, w_adh: the rows may be too far apart; with every second one " +
+          (std::isnan(change) ?
+             "the torque is largest at the end" :
+             "W_adh changes by " + to_text(100. * change / std::abs(W_adh), 2) +
+               " %"));
 
       // 1 N mm / mm^2 = 1000 N / m
       const double w_adh_star        = 1e3 * W_adh / settings.contact_area_mm2;
@@ -311,6 +348,8 @@ namespace Debond
                    const double          T_max,
                    Measures             &measures)
     {
+      if (reference.empty())
+        return;
       ReferenceCurve curve; // in ascending order
       for (const TorqueRow &row : rows)
         curve.emplace_back(rotation.direction * row.angle_deg, row.torque_Nmm);
@@ -319,7 +358,8 @@ namespace Debond
         largest = std::max(largest, std::abs(torque_Nmm));
 
       double       sum_mp = 0, sum_difference = 0, max_difference = 0;
-      unsigned int n = 0;
+      double       products = 0;
+      unsigned int n        = 0;
       for (const auto &[angle_deg, T_reference] : reference)
         {
           const double turned = rotation.direction * angle_deg;
@@ -331,11 +371,28 @@ namespace Debond
               const double difference = std::abs(T - T_reference);
               sum_mp += difference / std::abs(T_reference);
               sum_difference += difference;
+              products += T * T_reference;
               max_difference = std::max(max_difference, difference);
               ++n;
             }
         }
       measures["reference_rows_used"] = n;
+      const double end                = std::abs(rows.back().angle_deg),
+                   reference_end      = std::abs(reference.back().first);
+      const auto ask = [&](const bool is_so, const std::string &text) {
+        if (is_so)
+          measures["remarks"].push_back("e_mp, e_rel: " + text);
+      };
+      ask(!(largest > 0.01 * T_max && largest < 100. * T_max),
+          "the largest torque of the reference curve is " +
+            to_text(largest, 4) + " and that of the run " + to_text(T_max, 4) +
+            " N mm: is it in N mm?");
+      ask(reference_end < 0.05 * end,
+          "the reference curve ends at " + to_text(reference_end, 4) +
+            " and the run at " + to_text(end, 4) +
+            " degrees: is it in degrees?");
+      ask(products < 0.,
+          "the torques of the reference curve have the opposite sign");
       if (n > 0)
         {
           measures["e_mp"]            = sum_mp / n;
@@ -360,8 +417,10 @@ namespace Debond
           if (std::abs(rows[i].time - time) <=
               1e-9 * (phase_times.back() - phase_times.front()))
             return rows[i].pressure_MPa;
-      // no phase ends before: the first row, or what there is without rotation
-      return rows[rotation.direction == 0. ? last : 0].pressure_MPa;
+      // without rotation what there is; with it, no phase ends before
+      if (rotation.direction == 0. || rows[0].pressure_MPa > 0.)
+        return rows[rotation.direction == 0. ? last : 0].pressure_MPa;
+      return std::numeric_limits<double>::quiet_NaN();
     }
   } // namespace
 
@@ -441,7 +500,7 @@ namespace Debond
              ++row)
           if (row->phi_mean < rows.front().phi_mean * (1. - 1e-12))
             measures["theta_debonding_deg"] = row->angle_deg;
-        measure_energies(rows, rotation, settings, measures);
+        measure_energies(rows, rotation, settings, T_max, measures);
         measure_errors(rows, rotation, settings.reference, T_max, measures);
       }
     else

@@ -36,6 +36,14 @@ namespace Debond
                  (in_GPa ? "is it that soft, or in GPa? Then write " :
                            "if it was meant in Pa, write ") +
                  to_text(in_GPa ? 1000. * E : 1e-6 * E));
+          note(!body.is_rigid() && is_bone && !scene.implant.is_rigid() &&
+                 E > 50000. && E > 2. * scene.implant.young_modulus,
+               "moduli",
+               "the bone, " + to_text(E) +
+                 " MPa, is stiffer than the "
+                 "implant, " +
+                 to_text(scene.implant.young_modulus) +
+                 " MPa: are they swapped?");
           // A trilinear cell cannot bend without a change of its volume, which
           // a nearly incompressible material resists.
           note(!body.is_rigid() && body.poisson_ratio > 0.45,
@@ -68,7 +76,18 @@ namespace Debond
           to_text(law.mu_without_bond()) + ". Are they swapped?");
       const double distance = law.characteristic_distance(),
                    R        = scene.implant.characteristic_radius();
-      note(law.has_bond() && distance > 0.5 * R,
+      note(R < 0.1,
+           "size of the implant",
+           "the implant's face has a radius of " + to_text(R, 3) +
+             " mm: lengths are mm. If it was meant in m, that is " +
+             to_text(1e3 * R, 3) + " mm");
+      const double mu =
+        std::max(law.coefficient({}, 0.).mu, law.mu_without_bond());
+      note(mu > 10.,
+           "size of mu",
+           "the friction coefficient is " + to_text(mu, 3) +
+             ": it is a number, no per cent");
+      note(law.has_bond() && R >= 0.1 && distance > 0.5 * R,
            "length of the bond",
            "the bond breaks over a sliding distance of some " +
              to_text(distance, 3) +
@@ -77,8 +96,7 @@ namespace Debond
       note(law.has_bond() && distance < 5e-5 * R,
            "short bond",
            "the bond breaks over a sliding distance of some " +
-             to_text(distance, 3) + " mm: if it was meant in m, that is " +
-             to_text(1e3 * distance, 3) + " mm");
+             to_text(distance, 3) + " mm: lengths are mm, 22 um is 0.022");
       const unsigned int n = scene.implant.cells[0] * scene.implant.cells[1];
       note(bonding.pattern == BondingPatternKind::random &&
              bonding.resolution == BondingResolution::element && n < 50,
@@ -158,7 +176,14 @@ namespace Debond
            entry + " presses the implant in by " + to_text(push, 3) +
              " mm, more than a tenth of its height and of the bone's: lengths "
              "are mm. If it was meant in um, that is " +
-             to_text(1e-3 * push, 3) + " mm");
+             to_text(1e-3 * push, 3) +
+             " mm; if it is a force in N, set Control = force");
+      const double limit = scene.interface.normal_penalty * push;
+      note(!z.loaded && push > 0. && limit < 0.01,
+           "pressure of the push",
+           entry + " presses with less than " + to_text(limit, 3) +
+             " MPa, the Penalty stiffness times " + to_text(push, 3) +
+             " mm: lengths are mm, stiffnesses MPa/mm");
       // Soft bodies may be meant to be pressed by little.
       const double p = push / (implant.width(0) * implant.width(1) *
                                (implant.is_round() ? 0.25 * M_PI : 1.));
@@ -184,7 +209,9 @@ namespace Debond
       double way = 0.; // [deg]
       for (std::size_t i = 1; i < values.size(); ++i)
         way += std::abs(values[i] - values[i - 1]);
-      if (scene.chuck.component[ChuckComponent::rotation_z].loaded || way == 0.)
+      const ChuckComponentParameters &rotation =
+        scene.chuck.component[ChuckComponent::rotation_z];
+      if (rotation.loaded || way == 0.)
         return;
       note(values[0] != 0. &&
              scene.has_friction_after(scene.load_steps.times.front()),
@@ -197,12 +224,19 @@ namespace Debond
       const double       distance = law.characteristic_distance(),
                    R              = scene.implant.characteristic_radius(),
                    way_of_rim     = way * M_PI / 180. * R;
-      // Who wants to know what happens before the bond breaks takes few steps;
-      // next to nothing is a sine whose turns lie between the steps.
-      const bool is_short = way > 0.01 && way_of_rim < 0.5 * distance,
+      // Who wants to know what happens before the bond breaks takes few steps,
+      // or turns to and fro; next to nothing is a sine whose turns lie between
+      // the steps.
+      const bool is_short =
+                   way > 0.01 &&
+                   way_of_rim<0.5 * distance,
+                              is_one_way = std::abs(values.back() -
+                                                    values.front())> 0.999 *
+                     way,
                  is_curve =
                    scene.load_steps.adaptive || scene.load_steps.n_steps() > 20;
-      note(law.has_bond() && distance < 0.5 * R && is_short && is_curve,
+      note(law.has_bond() && distance < 0.5 * R && is_short && is_one_way &&
+             is_curve && rotation.stiffness == 0.,
            "short rotation",
            entry + " turns by " + to_text(way, 4) +
              " degrees in all, in which the rim moves by " +

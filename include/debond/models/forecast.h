@@ -25,8 +25,9 @@ namespace Debond
     double                  pressure = none; ///< at the end [MPa]
     double torsional_stiffness       = none; ///< while all sticks [N mm/rad]
     double T_max = none, T_end = none;       ///< [N mm]
-    /** Relative, of all of them: half a per cent for mesh and steps, and 0.15
-     *  of the bodies' share in the compliance (test `forecast`). */
+    /** Relative, of all of them: half a per cent for mesh and steps, 0.15 of the
+     *  bodies' share in the compliance, 0.3 of that of the implant squared, and
+     *  0.15 on a narrow bone (test `forecast`). */
     double      error = none;
     std::string why; ///< they do not apply; empty if there is a torque
   };

@@ -40,6 +40,11 @@ namespace Debond
         const InterfaceSummary &summary,
         double                  reaction_defect);
 
+    /** What is to be said at the end of the run, in its last state, of linear
+     *  bodies with large strains. */
+    std::vector<Warning>
+    judge_strains(const CoupledSystem &system);
+
     const EnergyBalance &
     energy() const
     {
@@ -71,6 +76,7 @@ namespace Debond
       archive &energy_balance &released_energy &path;
       for (ControlNet &displacement : judged_displacement)
         archive &displacement;
+      archive &change_at_strains;
     }
 
     /** Takes the name of a check that was not passed, and what to say of it. */
@@ -80,18 +86,18 @@ namespace Debond
     void
     note(unsigned int step, const std::string &check, const std::string &text);
     void
-    check_strains(const CoupledSystem &system,
-                  double               max_traction,
-                  const Note          &note);
+    ask_for_strains(const CoupledSystem &system, double max_traction);
 
     const ModelParameters &parameters;
     EnergyBalance          energy_balance;
     ReleasedEnergy         released_energy;
     ChuckPath              path;
-    /** Of the faces, by side, where check_strains() last asked [mm]. */
+    /** Of the faces, by side, where ask_for_strains() last asked [mm]. */
     std::array<ControlNet, 2> judged_displacement;
-    std::set<std::string>     violated; ///< since the last row
-    std::vector<Warning>      found;    ///< since they were taken
+    /** The largest Body::change_at_large_strains(), by side. */
+    std::array<double, 2> change_at_strains{{0., 0.}};
+    std::set<std::string> violated; ///< since the last row
+    std::vector<Warning>  found;    ///< since they were taken
   };
 } // namespace Debond
 #endif

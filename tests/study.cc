@@ -12,7 +12,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iomanip>
 #include <iostream>
 #include <map>
 #include <sstream>
@@ -74,7 +73,7 @@ read_study(const std::string &filename)
         {
           if (items.peek() == '"') // a text with commas in it
             {
-              items >> std::quoted(item, '"', '"');
+              std::getline(items.ignore(), item, '"');
               items.ignore();
             }
           else

@@ -312,8 +312,8 @@ check_errors()
       CurveSettings other = with_reference;
       for (auto &row : other.reference)
         row = {angle * row.first, torque * row.second};
-      for (const auto &remark :
-           measure_torque_curve(make_rows(triangle()), other)["remarks"])
+      const auto measures = measure_torque_curve(make_rows(triangle()), other);
+      for (const auto &remark : measures["remarks"])
         if (remark.get<std::string>().rfind("e_mp", 0) == 0)
           std::cout << remark << std::endl;
     }

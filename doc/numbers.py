@@ -2,8 +2,8 @@
 """Makes the numbers that stand in README.md, doc/*.md and tests/comparison/README.md
 between <!-- numbers: NAME --> and <!-- end -->.
 
-    doc/numbers.py                  all that take seconds, into the pages (some half a minute)
-    doc/numbers.py NAME...          only these; --all: those that take minutes, too; --list: all names
+    doc/numbers.py                  all that take seconds, into the pages (some two minutes)
+    doc/numbers.py NAME...          only these; --all: those that take minutes, too; --list: all names, cost, pages
     doc/numbers.py --check [NAME]   changes no page; exit code 1 if a page says something else
 
 Each function below with @numbers is one NAME, and returns what stands there. Runs go to output/numbers; --force runs studies again
@@ -15,6 +15,7 @@ import csv
 import functools
 import glob
 import json
+import math
 import os
 import re
 import subprocess
@@ -61,6 +62,18 @@ def study(scene, *changes):
     directory = directory_of(scene, changes)
     debond(scene, directory, *changes, force=options.force)
     return rows_of(directory + '/study.csv')
+
+
+def study_with_curves(scene, *changes):
+    """The same, each row with its curve."""
+    return [{**row, 'curve': rows_of('%s/variant-%03d/torque.csv' % (directory_of(scene, changes), row['variant']))}
+            for row in study(scene, *changes)]
+
+
+def check(scene, *changes):
+    """What debond --check prints."""
+    return subprocess.run([options.debond, scene, '--check'] + [word for change in changes for word in ('--set', change)],
+                          stdout=subprocess.PIPE, text=True, check=True).stdout
 
 
 def directory_of(scene, changes):
@@ -157,7 +170,199 @@ def steps_of_the_main_scene():
     return '100 give %s of T_max, 10 give %s, one step of 10 degrees %s' % tuple(small(worst[n]) for n in (100, 10, 1))
 
 
-# Closed forms
+@numbers('seconds')
+def few_steps_lose():
+    work = {n: run(MAIN, *LINEAR, 'Load steps/Steps=1, %d' % n)['W_adh_Nm'] for n in (20, 50, 100, 200, 1000)}
+    loss = {n: percent(1 - work[n] / work[1000], digits) for n, digits in ((20, 2), (50, 2), (100, 2), (200, 1))}
+    return '20 equal steps lose %s of W_adh, 50 lose %s, 100 lose %s, 200 lose %s' % tuple(loss.values())
+
+
+@numbers('seconds')
+def energy_defect():
+    return small(run(MAIN, REFERENCE)['largest_energy_defect'], 0)
+
+
+@numbers('seconds')
+def reaction_defect():
+    return small(run(MAIN, REFERENCE)['largest_reaction_defect'], 0)
+
+
+@numbers('seconds')
+def slave_is_bone():
+    off = []
+    for changes in ((), ('Bone/Cells=30, 30, 2', 'Implant/Cells=6, 2')):
+        implant, bone = (run(MAIN, 'Load steps/Steps=1, 20', *changes, 'Interface/Slave=' + slave)['curve'] for slave in ('implant', 'bone'))
+        ratios = [b['torque_Nmm'] / a['torque_Nmm'] - 1 for a, b in zip(implant, bone) if a['angle_deg'] > 0]
+        off.append(percent(max(ratios, key=abs)))
+    return '%s on the coarse mesh, %s on the medium one' % tuple(off)
+
+
+@numbers('seconds')
+def versions():
+    lines = []
+    for scene, link, stiffness, mu, a_s in (
+            ('prm/paper/data_set_1_calibrated.prm', '[calibrated](%s), the first scene', '622, 305', .586, 42),
+            (MAIN, '[coin_mode3](%s), the *main scene* of tests, studies and timings', '585, 585', .58, 22),
+            ('prm/paper/data_set_1_as_printed.prm', '[as printed](%s)', '1800, 1800', .58, 22)):
+        result = run(scene)
+        lines.append([link % scene, stiffness, mu, a_s, '%.1f, %.1f' % (result['T_max_Nmm'], result['T_inf_Nmm']),
+                      '%.2f' % result['pressure_MPa']])
+    return table(['scene', 'stiffness normal, tangential [MPa/mm]', 'mu_ub', 'a_s [um]', 'T_max, T_inf [N mm] (published: 53.8, 36.8)',
+                  'p [MPa] (2.6)'], lines)
+
+
+# Closed forms and other codes
+
+
+@numbers('seconds')
+def closed_form_b():
+    text = subprocess.run([sys.executable, 'doc/paper/closed_form_b.py', '--print-only'],
+                          stdout=subprocess.PIPE, text=True, check=True).stdout
+    return table(['set', 'T_max [N mm]', 'T_inf', 'E_deb [1e-3 N m]', 'E_fric', 'W_adh', 'w_adh [N/m]', 'w*_adh'],
+                 [[line[:36].strip()] + line[36:].split() for line in text.splitlines()[1:]])
+
+
+@numbers('seconds')
+def numpy_main_scene():
+    columns = []
+    for name, start in (('main_scene', 'main_scene'), ('main_scene_as_printed', 'main_scene_1800')):
+        result = run('tests/verification/%s.prm' % name, 'Load steps/Steps=1, 100', 'Load steps/Residual tolerance=1e-12')
+        force = next(row['force_N'] for row in result['curve'] if row['time'] == 1)
+        stiffness = run('tests/comparison/numpy/%s.prm' % start)['initial_stiffness_Nm_per_rad']
+        columns.append(['%.10g' % force, '%.7g' % stiffness, '%.10g' % result['T_max_Nmm'], '%.10g' % result['T_inf_Nmm']])
+    names = ('force after push-in [N]', 'stick stiffness, at 0.01 degrees [N m/rad]', 'T_max [N mm]', 'T at 10 degrees [N mm]')
+    return table(['both programs', 'eps 585', 'eps 1800'], [list(line) for line in zip(names, *columns)])
+
+
+@numbers('seconds')
+def calculix_scenes():
+    page = text_of('tests/comparison/calculix/README.md')
+    theirs = dict(re.findall(r'^\| eps (\d+), 4 \| CalculiX \|([\d. |]+?)\| +\|', page, re.M))
+    columns = []
+    for eps in ('585', '1800'):
+        values = [float(value) for value in theirs[eps].split('|')]
+        columns.append(['%.3f' % value for value in values])
+        for kind in ('', '_bilinear'):
+            curve = run('tests/verification/calculix_%s%s.prm' % (eps, kind))['curve']
+            ours = [next(row['force_N'] for row in curve if row['time'] == 1)] + [torque_at(curve, angle) for angle in (.05, .1, .2, 1)]
+            columns.append(['%+.*f %%' % (3 if kind else 2, 100 * (mine / value - 1)) for mine, value in zip(ours, values)])
+    names = ['force [N]', 'torque at 0.05 degrees [N mm]', 'at 0.1 degrees', 'at 0.2 degrees', 'at 1 degree']
+    return table(['', 'eps 585: CalculiX', 'NURBS', 'bilinear', 'eps 1800: CalculiX', 'NURBS', 'bilinear'],
+                 [list(line) for line in zip(names, *columns)])
+
+
+SNAP_BACK = 'prm/stability/snap_back%s.prm'
+
+
+def jump_of_the_closed_form(stiffness):
+    """T_max, the machine's angle [deg] at the jump, the torques before and after it, and the energy that it releases [N mm]."""
+    curve = run(SNAP_BACK % '', 'Model=foundation', 'Chuck/Rotation z/Stiffness=0', 'Load steps/Steps=1, 10000')['curve']
+    angles = [math.radians(row['angle_deg']) for row in curve]
+    torques = [row['torque_Nmm'] for row in curve]
+    machine = [theta + T / stiffness for theta, T in zip(angles, torques)]
+    peak = next(i for i in range(2, len(curve) - 1) if machine[i + 1] < machine[i])
+    after = next(i for i in range(len(curve) - 1, peak, -1) if machine[i - 1] <= machine[peak])
+    torques[after] += (machine[peak] - machine[after]) / (machine[after - 1] - machine[after]) * (torques[after - 1] - torques[after])
+    angles[after] = machine[peak] - torques[after] / stiffness
+    spent = sum((torques[i] + torques[i + 1]) / 2 * (angles[i + 1] - angles[i]) for i in range(peak, after))
+    released = (torques[peak] ** 2 - torques[after] ** 2) / (2 * stiffness) - spent
+    return max(torques), math.degrees(machine[peak]), torques[peak], torques[after], released
+
+
+@numbers('seconds')
+def snap_back():
+    T_max, angle, before, after, released = jump_of_the_closed_form(3000)
+    control, viscous, path = (run(SNAP_BACK % name) for name in ('', '_viscous', '_path'))
+    jump = max(zip(control['curve'], control['curve'][1:]), key=lambda rows: rows[0]['torque_Nmm'] - rows[1]['torque_Nmm'])
+    by_machine = [{**row, 'angle_deg': row['machine_angle_deg']} for row in viscous['curve']]
+    angles = [row['machine_angle_deg'] for row in path['curve']]
+    turn = next(i for i in range(2, len(angles) - 1) if angles[i + 1] < angles[i])
+    return table(['the brittle bond under 3000 N mm/rad', 'T_max [N mm]', 'angle of the fall [deg]', 'loses', 'tells'], [
+        ['closed form', '%.3f' % T_max, '%.4f' % angle, '%.5f N mm' % released, 'limit points, jump'],
+        ['`snap_back.prm`: rotation control, steps of 0.005 deg', '%.3f' % control['T_max_Nmm'],
+         '%.3f to %.3f' % tuple(row['machine_angle_deg'] for row in jump),
+         '%.4f N mm, `released_energy_Nmm`' % (1000 * control['released_energy_Nm']), 'a warning and `jumps` = %d' % control['jumps']],
+        ['`snap_back_viscous.prm`: `Viscosity = 0.2`, steps of 0.001 deg', '%.3f' % viscous['T_max_Nmm'],
+         '%.2f to %.2f' % (last_angle(by_machine, before), last_angle(by_machine, after)),
+         '%.4f N mm, `viscous_work_Nmm`' % (1000 * viscous['viscous_dissipation_Nm']), 'a curve that depends on the rate'],
+        ['`snap_back_path.prm`: `Path following = slip`', '%.3f' % path['T_max_Nmm'],
+         'turns back at %.4f, to %.4f' % (angles[turn], min(angles[turn:])), 'nothing', 'the whole path']])
+
+
+@numbers('minutes')
+def refinement():
+    def line(name, eps, exact, cells, ours, errors):
+        order = math.log(abs(errors[0] / errors[-1])) / math.log(cells[-1] / cells[0])
+        return [name, eps, exact, ', '.join('%d' % n for n in cells), ours, ', '.join(percent(error) for error in errors), '%.1f' % order]
+
+    def rows(name, column, variants):
+        return [row[column] for row in study('prm/verification/%s_refinement.prm' % name)[variants]]
+
+    lines = []
+    for i, eps, exact in ((0, '1e4', 49.022), (4, '1e5', 88.397), (8, '1e6', 98.799)):
+        torques = rows('reissner_sagoci', 'T_max_Nmm', slice(i, i + 4))
+        lines.append(line('Reissner-Sagoci: torque', eps, '%.3f N mm' % exact, (20, 30, 40, 60), ', '.join('%.3f' % T for T in torques),
+                          [T / exact - 1 for T in torques]))
+    lines.append(line('torsional partial slip: whole curve', '1e6', 'T(angle)', (20, 30, 40, 60), '',
+                      rows('torsional_partial_slip', 'difference_max', slice(8, 12))))
+    exact = 60 * (1 - .0344 * 5e5 / 1e6)
+    forces = rows('hertz', 'force_end_N', slice(8, 12))
+    lines.append(line('Hertz: force', '1e6', '%.3f N' % exact, (12, 16, 24, 32), ', '.join('%.3f' % F for F in forces),
+                      [F / exact - 1 for F in forces]))
+    lines.append(line('Lubkin: whole curve', '1e6', 'T(angle)', (16, 24, 32), '', rows('lubkin', 'difference_max', slice(3, 6))))
+    forces = rows('cattaneo_mindlin', 'force_end_N', slice(0, 3))
+    lines.append(line('Cattaneo-Mindlin: force P', '5e5', '60 N', (16, 24, 32), ', '.join('%.3f' % F for F in forces),
+                      [F / 60 - 1 for F in forces]))
+    return table(['what', 'eps [MPa/mm]', 'exact', 'cells across, N', 'ours', 'error', 'order, first to last'], lines)
+
+
+def above_hertz(row, eps):
+    """Mean of the force over that of Hertz, less the interface's first order, over d from 2.5 to 5 um."""
+    errors = []
+    for line in row['curve']:
+        if line['time'] >= .5:
+            radius = math.sqrt(50 * .005 * line['time'])
+            errors.append(line['force_N'] / (60 * line['time'] ** 1.5) - 1 + 3 * 18000 / (2 * math.pi * radius * eps))
+    return sum(errors) / len(errors)
+
+
+@numbers('minutes')
+def half_space_parts():
+    def off(*changes):
+        change = study('prm/verification/torsional_partial_slip.prm', *changes, 'Study/Reference variant=1')[1]['difference_max']
+        return '%.2f %%' % (100 * change) if change >= 5e-5 else 'below 0.005 %'
+
+    hertz = study_with_curves('prm/verification/hertz_refinement.prm')
+    size = [row['force_end_N'] for row in study('prm/verification/hertz_block_size.prm')]
+    locked = study('prm/verification/cattaneo_mindlin_refinement.prm')[1]['force_end_N'] / 60
+    return table(['what', 'effect', 'made with'], [
+        ['partial slip, whole curve: block of 20 against 12.5 mm',
+         off('Bone/Size={{12.5, 12.5, 6.25||20, 20, 10}}', 'Bone/Cells={{40, 40, 10||64, 64, 16}}'),
+         '`torsional_partial_slip.prm`, `Bone / Size`, `Cells`'],
+        ['the same: 8 against 5 quadrature points', off('Interface/Quadrature points={{5|8}}'), '`Interface / Quadrature points`'],
+        ['the same: 25 against 5 steps', off('Load steps/Steps={{1, 5|1, 25}}'), '`Load steps / Steps`'],
+        ['the same: pressed in with friction instead of without', off('Interface/Friction starts at={{1|0}}'), '`Interface / Friction starts at`'],
+        ['Hertz, error of the mesh of 12, 16, 24, 32 cells (1)',
+         ', '.join('%.2f %%' % (100 * above_hertz(row, 1e6)) for row in hertz[8:12]), '`hertz_refinement.prm`, eps 1e6'],
+        ['the same with 24 cells, eps = 2.5e5, 5e5, 1e6',
+         ', '.join('%.2f %%' % (100 * above_hertz(row, eps)) for row, eps in zip(hertz[2::4], (2.5e5, 5e5, 1e6))),
+         '`hertz_refinement.prm`'],
+        ['Hertz, block of width L: force at L/a = 5, 10 against 20',
+         ', '.join('%.2f %%' % (100 * (F / size[-1] - 1)) for F in size[:-1]), '`hertz_block_size.prm`'],
+        ['nearly incompressible bone locks: P with nu = 0.45, 24 cells', '%+.1f %%' % (100 * (locked - 1)), '`cattaneo_mindlin_refinement.prm`']])
+
+
+@numbers('minutes')
+def shear_of_a_sphere():
+    lines = []
+    names = {'refinement': ['nu = 0.45, N = %d' % n for n in (16, 24, 32)], 'coupling': ['nu = %s, N = 24' % nu for nu in ('0', '0.3', '0.4')]}
+    for name, row, of in [(name, row, of) for of in names for name, row in
+                          zip(names[of], study_with_curves('prm/verification/cattaneo_mindlin_%s.prm' % of))]:
+        half = next(line for line in row['curve'] if line['time'] == 1.5)
+        shift = (1 - .5 ** (2 / 3)) / (half['force_N'] / 60) ** (2 / 3)
+        ours, exact = half['chuck_Fx_N'] / (.1 * half['force_N']), 1 - (1 - shift) ** 1.5
+        lines.append([name, '%+.1f %%' % (100 * (ours / exact - 1)), 'cattaneo_mindlin_' + of])
+    return table(['half of mu P', 'Q more than for the P found', 'prm/verification/'], lines)
 
 
 @numbers('seconds')
@@ -180,12 +385,98 @@ def foundation():
 
 
 @numbers('seconds')
+def calibrated():
+    rows, lines = study_with_curves('prm/paper/calibrated.prm'), []
+    for name, how, paper, digits, missed, value in (
+            ('T_max [N mm]', 'fitted', (53.8, 59.5), 2, (), lambda row: row['T_max_Nmm']),
+            ('T_inf (10 degrees) [N mm]', 'fitted', (36.8, 44.4), 2, (), lambda row: row['T_inf_Nmm']),
+            ('theta_lin = 0.75 T_max / K [deg]', 'fitted', (.13, .11), 3, (), theta_lin),
+            ('E_deb [1e-3 N m]', 'fitted', (7.1, 8.9), 2, (), lambda row: 1000 * row['E_deb_Nm']),
+            ('K = 0.75 T_max / theta_lin [N m/rad]', 'follows', (17.8, 23.2), 2, (), lambda row: row['initial_stiffness_Nm_per_rad']),
+            ('E_fric = T_inf (10 degrees - theta_max) [1e-3 N m]', 'follows', (5.7, 6.2), 2, (), lambda row: 1000 * row['E_fric_Nm']),
+            ('W_adh = E_deb - E_fric [1e-3 N m]', 'follows', (1.4, 2.7), 2, (), lambda row: 1000 * row['W_adh_Nm']),
+            ('w*_adh = W_adh / (pi R^2) [N/m]', 'follows', (72, 138), 1, (), lambda row: row['w_adh_star_N_per_m']),
+            ('debonding begins at the rim [deg]', 'predicted', ('1.13 (text)', '-'), 2, (), lambda row: row['theta_debonding_deg']),
+            ('last angle with 0.999 T_max [deg]', 'predicted', ('1.13 (peak)', '2.02 (peak)'), 2, (3,), plateau_end),
+            ('mean pressure [MPa]', 'follows from T_inf', (2.6, 3.1), 3, (1, 3), lambda row: row['pressure_MPa']),
+            ('initial stiffness K, measured (2) [N m/rad]', 'follows from theta_lin', (20.5, 20.5), 2, (1, 3),
+             lambda row: row['initial_stiffness_Nm_per_rad']),
+            ('e_mp against the stand-in [%]', 'the shape', ('', ''), 1, (), lambda row: 100 * row['e_mp'])):
+        ours = ['**%.*f**' % (digits, value(row)) if i in missed else '%.*f' % (digits, value(row)) for i, row in enumerate(rows)]
+        lines.append([name, how, paper[0]] + ours[:2] + [paper[1]] + ours[2:])
+    return table(['', 'calibrated scenes', 'set 1: paper', 'as printed', 'calibrated', 'set 2: paper', 'as printed (1)', 'calibrated'], lines)
+
+
+def theta_lin(row):
+    return math.degrees(.75 * row['T_max_Nmm'] / row['initial_stiffness_Nm_per_rad'] / 1000)
+
+
+def plateau_end(row):
+    return last_angle(row['curve'], .999 * row['T_max_Nmm'])
+
+
+@numbers('seconds')
+def contradictions():
+    names = ('eps 1800, as printed', 'eps 585', 'eps 623.4', 'calibrated', 'Eq. (14), w_adh = 51 N/m', 'Eq. (14), w_adh = 70 N/m')
+    lines = []
+    for name, row in zip(names, study('prm/paper/contradictions.prm')):
+        p, uniform = row['pressure_MPa'], 2 / 3 * math.pi * .4 * row['pressure_MPa'] * 2.5 ** 3
+        line = ['%.2f' % p, '%.0f' % (p / .0049), '%.2f' % row['T_max_Nmm'], '%.2f' % row['T_inf_Nmm'],
+                '%+.1f %%' % (100 * (row['T_inf_Nmm'] / uniform - 1)), '%.4f' % (row['T_max_Nmm'] / row['T_inf_Nmm']),
+                '%.1f' % row['initial_stiffness_Nm_per_rad'], '%.2f' % row['theta_debonding_deg']]
+        lines.append([name] + (['2.81, given', '-', line[2]] + 5 * ['-'] if name[0] == 'E' else line))
+    return table(['variants 1 to 6', 'p [MPa]', 'p/d [MPa/mm]', 'T_max [N mm]', 'T_inf', 'more than 2/3 pi mu_b p R^3 by', 'T_max / T_inf',
+                  'K [N m/rad]', 'debonding begins [deg]'], lines)
+
+
+@numbers('seconds')
+def degrees_of_freedom():
+    return ', '.join(re.search(r'(\d+) degrees of freedom', check('prm/paper/data_set_1_calibrated.prm', 'Bone/Cells=%d, %d, 2' % (n, n),
+                                                                  'Implant/Cells=%d, 2' % (n / 5)))[1] for n in (15, 30, 60))
+
+
+@numbers('seconds')
+def table_2():
+    paper = ((53.8, 36.8, .13, 1.13), (59.5, 44.4, .11, 2.02))
+    lines = []
+    for i, row in enumerate(study_with_curves('prm/paper/calibrated.prm')[1::2]):
+        ours = '%.2f' % row['T_max_Nmm'], '%.2f' % row['T_inf_Nmm'], '%.3f' % theta_lin(row), '%.2f' % plateau_end(row)
+        lines.append([i + 1] + ['%s, %s' % both for both in zip(paper[i], ours)])
+    return table(['set', 'T_max [N mm]: paper, here', 'T_inf', 'theta_lin [deg]', 'theta_max: paper, here (last angle with 0.999 T_max)'], lines)
+
+
+@numbers('seconds')
+def table_5():
+    paper = ((6.6, 5.6, '1.0', 70, 51), (7.1, 5.7, 1.4, 98, 72), (7.1, 5.7, 1.4, 98, 72),
+             ('8.0', 6.4, 1.6, 120, 81), (8.7, 6.7, '2.0', 141, 102), (8.9, 6.2, 2.7, 191, 138))
+    lines = []
+    for i, row in enumerate(study('prm/paper/table_5.prm')):
+        lines.append([1 + i // 3, ('(14) to (16)', 'Eq. (18)', 'simulation')[i % 3]] + list(paper[i]) +
+                     ['%.2f' % (1000 * row[name + '_Nm']) for name in ('E_deb', 'E_fric', 'W_adh')] +
+                     ['%.1f' % row['w_adh_N_per_m'], '%.1f' % row['w_adh_star_N_per_m'],
+                      '%.2f' % (1000 * row['D_adh_Nm']) if i % 3 == 2 else '-', '-' if i % 3 == 1 else '%.1f' % (100 * row['e_mp'])])
+    return table(['set', 'model', 'E_deb', 'E_fric', 'W_adh', 'w_adh', 'w*_adh', 'ours: E_deb', 'E_fric', 'W_adh', 'w_adh', 'w*_adh', 'D_adh',
+                  'e_mp [%]'], lines)
+
+
+@numbers('seconds')
+def table_7_differences():
+    lines = []
+    for eps in (585, 1800):
+        coarse, _, fine = study('prm/paper/table_7_meshes.prm', 'Interface/Penalty stiffness=%d' % eps)
+        steps = study('prm/paper/table_7_steps.prm', 'Interface/Penalty stiffness=%d' % eps)[1]
+        lines.append([eps, '%.3f %%' % (100 * coarse['difference_max']), '%.3f %%' % (100 * fine['difference_max']),
+                      small(steps['difference_max'])])
+    return table(['eps [MPa/mm]', 'coarse to medium', 'medium to fine', '100 to 1000 steps'], lines)
+
+
+@numbers('seconds')
 def table_3():
     rows = study('prm/paper/table_3.prm')
     lines = []
     for i, modulus in enumerate(('9', '18 (printed)', '36')):
         soft, stiff = (rows[i + k]['torsional_stiffness_MPa_per_mm'] for k in (0, 3))
-        k = 3.14159265358979 / 2 * 2.5 ** 4 / 1000 # N m/rad per MPa/mm
+        k = math.pi / 2 * 2.5 ** 4 / 1000 # N m/rad per MPa/mm
         lines.append([modulus, '%.1f' % soft, '%.2f' % (k * soft), '%.1f' % stiff, '%.1f' % (k * stiff)])
     return table(['E_b [GPa]', 'calibrated interface: lambda [MPa/mm]', 'K [N m/rad]', 'printed interface: lambda', 'K'], lines)
 
@@ -313,12 +604,6 @@ def table_7():
                   ['%.3f' % value for value in values] for n, values in paper.items()])
 
 
-def pattern_rows(name):
-    """The rows of study.csv with the curves of the variants."""
-    scene = 'prm/paper/%s.prm' % name
-    return [{**row, 'curve': rows_of('%s/variant-%03d/torque.csv' % (directory_of(scene, ()), row['variant']))} for row in study(scene)]
-
-
 @numbers('minutes')
 def partial_equal():
     names = ('homogeneous', 'homogeneous', '(b), ours', '(c) disk', '(d) random')
@@ -327,14 +612,14 @@ def partial_equal():
                  [[name, '%.4g' % row['phi_0_mean'], '%.2f' % row['T_max_Nmm'], '%.2f' % last_angle(row['curve'], .999 * row['T_max_Nmm']),
                    '%.2f' % row['T_inf_Nmm'], '%.3f' % (1000 * row['E_deb_Nm']), '%.3f' % (1000 * row['W_adh_Nm']),
                    '%.1f' % row['w_adh_N_per_m'], '%.3f' % (1000 * row['D_adh_Nm'])]
-                  for name, row in zip(names, pattern_rows('partial_equal_parameters'))])
+                  for name, row in zip(names, study_with_curves('prm/paper/partial_equal_parameters.prm'))])
 
 
 @numbers('minutes')
 def partial_fitted():
     paper = (('homogeneous, 1', '4.90 | 0.58 | 22, 42 | 0.74 | 2.240 | 1.4 | 130'), ('(b), ours', '4.80 | 0.80 | 21, 40.1 | 0.63 | 1.949 | 1.5 | 139'),
              ('(c) disk', '4.80 | 0.97 | 15, 28.6 | 0.67 | 1.988 | 1.4 | 130'), ('(d) random', '4.85 | 0.73 | 22, 42 | 0.66 | 2.152 | 1.5 | 139'))
-    area = 3.14159265358979e-6 * 2.5 ** 2 # m^2
+    area = 1e-6 * math.pi * 2.5 ** 2 # m^2
     return table(['pattern', 'd [um]', 'mu_ub', 'a_s: printed, here [um]', 'b_s', 'e_mp [%]: paper', 'W_adh [1e-3 N m]', 'w_adh [N/m]',
                   'ours: p [MPa]', 'T_max [N mm]', 'T(10 deg)', 'e_mp', 'W_adh', 'w_adh'],
                  [[name] + printed.split(' | ') +
@@ -343,14 +628,36 @@ def partial_fitted():
                   for (name, printed), row in zip(paper, study('prm/paper/partial_fitted_parameters.prm'))])
 
 
+def largest(curve, reference, low, high):
+    """The largest difference between two angles, with its sign."""
+    return max((row['torque_Nmm'] - torque_at(reference, row['angle_deg']) for row in curve if low < row['angle_deg'] <= high), key=abs)
+
+
+@numbers('minutes')
+def partial_readings():
+    printed_a_s = 'Interface/Sliding threshold={{0.022||0.021||0.015||0.022}}'
+    lines = []
+    stiff = 'Interface/Penalty stiffness=1800', 'Interface/Tangential penalty stiffness=1800'
+    for name, changes in (('printed (1800), printed a_s', stiff + (printed_a_s,)), ('calibrated, printed a_s', (printed_a_s,)),
+                          ('**calibrated, a_s 42 / 22**', ())):
+        rows = study_with_curves('prm/paper/partial_fitted_parameters.prm', *changes)
+        full = rows[0]
+        early, late = (', '.join('%.1f' % (100 * largest(row['curve'], full['curve'], *ends) / full['T_max_Nmm']) for row in rows[1:])
+                       for ends in ((0, .4999), (.4999, 10)))
+        lines.append([name, '%.1f' % full['T_max_Nmm'], '%.2f' % plateau_end(full), early, late,
+                      ', '.join('%.2f' % (1000 * row['W_adh_Nm']) for row in rows),
+                      ', '.join('%.*f' % (row['e_mp'] < 1, 100 * row['e_mp']) for row in rows)])
+    return table(['interface, a_s', 'T_max, homogeneous [N mm]', 'its last angle with 0.999 T_max [deg]', '(b), (c), (d) below 0.5 deg [%]',
+                  'from 0.5 deg on [%]', 'W_adh, four rows [1e-3 N m]', 'e_mp, four rows [%]'], lines)
+
+
 @numbers('minutes')
 def memory():
     lines = []
     for bone, implant in (('15, 15, 2', '3, 2'), ('30, 30, 2', '6, 2'), ('60, 60, 2', '12, 2'), ('30, 30, 12', '6, 12'), ('120, 120, 2', '24, 2')):
         changes = ('Bone/Cells=' + bone, 'Implant/Cells=' + implant, 'Load steps/Steps=1, 1')
-        check = subprocess.run([options.debond, MAIN, '--check'] + [word for change in changes for word in ('--set', change)],
-                               stdout=subprocess.PIPE, text=True, check=True).stdout
-        lines.append([bone.replace(', ', ' x '), re.search(r'memory: some (\d+) MB', check)[1], '%.0f' % run(MAIN, *changes)['peak_memory_MB']])
+        estimate = re.search(r'memory: some (\d+) MB', check(MAIN, *changes))[1]
+        lines.append([bone.replace(', ', ' x '), estimate, '%.0f' % run(MAIN, *changes)['peak_memory_MB']])
     return table(['cells of the bone', 'estimate [MB]', 'measured peak [MB]'], lines)
 
 
@@ -427,11 +734,14 @@ def compare(old, new):
     return True
 
 
+def text_of(path):
+    with open(path, encoding='utf-8') as lines:
+        return lines.read()
+
+
 def treat(page, wanted):
     """Puts the numbers into a page, or compares; returns whether all is well and the names found."""
-    with open(page, encoding='utf-8') as lines:
-        text = lines.read()
-    found, good = set(), True
+    text, found, good = text_of(page), set(), True
 
     def replaced(match):
         nonlocal good
@@ -467,7 +777,7 @@ def main():
     options = parser.parse_args()
     if options.list:
         for name, (_, cost) in NAMES.items():
-            print('%-24s %s' % (name, cost))
+            print('%-24s %-8s %s' % (name, cost, ' '.join(page for page in pages() if '<!-- numbers: %s -->' % name in text_of(page))))
         return
     unknown = set(options.names) - set(NAMES)
     if unknown:

@@ -69,8 +69,8 @@ def main():
         write(1, SET_1, "All entries are printed, but\n# their W_adh is 1.30e-3 N m; Table 5 has 1.4e-3.")
         write(2, SET_2, "theta_max is inferred from\n# Table 5, which it meets; Table 2 prints 2.02 deg.")
     print("                                      T_max  T(10)  E_deb E_fric W_adh w_adh w*_adh")
-    for name, c, bonding in (("1, as printed", SET_1, BONDING[0]),
-                             ("1, (49) from 1.5 degrees", dict(SET_1, slide=1.5), BONDING[0]),
+    for name, c, bonding in (("1, theta_max = 1.13 as printed", SET_1, BONDING[0]),
+                             ("1, the same, slip (49) from 1.5", dict(SET_1, slide=1.5), BONDING[0]),
                              ("2, theta_max = 2.02 as printed", dict(SET_2, p=3.3772, end=2.02, slide=2.02), BONDING[1]),
                              ("2, theta_max = 1.29", dict(SET_2, end=1.29, slide=1.29), BONDING[1]),
                              ("2, theta_max = 1.33, inferred", SET_2, BONDING[1]),

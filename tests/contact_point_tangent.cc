@@ -661,7 +661,7 @@ check_open(const std::vector<Master> &masters, const Setting &basic)
             result.tangential_traction.setOnes();
             result.slip_increment.setOnes();
             result.viscous_traction.setOnes();
-            result.pressure = result.softening = 1.;
+            result.state.pressure = result.softening = 1.;
             update_contact_point(setting.law,
                                  setting.old_state,
                                  setting.phi_0,
@@ -676,7 +676,7 @@ check_open(const std::vector<Master> &masters, const Setting &basic)
                        result.tangential_traction.isZero(0.) &&
                        result.slip_increment.isZero(0.) &&
                        result.viscous_traction.isZero(0.) &&
-                       result.pressure == 0. && result.softening == 0. &&
+                       result.state.pressure == 0. && result.softening == 0. &&
                        result.dt.isZero(0.) && result.dxi.isZero(0.);
             all_keep_slip =
               all_keep_slip && result.state.slip == setting.old_state.slip;

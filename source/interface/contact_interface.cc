@@ -1,5 +1,8 @@
 #include <debond/bulk/body_mesh.h>
+#include <debond/bulk/chuck.h>
 #include <debond/interface/contact_interface.h>
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -208,11 +211,53 @@ namespace Debond
   {
     for (const Side side : both_sides)
       accepted_positions[side] = configuration.side[side].positions;
-    unprojected = 0;
+    accepted_frame  = configuration.side[Side::implant].frame;
+    accepted_centre = configuration.chuck->centre();
+    unprojected     = 0;
     for (SlavePoint &point : points)
       project_accepted(point, configuration, false);
     assign_bonding();
   }
+
+
+
+  namespace
+  {
+    /** How the implant moves in a step, as a rigid body whose centre goes
+     *  straight while it turns evenly. */
+    struct RigidMotion
+    {
+      Eigen::Matrix3d turn; ///< from beginning to end
+      Eigen::Vector3d axis; ///< of the turn, times its angle [rad]
+      Eigen::Vector3d old_centre, centre; ///< [mm]
+
+      RigidMotion(const Eigen::Matrix3d        &old_frame,
+                  const Eigen::Vector3d        &old_centre,
+                  const InterfaceConfiguration &configuration)
+        : turn(configuration.side[Side::implant].frame * old_frame.transpose())
+        , old_centre(old_centre)
+        , centre(configuration.chuck->centre())
+      {
+        const Eigen::AngleAxisd rotation(turn);
+        axis = rotation.angle() * rotation.axis();
+      }
+
+      /** Where it takes a point of the slave that ends up at @p x over the
+       *  master, at the beginning and at the end. */
+      std::array<Eigen::Vector3d, 2>
+      way(const Eigen::Vector3d &x, const Side slave) const
+      {
+        const auto velocity = [&](const Eigen::Vector3d &r) {
+          return Eigen::Vector3d(centre - old_centre + axis.cross(r));
+        };
+        if (slave == Side::implant)
+          return {
+            {velocity(turn.transpose() * (x - centre)), velocity(x - centre)}};
+        // the bone stays, and is seen from the implant, which turns
+        return {{-turn * velocity(x - old_centre), -velocity(x - centre)}};
+      }
+    };
+  } // namespace
 
 
 
@@ -235,7 +280,10 @@ namespace Debond
     const double        moved   = motion(configuration);
     const auto         &sides   = configuration.side;
     mode_now                    = mode;
-    const auto update           = [&](const unsigned int q, NodalSums &sums) {
+    const RigidMotion rigid_motion(accepted_frame,
+                                   accepted_centre,
+                                   configuration);
+    const auto        update = [&](const unsigned int q, NodalSums &sums) {
       SlavePoint &point = points[q];
       // Most points beyond the edge stay there: they need no projection until
       // the surfaces may have come close enough. With the bone as slave that is
@@ -253,13 +301,15 @@ namespace Debond
       // the previous gap of Eq. (31) as printed has the direction of the
       // previous traction, which is kept in the frame of the master
       ContactPointMode mode_here = mode;
-      if (parameters.slip_along_previous_gap)
+      if (law.slip_direction == SlipDirection::previous_gap)
         mode_here.slip_direction =
           sides[master_side()].frame * point.accepted_traction;
       // x, the slave point in space [mm]; the update finds what master and law
       // make of it (contact_point.cc).
       const Eigen::Vector3d x =
         interpolate(point.basis, sides[slave].positions);
+      if (law.slip_direction == SlipDirection::integrated)
+        mode_here.way = rigid_motion.way(x, slave);
       update_contact_point(
         law, start, point.phi_0, x, surface, mode_here, point.trial);
       if (point.trial.state.status == PointStatus::open)
@@ -301,6 +351,8 @@ namespace Debond
     const double           moved = motion(configuration);
     for (const Side side : both_sides)
       accepted_positions[side] = configuration.side[side].positions;
+    accepted_frame         = configuration.side[Side::implant].frame;
+    accepted_centre        = configuration.chuck->centre();
     unprojected            = 0;
     works.step_dissipation = 0.;
     for (SlavePoint &point : points)
@@ -321,8 +373,7 @@ namespace Debond
         point.accepted_traction = Q.transpose() * trial.tangential_traction;
         point.accepted_viscous_traction =
           Q.transpose() * trial.viscous_traction;
-        point.accepted_pressure = trial.pressure;
-        point.accepted_energy   = trial.energy;
+        point.accepted_energy = trial.energy;
         // What is open forgets its interacting point, or it would be pulled
         // back to it when it closes again somewhere else: the gap to the old
         // xi_hat would be a spring stretched over the distance that the
@@ -426,7 +477,7 @@ namespace Debond
         const ContactPointResult &trial = point.trial;
         // int p dA [N]; it is no resultant, as the normals of a curved face
         // differ
-        summary.normal_force += point.JxW * trial.pressure;
+        summary.normal_force += point.JxW * trial.state.pressure;
         if (point.faces_implant)
           {
             // phi as reported() has it, of the trial state, and the share of
@@ -465,11 +516,11 @@ namespace Debond
         const double slope = law.friction->steepest_fall(
           friction_state(point.accepted, point.phi_0, mode_now.duration),
           trial.state.slip - point.accepted.slip);
-        const double softening = slope * trial.pressure / resistance;
+        const double softening = slope * trial.state.pressure / resistance;
         if (softening > summary.steepest_softening)
           {
             summary.steepest_softening = softening;
-            summary.softening_pressure = trial.pressure;
+            summary.softening_pressure = trial.state.pressure;
             summary.softening_slope    = slope;
           }
       }
@@ -545,7 +596,7 @@ namespace Debond
         const double rubbed =
           mode.frictionless ?
             0. :
-            point.JxW * point.accepted_pressure *
+            point.JxW * point.accepted.pressure *
               law.friction_strength(start, trial.path_to_edge);
         friction += rubbed;
         friction_bound += point.JxW * point.accepted_energy + 0.5 * rubbed;
@@ -558,7 +609,8 @@ namespace Debond
     // mu_b) dg_s: D_adh, which tells what the adhesion costs without reading it
     // off the torque curve as Eq. (20) does.
     const double distance = trial.state.slip - point.accepted.slip;
-    const double p = point.accepted_pressure, mean = 0.5 * (p + trial.pressure);
+    const double p        = point.accepted.pressure,
+                 mean     = 0.5 * (p + trial.state.pressure);
     const double per_pressure =
       point.JxW * law.friction_strength(start, distance);
     adhesive += point.JxW * mean * law.adhesive_strength(start, distance);
@@ -566,7 +618,7 @@ namespace Debond
     // What the mean pressure can be wrong by, and a speed that changes within
     // the step. The bound keeps a fast but stable fall from being reported as a
     // jump.
-    friction_bound += 0.5 * std::abs(p - trial.pressure) * per_pressure +
+    friction_bound += 0.5 * std::abs(p - trial.state.pressure) * per_pressure +
                       mean * point.JxW * law.strength_bound(start, distance);
   }
 } // namespace Debond

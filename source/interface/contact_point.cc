@@ -3,6 +3,8 @@
 
 #include <Eigen/Dense>
 
+#include <cmath>
+
 
 namespace Debond
 {
@@ -35,8 +37,9 @@ namespace Debond
     // out of forces and tangent.
     result.traction = result.tangential_traction = result.viscous_traction =
       result.slip_increment                      = Vector3d::Zero();
-    result.normal_gap = result.pressure = result.energy = result.softening =
-      result.path_to_edge                               = 0.;
+    result.normal_gap = result.energy = result.softening = result.path_to_edge =
+      result.state.pressure                              = 0.;
+    result.state.gap.setZero();
     result.dt.setZero();
     result.dxi.setZero();
   }
@@ -123,15 +126,29 @@ namespace Debond
       // In the frictionless part of a load history (`Friction starts at') mu is
       // 0 and g_s does not grow; the variant `Friction update = explicit' takes
       // mu at g_s^n.
+      // Of the gap of the step before the master has taken its parts along a_1
+      // and a_2 with it; as far as it is from sliding, L_n = mu p / eps_t.
       PointFriction
-      friction(const double phi_0) const
+      friction(const double phi_0, const MasterNormal &old) const
       {
-        return {*law.friction,
-                friction_state(start, phi_0, mode.duration),
-                mode.frictionless,
-                law.explicit_friction,
-                viscous_stiffness(law, mode),
-                mode.slip_direction};
+        PointFriction result{*law.friction,
+                             friction_state(start, phi_0, mode.duration),
+                             mode.frictionless,
+                             law.explicit_friction,
+                             viscous_stiffness(law, mode),
+                             mode.slip_direction};
+        if (law.slip_direction != SlipDirection::integrated)
+          return result;
+        result.is_integrated = true;
+        result.old_gap =
+          start.gap[0] * old.geometry.a1 + start.gap[1] * old.geometry.a2;
+        result.old_limit =
+          result.after(0.).mu * start.pressure / law.tangential_penalty;
+        const auto &[first, last] = mode.way;
+        result.turn =
+          std::atan2(old.n.dot(first.cross(last)),
+                     first.dot(last) - old.n.dot(first) * old.n.dot(last));
+        return result;
       }
 
       // Contact is where g_n < 0, or less than the reach of a law with strength
@@ -184,7 +201,8 @@ namespace Debond
         if (!friction.frictionless) // a state may age at rest
           result.state.internal = friction.law.advance(friction.start, 0.);
         result.normal_gap          = g_n;
-        result.pressure            = std::max(0., response.pressure);
+        result.state.pressure      = std::max(0., response.pressure);
+        result.state.gap           = parts_along(normal.geometry, gap);
         result.softening           = 0.;
         result.tangential_traction = eps_t * (gap - g_n * n);
         result.traction = -response.pressure * n + result.tangential_traction;
@@ -202,6 +220,7 @@ namespace Debond
         // the normal has a part. Columns of y_n stay 0: y(xi_hat^n) is y here.
         constexpr int at_x = 0, at_y = 3, at_a1 = 6; // columns of w
         result.dxi.setZero();
+        result.dt.setZero();
         result.dt.setZero();
         const Matrix3d along_gap =
           eps_t * Matrix3d::Identity() + (eps_n - eps_t) * n * n.transpose();
@@ -316,7 +335,7 @@ namespace Debond
     // and a traction in MPa are compared, both along the surface as it is now.
     // Without pressure the limit is 0, and whatever pulls makes the point
     // slide.
-    const PointFriction friction = step.friction(phi_0);
+    const PointFriction friction = step.friction(phi_0, normal);
     const double        limit    = friction.after(0.).mu *
                          std::max(0., law.normal->respond(g_n, start).pressure);
     const double trial_traction =

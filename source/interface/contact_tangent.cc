@@ -15,14 +15,15 @@ namespace Debond
 
   namespace
   {
-    // The local unknowns of a point are w = (x, y, a_1, a_2, y_n), see
-    // ContactPointResult: five vectors, each of which is a sum over control
+    // The local unknowns of a point are w = (x, y, a_1, a_2, y_n, g_n), see
+    // ContactPointResult: six vectors, each of which is a sum over control
     // points with the factors N_A of the slave, N_B, N_B,1 and N_B,2 of the
-    // master at xi_hat, and N_B of the master at xi_hat^n.
+    // master at xi_hat, and of the master at xi_hat^n N_B and, with the parts
+    // of the old gap, g^alpha N_B,alpha.
     //
     // Two forms of the tangent follow. Both go through w, so that they share
-    // the derivatives of the update, 3 x 15 and 2 x 15 numbers for a point.
-    using LocalVector = Matrix<double, 15, 1>;
+    // the derivatives of the update, 3 x 18 and 2 x 18 numbers for a point.
+    using LocalVector = Matrix<double, 18, 1>;
 
     // dw when the control points of both surfaces move. While a point sticks
     // its xi_hat stays, and y_n has no part. Parameters are held fixed here:
@@ -41,15 +42,20 @@ namespace Debond
       contract(point.trial.basis, master, false, motion);
       LocalVector dw;
       dw << interpolate(point.basis, moved[slave]), motion.y, motion.a1,
-        motion.a2, Vector3d::Zero();
+        motion.a2, Vector3d::Zero(), Vector3d::Zero();
       if (point.trial.state.status == PointStatus::slip)
-        dw.tail<3>() = interpolate(point.trial.old_basis, master);
+        {
+          SurfaceGeometry old;
+          contract(point.trial.old_basis, master, false, old);
+          const Eigen::Vector2d &gap = point.accepted.gap;
+          dw.tail<6>() << old.y, gap[0] * old.a1 + gap[1] * old.a2;
+        }
       return dw;
     }
 
 
 
-    // Forces on w; none acts on y_n, which the traction does not see.
+    // Forces on w; none acts at xi_hat^n, which the traction does not see.
     using LocalForce = Matrix<double, 12, 1>;
 
     // The transpose: what they amount to at the control points.
@@ -135,19 +141,30 @@ namespace Debond
         for (unsigned int a = 0; a < point.basis.size; ++a)
           add(configuration.side[slave],
               point.basis.control_point[a],
-              {point.basis.N[a], 0., 0., 0., 0.});
+              {point.basis.N[a], 0., 0., 0., 0., 0.});
         // y_n depends on the same control points as y, unless the point slid
         // from one element of the master to another
         const SurfaceBasis &now = point.trial.basis,
                            &old = point.trial.old_basis;
         const bool slips        = point.trial.state.status == PointStatus::slip;
         const bool same         = slips && old.element == now.element;
+        const auto along_gap    = [&](const unsigned int b) {
+          return point.accepted.gap[0] * old.N_1[b] +
+                 point.accepted.gap[1] * old.N_2[b];
+        };
         for (unsigned int b = 0; b < now.size; ++b)
           add(master,
               now.control_point[b],
-              {0., now.N[b], now.N_1[b], now.N_2[b], same ? old.N[b] : 0.});
+              {0.,
+               now.N[b],
+               now.N_1[b],
+               now.N_2[b],
+               same ? old.N[b] : 0.,
+               same ? along_gap(b) : 0.});
         for (unsigned int b = 0; slips && !same && b < old.size; ++b)
-          add(master, old.control_point[b], {0., 0., 0., 0., old.N[b]});
+          add(master,
+              old.control_point[b],
+              {0., 0., 0., 0., old.N[b], along_gap(b)});
       }
 
       void
@@ -183,7 +200,7 @@ namespace Debond
       void
       add(const InterfaceConfiguration::Surface &side,
           const unsigned int                     control_point,
-          const Matrix<double, 1, 5>            &factors)
+          const Matrix<double, 1, 6>            &factors)
       {
         // Unknowns are displacements in the frame of their body: its axes are
         // turned into space by Q. Columns of Q are the three directions.
@@ -195,7 +212,7 @@ namespace Debond
       static constexpr int max_unknowns = 3 * 27 + 6;
       using Rows = Matrix<double, Eigen::Dynamic, 1, 0, max_unknowns, 1>;
 
-      Matrix<double, 15, max_unknowns> dw;
+      Matrix<double, 18, max_unknowns> dw;
       std::array<int, max_unknowns>    number;
       unsigned int                     n = 0;
     };
@@ -267,9 +284,8 @@ namespace Debond
 
 
 
-  // g_s grows by |y(xi_hat) - y(xi_hat^n)|, Eq. (32), whose change is that of
-  // the difference along its direction; xi_hat moves as the equations of the
-  // slip want it.
+  // How g_s changes the update of the point has left, too, with the motion of
+  // xi_hat in it.
   //
   // The mean over the area that faced the implant at the start [mm] is the
   // measure of a path of equilibrium: angle and torque may both turn back where
@@ -290,26 +306,17 @@ namespace Debond
         result.value += point.JxW * trial.state.slip;
         // Only a sliding point changes it. Where it has not moved the length
         // has no derivative; the gradient leaves it out.
-        const double distance = trial.slip_increment.norm();
         if (trial.state.status != PointStatus::slip || mode_now.frictionless ||
-            distance == 0.)
+            trial.state.slip == point.accepted.slip)
           continue;
-        // d|y - y_n| = e . (dy + a_alpha dxi^alpha - dy_n), e = (y - y_n) / |y
-        // - y_n|
-        const Vector3d  direction = trial.slip_increment / distance;
-        SurfaceGeometry y;
-        contract(trial.basis,
-                 configuration.side[master_side()].positions,
-                 false,
-                 y);
-        LocalVector d =
-          trial.dxi.transpose() *
-          Eigen::Vector2d(direction.dot(y.a1), direction.dot(y.a2));
-        d.segment<3>(3) += direction;
-        d.segment<3>(12) -= direction;
-        d *= point.JxW;
+        const LocalVector      d   = point.JxW * trial.dslip.transpose();
+        const Eigen::Vector2d &gap = point.accepted.gap;
+        const SurfaceBasis    &old = trial.old_basis;
         spread_local(point, slave, d.head<12>(), result.gradient);
-        spread(trial.old_basis, d.tail<3>(), result.gradient[master_side()]);
+        for (unsigned int b = 0; b < old.size; ++b)
+          result.gradient[master_side()].col(old.control_point[b]) +=
+            old.N[b] * d.segment<3>(12) +
+            (gap[0] * old.N_1[b] + gap[1] * old.N_2[b]) * d.tail<3>();
       }
     // dimensionless gradient: mm of mean slip per mm of a control point
     result.value /= area;

@@ -50,7 +50,8 @@ namespace Debond
             tangential_stiffness(),
             friction,
             viscosity,
-            explicit_friction};
+            explicit_friction,
+            slip_direction};
   }
 
 
@@ -85,11 +86,13 @@ namespace Debond
       "frictionless.");
     table.add(
       "Slip direction",
-      slip_along_previous_gap,
-      Allowed::choice("trial | previous gap"),
+      slip_direction,
+      Allowed::choice("trial | previous gap | integrated"),
       "Direction in which a sliding point is pulled. `trial': that of the gap "
-      "which it would have without sliding in this step. `previous gap': that "
-      "of the step before, Eq. (31) as printed, which can never turn.");
+      "which it would have without sliding in this step, of first order in the "
+      "step where the direction turns. `previous gap': that of the step before, "
+      "Eq. (31) as printed, which can never turn. `integrated': the point tows "
+      "its interacting point along its way in the step, of second order.");
     table.add(
       "Friction update",
       explicit_friction,

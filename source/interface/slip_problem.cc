@@ -44,7 +44,6 @@ namespace Debond
                                       const SurfaceGeometry &geometry,
                                       const double           outward_sign)
     : slip(geometry.y - y_old)
-    , distance(slip.norm()) // the last term of the sum in Eq. (32)
     , law(law)
     , geometry(geometry)
     , friction(friction)
@@ -56,7 +55,10 @@ namespace Debond
     normal_response = law.normal->respond(g_n, history);
     // tension, where a law has any, does not press the faces together
     pressure = std::max(0., normal_response.pressure);
-    find_direction();
+    if (friction.is_integrated)
+      integrate_slip();
+    else
+      find_direction();
     find_traction();
   }
 
@@ -86,6 +88,31 @@ namespace Debond
 
 
 
+  // The same to second order, with the distance that the point slides: TowedGap
+  // in the tangent plane at xi_hat. What the point moves by, seen from the
+  // master, is the trial gap less the gap of the step before.
+  inline void
+  SlipEquations::integrate_slip()
+  {
+    axes.col(0) = geometry.a1.normalized();
+    axes.col(1) = normal.n.cross(axes.col(0));
+    towed.emplace(
+      TowedGap::Step{friction,
+                     law.tangential_penalty,
+                     pressure,
+                     axes.transpose() * friction.old_gap,
+                     axes.transpose() * (trial_gap - friction.old_gap)});
+    tau          = axes * towed->direction;
+    distance     = towed->distance;
+    forward      = Vector3d::Zero(); // not by the slip alone
+    pull         = trial_gap;
+    pull_along_n = pull_along_surface = 0.;
+    has_direction                     = true;
+    direction_is_given                = false;
+  }
+
+
+
   // The sliding distance is updated with the length of the path of the
   // interacting point in this step, both of its ends on the surface as it is
   // now, Eq. (32):
@@ -101,28 +128,22 @@ namespace Debond
   SlipEquations::find_traction()
   {
     // The length of y - y_n has a derivative along its own direction; where
-    // slip only just begins it has none yet, but the limit tau.
-    forward =
-      distance > 1e-14 * trial_gap.norm() ? Vector3d(slip / distance) : tau;
-    // A point cannot slide against what pulls it. Where Newton's method looks
-    // there, mu goes on along its tangent, but never rises: the distance alone
-    // would have a second solution there where friction rises with the speed, a
-    // rise one where it falls steeply.
-    const bool backwards = !direction_is_given && slip.dot(tau) < 0.;
-    sense                = backwards ? -1. : 1.;
-    coefficient          = friction.after(backwards ? 0. : distance);
-    if (backwards)
+    // slip only just begins it has none yet, but the limit tau. It counts as
+    // negative against what pulls the point (PointFriction::limit()).
+    if (!towed)
       {
-        coefficient.dmu = std::max(0., coefficient.dmu);
-        coefficient.mu -= coefficient.dmu * distance;
+        const double length    = slip.norm();
+        const bool   backwards = !direction_is_given && slip.dot(tau) < 0.;
+        distance               = backwards ? -length : length;
+        forward =
+          length > 1e-14 * trial_gap.norm() ? Vector3d(slip / distance) : tau;
       }
-    // the viscous part resists as fast as the point moves, and it pulls where
-    // a trial moves backwards
-    const double resistance =
-      pressure > 0. ? sense * friction.viscous * distance : 0.;
-    limit = coefficient.mu * pressure + resistance;
+    const auto friction_limit = friction.limit(pressure, distance);
+    coefficient               = friction_limit.coefficient;
+    limit                     = friction_limit.value;
+    slope                     = friction_limit.slope;
 
-    viscous_traction    = resistance * tau;
+    viscous_traction    = (limit - coefficient.mu * pressure) * tau;
     tangential_traction = limit * tau;
     traction = -normal_response.pressure * normal.n + tangential_traction;
     excess   = gap - tangential_traction / law.tangential_penalty;
@@ -147,6 +168,7 @@ namespace Debond
   inline SlipEquations::Derivative<N>
   SlipEquations::along(const Eigen::Matrix<double, 3, N> &dgap,
                        const Eigen::Matrix<double, 3, N> &dtrial,
+                       const Eigen::Matrix<double, 3, N> &dold,
                        const Eigen::Matrix<double, 3, N> &dn,
                        const Eigen::Matrix<double, 2, N> &excess_da) const
   {
@@ -157,30 +179,52 @@ namespace Debond
     // it: dp = -stiffness dg_n
     const Numbers dg_n = n.transpose() * dgap + gap.transpose() * dn;
 
-    // The limit changes with the sliding distance and with the pressure. The
-    // path in this step is y - y_n = (x - y_n) - (x - y): the difference of the
-    // two gaps.
-    Numbers dlimit =
-      (sense * resistance_slope() * forward).transpose() * (dtrial - dgap);
-    if (pressure > 0.)
-      dlimit -= coefficient.mu * normal_response.stiffness * dg_n;
-    Vectors dt_t = tau * dlimit;
-    // Then tau, u / |u| with u = (1 - n n^T) pull: it turns with the pull,
-    // unless that is given, and with the tangent plane. The limit times the
-    // change of tau is what makes the tangent unsymmetric besides the pressure.
-    if (has_direction)
+    const Numbers dp = pressure > 0. ?
+                         Numbers(-normal_response.stiffness * dg_n) :
+                         Numbers(Numbers::Zero());
+    Numbers       ddistance;
+    Vectors       dtau = Vectors::Zero();
+    if (towed)
       {
-        const Vectors dpull =
-          direction_is_given ? Vectors(Vectors::Zero()) : dtrial;
-        const Numbers dalong_n = n.transpose() * dpull + pull.transpose() * dn;
-        const Vectors du       = dpull - pull_along_n * dn - n * dalong_n;
-        dt_t +=
-          limit / pull_along_surface * (du - tau * (tau.transpose() * du));
+        // In axes that tilt with the normal, but do not turn about it, the
+        // parts of a vector v in the plane change by t . dv - (n . v) t . dn;
+        // what is in the plane turns out of it by -n (v . dn).
+        Eigen::Matrix<double, 5, N>       changes;
+        const Eigen::Matrix<double, 2, N> tilt = axes.transpose() * dn;
+        const Vector3d &g = friction.old_gap, motion = trial_gap - g;
+        changes << axes.transpose() * dold - n.dot(g) * tilt,
+          axes.transpose() * (dtrial - dold) - n.dot(motion) * tilt, dp;
+        const Eigen::Matrix<double, 3, N> change = towed->derivative * changes;
+        dtau = axes * change.template topRows<2>() - n * (tau.transpose() * dn);
+        ddistance = change.row(2);
       }
+    else
+      {
+        // The path in this step is y - y_n = (x - y_n) - (x - y): the
+        // difference of the two gaps.
+        ddistance = forward.transpose() * (dtrial - dgap);
+        // tau, u / |u| with u = (1 - n n^T) pull, turns with the pull, unless
+        // that is given, and with the tangent plane.
+        if (has_direction)
+          {
+            const Vectors dpull =
+              direction_is_given ? Vectors(Vectors::Zero()) : dtrial;
+            const Numbers dalong_n =
+              n.transpose() * dpull + pull.transpose() * dn;
+            const Vectors du = dpull - pull_along_n * dn - n * dalong_n;
+            dtau = (du - tau * (tau.transpose() * du)) / pull_along_surface;
+          }
+      }
+    // The limit changes with the sliding distance and with the pressure. The
+    // limit times the change of tau is what makes the tangent unsymmetric
+    // besides the pressure.
+    const Vectors dt_t =
+      tau * (slope * ddistance + coefficient.mu * dp) + limit * dtau;
     // what is left of the gap, and the parts of its change in the surface
     const Vectors dexcess = dgap - dt_t / law.tangential_penalty;
 
     Derivative<N> result;
+    result.distance = ddistance;
     result.traction = dt_t + (normal_response.stiffness * n * dg_n -
                               normal_response.pressure * dn);
     result.h        = excess_da;
@@ -191,33 +235,36 @@ namespace Debond
 
 
 
-  // With respect to w = (x, y, a_1, a_2, y_n), at fixed xi_hat. x moves both
-  // gaps, y the gap alone, y_n the trial gap alone, the tangents the normal and
-  // what of the excess lies along them. The chain rule is run for the changes
-  // of (x - y, x - y_n, a_1, a_2), 12 numbers instead of 15, and its columns
-  // are then dealt out: x gets those of both gaps, y and y_n theirs with the
-  // opposite sign.
-  inline SlipEquations::Derivative<15>
+  // With respect to w = (x, y, a_1, a_2, y_n, g_n), at fixed xi_hat. x moves
+  // both gaps, y the gap alone, y_n the trial gap alone, the tangents the
+  // normal and what of the excess lies along them. The chain rule is run for
+  // the changes of (x - y, x - y_n, a_1, a_2, g_n), 15 numbers instead of 18,
+  // and its columns are then dealt out: x gets those of both gaps, y and y_n
+  // theirs with the opposite sign.
+  inline SlipEquations::Derivative<18>
   SlipEquations::along_w() const
   {
-    using Vectors = Eigen::Matrix<double, 3, 12>;
+    using Vectors = Eigen::Matrix<double, 3, 15>;
     Vectors dgap = Vectors::Zero(), dtrial = Vectors::Zero(),
-            dn = Vectors::Zero();
-    Eigen::Matrix<double, 2, 12> excess_da =
-      Eigen::Matrix<double, 2, 12>::Zero();
+            dold = Vectors::Zero(), dn = Vectors::Zero();
+    Eigen::Matrix<double, 2, 15> excess_da =
+      Eigen::Matrix<double, 2, 15>::Zero();
     dgap.leftCols<3>()          = Matrix3d::Identity();
     dtrial.middleCols<3>(3)     = Matrix3d::Identity();
-    dn.rightCols<6>()           = normal.derivative();
+    dn.middleCols<6>(6)         = normal.derivative();
+    dold.rightCols<3>()         = Matrix3d::Identity();
     excess_da.block<1, 3>(0, 6) = excess.transpose();
     excess_da.block<1, 3>(1, 9) = excess.transpose();
-    const Derivative<12> d      = along<12>(dgap, dtrial, dn, excess_da);
-
-    Derivative<15> result;
-    result.traction << d.traction.leftCols<3>() + d.traction.middleCols<3>(3),
-      -d.traction.leftCols<3>(), d.traction.rightCols<6>(),
-      -d.traction.middleCols<3>(3);
-    result.h << d.h.leftCols<3>() + d.h.middleCols<3>(3), -d.h.leftCols<3>(),
-      d.h.rightCols<6>(), -d.h.middleCols<3>(3);
+    const Derivative<15> d      = along<15>(dgap, dtrial, dold, dn, excess_da);
+    const auto           dealt  = [](const auto &from, auto &to) {
+      to << from.template leftCols<3>() + from.template middleCols<3>(3),
+        -from.template leftCols<3>(), from.template middleCols<6>(6),
+        -from.template middleCols<3>(3), from.template rightCols<3>();
+    };
+    Derivative<18> result;
+    dealt(d.traction, result.traction);
+    dealt(d.h, result.h);
+    dealt(d.distance, result.distance);
     return result;
   }
 
@@ -235,7 +282,9 @@ namespace Debond
     dn << normal.change(y.a11, y.a12), normal.change(y.a12, y.a22);
     excess_da << excess.dot(y.a11), excess.dot(y.a12), excess.dot(y.a12),
       excess.dot(y.a22);
-    return along<2>(dgap, Eigen::Matrix<double, 3, 2>::Zero(), dn, excess_da);
+    const Eigen::Matrix<double, 3, 2> none =
+      Eigen::Matrix<double, 3, 2>::Zero();
+    return along<2>(dgap, none, none, dn, excess_da);
   }
 
 
@@ -345,9 +394,11 @@ namespace Debond
   void
   SlipProblem::report(ContactPointResult &result) const
   {
-    const SlipEquations &e     = *equations;
-    result.normal_gap          = e.g_n;
-    result.pressure            = e.pressure;
+    const SlipEquations &e = *equations;
+    result.normal_gap      = e.g_n;
+    result.state.pressure  = e.pressure;
+    result.state.gap =
+      parts_along(geometry, e.tangential_traction / law.tangential_penalty);
     result.softening           = e.softening();
     result.traction            = e.traction;
     result.tangential_traction = e.tangential_traction;
@@ -368,6 +419,7 @@ namespace Debond
     const auto along_xi = e.along_surface();
     result.dxi          = -along_xi.h.inverse() * along_w.h;
     result.dt           = along_w.traction + along_xi.traction * result.dxi;
+    result.dslip        = along_w.distance + along_xi.distance * result.dxi;
   }
 
 

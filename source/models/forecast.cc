@@ -41,7 +41,8 @@ namespace Debond
     {
       const InterfaceParameters &interface = scene.interface;
       if (interface.friction->depends_on_rate() || interface.viscosity > 0. ||
-          interface.explicit_friction || interface.slip_along_previous_gap)
+          interface.explicit_friction ||
+          interface.slip_direction == SlipDirection::previous_gap)
         return "friction depends on the rate or on the steps";
       if (!(pressure > 0.))
         return "nothing is pressed at the end";

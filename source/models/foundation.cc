@@ -84,7 +84,7 @@ namespace Debond
         {std::hypot(point.X[0], point.X[1]),
          point.faces_implant ? point.JxW : 0.,
          point.phi_0,
-         point.accepted_pressure / (stiffness.normal * depth),
+         point.accepted.pressure / (stiffness.normal * depth),
          traction_about_axis(point)});
 
     // and turned

@@ -272,7 +272,7 @@ namespace Debond
         trial.state.status == PointStatus::open &&
         (!trial.state.has_partner || trial.normal_gap < 0.);
       Eigen::Matrix<double, 6, 1> values;
-      values << trial.pressure, -trial.tangential_traction,
+      values << trial.state.pressure, -trial.tangential_traction,
         is_beyond ? 0. : trial.normal_gap, trial.state.slip;
       return values;
     }

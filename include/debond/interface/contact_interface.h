@@ -238,7 +238,8 @@ namespace Debond
     {
       for (SlavePoint &point : points)
         archive &point;
-      archive &forces &accepted_positions &works;
+      archive &forces &accepted_positions &accepted_frame &accepted_centre;
+      archive                                             &works;
     }
 
   private:
@@ -273,10 +274,13 @@ namespace Debond
     double                                area_of_implant = 0;
     std::unique_ptr<const BondingPattern> pattern;
     NodalSums                             forces, accepted_positions;
-    InterfaceWork                         works;
-    unsigned int                          unprojected = 0;
-    const SlavePoint                     *failed      = nullptr;
-    ContactPointMode                      mode_now; ///< of the last evaluate()
+    /** Of the implant: Q, and the centre of its chuck [mm]. */
+    Eigen::Matrix3d   accepted_frame  = Eigen::Matrix3d::Identity();
+    Eigen::Vector3d   accepted_centre = Eigen::Vector3d::Zero();
+    InterfaceWork     works;
+    unsigned int      unprojected = 0;
+    const SlavePoint *failed      = nullptr;
+    ContactPointMode  mode_now; ///< of the last evaluate()
   };
 } // namespace Debond
 #endif

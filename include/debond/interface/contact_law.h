@@ -55,6 +55,14 @@ namespace Debond
   std::shared_ptr<const NormalLaw>
   penalty_law(double stiffness, bool opening_breaks_bond = false);
 
+  /** Where a point slides in a step. */
+  enum class SlipDirection
+  {
+    trial,        ///< along the gap that it would have without sliding
+    previous_gap, ///< along that of the step before, Eq. (31) as printed
+    integrated    ///< along its way, see TowedGap
+  };
+
   /** What governs all points of an interface. */
   struct ContactPointLaw
   {
@@ -67,7 +75,8 @@ namespace Debond
     double viscosity = 0;
     /** mu at g_s^n instead of g_s: a variant that the implicit law is compared
      *  with. */
-    bool explicit_friction = false;
+    bool          explicit_friction = false;
+    SlipDirection slip_direction    = SlipDirection::trial;
   };
 } // namespace Debond
 #endif

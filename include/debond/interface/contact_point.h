@@ -77,7 +77,6 @@ namespace Debond
      */
     Eigen::Vector3d    accepted_traction         = Eigen::Vector3d::Zero();
     Eigen::Vector3d    accepted_viscous_traction = Eigen::Vector3d::Zero();
-    double             accepted_pressure         = 0; ///< [MPa]
     double             accepted_energy           = 0; ///< [N/mm]
     ContactPointResult trial;
     /** False for points of a bone that does not face the implant at the
@@ -97,8 +96,7 @@ namespace Debond
     serialize(Archive &archive, const unsigned int)
     {
       archive &accepted &clearance       &accepted_traction;
-      archive &accepted_viscous_traction &accepted_pressure;
-      archive                            &accepted_energy;
+      archive &accepted_viscous_traction &accepted_energy;
       if (Archive::is_loading::value)
         trial.state = accepted;
     }

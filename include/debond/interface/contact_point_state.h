@@ -25,13 +25,17 @@ namespace Debond
     bool has_partner = false;
     /** Interacting point on the master, xi_hat. */
     Eigen::Vector2d xi = Eigen::Vector2d::Zero();
+    /** Tangential gap, in parts of the master's a_1 and a_2 there: it moves
+     *  with the master as it turns and deforms. */
+    Eigen::Vector2d gap      = Eigen::Vector2d::Zero();
+    double          pressure = 0; ///< p >= 0 [MPa]
 
     /** See serialization.h. */
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &status &has_partner &broken &xi &slip;
+      archive &status &has_partner &broken &xi &gap &pressure &slip;
       for (double &variable : internal)
         archive &variable;
     }
@@ -70,17 +74,24 @@ namespace Debond
     /** Duration of the step [unit of time]; 0 where no time passes, and nothing
      *  has a speed. */
     double duration = 0;
-    /** Direction of slip in space, of any length; zero: that of the trial gap.
-     *  The tangent takes it as fixed. */
+    /** For SlipDirection::previous_gap: that gap in space, of any length; zero:
+     *  there is none yet. The tangent takes it as fixed. */
     Eigen::Vector3d slip_direction = Eigen::Vector3d::Zero();
+    /** For SlipDirection::integrated: where the rigid motion of the bodies
+     * takes the point over the master at the beginning and at the end of the
+     * step, in space, of any length: the angle between them is that by which
+     * its way turns. The tangent takes them as fixed. */
+    std::array<Eigen::Vector3d, 2> way{
+      {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}};
   };
 
   /**
    * Everything one quadrature point contributes.
    *
-   * Derivatives are with respect to w = (x, y, a_1, a_2, y_n), 15 numbers:
-   * slave point, master point and tangents at xi_hat, and the master point at
-   * the old xi_hat^n. They are total: the motion of xi_hat is eliminated by the
+   * Derivatives are with respect to w = (x, y, a_1, a_2, y_n, g_n), 18 numbers:
+   * slave point, master point and tangents at xi_hat, the master point at the
+   * old xi_hat^n, and the tangential gap of the step before where the master
+   * has taken it. They are total: the motion of xi_hat is eliminated by the
    * implicit function theorem on its two equations.
    */
   struct ContactPointResult
@@ -97,7 +108,6 @@ namespace Debond
     /** y(xi_hat) - y(xi_hat^n) on the current surface [mm]. */
     Eigen::Vector3d slip_increment = Eigen::Vector3d::Zero();
     double          normal_gap     = 0; ///< g_n [mm]
-    double          pressure       = 0; ///< p >= 0 [MPa]
     double          energy         = 0; ///< stored per area [N/mm]
     /** How far a point that left the master over its edge slid before [mm];
      *  else 0. */
@@ -108,8 +118,9 @@ namespace Debond
 
     SurfaceBasis                 basis;     ///< master basis at xi_hat
     SurfaceBasis                 old_basis; ///< at xi_hat^n; only when slipping
-    Eigen::Matrix<double, 3, 15> dt;        ///< dt/dw
-    Eigen::Matrix<double, 2, 15> dxi;       ///< dxi_hat/dw
+    Eigen::Matrix<double, 3, 18> dt;        ///< dt/dw
+    Eigen::Matrix<double, 2, 18> dxi;       ///< dxi_hat/dw
+    Eigen::Matrix<double, 1, 18> dslip;     ///< dg_s/dw; only when slipping
   };
 } // namespace Debond
 #endif

@@ -18,12 +18,12 @@ namespace Debond
     /** Never null; made of what a scene says of it, friction_choice. */
     FrictionLawPointer friction = default_friction_law();
     FrictionLawChoice  friction_choice;
-    double friction_starts_at = 0; ///< frictionless before this time
-    double viscosity          = 0; ///< eta [MPa per (mm per unit of time)]
-    /** Variants of the method that are there to be compared with: the direction
-     *  of slip is that of the previous gap, Eq. (31) as printed; mu at g_s^n.
+    double        friction_starts_at = 0; ///< frictionless before this time
+    double        viscosity      = 0; ///< eta [MPa per (mm per unit of time)]
+    SlipDirection slip_direction = SlipDirection::trial;
+    /** A variant of the method that is there to be compared with: mu at g_s^n.
      */
-    bool slip_along_previous_gap = false, explicit_friction = false;
+    bool              explicit_friction = false;
     BondingParameters bonding;
 
     /** eps_t [MPa/mm], never 0. */

@@ -3,6 +3,7 @@
 
 #include <debond/geometry/surface_geometry.h>
 #include <debond/interface/contact_point_state.h>
+#include <debond/interface/towed_gap.h>
 
 #include <Eigen/Dense>
 
@@ -61,6 +62,19 @@ namespace Debond
 
 
 
+  /** The parts of a vector along the tangents, without that along the normal.
+   */
+  inline Eigen::Vector2d
+  parts_along(const SurfaceGeometry &geometry, const Eigen::Vector3d &vector)
+  {
+    Eigen::Matrix<double, 3, 2> tangents;
+    tangents << geometry.a1, geometry.a2;
+    return (tangents.transpose() * tangents).inverse() *
+           (tangents.transpose() * vector);
+  }
+
+
+
   /** The friction of a point in this step: what its law says of a distance,
    *  how sliding is resisted by its speed, and where it goes. */
   struct PointFriction
@@ -76,6 +90,13 @@ namespace Debond
     bool               is_explicit    = false;
     double             viscous        = 0.; ///< eta / dt [MPa/mm]
     Eigen::Vector3d    slip_direction = Eigen::Vector3d::Zero();
+    // For slip that is integrated over the step: the gap of the step before, in
+    // space, the length at which it slides in that state, and by what angle the
+    // way turns.
+    bool            is_integrated = false;
+    Eigen::Vector3d old_gap       = Eigen::Vector3d::Zero();
+    double          old_limit     = 0.; ///< [mm]
+    double          turn          = 0.; ///< [rad]
 
     /** mu and its slope once the point has slid by @p distance. */
     FrictionCoefficient
@@ -88,6 +109,33 @@ namespace Debond
       if (is_explicit)
         result.dmu = 0.;
       return result;
+    }
+
+    /** mu p + eta V once it has slid by @p distance [MPa]. */
+    struct Limit
+    {
+      FrictionCoefficient coefficient;
+      double              value, slope;
+    };
+    // A point cannot slide against what pulls it. Where Newton's method looks
+    // there, at negative distances, mu goes on along its tangent, but never
+    // rises: the distance alone would have a second solution there where
+    // friction rises with the speed, a rise one where it falls steeply.
+    Limit
+    limit(const double pressure, const double distance) const
+    {
+      FrictionCoefficient coefficient = after(std::max(0., distance));
+      if (distance < 0.)
+        {
+          coefficient.dmu = std::max(0., coefficient.dmu);
+          coefficient.mu += coefficient.dmu * distance;
+        }
+      // the viscous part resists as fast as the point moves, and it pulls where
+      // a trial moves backwards
+      const double resistance = pressure > 0. ? viscous : 0.;
+      return {coefficient,
+              coefficient.mu * pressure + resistance * distance,
+              coefficient.dmu * pressure + resistance};
     }
   };
 
@@ -122,9 +170,10 @@ namespace Debond
     {
       Eigen::Matrix<double, 3, N> traction;
       Eigen::Matrix<double, 2, N> h;
+      Eigen::Matrix<double, 1, N> distance;
     };
     /** With respect to w, see ContactPointResult: for the whole system. */
-    Derivative<15>
+    Derivative<18>
     along_w() const;
     /** With respect to the two parameters of the surface: for this point. */
     Derivative<2>
@@ -146,8 +195,7 @@ namespace Debond
     double
     resistance_slope() const
     {
-      return coefficient.dmu * pressure +
-             (pressure > 0. ? friction.viscous : 0.);
+      return slope;
     }
 
     // What the point has come to at the trial place. h has to vanish: it is the
@@ -162,7 +210,7 @@ namespace Debond
     double              pressure; ///< what friction feels: p, or 0
     FrictionCoefficient coefficient;
     Eigen::Vector3d     slip;     ///< y - y_n [mm]
-    double              distance; ///< its length
+    double              distance; ///< g_s - g_s^n [mm]
     Eigen::Vector3d     traction, tangential_traction, viscous_traction;
 
   private:
@@ -173,12 +221,17 @@ namespace Debond
     void
     find_traction();
 
-    /** Derivatives along N changes of x - y, x - y_n, n, and of a_1 and a_2
-     *  as far as they change a_alpha . excess. */
+    /** The same where the slip is integrated over the step. */
+    void
+    integrate_slip();
+
+    /** Derivatives along N changes of x - y, x - y_n, the gap of the step
+     *  before, n, and of a_1 and a_2 as far as they change a_alpha . excess. */
     template <int N>
     Derivative<N>
     along(const Eigen::Matrix<double, 3, N> &dgap,
           const Eigen::Matrix<double, 3, N> &dtrial,
+          const Eigen::Matrix<double, 3, N> &dold,
           const Eigen::Matrix<double, 3, N> &dn,
           const Eigen::Matrix<double, 2, N> &excess_da) const;
 
@@ -197,13 +250,17 @@ namespace Debond
     double          pull_along_n, pull_along_surface;
     Eigen::Vector3d tau;
     bool            has_direction, direction_is_given;
+    // Where it is integrated: axes of the tangent plane, and what the step
+    // comes to in them.
+    Eigen::Matrix<double, 3, 2> axes;
+    std::optional<TowedGap>     towed;
 
     // The length of the slip has a derivative along its own direction. What is
     // left of the gap beside the elastic t_t / eps_t, the excess, may have a
     // part along n only: Eq. (29).
-    Eigen::Vector3d forward; ///< direction of y - y_n
-    double          sense;   ///< -1 while a trial slides against the pull
+    Eigen::Vector3d forward; ///< d(distance)/d(y - y_n)
     double          limit;   ///< mu p + eta / dt times the distance [MPa]
+    double          slope;   ///< its derivative [MPa/mm]
     Eigen::Vector3d excess;  ///< g - t_t / eps_t [mm]
   };
 

@@ -1,0 +1,47 @@
+#ifndef debond_interface_towed_gap_h
+#define debond_interface_towed_gap_h
+
+#include <Eigen/Core>
+
+namespace Debond
+{
+  struct PointFriction;
+
+  /**
+   * How the gap of a sliding point turns in a step, and how far the point
+   * slides: the variant `integrated' of Interface / Slip direction.
+   *
+   * In the tangent plane the tangential gap g is a string that tows its anchor,
+   * the interacting point. The point moves along a path, seen from the master;
+   * the string holds while it is shorter than L = mu p / eps_t, and else pulls
+   * the anchor along: with the angle alpha from the path's direction to g,
+   *
+   *   d alpha/ds = kappa - sin(alpha) / L,   d g_s/ds = cos(alpha) - dL/ds.
+   *
+   * The path is a chord or, where the step turns it, an arc; while it slides L
+   * is the mean of its lengths at the beginning and the end of sliding. Where
+   * neither changes the result does not depend on the size of the step, else it
+   * is of second order in it. doc/model.md has the derivation.
+   */
+  struct TowedGap
+  {
+    /** What is known of the step, in the tangent plane. */
+    struct Step
+    {
+      const PointFriction &friction;
+      double               tangential_penalty; ///< eps_t [MPa/mm]
+      double               pressure;           ///< p at the end [MPa]
+      Eigen::Vector2d      old_gap;            ///< g of the step before [mm]
+      Eigen::Vector2d      motion; ///< of the point in the step [mm]
+    };
+    explicit TowedGap(const Step &step);
+
+    Eigen::Vector2d direction; ///< of g at the end
+    /** g_s - g_s^n [mm]; negative only at trial places where the point would
+     *  slide against its traction. */
+    double distance;
+    /** d(direction, distance)/d(old_gap, motion, pressure). */
+    Eigen::Matrix<double, 3, 5> derivative;
+  };
+} // namespace Debond
+#endif

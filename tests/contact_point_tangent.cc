@@ -3,7 +3,8 @@
 // written here anew: traction and forces on the master with respect to the
 // slave point and to every control point of the master. A point sticks if and
 // only if its trial traction is within the friction limit. So do viscous
-// sliding, an explicit friction coefficient and a given direction of slip.
+// sliding, an explicit friction coefficient, a given direction of slip, and
+// slip that is integrated over the step along a chord or an arc.
 
 #include <debond/geometry/surface_geometry.h>
 #include <debond/interface/bond_friction.h>
@@ -232,6 +233,7 @@ struct Setting
   ContactPointMode          mode;
   ContactPointState         old_state;
   double                    phi_0 = 0.9;
+  double                    turn  = 0.; ///< of the way in the step
   MasterSurface             master;
   Eigen::Vector3d           x;
 
@@ -290,6 +292,124 @@ penalty_traction(const Setting             &setting,
   return t;
 }
 
+/** mu p + eta V. */
+template <typename Number>
+Number
+friction_limit(const Setting &setting,
+               const Number  &pressure,
+               const Number  &distance)
+{
+  const Number mu =
+    setting.rate_and_state.is_used ?
+      setting.rate_and_state.mu(distance, setting.mode.duration) :
+      friction_coefficient_at(setting.friction,
+                              setting.bond(),
+                              Number(setting.old_state.slip + distance));
+  Number result = mu * pressure;
+  if (setting.law.viscosity > 0.)
+    result += setting.law.viscosity * distance / setting.mode.duration;
+  return result;
+}
+
+
+
+/** The gap of a point that tows its interacting point, by the closed forms of a
+ *  string on a chord, and of the equation of Riccati on an arc; the slid
+ *  distance is added to @p g_s. */
+template <typename Number>
+Vector<Number>
+towed_gap(const Setting             &setting,
+          const Vector<Number>      &x,
+          const MasterPoint<Number> &old,
+          const MasterPoint<Number> &at,
+          const Number              &pressure,
+          Number                    &g_s)
+{
+  using std::atan, std::atan2, std::cos, std::exp, std::log, std::sin,
+    std::sqrt, std::tan;
+  const double eps = setting.law.tangential_penalty, turn = setting.turn;
+  const auto   flat = [&](const Vector<Number> &v) {
+    return add(v, Number(-dot(v, at.n)), at.n);
+  };
+  Vector<Number> g_0;
+  for (unsigned int c = 0; c < 3; ++c)
+    g_0[c] = setting.old_state.gap[0] * old.a1[c] +
+             setting.old_state.gap[1] * old.a2[c];
+  const Vector<Number> motion =
+    flat(add(add(x, Number(-1.), old.y), Number(-1.), g_0));
+  const Number         S = norm(motion);
+  const Vector<Number> e = add({{0., 0., 0.}}, Number(1. / S), motion);
+  const Vector<Number> m{{at.n[1] * e[2] - at.n[2] * e[1],
+                          at.n[2] * e[0] - at.n[0] * e[2],
+                          at.n[0] * e[1] - at.n[1] * e[0]}};
+  const Number         g_e = dot(g_0, e), g_m = dot(g_0, m);
+
+  // where it begins to slide, by Newton's method with differences
+  const Number mu_old    = friction_limit(setting, Number(1.), Number(1e-200));
+  const Number A         = mu_old * setting.old_state.pressure / eps,
+               B         = mu_old * pressure / eps - A;
+  const auto at_fraction = [&](const Number &f, Number &a, Number &b) {
+    const double ratio = turn == 0. ? 1. : 1. / std::sin(0.5 * turn);
+    const Number part  = turn == 0. ? f : Number(sin(0.5 * turn * f) * ratio);
+    a                  = g_e + S * part * cos(0.5 * turn * (f - 1.));
+    b                  = g_m + S * part * sin(0.5 * turn * (f - 1.));
+    return Number(a * a + b * b - (A + f * B) * (A + f * B));
+  };
+  Number     f       = 1., a, b;
+  const auto iterate = [](Number &unknown, const auto &residual) {
+    for (unsigned int i = 0; i < 80; ++i)
+      {
+        const double h = 1e-6;
+        const double slope =
+          (value(residual(Number(unknown + h * value(unknown)))) -
+           value(residual(Number(unknown - h * value(unknown))))) /
+          (2. * h * value(unknown));
+        // shortened, lest it goes to and fro about a kink of the law
+        unknown -= 0.7 * residual(unknown) / slope;
+      }
+  };
+  iterate(f, [&](const Number &at) { return at_fraction(at, a, b); });
+  at_fraction(f, a, b);
+  const Number L_0 = sqrt(a * a + b * b);
+  const double arc = turn == 0. ? 1. : 0.5 * turn / std::sin(0.5 * turn);
+  const Number s   = (1. - f) * S * arc;
+  const Number u_0 = tan(0.5 * (atan2(b, a) - turn * (f - 0.5)));
+
+  Number     u_1;
+  const auto missing = [&](const Number &distance) {
+    const Number L_1 = friction_limit(setting, pressure, distance) / eps;
+    const Number L   = 0.5 * (L_0 + L_1);
+    Number       slid;
+    if (turn == 0.)
+      {
+        u_1  = u_0 * exp(-s / L);
+        slid = s + L * log((1. + u_1 * u_1) / (1. + u_0 * u_0));
+      }
+    else
+      {
+        const Number kappa = -turn / (S * arc),
+                     D     = sqrt(1. - kappa * kappa * L * L);
+        const Number u_a = (1. - D) / (kappa * L), u_b = (1. + D) / (kappa * L);
+        const Number w = (u_0 - u_a) / (u_0 - u_b) * exp(-D * s / L);
+        u_1            = (u_a - u_b * w) / (1. - w);
+        const Number q = (u_0 - u_b) / (u_1 - u_b);
+        slid = D * s + L * log(q * q * (1. + u_1 * u_1) / (1. + u_0 * u_0));
+      }
+    return Number(distance - slid + L_1 - L_0);
+  };
+  Number distance = s;
+  iterate(distance, missing);
+  missing(distance);
+  g_s += distance;
+  const Number angle = 2. * atan(u_1) + 0.5 * turn;
+  const Number L_1   = friction_limit(setting, pressure, distance) / eps;
+  return add(add({{0., 0., 0.}}, Number(L_1 * cos(angle)), e),
+             Number(L_1 * sin(angle)),
+             m);
+}
+
+
+
 /** The two equations of sliding at @p at, Eqs. (29) and (30). */
 template <typename Number>
 std::array<Number, 2>
@@ -302,7 +422,15 @@ slip_equations(const Setting             &setting,
   const Gap<Number> gap(setting, x, at);
   Number            mu = 0.;
   g_s                  = setting.old_state.slip;
-  Number viscous       = 0.;
+  if (setting.law.slip_direction == SlipDirection::integrated)
+    {
+      const Vector<Number> excess =
+        add(gap.tangential,
+            Number(-1.),
+            towed_gap(setting, x, old, at, gap.pressure, g_s));
+      return {{dot(at.a1, excess), dot(at.a2, excess)}};
+    }
+  Number viscous = 0.;
   if (!setting.mode.frictionless)
     {
       const Number distance = norm(add(at.y, Number(-1.), old.y));
@@ -390,7 +518,7 @@ solve_slip(const Setting         &setting,
   const MasterPoint<Local> old_fixed(setting.master,
                                      fixed.positions,
                                      xi_old_fixed);
-  for (unsigned int iteration = 0; iteration < 8; ++iteration)
+  for (unsigned int iteration = 0; iteration < 12; ++iteration)
     {
       const std::array<Local, 2> xi_local{
         {Local(2, 0, xi[0].val()), Local(2, 1, xi[1].val())}};
@@ -440,14 +568,15 @@ relative_deviation(const Matrix &ours, const Matrix &reference)
 }
 
 /** What the program says of the derivatives with respect to x and all control
- *  points: chain rule from w = (x, y, a_1, a_2, y_n). */
+ *  points: chain rule from w = (x, y, a_1, a_2, y_n, g_n). */
 void
 chain(const ContactPointResult &result,
+      const Eigen::Vector2d    &old_gap,
       const unsigned int        n_control_points,
       Matrix                   &dt,
       Matrix                   &dforce)
 {
-  Matrix W = Matrix::Zero(15, 3 + 3 * n_control_points);
+  Matrix W = Matrix::Zero(18, 3 + 3 * n_control_points);
   W.topLeftCorner<3, 3>().setIdentity();
   const auto add_block =
     [&](const int row, const unsigned int A, const double factor) {
@@ -462,7 +591,13 @@ chain(const ContactPointResult &result,
     }
   if (result.state.status == PointStatus::slip)
     for (unsigned int a = 0; a < result.old_basis.size; ++a)
-      add_block(12, result.old_basis.control_point[a], result.old_basis.N[a]);
+      {
+        const SurfaceBasis &old = result.old_basis;
+        add_block(12, old.control_point[a], old.N[a]);
+        add_block(15,
+                  old.control_point[a],
+                  old_gap[0] * old.N_1[a] + old_gap[1] * old.N_2[a]);
+      }
 
   dt               = result.dt * W;
   const Matrix dxi = result.dxi * W;
@@ -530,7 +665,7 @@ compare(const Setting    &setting,
         }
     }
   Matrix our_dt, our_dforce;
-  chain(result, n_cp, our_dt, our_dforce);
+  chain(result, setting.old_state.gap, n_cp, our_dt, our_dforce);
   grow(deviation.traction, relative_deviation(result.traction, traction));
   grow(deviation.dt, relative_deviation(our_dt, dt));
   grow(deviation.dforce, relative_deviation(our_dforce, dforce));
@@ -578,7 +713,9 @@ place(Setting               &setting,
   const Eigen::Vector3d e_1 = geometry.a1.normalized();
   const Eigen::Vector3d e_2 = n.cross(e_1);
   setting.old_state.xi      = xi;
-  setting.x                 = geometry.y + g_n * n +
+  setting.mode.way          = {
+             {e_1, std::cos(setting.turn) * e_1 + std::sin(setting.turn) * e_2}};
+  setting.x = geometry.y + g_n * n +
               g_t * (std::cos(angle) * e_1 + std::sin(angle) * e_2);
 }
 
@@ -739,9 +876,9 @@ check_honesty(const std::vector<Master> &masters, const Setting &basic)
         {
           ++n_slip;
           const double t =
-            result.pressure * friction_coefficient_at(setting.friction,
-                                                      setting.phi_0,
-                                                      result.state.slip);
+            result.state.pressure * friction_coefficient_at(setting.friction,
+                                                            setting.phi_0,
+                                                            result.state.slip);
           grow(excess, std::abs(result.tangential_traction.norm() / t - 1.));
         }
     }
@@ -826,6 +963,25 @@ main()
   setting.old_state.slip      = 0.018;
   setting.mode.slip_direction = Eigen::Vector3d(0.3, 0.5, -0.2);
   check("Slip, given direction", masters, setting, g_n, 0.045, slip);
+
+  // The gap of the step before has a third to all of the length at which it
+  // slides, some 0.028 mm.
+  for (const double turn : {0., 0.6, -1.})
+    for (const double length : {0.01, 0.017})
+      {
+        setting                    = basic;
+        setting.turn               = turn;
+        setting.law.slip_direction = SlipDirection::integrated;
+        setting.old_state.gap      = {length, -0.5 * length};
+        setting.old_state.pressure = 11.;
+        std::cout << "Gap " << length << ", turn " << turn << std::endl;
+        check("Integrated slip, bonded", masters, setting, g_n, 0.05, slip);
+        setting.old_state.slip = 0.018;
+        check("Integrated slip, softening", masters, setting, g_n, 0.07, slip);
+        setting.law.viscosity = 30;
+        setting.mode.duration = 0.5;
+        check("Integrated slip, viscous", masters, setting, g_n, 0.07, slip);
+      }
 
   for (const bool ageing : {true, false})
     {

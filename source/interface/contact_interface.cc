@@ -553,11 +553,12 @@ namespace Debond
 
 
 
-  // While a point slides it dissipates t_t . dy, a trapezoid between the
-  // accepted and the trial traction; the accepted one was kept in the frame of
-  // the master. Beside that stands the work that the law itself allows for this
-  // slip, with the exact integral of mu over the distance: a step in which the
-  // state jumps cannot dissipate more.
+  // While a point slides it dissipates t_t . dy: where slip is integrated over
+  // the step its update says how much, else it is a trapezoid between the
+  // accepted and the trial traction, of which the accepted one was kept in the
+  // frame of the master. Beside that stands the work that the law itself allows
+  // for this slip, with the exact integral of mu over the distance: a step in
+  // which the state jumps cannot dissipate more.
   void
   InterfaceWork::add(const SlavePoint       &point,
                      const FrictionLaw      &law,
@@ -571,10 +572,18 @@ namespace Debond
     // positive where sliding costs energy [N mm]. With the tractions at the end
     // alone it is negative only where points slide along their traction, which
     // no law of friction does.
-    step_dissipation += trial.tangential_traction.dot(slip);
-    dissipation +=
-      0.5 *
-      (frame * point.accepted_traction + trial.tangential_traction).dot(slip);
+    if (trial.dissipated)
+      {
+        step_dissipation += point.JxW * *trial.dissipated;
+        dissipation += point.JxW * *trial.dissipated;
+      }
+    else
+      {
+        step_dissipation += trial.tangential_traction.dot(slip);
+        dissipation +=
+          0.5 * (frame * point.accepted_traction + trial.tangential_traction)
+                  .dot(slip);
+      }
     // The viscous traction is anything between its two ends. It stands in both
     // balances, of which the second takes the law for the rest.
     const double viscous_part =

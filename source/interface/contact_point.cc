@@ -40,6 +40,7 @@ namespace Debond
     result.normal_gap = result.energy = result.softening = result.path_to_edge =
       result.state.pressure                              = 0.;
     result.state.gap.setZero();
+    result.dissipated.reset();
     result.dt.setZero();
     result.dxi.setZero();
   }
@@ -126,29 +127,34 @@ namespace Debond
       // In the frictionless part of a load history (`Friction starts at') mu is
       // 0 and g_s does not grow; the variant `Friction update = explicit' takes
       // mu at g_s^n.
-      // Of the gap of the step before the master has taken its parts along a_1
-      // and a_2 with it; as far as it is from sliding, L_n = mu p / eps_t.
       PointFriction
-      friction(const double phi_0, const MasterNormal &old) const
+      friction(const double phi_0) const
       {
-        PointFriction result{*law.friction,
-                             friction_state(start, phi_0, mode.duration),
-                             mode.frictionless,
-                             law.explicit_friction,
-                             viscous_stiffness(law, mode),
-                             mode.slip_direction};
-        if (law.slip_direction != SlipDirection::integrated)
-          return result;
-        result.is_integrated = true;
-        result.old_gap =
+        return {*law.friction,
+                friction_state(start, phi_0, mode.duration),
+                mode.frictionless,
+                law.explicit_friction,
+                viscous_stiffness(law, mode),
+                mode.slip_direction};
+      }
+
+      // What slip that is integrated over the step starts from. The master has
+      // taken the parts of the old gap along a_1 and a_2 with it; the string
+      // was L_n = mu p / eps_t long. @p mu: at g_s^n.
+      void
+      integrate(const MasterNormal &old,
+                const double        mu,
+                PointFriction      &friction) const
+      {
+        friction.is_integrated = true;
+        friction.old_gap =
           start.gap[0] * old.geometry.a1 + start.gap[1] * old.geometry.a2;
-        result.old_limit =
-          result.after(0.).mu * start.pressure / law.tangential_penalty;
+        friction.old_mu    = mu;
+        friction.old_limit = mu * start.pressure / law.tangential_penalty;
         const auto &[first, last] = mode.way;
-        result.turn =
-          std::atan2(old.n.dot(first.cross(last)),
-                     first.dot(last) - old.n.dot(first) * old.n.dot(last));
-        return result;
+        friction.arc =
+          Arc(std::atan2(old.n.dot(first.cross(last)),
+                         first.dot(last) - old.n.dot(first) * old.n.dot(last)));
       }
 
       // Contact is where g_n < 0, or less than the reach of a law with strength
@@ -210,6 +216,7 @@ namespace Debond
         result.energy = response.energy +
                         0.5 * result.tangential_traction.squaredNorm() / eps_t;
         result.slip_increment = result.viscous_traction = Vector3d::Zero();
+        result.dissipated.reset();
 
         // The tangent follows from g = x - y and n(a_1, a_2) alone, since
         // xi_hat does not move:
@@ -335,9 +342,10 @@ namespace Debond
     // and a traction in MPa are compared, both along the surface as it is now.
     // Without pressure the limit is 0, and whatever pulls makes the point
     // slide.
-    const PointFriction friction = step.friction(phi_0, normal);
-    const double        limit    = friction.after(0.).mu *
-                         std::max(0., law.normal->respond(g_n, start).pressure);
+    PointFriction friction = step.friction(phi_0);
+    const double  mu       = friction.after(0.).mu;
+    const double  limit =
+      mu * std::max(0., law.normal->respond(g_n, start).pressure);
     const double trial_traction =
       law.tangential_penalty * (gap - g_n * normal.n).norm();
     // In the first iteration of some attempts all closed points are made to
@@ -349,6 +357,10 @@ namespace Debond
     else if (mode.stick_first)
       step.open(g_n);
     else
-      step.slide_or_open(friction, geometry.y);
+      {
+        if (law.slip_direction == SlipDirection::integrated)
+          step.integrate(normal, mu, friction);
+        step.slide_or_open(friction, geometry.y);
+      }
   }
 } // namespace Debond

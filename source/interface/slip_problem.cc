@@ -407,6 +407,9 @@ namespace Debond
     result.energy =
       e.normal_response.energy +
       0.5 * e.tangential_traction.squaredNorm() / law.tangential_penalty;
+    if (e.towed)
+      result.dissipated =
+        law.tangential_penalty * e.towed->mean_length * e.distance;
     // g_s = g_s^n + |y - y_n|, Eq. (32), and what else the law remembers; it is
     // the history of the point once the step is accepted
     if (!friction.frictionless)

@@ -1,336 +1,394 @@
 #include <debond/interface/slip_problem.h>
 #include <debond/interface/towed_gap.h>
 
-#include <Sacado.hpp>
 #include <cmath>
+#include <complex>
 
+// Vectors of the tangent plane are complex numbers here: a turn is a product,
+// and the half-plane to the left of a vector belongs to positive angles.
 namespace Debond
 {
   namespace
   {
-    // The formulas are written once, for numbers and for those that carry their
-    // derivatives along.
-    template <typename Number>
-    struct Plane
-    {
-      Number x, y;
-    };
+    using Vector = std::complex<double>;
 
-    template <typename Number>
-    Plane<Number>
-    turned(const Plane<Number> &a, const Number &cosine, const Number &sine)
+    double
+    dot(const Vector &a, const Vector &b)
     {
-      return {cosine * a.x - sine * a.y, sine * a.x + cosine * a.y};
+      return a.real() * b.real() + a.imag() * b.imag();
     }
 
-    template <typename Number>
-    Plane<Number>
-    turned(const Plane<Number> &a, const Number &angle)
+    double
+    cross(const Vector &a, const Vector &b)
     {
-      using std::cos, std::sin;
-      return turned<Number>(a, cos(angle), sin(angle));
+      return a.real() * b.imag() - a.imag() * b.real();
     }
 
-    /** sin t / t */
-    template <typename Number>
-    Number
-    sinc(const Number &t)
+    // std::abs() of complex numbers is slow, as it can do with any exponents
+    double
+    length_of(const Vector &a)
     {
-      using std::sin;
-      const Number small = 1. - t * t / 6.;
-      return t * t < 1e-10 ? small : Number(sin(t) / t);
+      return std::sqrt(std::norm(a));
     }
 
 
 
-    /** The way of the point in the step: an arc over the chord `motion', along
-     *  which its direction turns by `turn'. */
-    template <typename Number>
+    /** The way of the point in the step: an arc over the chord `motion'. */
     struct Path
     {
-      Plane<Number> old_gap, motion, chord; ///< chord: its unit vector
-      Number        length;
-      double        turn;
+      const Arc &arc;
+      Vector     motion, chord; ///< chord: its unit vector
+      double     length;
 
-      Path(const Plane<Number> &old_gap,
-           const Plane<Number> &motion,
-           const double         turn)
-        : old_gap(old_gap)
+      Path(const Vector &motion, const Arc &arc)
+        : arc(arc)
         , motion(motion)
-        , chord{1., 0.}
-        , length(0.)
-        , turn(turn)
+        , chord(1.)
+        , length(length_of(motion))
       {
-        using std::sqrt;
-        const Number square = motion.x * motion.x + motion.y * motion.y;
-        if (square > 1e-40)
-          {
-            const Number S = sqrt(square);
-            chord          = {motion.x / S, motion.y / S};
-            length         = S / sinc(0.5 * turn);
-          }
+        if (length > 0.)
+          chord = motion / length;
+        length /= arc.chord_over_length;
       }
 
-      /** The gap after the @p fraction of the way, if the anchor stays. */
-      Plane<Number>
-      gap(const Number &fraction) const
+      /** The part of the chord that lies behind the point after a @p fraction
+       * of its way, turned into the direction from where it came. */
+      Vector
+      part(const double fraction) const
       {
-        const Number        half  = 0.5 * turn * fraction;
-        const Number        part  = fraction * sinc(half) / sinc(0.5 * turn);
-        const Plane<Number> moved = turned<Number>(motion, half - 0.5 * turn);
-        return {old_gap.x + part * moved.x, old_gap.y + part * moved.y};
+        if (arc.turn == 0. || fraction == 0. || fraction == 1.)
+          return fraction;
+        const Arc behind(arc.turn * fraction);
+        return std::polar(fraction * behind.chord_over_length /
+                            arc.chord_over_length,
+                          0.5 * (behind.turn - arc.turn));
       }
 
-      Plane<Number>
-      direction(const Number &fraction) const
+      Vector
+      direction(const double fraction) const
       {
-        return turned<Number>(chord, turn * (fraction - 0.5));
+        if (fraction == 0.)
+          return chord * std::conj(arc.half_turn);
+        if (fraction == 1.)
+          return chord * arc.half_turn;
+        return arc.turn == 0. ?
+                 chord :
+                 chord * std::polar(1., arc.turn * (fraction - 0.5));
       }
     };
 
 
 
-    /** The string from where sliding begins. */
-    template <typename Number>
+    /** Where on the path sliding begins: the gap, less than its limit before,
+     *  becomes longer than that. The limit runs from old_limit by change. */
+    struct Beginning
+    {
+      double fraction = 0.;
+      Vector part     = 0., gap, direction;
+      double slope    = 0.; ///< of gap^2 - limit^2 by the fraction [mm^2]
+
+      Beginning(const Path   &path,
+                const Vector &old_gap,
+                const double  old_limit,
+                const double  change)
+      {
+        const auto excess = [&](const double at) {
+          fraction       = at;
+          part           = path.part(at);
+          gap            = old_gap + part * path.motion;
+          direction      = path.direction(at);
+          const double L = old_limit + at * change;
+          slope = 2. * (dot(gap, direction) * path.length - L * change);
+          return std::norm(gap) - L * L;
+        };
+        // It slides at once, or at rounding, as it did when it came here.
+        double f = excess(0.);
+        if (f >= -1e-12 * old_limit * old_limit && slope >= 0.)
+          return;
+        // What holds at the end has not begun to slide at all. Else the gap
+        // leaves the limit for good where it does: Newton's method, from the
+        // beginning if that leads inside the way, as it does soon for what only
+        // just holds, and bisection where it would leave the bracket.
+        const double next   = slope > 0. ? std::min(1., -f / slope) : 1.;
+        double       inside = 0., outside = 1.;
+        if ((f = excess(1.)) <= 0.)
+          return;
+        if (next < 1.)
+          f = excess(next);
+        for (unsigned int i = 0; i < 100; ++i)
+          {
+            (f > 0. ? outside : inside) = fraction;
+            double better               = fraction - f / slope;
+            if (!(better > inside && better < outside))
+              better = 0.5 * (inside + outside);
+            const double moved = std::abs(better - fraction);
+            f                  = excess(better);
+            if (moved < 1e-12)
+              break;
+          }
+      }
+    };
+
+
+
+    /**
+     * How the angle alpha from the path's direction to the gap goes on. With u
+     * = tan(alpha/2) = s/c its equation is one of Riccati, and linear in (c,
+     * s):
+     *
+     *   2 c' = c/L - kappa s,   2 s' = kappa c - s/L,
+     *
+     * and cos(alpha) = L d ln(c^2 + s^2)/ds. So (c, s) is multiplied by
+     * exp(M) = C + S M over a way, with M = [x, -k; k, -x], x = way / 2L, and k
+     * = way kappa / 2: minus half of the angle by which the path turns.
+     */
+    struct Turning
+    {
+      Vector turned; ///< from the path's direction at the end to the gap
+      double growth; ///< of ln(c^2 + s^2)
+      /** Of the angle alpha at the end, and of the growth, with alpha at the
+       *  beginning, x and k. */
+      Eigen::Matrix<double, 2, 3> derivative;
+
+      /** @p gap: unit vector at the beginning, from the path's direction. */
+      Turning(const Vector &gap,
+              const double  x,
+              const double  k,
+              const bool    with_derivative)
+      {
+        // half of the angle, without loss of digits
+        Vector w = gap.real() >= 0. ? Vector(1. + gap.real(), gap.imag()) :
+                                      Vector(gap.imag(), 1. - gap.real());
+        w /= length_of(w);
+        // C and S, times e^-scale
+        const double q = x * x - k * k;
+        double       C = 1. + 0.5 * q, S = 1. + q / 6., scale = 0.;
+        // dS/dq; dC/dq = S/2
+        double S_q = 1. / 6. + q / 60.;
+        if (std::abs(q) > 1e-4)
+          {
+            const double root = std::sqrt(std::abs(q));
+            if (q > 0.)
+              {
+                const double fall = std::exp(-2. * root);
+                scale             = root;
+                C                 = 0.5 * (1. + fall);
+                S                 = 0.5 * (1. - fall) / root;
+              }
+            else
+              {
+                C = std::cos(root);
+                S = std::sin(root) / root;
+              }
+            S_q = 0.5 * (C - S) / q;
+          }
+        else
+          {
+            C += q * q / 24.;
+            S += q * q / 120.;
+          }
+        const auto M = [&](const Vector &v) {
+          return Vector(x * v.real() - k * v.imag(),
+                        k * v.real() - x * v.imag());
+        };
+        const Vector M_w = M(w), end = C * w + S * M_w;
+        const double square = std::norm(end);
+        growth              = 2. * scale + std::log(square);
+        turned              = end * end / square;
+        if (!with_derivative)
+          return;
+        const Vector half = Vector(0., 0.5) * w; // dw/dalpha
+        const Vector by_q = 0.5 * S * w + S_q * M_w;
+        const Vector d[]{C * half + S * M(half),
+                         2. * x * by_q + S * std::conj(w),
+                         -2. * k * by_q + S * Vector(0., 1.) * w};
+        for (unsigned int i = 0; i < 3; ++i)
+          derivative.col(i) << 2. * cross(end, d[i]) / square,
+            2. * dot(end, d[i]) / square;
+      }
+    };
+
+    /** The string from where sliding begins, with @p L [mm] at the end: x, and
+     *  how far the point slides less than it is said to. */
     struct Towing
     {
-      Plane<Number> end_direction; ///< of the path
-      Number        way, start;    ///< what is left of it, and L there [mm]
-      /** cos(alpha/2) and sin(alpha/2) there, of any common length. */
-      Number c, s;
-      double turn; ///< in the rest of the way
+      const double start, way, k;
+      const Vector gap; ///< at the beginning, from the path's direction
 
-      Towing(const Path<Number> &path,
-             const Number       &fraction,
-             const double        share)
-        : end_direction(path.direction(1.))
-        , way((1. - fraction) * path.length)
-        , start(0.)
-        , c(1.)
-        , s(0.)
-        , turn((1. - share) * path.turn)
-      {
-        using std::sqrt;
-        const Plane<Number> g = path.gap(fraction),
-                            e = path.direction(fraction);
-        const Number square   = g.x * g.x + g.y * g.y;
-        if (!(square > 1e-40))
-          return;
-        start               = sqrt(square);
-        const Number along  = (g.x * e.x + g.y * e.y) / start,
-                     across = (e.x * g.y - e.y * g.x) / start;
-        c                   = along >= 0. ? Number(1. + along) : across;
-        s                   = along >= 0. ? across : Number(1. - along);
-      }
-
-      /** At the end of the way, with a string of the length @p L there. With
-       *  u = tan(alpha/2) = s/c the equation of alpha is one of Riccati, which
-       *  is linear in (c, s):
-       *
-       *    2 c' = c/L - kappa s,   2 s' = kappa c - s/L,
-       *
-       *  and cos(alpha) = L d ln(c^2 + s^2)/ds. */
-      struct End
-      {
-        Plane<Number> direction;
-        Number        slid; ///< the integral of cos(alpha) [mm]
-      };
-      End
-      end(const Number &L) const
-      {
-        using std::cos, std::exp, std::log, std::sin, std::sqrt;
-        const Number mean = 0.5 * (start + L);
-        // a string without length follows the path
-        if (!(mean > 1e-12 * way))
-          return {end_direction, way};
+      Towing(const Path &path, const Beginning &beginning)
+        : start(length_of(beginning.gap))
+        , way((1. - beginning.fraction) * path.length)
         // kappa bends away from positive alpha
-        const Number x = 0.5 * way / mean;
-        const double k = -0.5 * turn;
-        // exp([x, -k; k, -x]) = C + S [x, -k; k, -x], times e^-scale
-        const Number q = x * x - k * k;
-        Number       C = 1. + 0.5 * q, S = 1. + q / 6., scale = 0.;
-        if (q > 1e-6)
-          {
-            scale             = sqrt(q);
-            const Number fall = exp(-2. * scale);
-            C                 = 0.5 * (1. + fall);
-            S                 = 0.5 * (1. - fall) / scale;
-          }
-        else if (q < -1e-6)
-          {
-            const Number w = sqrt(-q);
-            C              = cos(w);
-            S              = sin(w) / w;
-          }
-        const Number c_1    = (C + S * x) * c - S * k * s,
-                     s_1    = S * k * c + (C - S * x) * s;
-        const Number square = c_1 * c_1 + s_1 * s_1;
-        End          result;
-        result.slid      = mean * (2. * scale + log(square / (c * c + s * s)));
-        result.direction = turned<Number>(end_direction,
-                                          (c_1 * c_1 - s_1 * s_1) / square,
-                                          2. * c_1 * s_1 / square);
-        return result;
-      }
+        , k(-0.5 * (1. - beginning.fraction) * path.arc.turn)
+        , gap(start > 0. ?
+                beginning.gap * std::conj(beginning.direction) / start :
+                Vector(1.))
+      {}
 
-      /** What the slid @p distance is more than it should be [mm]. */
-      Number
-      excess(const Number &distance, const Number &L) const
+      double
+      mean(const double L) const
       {
-        return distance + (L - start) - end(L).slid;
+        return 0.5 * (start + L);
+      }
+      /** A string without length follows the path. */
+      bool
+      has_length(const double L) const
+      {
+        return mean(L) > 1e-12 * way;
+      }
+      Turning
+      turning(const double L, const bool with_derivative) const
+      {
+        return Turning(gap, 0.5 * way / mean(L), k, with_derivative);
+      }
+      /** How far the point slides, and the derivative by L. */
+      std::pair<double, double>
+      slid(const double L) const
+      {
+        if (!has_length(L))
+          return {way + start - L, -1.};
+        const Turning at_end = turning(L, true);
+        return {mean(L) * at_end.growth + start - L,
+                0.5 * at_end.growth -
+                  0.25 * way / mean(L) * at_end.derivative(1, 1) - 1.};
       }
     };
 
 
 
-    /** By how much the gap is longer than the string, both squared. */
-    template <typename Number>
-    Number
-    overstretch(const Path<Number> &path,
-                const Number       &fraction,
-                const double        old_length,
-                const Number       &change)
+    // L falls with the distance, where the bond breaks, by less than the
+    // distance grows: there is one solution, which Newton's method finds, and
+    // bisection where it leaves the bracket.
+    double
+    slid_distance(const TowedGap::Step &step, const Towing &towing)
     {
-      const Plane<Number> g = path.gap(fraction);
-      const Number        L = old_length + fraction * change;
-      return g.x * g.x + g.y * g.y - L * L;
-    }
-
-
-
-    /** Where an equation holds, and the slope of its residual there. */
-    struct Root
-    {
-      double at, slope;
-    };
-
-    /** The fraction of the way after which sliding begins. */
-    Root
-    start_of_sliding(const Path<double> &path,
-                     const double        old_length,
-                     const double        change)
-    {
-      using One = Sacado::Fad::SFad<double, 1>;
-      const Path<One> varied({path.old_gap.x, path.old_gap.y},
-                             {path.motion.x, path.motion.y},
-                             path.turn);
-      const auto      at = [&](const double fraction) {
-        return overstretch<One>(varied,
-                                One(1, 0, fraction),
-                                old_length,
-                                change);
-      };
-      const One first = at(0.), last = at(1.);
-      // what holds at the end has not begun to slide at all
-      if (last.val() <= 0.)
-        return {1., last.dx(0)};
-      // it slides at once; or at rounding, as it did when it came here
-      const double rounding = 1e-12 * old_length * old_length;
-      if (first.val() >= -rounding && first.dx(0) >= 0.)
-        return {0., first.dx(0)};
-      // Once inside, the gap leaves the limit for good: Newton's method from
-      // outside, and bisection where it would leave the bracket.
-      double inside = 0., outside = 1., fraction = 1.;
+      const double eps      = step.tangential_penalty;
+      const double farthest = towing.way + towing.start;
+      double       low = -farthest, high = farthest, distance = towing.way;
       for (unsigned int i = 0; i < 100; ++i)
         {
-          const One f                       = at(fraction);
-          (f.val() > 0. ? outside : inside) = fraction;
-          double next                       = fraction - f.val() / f.dx(0);
-          if (!(next > inside && next < outside))
-            next = 0.5 * (inside + outside);
-          if (std::abs(next - fraction) < 1e-15)
-            break;
-          fraction = next;
-        }
-      return {fraction, at(fraction).dx(0)};
-    }
-
-
-
-    /** The distance that the point slides. */
-    Root
-    slid_distance(const TowedGap::Step &step, const Towing<double> &towing)
-    {
-      using One = Sacado::Fad::SFad<double, 1>;
-      Towing<One> varied(Path<One>({0., 0.}, {0., 0.}, 0.), 1., 1.);
-      varied.way       = towing.way;
-      varied.start     = towing.start;
-      varied.c         = towing.c;
-      varied.s         = towing.s;
-      varied.turn      = towing.turn;
-      const double eps = step.tangential_penalty;
-      const auto   at  = [&](const double distance) {
-        const auto limit = step.friction.limit(step.pressure, distance);
-        One        L(limit.value / eps);
-        L.resize(1);
-        L.fastAccessDx(0) = limit.slope / eps;
-        return varied.excess(One(1, 0, distance), L);
-      };
-      // the string cannot give more than its length
-      double low = -towing.way - towing.start, high = towing.way + towing.start,
-             distance = std::max(0., towing.way);
-      for (unsigned int i = 0; i < 100; ++i)
-        {
-          const One f                 = at(distance);
-          (f.val() > 0. ? high : low) = distance;
-          double next                 = distance - f.val() / f.dx(0);
+          const auto limit = step.friction.limit(step.pressure, distance);
+          const auto [slid, by_L] = towing.slid(limit.value / eps);
+          const double excess     = distance - slid;
+          // where the limit is constant, here and there, that is it
+          if (limit.slope == 0. &&
+              step.friction.limit(step.pressure, slid).value == limit.value)
+            return slid;
+          (excess > 0. ? high : low) = distance;
+          double next = distance - excess / (1. - by_L * limit.slope / eps);
           if (!(next >= low && next <= high))
             next = 0.5 * (low + high);
-          const double change = std::abs(next - distance);
-          distance            = next;
-          if (change <= 1e-15 * (towing.way + towing.start))
+          const double moved = std::abs(next - distance);
+          distance           = next;
+          if (moved <= 1e-15 * farthest)
             break;
         }
-      return {distance, at(distance).dx(0)};
+      return distance;
     }
   } // namespace
 
 
 
-  // First the numbers, by Newton's method; then one more step of it in numbers
-  // with derivatives, which gives those of the solution.
+  Arc::Arc(const double turn)
+    : turn(turn)
+    , chord_over_length(std::abs(turn) < 1e-5 ?
+                          1. - turn * turn / 24. :
+                          std::sin(0.5 * turn) / (0.5 * turn))
+    , half_turn(std::polar(1., 0.5 * turn))
+  {}
+
+
+
   TowedGap::TowedGap(const Step &step)
   {
-    using Number                  = Sacado::Fad::SFad<double, 5>;
     const PointFriction &friction = step.friction;
     const double         eps      = step.tangential_penalty;
-    const double         change =
-      friction.after(0.).mu * step.pressure / eps - friction.old_limit;
-    const Path<double> path({step.old_gap[0], step.old_gap[1]},
-                            {step.motion[0], step.motion[1]},
-                            friction.turn);
-    const Root share = start_of_sliding(path, friction.old_limit, change);
-    const Root slid =
-      slid_distance(step, Towing<double>(path, share.at, share.at));
+    const Vector         old_gap(step.old_gap[0], step.old_gap[1]);
+    const Path           path({step.motion[0], step.motion[1]}, friction.arc);
+    // on the way to where sliding begins the limit is that of g_s^n
+    const double    mu_old = friction.old_mu;
+    const double    change = mu_old * step.pressure / eps - friction.old_limit;
+    const Beginning beginning(path, old_gap, friction.old_limit, change);
+    const Towing    towing(path, beginning);
+    distance           = slid_distance(step, towing);
+    const auto   limit = friction.limit(step.pressure, distance);
+    const double L     = limit.value / eps;
+    mean_length        = towing.mean(L);
 
-    const Path<Number> varied(
-      {Number(5, 0, step.old_gap[0]), Number(5, 1, step.old_gap[1])},
-      {Number(5, 2, step.motion[0]), Number(5, 3, step.motion[1])},
-      friction.turn);
-    const Number pressure(5, 4, step.pressure);
-    Number       fraction = share.at;
-    if (share.at > 0. && share.at < 1.)
-      fraction -= overstretch<Number>(varied,
-                                      fraction,
-                                      friction.old_limit,
-                                      friction.after(0.).mu * pressure / eps -
-                                        friction.old_limit) /
-                  share.slope;
-    const Towing<Number> towing(varied, fraction, share.at);
-    const auto           limit = friction.limit(step.pressure, slid.at);
-    const auto           L     = [&](const Number &distance) {
-      return Number((limit.value +
-                     limit.coefficient.mu * (pressure - step.pressure) +
-                     limit.slope * (distance - slid.at)) /
-                    eps);
+    // What all depends on, as rows of derivatives by old_gap, motion, pressure:
+    // first the gap where sliding begins, and where on the path that is.
+    using Row        = Eigen::Matrix<double, 1, 5>;
+    const auto along = [](const Vector &gap_part, const Vector &motion_part) {
+      Row row;
+      row << gap_part.real(), gap_part.imag(), motion_part.real(),
+        motion_part.imag(), 0.;
+      return row;
     };
-    Number slides = slid.at;
-    slides -= towing.excess(slides, L(slides)) / slid.slope;
-    const auto end = towing.end(L(slides));
-    direction      = {end.direction.x.val(), end.direction.y.val()};
-    distance       = slid.at;
-    for (unsigned int i = 0; i < 5; ++i)
-      derivative.col(i) << end.direction.x.fastAccessDx(i),
-        end.direction.y.fastAccessDx(i), slides.fastAccessDx(i);
+    // of v . (old_gap + part * motion) at a fixed fraction
+    const auto of_gap = [&](const Vector &v) {
+      return along(v, v * std::conj(beginning.part));
+    };
+    const double f          = beginning.fraction;
+    Row          d_fraction = Row::Zero();
+    if (f > 0. && f < 1.)
+      {
+        d_fraction = -2. * of_gap(beginning.gap);
+        d_fraction[4] +=
+          2. * (friction.old_limit + f * change) * f * mu_old / eps;
+        d_fraction /= beginning.slope;
+      }
+    const Vector chord = path.chord, turned_chord = chord * Vector(0., 1.);
+    const double S = length_of(path.motion);
+    const Row    d_angle_of_motion =
+      S > 0. ? Row(along(0., turned_chord / S)) : Row(Row::Zero());
+    const Row d_way =
+      (1. - f) * path.length / (S > 0. ? S : 1.) * along(0., chord) -
+      path.length * d_fraction;
+    const Vector g    = beginning.gap;
+    const Vector unit = towing.start > 0. ? g / towing.start : chord;
+    const Row    d_start =
+      towing.start > 0. ?
+           Row(of_gap(unit) +
+            path.length * dot(unit, beginning.direction) * d_fraction) :
+           Row(Row::Zero());
+    const Row d_alpha =
+      towing.start > 0. ?
+        Row((of_gap(unit * Vector(0., 1.)) +
+             path.length * cross(unit, beginning.direction) * d_fraction) /
+              towing.start -
+            d_angle_of_motion - path.arc.turn * d_fraction) :
+        Row(Row::Zero());
+    Row d_L = Row::Zero(); // at a fixed distance
+    d_L[4]  = limit.coefficient.mu / eps;
+
+    const Vector end   = path.direction(1.);
+    Vector       tau   = end;
+    Row          d_tau = d_angle_of_motion, d_distance = d_way + d_start - d_L;
+    double       slope = 1. + limit.slope / eps;
+    if (towing.has_length(L))
+      {
+        const double  mean = towing.mean(L), x = 0.5 * towing.way / mean;
+        const Turning turning                 = towing.turning(L, true);
+        const Eigen::Matrix<double, 2, 3> &by = turning.derivative;
+        tau                                   = end * turning.turned;
+        // of x at a fixed L, and with it
+        const Row    d_x    = (0.5 * d_way - 0.5 * x * d_start) / mean;
+        const double x_L    = -0.5 * x / mean;
+        const Row    d_k    = 0.5 * path.arc.turn * d_fraction;
+        const double slid_L = 0.5 * turning.growth + mean * by(1, 1) * x_L;
+        slope -= slid_L * limit.slope / eps;
+        d_distance =
+          0.5 * turning.growth * d_start +
+          mean * (by(1, 0) * d_alpha + by(1, 1) * d_x + by(1, 2) * d_k) +
+          d_start + (slid_L - 1.) * d_L;
+        d_distance /= slope;
+        const Row d_L_in_all = d_L + limit.slope / eps * d_distance;
+        d_tau += by(0, 0) * d_alpha + by(0, 1) * (d_x + x_L * d_L_in_all) +
+                 by(0, 2) * d_k;
+      }
+    else
+      d_distance /= slope;
+    direction = {tau.real(), tau.imag()};
+    derivative << -tau.imag() * d_tau, tau.real() * d_tau, d_distance;
   }
 } // namespace Debond

@@ -6,6 +6,9 @@
 
 #include <Eigen/Core>
 
+#include <array>
+#include <optional>
+
 namespace Debond
 {
   /** Numbers as they appear in the VTU array `state`. */
@@ -105,6 +108,9 @@ namespace Debond
     Eigen::Vector3d tangential_traction = Eigen::Vector3d::Zero();
     /** Part of the tangential traction that the viscosity makes up [MPa]. */
     Eigen::Vector3d viscous_traction = Eigen::Vector3d::Zero();
+    /** Work of the tangential traction on the slip of this step, per area
+     *  [N/mm]; none where it is a trapezoid (InterfaceWork). */
+    std::optional<double> dissipated;
     /** y(xi_hat) - y(xi_hat^n) on the current surface [mm]. */
     Eigen::Vector3d slip_increment = Eigen::Vector3d::Zero();
     double          normal_gap     = 0; ///< g_n [mm]

@@ -91,12 +91,13 @@ namespace Debond
     double             viscous        = 0.; ///< eta / dt [MPa/mm]
     Eigen::Vector3d    slip_direction = Eigen::Vector3d::Zero();
     // For slip that is integrated over the step: the gap of the step before, in
-    // space, the length at which it slides in that state, and by what angle the
-    // way turns.
+    // space; mu at its end, and the length at which it slides there; and the
+    // way.
     bool            is_integrated = false;
     Eigen::Vector3d old_gap       = Eigen::Vector3d::Zero();
+    double          old_mu        = 0.;
     double          old_limit     = 0.; ///< [mm]
-    double          turn          = 0.; ///< [rad]
+    Arc             arc;
 
     /** mu and its slope once the point has slid by @p distance. */
     FrictionCoefficient
@@ -212,6 +213,8 @@ namespace Debond
     Eigen::Vector3d     slip;     ///< y - y_n [mm]
     double              distance; ///< g_s - g_s^n [mm]
     Eigen::Vector3d     traction, tangential_traction, viscous_traction;
+    /** What the step comes to where slip is integrated over it. */
+    std::optional<TowedGap> towed;
 
   private:
     // The two halves of the evaluation, in this order: the traction needs tau,
@@ -250,10 +253,8 @@ namespace Debond
     double          pull_along_n, pull_along_surface;
     Eigen::Vector3d tau;
     bool            has_direction, direction_is_given;
-    // Where it is integrated: axes of the tangent plane, and what the step
-    // comes to in them.
+    // axes of the tangent plane, for slip that is integrated
     Eigen::Matrix<double, 3, 2> axes;
-    std::optional<TowedGap>     towed;
 
     // The length of the slip has a derivative along its own direction. What is
     // left of the gap beside the elastic t_t / eps_t, the excess, may have a

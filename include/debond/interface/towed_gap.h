@@ -3,9 +3,21 @@
 
 #include <Eigen/Core>
 
+#include <complex>
+
 namespace Debond
 {
   struct PointFriction;
+
+  /** What is to be known of an arc that turns by an angle. */
+  struct Arc
+  {
+    explicit Arc(double turn = 0.);
+
+    double               turn;              ///< [rad]
+    double               chord_over_length; ///< sin(turn/2) / (turn/2)
+    std::complex<double> half_turn;         ///< exp(i turn/2)
+  };
 
   /**
    * How the gap of a sliding point turns in a step, and how far the point
@@ -40,6 +52,8 @@ namespace Debond
     /** g_s - g_s^n [mm]; negative only at trial places where the point would
      *  slide against its traction. */
     double distance;
+    /** Mean length of the gap while the point slides [mm]. */
+    double mean_length;
     /** d(direction, distance)/d(old_gap, motion, pressure). */
     Eigen::Matrix<double, 3, 5> derivative;
   };

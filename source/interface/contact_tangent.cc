@@ -43,7 +43,12 @@ namespace Debond
       LocalVector dw;
       dw << interpolate(point.basis, moved[slave]), motion.y, motion.a1,
         motion.a2, Vector3d::Zero(), Vector3d::Zero();
-      if (point.trial.state.status == PointStatus::slip)
+      if (point.trial.state.status != PointStatus::slip)
+        return dw;
+      // only slip that is integrated over the step knows the old gap
+      if (!point.trial.dissipated)
+        dw.segment<3>(12) = interpolate(point.trial.old_basis, master);
+      else
         {
           SurfaceGeometry old;
           contract(point.trial.old_basis, master, false, old);

@@ -1,4 +1,3 @@
-#include <debond/interface/slip_problem.h>
 #include <debond/interface/towed_gap.h>
 
 #include <cmath>
@@ -286,16 +285,6 @@ namespace Debond
       return distance;
     }
   } // namespace
-
-
-
-  Arc::Arc(const double turn)
-    : turn(turn)
-    , chord_over_length(std::abs(turn) < 1e-5 ?
-                          1. - turn * turn / 24. :
-                          std::sin(0.5 * turn) / (0.5 * turn))
-    , half_turn(std::polar(1., 0.5 * turn))
-  {}
 
 
 

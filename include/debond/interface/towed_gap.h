@@ -1,24 +1,12 @@
 #ifndef debond_interface_towed_gap_h
 #define debond_interface_towed_gap_h
 
-#include <Eigen/Core>
+#include <debond/interface/point_friction.h>
 
-#include <complex>
+#include <Eigen/Core>
 
 namespace Debond
 {
-  struct PointFriction;
-
-  /** What is to be known of an arc that turns by an angle. */
-  struct Arc
-  {
-    explicit Arc(double turn = 0.);
-
-    double               turn;              ///< [rad]
-    double               chord_over_length; ///< sin(turn/2) / (turn/2)
-    std::complex<double> half_turn;         ///< exp(i turn/2)
-  };
-
   /**
    * How the gap of a sliding point turns in a step, and how far the point
    * slides: the variant `integrated' of Interface / Slip direction.

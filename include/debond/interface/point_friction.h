@@ -1,0 +1,97 @@
+#ifndef debond_interface_point_friction_h
+#define debond_interface_point_friction_h
+
+#include <debond/interface/friction_law.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+namespace Debond
+{
+  /** What is to be known of an arc that turns by an angle. */
+  struct Arc
+  {
+    explicit Arc(const double turn = 0.)
+      : turn(turn)
+      , chord_over_length(std::abs(turn) < 1e-5 ?
+                            1. - turn * turn / 24. :
+                            std::sin(0.5 * turn) / (0.5 * turn))
+      , half_turn(std::polar(1., 0.5 * turn))
+    {}
+
+    double               turn;              ///< [rad]
+    double               chord_over_length; ///< sin(turn/2) / (turn/2)
+    std::complex<double> half_turn;         ///< exp(i turn/2)
+  };
+
+
+
+  /** The friction of a point in this step: what its law says of a distance,
+   *  how sliding is resisted by its speed, and where it goes. */
+  struct PointFriction
+  {
+    // The law, and the point at the beginning of the step. The answer of the
+    // law is not used in the frictionless part of a load history; the explicit
+    // variant takes it at g_s^n, with the slope 0. The viscosity resists with a
+    // stiffness. The direction of slip is zero unless the variant with Eq. (31)
+    // as printed gives it; tau is then found from the trial gap.
+    const FrictionLaw &law;
+    FrictionState      start;
+    bool               frictionless   = false;
+    bool               is_explicit    = false;
+    double             viscous        = 0.; ///< eta / dt [MPa/mm]
+    Eigen::Vector3d    slip_direction = Eigen::Vector3d::Zero();
+    // For slip that is integrated over the step: the gap of the step before, in
+    // space; mu at its end, and the length at which it slides there; and the
+    // way.
+    bool            is_integrated = false;
+    Eigen::Vector3d old_gap       = Eigen::Vector3d::Zero();
+    double          old_mu        = 0.;
+    double          old_limit     = 0.; ///< [mm]
+    Arc             arc;
+
+    /** mu and its slope once the point has slid by @p distance. */
+    FrictionCoefficient
+    after(const double distance) const
+    {
+      if (frictionless)
+        return {};
+      FrictionCoefficient result =
+        law.coefficient(start, is_explicit ? 0. : distance);
+      if (is_explicit)
+        result.dmu = 0.;
+      return result;
+    }
+
+    /** mu p + eta V once it has slid by @p distance [MPa]. */
+    struct Limit
+    {
+      FrictionCoefficient coefficient;
+      double              value, slope;
+    };
+    // A point cannot slide against what pulls it. Where Newton's method looks
+    // there, at negative distances, mu goes on along its tangent, but never
+    // rises: the distance alone would have a second solution there where
+    // friction rises with the speed, a rise one where it falls steeply.
+    Limit
+    limit(const double pressure, const double distance) const
+    {
+      FrictionCoefficient coefficient = after(std::max(0., distance));
+      if (distance < 0.)
+        {
+          coefficient.dmu = std::max(0., coefficient.dmu);
+          coefficient.mu += coefficient.dmu * distance;
+        }
+      // the viscous part resists as fast as the point moves, and it pulls where
+      // a trial moves backwards
+      const double resistance = pressure > 0. ? viscous : 0.;
+      return {coefficient,
+              coefficient.mu * pressure + resistance * distance,
+              coefficient.dmu * pressure + resistance};
+    }
+  };
+} // namespace Debond
+#endif

@@ -143,7 +143,9 @@ namespace Debond
     limit                     = friction_limit.value;
     slope                     = friction_limit.slope;
 
-    viscous_traction    = (limit - coefficient.mu * pressure) * tau;
+    viscous_traction    = pressure > 0. ?
+                            Vector3d(friction.viscous * distance * tau) :
+                            Vector3d(Vector3d::Zero());
     tangential_traction = limit * tau;
     traction = -normal_response.pressure * normal.n + tangential_traction;
     excess   = gap - tangential_traction / law.tangential_penalty;

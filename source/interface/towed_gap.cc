@@ -78,8 +78,8 @@ namespace Debond
 
 
 
-    /** Where on the path sliding begins: the gap, less than its limit before,
-     *  becomes longer than that. The limit runs from old_limit by change. */
+    /** Where on the path sliding begins: where the gap becomes longer than its
+     *  limit, which runs from @p old_limit by @p change [mm]. */
     struct Beginning
     {
       double fraction = 0.;
@@ -150,10 +150,7 @@ namespace Debond
       Eigen::Matrix<double, 2, 3> derivative;
 
       /** @p gap: unit vector at the beginning, from the path's direction. */
-      Turning(const Vector &gap,
-              const double  x,
-              const double  k,
-              const bool    with_derivative)
+      Turning(const Vector &gap, const double x, const double k)
       {
         // half of the angle, without loss of digits
         Vector w = gap.real() >= 0. ? Vector(1. + gap.real(), gap.imag()) :
@@ -194,10 +191,8 @@ namespace Debond
         const double square = std::norm(end);
         growth              = 2. * scale + std::log(square);
         turned              = end * end / square;
-        if (!with_derivative)
-          return;
-        const Vector half = Vector(0., 0.5) * w; // dw/dalpha
-        const Vector by_q = 0.5 * S * w + S_q * M_w;
+        const Vector half   = Vector(0., 0.5) * w; // dw/dalpha
+        const Vector by_q   = 0.5 * S * w + S_q * M_w;
         const Vector d[]{C * half + S * M(half),
                          2. * x * by_q + S * std::conj(w),
                          -2. * k * by_q + S * Vector(0., 1.) * w};
@@ -207,8 +202,10 @@ namespace Debond
       }
     };
 
-    /** The string from where sliding begins, with @p L [mm] at the end: x, and
-     *  how far the point slides less than it is said to. */
+
+
+    /** The string from where sliding begins to the end of the way, where it is
+     *  @p L [mm] long. */
     struct Towing
     {
       const double start, way, k;
@@ -236,9 +233,9 @@ namespace Debond
         return mean(L) > 1e-12 * way;
       }
       Turning
-      turning(const double L, const bool with_derivative) const
+      turning(const double L) const
       {
-        return Turning(gap, 0.5 * way / mean(L), k, with_derivative);
+        return Turning(gap, 0.5 * way / mean(L), k);
       }
       /** How far the point slides, and the derivative by L. */
       std::pair<double, double>
@@ -246,7 +243,7 @@ namespace Debond
       {
         if (!has_length(L))
           return {way + start - L, -1.};
-        const Turning at_end = turning(L, true);
+        const Turning at_end = turning(L);
         return {mean(L) * at_end.growth + start - L,
                 0.5 * at_end.growth -
                   0.25 * way / mean(L) * at_end.derivative(1, 1) - 1.};
@@ -333,13 +330,13 @@ namespace Debond
     const Row d_way =
       (1. - f) * path.length / (S > 0. ? S : 1.) * along(0., chord) -
       path.length * d_fraction;
-    const Vector g    = beginning.gap;
-    const Vector unit = towing.start > 0. ? g / towing.start : chord;
-    const Row    d_start =
+    const Vector unit =
+      towing.start > 0. ? beginning.gap / towing.start : chord;
+    const Row d_start =
       towing.start > 0. ?
-           Row(of_gap(unit) +
+        Row(of_gap(unit) +
             path.length * dot(unit, beginning.direction) * d_fraction) :
-           Row(Row::Zero());
+        Row(Row::Zero());
     const Row d_alpha =
       towing.start > 0. ?
         Row((of_gap(unit * Vector(0., 1.)) +
@@ -357,7 +354,7 @@ namespace Debond
     if (towing.has_length(L))
       {
         const double  mean = towing.mean(L), x = 0.5 * towing.way / mean;
-        const Turning turning                 = towing.turning(L, true);
+        const Turning turning                 = towing.turning(L);
         const Eigen::Matrix<double, 2, 3> &by = turning.derivative;
         tau                                   = end * turning.turned;
         // of x at a fixed L, and with it

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace Debond
 {
   namespace
   {
-    using Note = StateChecks::Note;
+    /** Takes the name of a check that was not passed, and what to say of it. */
+    using Note = std::function<void(const std::string &, const std::string &)>;
 
 
 

@@ -227,16 +227,12 @@ namespace Debond
       // Who wants to know what happens before the bond breaks takes few steps,
       // or turns to and fro; next to nothing is a sine whose turns lie between
       // the steps.
-      const bool is_short =
-                   way > 0.01 &&
-                   way_of_rim<0.5 * distance,
-                              is_one_way = std::abs(values.back() -
-                                                    values.front())> 0.999 *
-                     way,
-                 is_curve =
-                   scene.load_steps.adaptive || scene.load_steps.n_steps() > 20;
-      note(law.has_bond() && distance < 0.5 * R && is_short && is_one_way &&
-             is_curve && rotation.stiffness == 0.,
+      const double span     = std::abs(values.back() - values.front());
+      const bool   is_short = way > 0.01 && 2. * way_of_rim < distance;
+      const bool   is_curve =
+        scene.load_steps.adaptive || scene.load_steps.n_steps() > 20;
+      note(law.has_bond() && distance < 0.5 * R && is_short && is_curve &&
+             span > 0.999 * way && rotation.stiffness == 0.,
            "short rotation",
            entry + " turns by " + to_text(way, 4) +
              " degrees in all, in which the rim moves by " +

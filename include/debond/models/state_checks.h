@@ -7,7 +7,6 @@
 #include <debond/system/energy_balance.h>
 
 #include <array>
-#include <functional>
 #include <set>
 #include <string>
 #include <utility>
@@ -78,9 +77,6 @@ namespace Debond
         archive &displacement;
       archive &change_at_strains;
     }
-
-    /** Takes the name of a check that was not passed, and what to say of it. */
-    using Note = std::function<void(const std::string &, const std::string &)>;
 
   private:
     void

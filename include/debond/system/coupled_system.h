@@ -178,12 +178,8 @@ namespace Debond
     double
     bulk_energy() const
     {
-      return bulk_energy(Side::bone) + bulk_energy(Side::implant);
-    }
-    double
-    bulk_energy(const Side side) const
-    {
-      return bulk_residual[side].energy;
+      return bulk_residual[Side::bone].energy +
+             bulk_residual[Side::implant].energy;
     }
     /** What the supports exert on a body in that state, see Body. */
     Chuck::Vector6

@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "checks.h"
-#include "law_of_text.h"
 
 using namespace Debond;
 
@@ -58,10 +57,7 @@ towed_around(const double           r,
 void
 check_disk()
 {
-  const FrictionLawPointer law =
-    law_of_text("set Friction law = coulomb\n"
-                "set Friction coefficient broken = 0.5\n");
-  const double p = 3., eps = 585., L = 0.5 * p / eps;
+  const double L   = 0.5 * 3. / 585.;
   double       gap = 0., slid = 0.;
   unsigned int n = 0;
   for (const double r : {2.5, 0.5, 0.02, 0.5 * L})
@@ -72,12 +68,8 @@ check_disk()
           const Eigen::Vector2d g(L * std::cos(angle),
                                   sign * L * std::sin(angle)),
             motion(r * std::cos(turn) - r, r * std::sin(turn));
-          PointFriction friction{*law, {}};
-          friction.is_integrated = true;
-          friction.old_mu        = 0.5;
-          friction.old_limit     = L;
-          friction.arc           = Arc(turn);
-          const TowedGap ours({friction, eps, p, g, motion});
+          const Arc      arc(turn);
+          const TowedGap ours({arc, g, motion, L, L, L});
           bool           goes_slack = false;
           const auto     exact      = towed_around(r, g, turn, goes_slack);
           if (goes_slack)

@@ -240,21 +240,28 @@ namespace Debond
       }
 
       // The point slides, or opens: with p = 0 the same equations project it,
-      // and the sign of the gap found there decides. @p y_old: y(xi_hat^n).
-      // Newton's method starts from xi_hat^n; if that fails, from the
-      // projection of the point, unless it has left the master.
+      // and the sign of the gap found there decides. Newton's method starts
+      // where the gap at xi_hat^n is as long as its limit there [MPa]; if that
+      // fails, from the projection of the point, unless it has left the master.
       //
       // Whether it opens cannot be told from the gap at xi_hat^n: on a curved
       // or tilted master a point may lift off at the old place and touch at the
       // new one, or touch at the old place only.
       void
-      slide_or_open(const PointFriction &friction, const Vector3d &y_old)
+      slide_or_open(const PointFriction &friction,
+                    const MasterNormal  &old,
+                    const Vector3d      &tangential_gap,
+                    const double         limit)
       {
         // y(xi_hat^n) moves with the master too, and the slip y(xi_hat) -
         // y(xi_hat^n) with both: its basis is kept for the tangent.
         result.old_basis = result.basis;
-        SlipProblem problem(law, friction, start, x, y_old, master);
-        SlipOutcome outcome = problem.solve(start.xi, result);
+        SlipProblem  problem(law, friction, start, x, old.geometry.y, master);
+        const double elastic = limit / law.tangential_penalty,
+                     length  = tangential_gap.norm();
+        const double slip    = length > 0. ? 1. - elastic / length : 0.;
+        SlipOutcome  outcome = problem.solve(
+          start.xi + slip * parts_along(old.geometry, tangential_gap), result);
         // The projection is near the solution wherever the tangential gap is
         // small, however far xi_hat^n is, and starting there costs one more
         // search. A point whose projection is beyond the edge has left the
@@ -346,8 +353,9 @@ namespace Debond
     const double  mu       = friction.after(0.).mu;
     const double  limit =
       mu * std::max(0., law.normal->respond(g_n, start).pressure);
-    const double trial_traction =
-      law.tangential_penalty * (gap - g_n * normal.n).norm();
+    const Vector3d tangential_gap = gap - g_n * normal.n;
+    const double   trial_traction =
+      law.tangential_penalty * tangential_gap.norm();
     // In the first iteration of some attempts all closed points are made to
     // stick, whatever they would carry: the tangent is then that of bodies
     // joined by springs, and the iteration cannot begin with a cycle of stick
@@ -360,7 +368,7 @@ namespace Debond
       {
         if (law.slip_direction == SlipDirection::integrated)
           step.integrate(normal, mu, friction);
-        step.slide_or_open(friction, geometry.y);
+        step.slide_or_open(friction, normal, tangential_gap, limit);
       }
   }
 } // namespace Debond

@@ -25,6 +25,18 @@ namespace Debond
     // the derivatives of the update, 3 x 18 and 2 x 18 numbers for a point.
     using LocalVector = Matrix<double, 18, 1>;
 
+    // The factors of g_n: the old gap has the parts g^alpha along a_alpha at
+    // xi_hat^n, and moves with them.
+    double
+    along_old_gap(const SlavePoint &point, const unsigned int b)
+    {
+      const SurfaceBasis    &old = point.trial.old_basis;
+      const Eigen::Vector2d &gap = point.accepted.gap;
+      return gap[0] * old.N_1[b] + gap[1] * old.N_2[b];
+    }
+
+
+
     // dw when the control points of both surfaces move. While a point sticks
     // its xi_hat stays, and y_n has no part. Parameters are held fixed here:
     // how xi_hat moves is in the derivatives dt/dw and dxi/dw already, by the
@@ -45,16 +57,12 @@ namespace Debond
         motion.a2, Vector3d::Zero(), Vector3d::Zero();
       if (point.trial.state.status != PointStatus::slip)
         return dw;
+      const SurfaceBasis &old = point.trial.old_basis;
+      dw.segment<3>(12)       = interpolate(old, master);
       // only slip that is integrated over the step knows the old gap
-      if (!point.trial.dissipated)
-        dw.segment<3>(12) = interpolate(point.trial.old_basis, master);
-      else
-        {
-          SurfaceGeometry old;
-          contract(point.trial.old_basis, master, false, old);
-          const Eigen::Vector2d &gap = point.accepted.gap;
-          dw.tail<6>() << old.y, gap[0] * old.a1 + gap[1] * old.a2;
-        }
+      for (unsigned int b = 0; point.trial.dissipated && b < old.size; ++b)
+        dw.tail<3>() +=
+          along_old_gap(point, b) * master.col(old.control_point[b]);
       return dw;
     }
 
@@ -153,10 +161,6 @@ namespace Debond
                            &old = point.trial.old_basis;
         const bool slips        = point.trial.state.status == PointStatus::slip;
         const bool same         = slips && old.element == now.element;
-        const auto along_gap    = [&](const unsigned int b) {
-          return point.accepted.gap[0] * old.N_1[b] +
-                 point.accepted.gap[1] * old.N_2[b];
-        };
         for (unsigned int b = 0; b < now.size; ++b)
           add(master,
               now.control_point[b],
@@ -165,11 +169,11 @@ namespace Debond
                now.N_1[b],
                now.N_2[b],
                same ? old.N[b] : 0.,
-               same ? along_gap(b) : 0.});
+               same ? along_old_gap(point, b) : 0.});
         for (unsigned int b = 0; slips && !same && b < old.size; ++b)
           add(master,
               old.control_point[b],
-              {0., 0., 0., 0., old.N[b], along_gap(b)});
+              {0., 0., 0., 0., old.N[b], along_old_gap(point, b)});
       }
 
       void
@@ -314,14 +318,12 @@ namespace Debond
         if (trial.state.status != PointStatus::slip || mode_now.frictionless ||
             trial.state.slip == point.accepted.slip)
           continue;
-        const LocalVector      d   = point.JxW * trial.dslip.transpose();
-        const Eigen::Vector2d &gap = point.accepted.gap;
-        const SurfaceBasis    &old = trial.old_basis;
+        const LocalVector   d   = point.JxW * trial.dslip.transpose();
+        const SurfaceBasis &old = trial.old_basis;
         spread_local(point, slave, d.head<12>(), result.gradient);
         for (unsigned int b = 0; b < old.size; ++b)
           result.gradient[master_side()].col(old.control_point[b]) +=
-            old.N[b] * d.segment<3>(12) +
-            (gap[0] * old.N_1[b] + gap[1] * old.N_2[b]) * d.tail<3>();
+            old.N[b] * d.segment<3>(12) + along_old_gap(point, b) * d.tail<3>();
       }
     // dimensionless gradient: mm of mean slip per mm of a control point
     result.value /= area;

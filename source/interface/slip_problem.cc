@@ -8,6 +8,18 @@ namespace Debond
   using Eigen::Matrix3d;
   using Eigen::Vector2d;
   using Eigen::Vector3d;
+  using Eigen::Vector4d;
+
+  namespace
+  {
+    Vector4d
+    with(const Vector3d &vector, const double number)
+    {
+      return {vector[0], vector[1], vector[2], number};
+    }
+  } // namespace
+
+
 
   // What changes along a_1 x a_2 only makes it longer, and a unit vector has no
   // part in that: dn = (1 - n n^T) dm / |m| with m = a_1 x a_2.
@@ -60,6 +72,7 @@ namespace Debond
     else
       find_direction();
     find_traction();
+    find_changes();
   }
 
 
@@ -90,21 +103,29 @@ namespace Debond
 
   // The same to second order, with the distance that the point slides: TowedGap
   // in the tangent plane at xi_hat. What the point moves by, seen from the
-  // master, is the trial gap less the gap of the step before.
+  // master, is the trial gap less the gap of the step before. The string ends
+  // as long as the gap is; that this is as long as friction holds it is what
+  // the equations ask for.
   inline void
   SlipEquations::integrate_slip()
   {
-    axes.col(0) = geometry.a1.normalized();
-    axes.col(1) = normal.n.cross(axes.col(0));
+    axes.col(0)           = geometry.a1.normalized();
+    axes.col(1)           = normal.n.cross(axes.col(0));
+    const Vector3d g_t    = gap - g_n * normal.n;
+    const double   length = g_t.norm();
     towed.emplace(
-      TowedGap::Step{friction,
-                     law.tangential_penalty,
-                     pressure,
+      TowedGap::Step{friction.arc,
                      axes.transpose() * friction.old_gap,
-                     axes.transpose() * (trial_gap - friction.old_gap)});
-    tau          = axes * towed->direction;
-    distance     = towed->distance;
-    forward      = Vector3d::Zero(); // not by the slip alone
+                     axes.transpose() * (trial_gap - friction.old_gap),
+                     friction.old_limit,
+                     friction.old_mu * pressure / law.tangential_penalty,
+                     length});
+    tau       = axes * towed->direction;
+    distance  = towed->distance;
+    forward   = Vector3d::Zero(); // not by the slip alone
+    along_gap = Vector3d::Zero();
+    if (length > 0.)
+      along_gap = g_t / length;
     pull         = trial_gap;
     pull_along_n = pull_along_surface = 0.;
     has_direction                     = true;
@@ -159,114 +180,101 @@ namespace Debond
   // Newton's method for xi_hat needs dh/dxi_hat; the Newton's method of the
   // whole system needs dt/dw and dh/dw, w being what the control points of both
   // bodies move, see ContactPointResult. Both are the same chain rule. It
-  // starts with the changes of four things, each a matrix with a column for
-  // each of the N changes that are looked at at once: of the gap x - y, of the
-  // trial gap x - y_n, of the normal n, and of the tangents as far as they
-  // change h while the excess stays as it is.
+  // starts with the changes of four vectors: of the gap x - y, of the trial gap
+  // x - y_n, of the gap of the step before, and of the normal n, which stays
+  // a unit vector.
   //
-  // It follows the evaluation above line by line: g_n, limit, tau, t_t, excess,
-  // and in the end the traction t = -p n + t_t and h.
-  template <int N>
-  inline SlipEquations::Derivative<N>
-  SlipEquations::along(const Eigen::Matrix<double, 3, N> &dgap,
-                       const Eigen::Matrix<double, 3, N> &dtrial,
-                       const Eigen::Matrix<double, 3, N> &dold,
-                       const Eigen::Matrix<double, 3, N> &dn,
-                       const Eigen::Matrix<double, 2, N> &excess_da) const
+  // With m = n x tau the tangent plane has the axes tau and m. A tau that is
+  // the direction of a vector turns towards m by the part along m of its
+  // change, over its length; and with the plane, out of it.
+  inline void
+  SlipEquations::find_changes()
   {
-    using Vectors     = Eigen::Matrix<double, 3, N>;
-    using Numbers     = Eigen::Matrix<double, 1, N>;
     const Vector3d &n = normal.n;
-    // g_n = n . g, so that both the gap and the normal change it, and p with
-    // it: dp = -stiffness dg_n
-    const Numbers dg_n = n.transpose() * dgap + gap.transpose() * dn;
-
-    const Numbers dp = pressure > 0. ?
-                         Numbers(-normal_response.stiffness * dg_n) :
-                         Numbers(Numbers::Zero());
-    Numbers       ddistance;
-    Vectors       dtau = Vectors::Zero();
+    // with the sliding distance changes the limit, and it changes itself
+    const Vector4d by_distance = with(slope * tau, 1.);
+    // the limit changes with the pressure, dp = -stiffness dg_n, and g_n with
+    // gap and normal
+    Vector4d by_pressure = with(coefficient.mu * tau, 0.);
     if (towed)
       {
         // In axes that tilt with the normal, but do not turn about it, the
-        // parts of a vector v in the plane change by t . dv - (n . v) t . dn;
-        // what is in the plane turns out of it by -n (v . dn).
-        Eigen::Matrix<double, 5, N>       changes;
-        const Eigen::Matrix<double, 2, N> tilt = axes.transpose() * dn;
-        const Vector3d &g = friction.old_gap, motion = trial_gap - g;
-        changes << axes.transpose() * dold - n.dot(g) * tilt,
-          axes.transpose() * (dtrial - dold) - n.dot(motion) * tilt, dp;
-        const Eigen::Matrix<double, 3, N> change = towed->derivative * changes;
-        dtau = axes * change.template topRows<2>() - n * (tau.transpose() * dn);
-        ddistance = change.row(2);
+        // parts of a vector v in the plane change by t . dv - (n . v) t . dn.
+        Eigen::Matrix<double, 4, 3> of_towed;
+        of_towed << limit * axes, slope * tau, 0., 0., 1.;
+        const Eigen::Matrix<double, 4, 6> by = of_towed * towed->derivative;
+        const Eigen::Matrix<double, 4, 3> held =
+                                            by.leftCols<2>() * axes.transpose(),
+                                          moved = by.middleCols<2>(2) *
+                                                  axes.transpose();
+        const Vector3d &g = friction.old_gap;
+        by_pressure += friction.old_mu / law.tangential_penalty * by.col(4);
+        change.old_gap = held - moved;
+        change.trial   = moved;
+        change.gap     = by.col(5) * along_gap.transpose();
+        change.normal =
+          -n.dot(g) * held - n.dot(trial_gap - g) * moved - g_n * change.gap;
       }
     else
       {
         // The path in this step is y - y_n = (x - y_n) - (x - y): the
         // difference of the two gaps.
-        ddistance = forward.transpose() * (dtrial - dgap);
-        // tau, u / |u| with u = (1 - n n^T) pull, turns with the pull, unless
-        // that is given, and with the tangent plane.
+        change.trial = by_distance * forward.transpose();
+        change.gap   = -change.trial;
+        change.old_gap.setZero();
+        change.normal.setZero();
         if (has_direction)
           {
-            const Vectors dpull =
-              direction_is_given ? Vectors(Vectors::Zero()) : dtrial;
-            const Numbers dalong_n =
-              n.transpose() * dpull + pull.transpose() * dn;
-            const Vectors du = dpull - pull_along_n * dn - n * dalong_n;
-            dtau = (du - tau * (tau.transpose() * du)) / pull_along_surface;
+            const Vector3d                    m = n.cross(tau);
+            const Eigen::Matrix<double, 4, 3> turn =
+              with(limit / pull_along_surface * m, 0.) * m.transpose();
+            if (!direction_is_given)
+              change.trial += turn;
+            change.normal = -pull_along_n * turn;
           }
       }
-    // The limit changes with the sliding distance and with the pressure. The
-    // limit times the change of tau is what makes the tangent unsymmetric
-    // besides the pressure.
-    const Vectors dt_t =
-      tau * (slope * ddistance + coefficient.mu * dp) + limit * dtau;
-    // what is left of the gap, and the parts of its change in the surface
-    const Vectors dexcess = dgap - dt_t / law.tangential_penalty;
-
-    Derivative<N> result;
-    result.distance = ddistance;
-    result.traction = dt_t + (normal_response.stiffness * n * dg_n -
-                              normal_response.pressure * dn);
-    result.h        = excess_da;
-    result.h.row(0) += geometry.a1.transpose() * dexcess;
-    result.h.row(1) += geometry.a2.transpose() * dexcess;
-    return result;
+    change.normal.noalias() -= with(limit * n, 0.) * tau.transpose();
+    if (pressure > 0.)
+      {
+        by_pressure *= normal_response.stiffness;
+        change.gap.noalias() -= by_pressure * n.transpose();
+        change.normal.noalias() -= by_pressure * gap.transpose();
+      }
   }
 
 
 
   // With respect to w = (x, y, a_1, a_2, y_n, g_n), at fixed xi_hat. x moves
   // both gaps, y the gap alone, y_n the trial gap alone, the tangents the
-  // normal and what of the excess lies along them. The chain rule is run for
-  // the changes of (x - y, x - y_n, a_1, a_2, g_n), 15 numbers instead of 18,
-  // and its columns are then dealt out: x gets those of both gaps, y and y_n
-  // theirs with the opposite sign.
+  // normal and what of the excess lies along them. The traction is t = -p n +
+  // t_t, and of the excess g - t_t / eps_t the parts in the surface are h.
   inline SlipEquations::Derivative<18>
   SlipEquations::along_w() const
   {
-    using Vectors = Eigen::Matrix<double, 3, 15>;
-    Vectors dgap = Vectors::Zero(), dtrial = Vectors::Zero(),
-            dold = Vectors::Zero(), dn = Vectors::Zero();
-    Eigen::Matrix<double, 2, 15> excess_da =
-      Eigen::Matrix<double, 2, 15>::Zero();
-    dgap.leftCols<3>()          = Matrix3d::Identity();
-    dtrial.middleCols<3>(3)     = Matrix3d::Identity();
-    dn.middleCols<6>(6)         = normal.derivative();
-    dold.rightCols<3>()         = Matrix3d::Identity();
-    excess_da.block<1, 3>(0, 6) = excess.transpose();
-    excess_da.block<1, 3>(1, 9) = excess.transpose();
-    const Derivative<15> d      = along<15>(dgap, dtrial, dold, dn, excess_da);
-    const auto           dealt  = [](const auto &from, auto &to) {
-      to << from.template leftCols<3>() + from.template middleCols<3>(3),
-        -from.template leftCols<3>(), from.template middleCols<6>(6),
-        -from.template middleCols<3>(3), from.template rightCols<3>();
-    };
+    constexpr int   at_x = 0, at_y = 3, at_a1 = 6, at_a2 = 9; // columns of w
+    const Vector3d &n                    = normal.n;
+    const Eigen::Matrix<double, 3, 6> dn = normal.derivative();
+    Eigen::Matrix<double, 4, 18>      d;
+    d << change.gap + change.trial, -change.gap, change.normal * dn,
+      -change.trial, change.old_gap;
+
     Derivative<18> result;
-    dealt(d.traction, result.traction);
-    dealt(d.h, result.h);
-    dealt(d.distance, result.distance);
+    result.distance        = d.row(3);
+    result.traction        = d.topRows<3>();
+    const Matrix3d along_n = normal_response.stiffness * n * n.transpose();
+    result.traction.middleCols<3>(at_x) += along_n;
+    result.traction.middleCols<3>(at_y) -= along_n;
+    result.traction.middleCols<6>(at_a1) +=
+      normal_response.stiffness * n * (gap.transpose() * dn) -
+      normal_response.pressure * dn;
+    Eigen::Matrix<double, 3, 2> tangents;
+    tangents << geometry.a1, geometry.a2;
+    result.h =
+      -1. / law.tangential_penalty * tangents.transpose() * d.topRows<3>();
+    result.h.middleCols<3>(at_x) += tangents.transpose();
+    result.h.middleCols<3>(at_y) -= tangents.transpose();
+    result.h.block<1, 3>(0, at_a1) += excess.transpose();
+    result.h.block<1, 3>(1, at_a2) += excess.transpose();
     return result;
   }
 
@@ -278,15 +286,23 @@ namespace Debond
   SlipEquations::along_surface() const
   {
     const SurfaceGeometry      &y = geometry;
-    Eigen::Matrix<double, 3, 2> dgap, dn;
-    Eigen::Matrix2d             excess_da;
-    dgap << -y.a1, -y.a2;
+    const Vector3d             &n = normal.n;
+    Eigen::Matrix<double, 3, 2> tangents, dn;
+    tangents << y.a1, y.a2;
     dn << normal.change(y.a11, y.a12), normal.change(y.a12, y.a22);
-    excess_da << excess.dot(y.a11), excess.dot(y.a12), excess.dot(y.a12),
+    const Eigen::Matrix<double, 4, 2> d =
+      change.normal * dn - change.gap * tangents;
+
+    Derivative<2> result;
+    result.distance = d.row(3);
+    result.traction = d.topRows<3>() +
+                      normal_response.stiffness * n * (gap.transpose() * dn) -
+                      normal_response.pressure * dn;
+    result.h << excess.dot(y.a11), excess.dot(y.a12), excess.dot(y.a12),
       excess.dot(y.a22);
-    const Eigen::Matrix<double, 3, 2> none =
-      Eigen::Matrix<double, 3, 2>::Zero();
-    return along<2>(dgap, none, none, dn, excess_da);
+    result.h -= tangents.transpose() *
+                (tangents + 1. / law.tangential_penalty * d.topRows<3>());
+    return result;
   }
 
 
@@ -318,7 +334,7 @@ namespace Debond
   SlipProblem::solve(const Vector2d &start, ContactPointResult &result)
   {
     constexpr unsigned int max_iterations = 30;
-    Vector2d               xi             = start;
+    Vector2d               xi             = start.cwiseMax(0.).cwiseMin(1.);
     evaluate(xi, result.basis);
     // |h|/|a| is a distance: it cannot be smaller than the rounding of
     // positions, which are of the size of the surface, and of the sliding

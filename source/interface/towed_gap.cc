@@ -1,7 +1,6 @@
 #include <debond/interface/towed_gap.h>
 
-#include <cmath>
-#include <complex>
+#include <algorithm>
 
 // Vectors of the tangent plane are complex numbers here: a turn is a product,
 // and the half-plane to the left of a vector belongs to positive angles.
@@ -30,25 +29,29 @@ namespace Debond
       return std::sqrt(std::norm(a));
     }
 
+    Vector
+    perpendicular(const Vector &a)
+    {
+      return {-a.imag(), a.real()};
+    }
+
 
 
     /** The way of the point in the step: an arc over the chord `motion'. */
     struct Path
     {
-      const Arc &arc;
-      Vector     motion, chord; ///< chord: its unit vector
-      double     length;
+      const Arc   &arc;
+      const Vector motion;
+      const double chord_length, length;
+      const Vector chord; ///< unit vector
 
-      Path(const Vector &motion, const Arc &arc)
+      Path(const Eigen::Vector2d &motion, const Arc &arc)
         : arc(arc)
-        , motion(motion)
-        , chord(1.)
-        , length(length_of(motion))
-      {
-        if (length > 0.)
-          chord = motion / length;
-        length /= arc.chord_over_length;
-      }
+        , motion(motion[0], motion[1])
+        , chord_length(length_of(this->motion))
+        , length(chord_length / arc.chord_over_length)
+        , chord(chord_length > 0. ? this->motion / chord_length : 1.)
+      {}
 
       /** The part of the chord that lies behind the point after a @p fraction
        * of its way, turned into the direction from where it came. */
@@ -84,6 +87,7 @@ namespace Debond
     {
       double fraction = 0.;
       Vector part     = 0., gap, direction;
+      double limit    = 0.; ///< [mm]
       double slope    = 0.; ///< of gap^2 - limit^2 by the fraction [mm^2]
 
       Beginning(const Path   &path,
@@ -92,13 +96,13 @@ namespace Debond
                 const double  change)
       {
         const auto excess = [&](const double at) {
-          fraction       = at;
-          part           = path.part(at);
-          gap            = old_gap + part * path.motion;
-          direction      = path.direction(at);
-          const double L = old_limit + at * change;
-          slope = 2. * (dot(gap, direction) * path.length - L * change);
-          return std::norm(gap) - L * L;
+          fraction  = at;
+          part      = path.part(at);
+          gap       = old_gap + part * path.motion;
+          direction = path.direction(at);
+          limit     = old_limit + at * change;
+          slope     = 2. * (dot(gap, direction) * path.length - limit * change);
+          return std::norm(gap) - limit * limit;
         };
         // It slides at once, or at rounding, as it did when it came here.
         double f = excess(0.);
@@ -156,11 +160,10 @@ namespace Debond
         Vector w = gap.real() >= 0. ? Vector(1. + gap.real(), gap.imag()) :
                                       Vector(gap.imag(), 1. - gap.real());
         w /= length_of(w);
-        // C and S, times e^-scale
+        // C and S, and dS/dq, times e^-scale; dC/dq is S/2
         const double q = x * x - k * k;
-        double       C = 1. + 0.5 * q, S = 1. + q / 6., scale = 0.;
-        // dS/dq; dC/dq = S/2
-        double S_q = 1. / 6. + q / 60.;
+        double C = 1. + 0.5 * q + q * q / 24., S = 1. + q / 6. + q * q / 120.,
+               S_q = 1. / 6. + q / 60., scale = 0.;
         if (std::abs(q) > 1e-4)
           {
             const double root = std::sqrt(std::abs(q));
@@ -178,11 +181,6 @@ namespace Debond
               }
             S_q = 0.5 * (C - S) / q;
           }
-        else
-          {
-            C += q * q / 24.;
-            S += q * q / 120.;
-          }
         const auto M = [&](const Vector &v) {
           return Vector(x * v.real() - k * v.imag(),
                         k * v.real() - x * v.imag());
@@ -191,11 +189,11 @@ namespace Debond
         const double square = std::norm(end);
         growth              = 2. * scale + std::log(square);
         turned              = end * end / square;
-        const Vector half   = Vector(0., 0.5) * w; // dw/dalpha
+        const Vector half   = 0.5 * perpendicular(w); // dw/dalpha
         const Vector by_q   = 0.5 * S * w + S_q * M_w;
         const Vector d[]{C * half + S * M(half),
                          2. * x * by_q + S * std::conj(w),
-                         -2. * k * by_q + S * Vector(0., 1.) * w};
+                         -2. * k * by_q + S * perpendicular(w)};
         for (unsigned int i = 0; i < 3; ++i)
           derivative.col(i) << 2. * cross(end, d[i]) / square,
             2. * dot(end, d[i]) / square;
@@ -204,177 +202,93 @@ namespace Debond
 
 
 
-    /** The string from where sliding begins to the end of the way, where it is
-     *  @p L [mm] long. */
-    struct Towing
+    using Row = Eigen::Matrix<double, 1, 6>;
+
+    /** How the string lies when sliding begins, and how far the point then has
+     *  to go, with derivatives like those of TowedGap. */
+    struct Start
     {
-      const double start, way, k;
-      const Vector gap; ///< at the beginning, from the path's direction
+      double way, length; ///< [mm]
+      Vector unit;        ///< along the gap, from the path's direction
+      Row    d_way, d_length;
+      Row    d_angle; ///< of alpha
+      Row    d_chord; ///< of the angle of the chord
+      Row    d_fraction = Row::Zero();
 
-      Towing(const Path &path, const Beginning &beginning)
-        : start(length_of(beginning.gap))
-        , way((1. - beginning.fraction) * path.length)
-        // kappa bends away from positive alpha
-        , k(-0.5 * (1. - beginning.fraction) * path.arc.turn)
-        , gap(start > 0. ?
-                beginning.gap * std::conj(beginning.direction) / start :
-                Vector(1.))
-      {}
-
-      double
-      mean(const double L) const
+      Start(const Path &path, const Beginning &beginning)
+        : way((1. - beginning.fraction) * path.length)
+        , length(length_of(beginning.gap))
       {
-        return 0.5 * (start + L);
-      }
-      /** A string without length follows the path. */
-      bool
-      has_length(const double L) const
-      {
-        return mean(L) > 1e-12 * way;
-      }
-      Turning
-      turning(const double L) const
-      {
-        return Turning(gap, 0.5 * way / mean(L), k);
-      }
-      /** How far the point slides, and the derivative by L. */
-      std::pair<double, double>
-      slid(const double L) const
-      {
-        if (!has_length(L))
-          return {way + start - L, -1.};
-        const Turning at_end = turning(L);
-        return {mean(L) * at_end.growth + start - L,
-                0.5 * at_end.growth -
-                  0.25 * way / mean(L) * at_end.derivative(1, 1) - 1.};
+        const Vector gap = length > 0. ? beginning.gap / length : path.chord;
+        unit             = gap * std::conj(beginning.direction);
+        const auto row = [](const Vector &gap_part, const Vector &motion_part) {
+          Row result;
+          result << gap_part.real(), gap_part.imag(), motion_part.real(),
+            motion_part.imag(), 0., 0.;
+          return result;
+        };
+        // of v . (old_gap + part * motion) at a fixed fraction
+        const auto of_gap = [&](const Vector &v) {
+          return row(v, v * std::conj(beginning.part));
+        };
+        const double over_chord =
+          path.chord_length > 0. ? 1. / path.chord_length : 0.;
+        d_chord = row(0., perpendicular(path.chord) * over_chord);
+        d_way   = row(0., path.chord * (way * over_chord));
+        d_length.setZero();
+        d_angle.setZero();
+        if (length > 0.) // else the string lies along the path
+          {
+            d_length = of_gap(gap);
+            d_angle  = of_gap(perpendicular(gap) / length) - d_chord;
+          }
+        if (beginning.fraction == 0. || beginning.fraction == 1.)
+          return;
+        // where it begins moves, too
+        d_fraction = -2. * length * d_length;
+        d_fraction[4] += 2. * beginning.limit * beginning.fraction;
+        d_fraction /= beginning.slope;
+        d_way -= path.length * d_fraction;
+        d_length += path.length * dot(gap, beginning.direction) * d_fraction;
+        d_angle += (path.length * cross(gap, beginning.direction) / length -
+                    path.arc.turn) *
+                   d_fraction;
       }
     };
-
-
-
-    // L falls with the distance, where the bond breaks, by less than the
-    // distance grows: there is one solution, which Newton's method finds, and
-    // bisection where it leaves the bracket.
-    double
-    slid_distance(const TowedGap::Step &step, const Towing &towing)
-    {
-      const double eps      = step.tangential_penalty;
-      const double farthest = towing.way + towing.start;
-      double       low = -farthest, high = farthest, distance = towing.way;
-      for (unsigned int i = 0; i < 100; ++i)
-        {
-          const auto limit = step.friction.limit(step.pressure, distance);
-          const auto [slid, by_L] = towing.slid(limit.value / eps);
-          const double excess     = distance - slid;
-          // where the limit is constant, here and there, that is it
-          if (limit.slope == 0. &&
-              step.friction.limit(step.pressure, slid).value == limit.value)
-            return slid;
-          (excess > 0. ? high : low) = distance;
-          double next = distance - excess / (1. - by_L * limit.slope / eps);
-          if (!(next >= low && next <= high))
-            next = 0.5 * (low + high);
-          const double moved = std::abs(next - distance);
-          distance           = next;
-          if (moved <= 1e-15 * farthest)
-            break;
-        }
-      return distance;
-    }
   } // namespace
 
 
 
   TowedGap::TowedGap(const Step &step)
   {
-    const PointFriction &friction = step.friction;
-    const double         eps      = step.tangential_penalty;
-    const Vector         old_gap(step.old_gap[0], step.old_gap[1]);
-    const Path           path({step.motion[0], step.motion[1]}, friction.arc);
-    // on the way to where sliding begins the limit is that of g_s^n
-    const double    mu_old = friction.old_mu;
-    const double    change = mu_old * step.pressure / eps - friction.old_limit;
-    const Beginning beginning(path, old_gap, friction.old_limit, change);
-    const Towing    towing(path, beginning);
-    distance           = slid_distance(step, towing);
-    const auto   limit = friction.limit(step.pressure, distance);
-    const double L     = limit.value / eps;
-    mean_length        = towing.mean(L);
+    const Path      path(step.motion, step.arc);
+    const Beginning beginning(path,
+                              {step.old_gap[0], step.old_gap[1]},
+                              step.old_limit,
+                              step.held_limit - step.old_limit);
+    const Start     start(path, beginning);
+    // a string without length follows the path
+    mean_length =
+      std::max(0.5 * (start.length + step.length), 1e-12 * start.way);
+    // nothing turns where nothing moves, whatever the length
+    const double x = start.way > 0. ? 0.5 * start.way / mean_length : 0.;
+    // kappa bends away from positive alpha
+    const double  turn_left = (1. - beginning.fraction) * path.arc.turn;
+    const Turning turning(start.unit, x, -0.5 * turn_left);
+    const Vector  tau = path.direction(1.) * turning.turned;
+    direction         = {tau.real(), tau.imag()};
+    distance = mean_length * turning.growth + start.length - step.length;
 
-    // What all depends on, as rows of derivatives by old_gap, motion, pressure:
-    // first the gap where sliding begins, and where on the path that is.
-    using Row        = Eigen::Matrix<double, 1, 5>;
-    const auto along = [](const Vector &gap_part, const Vector &motion_part) {
-      Row row;
-      row << gap_part.real(), gap_part.imag(), motion_part.real(),
-        motion_part.imag(), 0.;
-      return row;
-    };
-    // of v . (old_gap + part * motion) at a fixed fraction
-    const auto of_gap = [&](const Vector &v) {
-      return along(v, v * std::conj(beginning.part));
-    };
-    const double f          = beginning.fraction;
-    Row          d_fraction = Row::Zero();
-    if (f > 0. && f < 1.)
-      {
-        d_fraction = -2. * of_gap(beginning.gap);
-        d_fraction[4] +=
-          2. * (friction.old_limit + f * change) * f * mu_old / eps;
-        d_fraction /= beginning.slope;
-      }
-    const Vector chord = path.chord, turned_chord = chord * Vector(0., 1.);
-    const double S = length_of(path.motion);
-    const Row    d_angle_of_motion =
-      S > 0. ? Row(along(0., turned_chord / S)) : Row(Row::Zero());
-    const Row d_way =
-      (1. - f) * path.length / (S > 0. ? S : 1.) * along(0., chord) -
-      path.length * d_fraction;
-    const Vector unit =
-      towing.start > 0. ? beginning.gap / towing.start : chord;
-    const Row d_start =
-      towing.start > 0. ?
-        Row(of_gap(unit) +
-            path.length * dot(unit, beginning.direction) * d_fraction) :
-        Row(Row::Zero());
-    const Row d_alpha =
-      towing.start > 0. ?
-        Row((of_gap(unit * Vector(0., 1.)) +
-             path.length * cross(unit, beginning.direction) * d_fraction) /
-              towing.start -
-            d_angle_of_motion - path.arc.turn * d_fraction) :
-        Row(Row::Zero());
-    Row d_L = Row::Zero(); // at a fixed distance
-    d_L[4]  = limit.coefficient.mu / eps;
-
-    const Vector end   = path.direction(1.);
-    Vector       tau   = end;
-    Row          d_tau = d_angle_of_motion, d_distance = d_way + d_start - d_L;
-    double       slope = 1. + limit.slope / eps;
-    if (towing.has_length(L))
-      {
-        const double  mean = towing.mean(L), x = 0.5 * towing.way / mean;
-        const Turning turning                 = towing.turning(L);
-        const Eigen::Matrix<double, 2, 3> &by = turning.derivative;
-        tau                                   = end * turning.turned;
-        // of x at a fixed L, and with it
-        const Row    d_x    = (0.5 * d_way - 0.5 * x * d_start) / mean;
-        const double x_L    = -0.5 * x / mean;
-        const Row    d_k    = 0.5 * path.arc.turn * d_fraction;
-        const double slid_L = 0.5 * turning.growth + mean * by(1, 1) * x_L;
-        slope -= slid_L * limit.slope / eps;
-        d_distance =
-          0.5 * turning.growth * d_start +
-          mean * (by(1, 0) * d_alpha + by(1, 1) * d_x + by(1, 2) * d_k) +
-          d_start + (slid_L - 1.) * d_L;
-        d_distance /= slope;
-        const Row d_L_in_all = d_L + limit.slope / eps * d_distance;
-        d_tau += by(0, 0) * d_alpha + by(0, 1) * (d_x + x_L * d_L_in_all) +
-                 by(0, 2) * d_k;
-      }
-    else
-      d_distance /= slope;
-    direction = {tau.real(), tau.imag()};
-    derivative << -tau.imag() * d_tau, tau.real() * d_tau, d_distance;
+    Row d_mean = 0.5 * start.d_length;
+    d_mean[5] += 0.5;
+    Eigen::Matrix<double, 3, 6> d;
+    d << start.d_angle,
+      (0.5 * start.d_way - x * d_mean) / (mean_length > 0. ? mean_length : 1.),
+      0.5 * path.arc.turn * start.d_fraction;
+    const Eigen::Matrix<double, 2, 6> at_end = turning.derivative * d;
+    const Row                         d_tau  = start.d_chord + at_end.row(0);
+    derivative << -tau.imag() * d_tau, tau.real() * d_tau,
+      turning.growth * d_mean + mean_length * at_end.row(1) + start.d_length;
+    derivative(2, 5) -= 1.;
   }
 } // namespace Debond

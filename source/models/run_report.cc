@@ -77,7 +77,7 @@ namespace Debond
       text << "Largest torque " << summary["T_max_Nmm"].get<double>()
            << " N mm at " << theta_max << " deg"
            << (std::isfinite(theta_full) ?
-                 ", 99.9 % of it up to " + to_text(theta_full) + " deg" :
+                 ", 99.9 % of it up to " + to_text(theta_full, 6) + " deg" :
                  "")
            << ", at the end " << rows.back().torque_Nmm << " N mm. ";
     else

@@ -2,33 +2,14 @@
 #define debond_interface_point_friction_h
 
 #include <debond/interface/friction_law.h>
+#include <debond/interface/towed_gap.h>
 
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <cmath>
-#include <complex>
 
 namespace Debond
 {
-  /** What is to be known of an arc that turns by an angle. */
-  struct Arc
-  {
-    explicit Arc(const double turn = 0.)
-      : turn(turn)
-      , chord_over_length(std::abs(turn) < 1e-5 ?
-                            1. - turn * turn / 24. :
-                            std::sin(0.5 * turn) / (0.5 * turn))
-      , half_turn(std::polar(1., 0.5 * turn))
-    {}
-
-    double               turn;              ///< [rad]
-    double               chord_over_length; ///< sin(turn/2) / (turn/2)
-    std::complex<double> half_turn;         ///< exp(i turn/2)
-  };
-
-
-
   /** The friction of a point in this step: what its law says of a distance,
    *  how sliding is resisted by its speed, and where it goes. */
   struct PointFriction
@@ -51,7 +32,7 @@ namespace Debond
     Eigen::Vector3d old_gap       = Eigen::Vector3d::Zero();
     double          old_mu        = 0.;
     double          old_limit     = 0.; ///< [mm]
-    Arc             arc;
+    Arc             arc = Arc();
 
     /** mu and its slope once the point has slid by @p distance. */
     FrictionCoefficient

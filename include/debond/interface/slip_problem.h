@@ -3,7 +3,7 @@
 
 #include <debond/geometry/surface_geometry.h>
 #include <debond/interface/contact_point_state.h>
-#include <debond/interface/towed_gap.h>
+#include <debond/interface/point_friction.h>
 
 #include <Eigen/Dense>
 
@@ -161,15 +161,9 @@ namespace Debond
     void
     integrate_slip();
 
-    /** Derivatives along N changes of x - y, x - y_n, the gap of the step
-     *  before, n, and of a_1 and a_2 as far as they change a_alpha . excess. */
-    template <int N>
-    Derivative<N>
-    along(const Eigen::Matrix<double, 3, N> &dgap,
-          const Eigen::Matrix<double, 3, N> &dtrial,
-          const Eigen::Matrix<double, 3, N> &dold,
-          const Eigen::Matrix<double, 3, N> &dn,
-          const Eigen::Matrix<double, 2, N> &excess_da) const;
+    /** What traction and distance change with. */
+    void
+    find_changes();
 
     // Of the two gaps below the first is what the springs of the interface are
     // stretched by, Eq. (26), the second what they would be stretched by
@@ -186,8 +180,10 @@ namespace Debond
     double          pull_along_n, pull_along_surface;
     Eigen::Vector3d tau;
     bool            has_direction, direction_is_given;
-    // axes of the tangent plane, for slip that is integrated
+    // axes of the tangent plane, and the direction of the gap in it, for slip
+    // that is integrated
     Eigen::Matrix<double, 3, 2> axes;
+    Eigen::Vector3d             along_gap;
 
     // The length of the slip has a derivative along its own direction. What is
     // left of the gap beside the elastic t_t / eps_t, the excess, may have a
@@ -196,6 +192,13 @@ namespace Debond
     double          limit;   ///< mu p + eta / dt times the distance [MPa]
     double          slope;   ///< its derivative [MPa/mm]
     Eigen::Vector3d excess;  ///< g - t_t / eps_t [mm]
+
+    /** How the tangential traction, and in the last row the distance, change
+     *  with x - y, x - y_n, the gap of the step before, and n. */
+    struct
+    {
+      Eigen::Matrix<double, 4, 3> gap, trial, old_gap, normal;
+    } change;
   };
 
 

@@ -1,12 +1,31 @@
 #ifndef debond_interface_towed_gap_h
 #define debond_interface_towed_gap_h
 
-#include <debond/interface/point_friction.h>
-
 #include <Eigen/Core>
+
+#include <cmath>
+#include <complex>
 
 namespace Debond
 {
+  /** What is to be known of an arc that turns by an angle. */
+  struct Arc
+  {
+    explicit Arc(const double turn = 0.)
+      : turn(turn)
+      , chord_over_length(std::abs(turn) < 1e-5 ?
+                            1. - turn * turn / 24. :
+                            std::sin(0.5 * turn) / (0.5 * turn))
+      , half_turn(std::polar(1., 0.5 * turn))
+    {}
+
+    double               turn;              ///< [rad]
+    double               chord_over_length; ///< sin(turn/2) / (turn/2)
+    std::complex<double> half_turn;         ///< exp(i turn/2)
+  };
+
+
+
   /**
    * How the gap of a sliding point turns in a step, and how far the point
    * slides: the variant `integrated' of Interface / Slip direction.
@@ -28,11 +47,12 @@ namespace Debond
     /** What is known of the step, in the tangent plane. */
     struct Step
     {
-      const PointFriction &friction;
-      double               tangential_penalty; ///< eps_t [MPa/mm]
-      double               pressure;           ///< p at the end [MPa]
-      Eigen::Vector2d      old_gap;            ///< g of the step before [mm]
-      Eigen::Vector2d      motion; ///< of the point in the step [mm]
+      const Arc      &arc;        ///< of the path
+      Eigen::Vector2d old_gap;    ///< g of the step before [mm]
+      Eigen::Vector2d motion;     ///< of the point in the step [mm]
+      double          old_limit;  ///< L at the beginning [mm]
+      double          held_limit; ///< at the end if it has not slid [mm]
+      double          length;     ///< of g at the end [mm]
     };
     explicit TowedGap(const Step &step);
 
@@ -42,8 +62,8 @@ namespace Debond
     double distance;
     /** Mean length of the gap while the point slides [mm]. */
     double mean_length;
-    /** d(direction, distance)/d(old_gap, motion, pressure). */
-    Eigen::Matrix<double, 3, 5> derivative;
+    /** d(direction, distance)/d(old_gap, motion, held_limit, length). */
+    Eigen::Matrix<double, 3, 6> derivative;
   };
 } // namespace Debond
 #endif

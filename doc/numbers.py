@@ -718,6 +718,41 @@ def ensemble_correlation():
 # Pages
 
 
+@numbers('seconds')
+def one_step_of_ten_degrees():
+    return steps_of_the_main_scene().split()[-1]
+
+
+@numbers('minutes')
+def turning_slip():
+    scene = ('prm/stability/rigid_coin.prm', 'Load steps/Times=0, 1, 2, 3', 'Implant/Cells=%s, 2',
+             'Chuck/Translation x/Value=0.02 * min(max(t - 1, 0), 1)', 'Chuck/Rotation z/Value=2 * max(t - 2, 0)')
+
+    def between(curve, column, time):
+        after = next(k for k, row in enumerate(curve) if row['time'] >= time - 1e-12)
+        begin, end = curve[max(after - 1, 0)], curve[after]
+        share = (time - begin['time']) / (end['time'] - begin['time']) if after else 0
+        return begin[column] + share * (end[column] - begin[column])
+
+    def errors(reference, curve):
+        for column in ('chuck_Fx_N', 'torque_Nmm'):
+            largest = max(abs(row[column]) for row in reference)
+            yield max(abs(row[column] - between(curve, column, row['time'])) for row in reference) / largest
+
+    lines = []
+    for name, cells, bodies, steps in (('rigid', 12, (), 800), ('linear', 3, LINEAR, 600)):
+        motion = tuple(entry % cells if '%' in entry else entry for entry in scene) + bodies
+        reference = run(*motion, 'Load steps/Steps=1, %d, %d' % (steps, steps))['curve']
+        for tolerance in ('1e-2', '1e-3', '1e-4'):
+            line = [('%s, ' % name if tolerance == '1e-2' else '') + tolerance]
+            for direction in ('integrated', 'trial'):
+                curve = run(*motion, 'Load steps/Adaptive=true', 'Load steps/Steps=1, 10, 10', 'Load steps/Tolerance=' + tolerance,
+                            'Interface/Slip direction=' + direction)['curve']
+                line += [str(len(curve))] + ['%.1e' % error for error in errors(reference, curve)]
+            lines.append(line)
+    return table(['tolerance', '`integrated`: rows', 'Fx', 'torque', '`trial`: rows', 'Fx', 'torque'], lines)
+
+
 def pages():
     return ['README.md', 'tests/comparison/README.md'] + sorted(glob.glob('doc/*.md'))
 

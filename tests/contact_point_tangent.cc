@@ -576,7 +576,7 @@ chain(const ContactPointResult &result,
       Matrix                   &dt,
       Matrix                   &dforce)
 {
-  Matrix W = Matrix::Zero(18, 3 + 3 * n_control_points);
+  Matrix W = Matrix::Zero(ContactPointResult::n_w, 3 + 3 * n_control_points);
   W.topLeftCorner<3, 3>().setIdentity();
   const auto add_block =
     [&](const int row, const unsigned int A, const double factor) {
@@ -713,9 +713,8 @@ place(Setting               &setting,
   const Eigen::Vector3d e_1 = geometry.a1.normalized();
   const Eigen::Vector3d e_2 = n.cross(e_1);
   setting.old_state.xi      = xi;
-  setting.mode.way          = {
-             {e_1, std::cos(setting.turn) * e_1 + std::sin(setting.turn) * e_2}};
-  setting.x = geometry.y + g_n * n +
+  setting.mode.turn         = setting.turn;
+  setting.x                 = geometry.y + g_n * n +
               g_t * (std::cos(angle) * e_1 + std::sin(angle) * e_2);
 }
 
@@ -901,6 +900,7 @@ main()
   Setting basic;
   basic.law.normal             = penalty_law(basic.eps_n);
   basic.law.tangential_penalty = 250;
+  basic.law.slip_direction     = SlipDirection::trial;
   basic.old_state.status       = PointStatus::stick;
   basic.old_state.has_partner  = true;
   const double      g_n        = -0.02;

@@ -230,31 +230,53 @@ namespace Debond
       Eigen::Matrix3d turn; ///< from beginning to end
       Eigen::Vector3d axis; ///< of the turn, times its angle [rad]
       Eigen::Vector3d old_centre, centre; ///< [mm]
+      Eigen::Vector3d implant_axis;       ///< e_z of its frame at the end
 
+      /** @p dq: moves @p component of the chuck a little further. */
       RigidMotion(const Eigen::Matrix3d        &old_frame,
                   const Eigen::Vector3d        &old_centre,
-                  const InterfaceConfiguration &configuration)
-        : turn(configuration.side[Side::implant].frame * old_frame.transpose())
-        , old_centre(old_centre)
+                  const InterfaceConfiguration &configuration,
+                  const unsigned int            component = 0,
+                  const double                  dq        = 0.)
+        : old_centre(old_centre)
         , centre(configuration.chuck->centre())
       {
+        Eigen::Matrix3d frame = configuration.side[Side::implant].frame;
+        if (is_rotation(component))
+          frame =
+            Eigen::AngleAxisd(dq, configuration.chuck->axis(component)) * frame;
+        else
+          centre[component] += dq;
+        implant_axis = frame.col(2);
+        turn         = frame * old_frame.transpose();
         const Eigen::AngleAxisd rotation(turn);
         axis = rotation.angle() * rotation.axis();
       }
 
-      /** Where it takes a point of the slave that ends up at @p x over the
-       *  master, at the beginning and at the end. */
-      std::array<Eigen::Vector3d, 2>
-      way(const Eigen::Vector3d &x, const Side slave) const
+      /** The angle by which it turns the way of a point of the slave that was
+       *  at @p x over the master, about the master's axis at the end [rad]. */
+      double
+      turn_of_way(const Eigen::Vector3d &x, const Side slave) const
       {
-        const auto velocity = [&](const Eigen::Vector3d &r) {
+        Eigen::Vector3d n        = Eigen::Vector3d::UnitZ();
+        const auto      velocity = [&](const Eigen::Vector3d &r) {
           return Eigen::Vector3d(centre - old_centre + axis.cross(r));
         };
-        if (slave == Side::implant)
-          return {
-            {velocity(turn.transpose() * (x - centre)), velocity(x - centre)}};
-        // the bone stays, and is seen from the implant, which turns
-        return {{-turn * velocity(x - old_centre), -velocity(x - centre)}};
+        const Eigen::Vector3d r     = x - old_centre;
+        Eigen::Vector3d       first = velocity(r), last = velocity(turn * r);
+        if (slave == Side::bone) // it stays, and is seen from the implant
+          {
+            n     = implant_axis;
+            first = turn * first;
+            last  = velocity(x - centre);
+          }
+        // along the axis alone it goes nowhere over the master, but for
+        // rounding
+        const double sine   = n.dot(first.cross(last)),
+                     cosine = first.dot(last) - n.dot(first) * n.dot(last);
+        return std::hypot(sine, cosine) > 1e-12 * first.norm() * last.norm() ?
+                 std::atan2(sine, cosine) :
+                 0.;
       }
     };
   } // namespace
@@ -280,17 +302,29 @@ namespace Debond
     const double        moved   = motion(configuration);
     const auto         &sides   = configuration.side;
     mode_now                    = mode;
-    const RigidMotion rigid_motion(accepted_frame,
-                                   accepted_centre,
-                                   configuration);
-    const auto        update = [&](const unsigned int q, NodalSums &sums) {
-      SlavePoint &point = points[q];
+    // how the implant moves in the step, and how it would if an unknown
+    // component of the chuck went a little less or more far, compared with the
+    // motion of the step
+    const RigidMotion rigid(accepted_frame, accepted_centre, configuration);
+    const double      dq = 1e-6 * ((rigid.centre - accepted_centre).norm() +
+                              rigid.axis.norm()); // [mm], [rad]
+    std::vector<RigidMotion> varied;
+    for (const auto &unknown : configuration.chuck_unknowns)
+      for (const double sign : {-1., 1.})
+        varied.emplace_back(accepted_frame,
+                            accepted_centre,
+                            configuration,
+                            unknown.first,
+                            sign * dq);
+    const auto update = [&](const unsigned int q, NodalSums &sums) {
+      SlavePoint         &point  = points[q];
+      ContactPointResult &result = point.trial;
       // Most points beyond the edge stay there: they need no projection until
       // the surfaces may have come close enough. With the bone as slave that is
       // most of its face in the paper's test.
       if (!point.accepted.has_partner && point.clearance > moved)
         {
-          leave_open(law, point.accepted, point.trial);
+          leave_open(law, point.accepted, result);
           return;
         }
       ContactPointState entered;
@@ -309,19 +343,29 @@ namespace Debond
       const Eigen::Vector3d x =
         interpolate(point.basis, sides[slave].positions);
       if (law.slip_direction == SlipDirection::integrated)
-        mode_here.way = rigid_motion.way(x, slave);
+        {
+          const Eigen::Vector3d old_x =
+            interpolate(point.basis, accepted_positions[slave]);
+          mode_here.turn = rigid.turn_of_way(old_x, slave);
+          for (unsigned int i = 0; i < varied.size(); i += 2)
+            result.turn_by_chuck[configuration.chuck_unknowns[i / 2].first] =
+              dq > 0. ? (varied[i + 1].turn_of_way(old_x, slave) -
+                         varied[i].turn_of_way(old_x, slave)) /
+                          (2. * dq) :
+                        0.;
+        }
       update_contact_point(
-        law, start, point.phi_0, x, surface, mode_here, point.trial);
-      if (point.trial.state.status == PointStatus::open)
+        law, start, point.phi_0, x, surface, mode_here, result);
+      if (result.state.status == PointStatus::open)
         return;
       // f_A = int N_A t dA on the slave, and the opposite on the master at
       // xi_hat, Eq. (36). What one side gets the other one gives at the same
       // parameters, so that the forces of both sides add up to zero but for
       // rounding. Their moments do up to f times the gap between x and
       // y(xi_hat), by which the springs of the interface are stretched.
-      const Eigen::Vector3d f = point.JxW * point.trial.traction;
+      const Eigen::Vector3d f = point.JxW * result.traction;
       spread(point.basis, f, sums[slave]);
-      spread(point.trial.basis, -f, sums[master_side()]);
+      spread(result.basis, -f, sums[master_side()]);
     };
     forces = sum_in_chunks(points.size(), configuration, update);
     // One point without a solution is enough to fail the iteration: a traction
@@ -553,12 +597,13 @@ namespace Debond
 
 
 
-  // While a point slides it dissipates t_t . dy: where slip is integrated over
-  // the step its update says how much, else it is a trapezoid between the
-  // accepted and the trial traction, of which the accepted one was kept in the
-  // frame of the master. Beside that stands the work that the law itself allows
-  // for this slip, with the exact integral of mu over the distance: a step in
-  // which the state jumps cannot dissipate more.
+  // While a point slides it dissipates t_t . dy, taken as a trapezoid between
+  // the accepted and the trial traction, of which the accepted one was kept in
+  // the frame of the master. With the trapezoid of the chuck's work that makes
+  // the balance of energies an identity, but for turns. Beside that stands the
+  // work that the law itself allows for this slip, with the exact integral of
+  // mu over the distance: a step in which the state jumps cannot dissipate
+  // more.
   void
   InterfaceWork::add(const SlavePoint       &point,
                      const FrictionLaw      &law,
@@ -572,18 +617,10 @@ namespace Debond
     // positive where sliding costs energy [N mm]. With the tractions at the end
     // alone it is negative only where points slide along their traction, which
     // no law of friction does.
-    if (trial.dissipated)
-      {
-        step_dissipation += point.JxW * *trial.dissipated;
-        dissipation += point.JxW * *trial.dissipated;
-      }
-    else
-      {
-        step_dissipation += trial.tangential_traction.dot(slip);
-        dissipation +=
-          0.5 * (frame * point.accepted_traction + trial.tangential_traction)
-                  .dot(slip);
-      }
+    step_dissipation += trial.tangential_traction.dot(slip);
+    dissipation +=
+      0.5 *
+      (frame * point.accepted_traction + trial.tangential_traction).dot(slip);
     // The viscous traction is anything between its two ends. It stands in both
     // balances, of which the second takes the law for the rest.
     const double viscous_part =

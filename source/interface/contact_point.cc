@@ -40,7 +40,6 @@ namespace Debond
     result.normal_gap = result.energy = result.softening = result.path_to_edge =
       result.state.pressure                              = 0.;
     result.state.gap.setZero();
-    result.dissipated.reset();
     result.dt.setZero();
     result.dxi.setZero();
   }
@@ -151,10 +150,7 @@ namespace Debond
           start.gap[0] * old.geometry.a1 + start.gap[1] * old.geometry.a2;
         friction.old_mu    = mu;
         friction.old_limit = mu * start.pressure / law.tangential_penalty;
-        const auto &[first, last] = mode.way;
-        friction.arc =
-          Arc(std::atan2(old.n.dot(first.cross(last)),
-                         first.dot(last) - old.n.dot(first) * old.n.dot(last)));
+        friction.arc       = Arc(mode.turn);
       }
 
       // Contact is where g_n < 0, or less than the reach of a law with strength
@@ -216,7 +212,6 @@ namespace Debond
         result.energy = response.energy +
                         0.5 * result.tangential_traction.squaredNorm() / eps_t;
         result.slip_increment = result.viscous_traction = Vector3d::Zero();
-        result.dissipated.reset();
 
         // The tangent follows from g = x - y and n(a_1, a_2) alone, since
         // xi_hat does not move:
@@ -227,7 +222,6 @@ namespace Debond
         // the normal has a part. Columns of y_n stay 0: y(xi_hat^n) is y here.
         constexpr int at_x = 0, at_y = 3, at_a1 = 6; // columns of w
         result.dxi.setZero();
-        result.dt.setZero();
         result.dt.setZero();
         const Matrix3d along_gap =
           eps_t * Matrix3d::Identity() + (eps_n - eps_t) * n * n.transpose();

@@ -1,5 +1,7 @@
 #include <debond/interface/contact_interface.h>
 
+#include <tuple>
+
 namespace Debond
 {
   // The tangent of the nodal forces of Eq. (36). Where the update of a point
@@ -15,15 +17,16 @@ namespace Debond
 
   namespace
   {
-    // The local unknowns of a point are w = (x, y, a_1, a_2, y_n, g_n), see
-    // ContactPointResult: six vectors, each of which is a sum over control
+    // The local unknowns of a point are w = (x, y, a_1, a_2, y_n, g_n, turn),
+    // see ContactPointResult: six vectors, each of which is a sum over control
     // points with the factors N_A of the slave, N_B, N_B,1 and N_B,2 of the
     // master at xi_hat, and of the master at xi_hat^n N_B and, with the parts
-    // of the old gap, g^alpha N_B,alpha.
+    // of the old gap, g^alpha N_B,alpha; and an angle, which changes with the
+    // chuck alone.
     //
     // Two forms of the tangent follow. Both go through w, so that they share
-    // the derivatives of the update, 3 x 18 and 2 x 18 numbers for a point.
-    using LocalVector = Matrix<double, 18, 1>;
+    // the derivatives of the update, 3 x 19 and 2 x 19 numbers for a point.
+    using LocalVector = Matrix<double, ContactPointResult::n_w, 1>;
 
     // The factors of g_n: the old gap has the parts g^alpha along a_alpha at
     // xi_hat^n, and moves with them.
@@ -44,7 +47,8 @@ namespace Debond
     LocalVector
     local_motion(const SlavePoint &point,
                  const Side        slave,
-                 const NodalSums  &moved)
+                 const NodalSums  &moved,
+                 const double      turn)
     {
       const NodalSums::value_type &master = moved[other(slave)];
       SurfaceGeometry              motion;
@@ -54,14 +58,13 @@ namespace Debond
       contract(point.trial.basis, master, false, motion);
       LocalVector dw;
       dw << interpolate(point.basis, moved[slave]), motion.y, motion.a1,
-        motion.a2, Vector3d::Zero(), Vector3d::Zero();
+        motion.a2, Vector3d::Zero(), Vector3d::Zero(), turn;
       if (point.trial.state.status != PointStatus::slip)
         return dw;
       const SurfaceBasis &old = point.trial.old_basis;
       dw.segment<3>(12)       = interpolate(old, master);
-      // only slip that is integrated over the step knows the old gap
-      for (unsigned int b = 0; point.trial.dissipated && b < old.size; ++b)
-        dw.tail<3>() +=
+      for (unsigned int b = 0; b < old.size; ++b)
+        dw.segment<3>(15) +=
           along_old_gap(point, b) * master.col(old.control_point[b]);
       return dw;
     }
@@ -214,16 +217,19 @@ namespace Debond
         // Unknowns are displacements in the frame of their body: its axes are
         // turned into space by Q. Columns of Q are the three directions.
         for (unsigned int c = 0; c < 3; ++c)
-          add(side.unknown_of[3 * control_point + c],
-              (side.frame.col(c) * factors).reshaped());
+          {
+            LocalVector motion;
+            motion << (side.frame.col(c) * factors).reshaped(), 0.;
+            add(side.unknown_of[3 * control_point + c], motion);
+          }
       }
 
       static constexpr int max_unknowns = 3 * 27 + 6;
       using Rows = Matrix<double, Eigen::Dynamic, 1, 0, max_unknowns, 1>;
 
-      Matrix<double, 18, max_unknowns> dw;
-      std::array<int, max_unknowns>    number;
-      unsigned int                     n = 0;
+      Matrix<double, ContactPointResult::n_w, max_unknowns> dw;
+      std::array<int, max_unknowns>                         number;
+      unsigned int                                          n = 0;
     };
   } // namespace
 
@@ -241,9 +247,10 @@ namespace Debond
   ContactInterface::add_tangent(const InterfaceConfiguration &configuration,
                                 Eigen::MatrixXd              &matrix) const
   {
-    std::vector<std::pair<int, NodalSums>> chuck;
+    std::vector<std::tuple<unsigned int, int, NodalSums>> chuck;
     for (const auto &[component, number] : configuration.chuck_unknowns)
-      chuck.emplace_back(number,
+      chuck.emplace_back(component,
+                         number,
                          nodal_motion(Eigen::VectorXd::Unit(matrix.cols(),
                                                             number),
                                       configuration));
@@ -252,8 +259,12 @@ namespace Debond
       if (point.trial.state.status != PointStatus::open)
         {
           UnknownMotions motions(point, slave, configuration);
-          for (const auto &[number, moved] : chuck)
-            motions.add(number, local_motion(point, slave, moved));
+          for (const auto &[component, number, moved] : chuck)
+            motions.add(number,
+                        local_motion(point,
+                                     slave,
+                                     moved,
+                                     point.trial.turn_by_chuck[component]));
           motions.add_tangent(point, matrix);
         }
   }
@@ -273,22 +284,25 @@ namespace Debond
                                   const Eigen::VectorXd        &direction,
                                   Eigen::VectorXd              &result) const
   {
-    const NodalSums moved = nodal_motion(direction, configuration);
-    const NodalSums change =
-      sum_in_chunks(points.size(),
+    const NodalSums moved  = nodal_motion(direction, configuration);
+    const auto      change = [&](const unsigned int q, NodalSums &sums) {
+      const SlavePoint &point = points[q];
+      if (point.trial.state.status == PointStatus::open)
+        return;
+      double turn = 0.;
+      for (const auto &[component, number] : configuration.chuck_unknowns)
+        turn += point.trial.turn_by_chuck[component] * direction[number];
+      const auto dw = local_motion(point, slave, moved, turn);
+      spread_change(point,
+                    slave,
+                    point.JxW * (point.trial.dt * dw),
+                    point.trial.dxi * dw,
+                    sums);
+    };
+    add_in_unknowns(sum_in_chunks(points.size(), configuration, change),
                     configuration,
-                    [&](const unsigned int q, NodalSums &sums) {
-                      const SlavePoint &point = points[q];
-                      if (point.trial.state.status == PointStatus::open)
-                        return;
-                      const auto dw = local_motion(point, slave, moved);
-                      spread_change(point,
-                                    slave,
-                                    point.JxW * (point.trial.dt * dw),
-                                    point.trial.dxi * dw,
-                                    sums);
-                    });
-    add_in_unknowns(change, configuration, 1., result);
+                    1.,
+                    result);
   }
 
 
@@ -323,12 +337,17 @@ namespace Debond
         spread_local(point, slave, d.head<12>(), result.gradient);
         for (unsigned int b = 0; b < old.size; ++b)
           result.gradient[master_side()].col(old.control_point[b]) +=
-            old.N[b] * d.segment<3>(12) + along_old_gap(point, b) * d.tail<3>();
+            old.N[b] * d.segment<3>(12) +
+            along_old_gap(point, b) * d.segment<3>(15);
+        for (const auto &unknown : configuration.chuck_unknowns)
+          result.by_chuck[unknown.first] +=
+            d[18] * trial.turn_by_chuck[unknown.first];
       }
     // dimensionless gradient: mm of mean slip per mm of a control point
     result.value /= area;
     for (ControlNet &gradient : result.gradient)
       gradient /= area;
+    result.by_chuck /= area;
     return result;
   }
 } // namespace Debond

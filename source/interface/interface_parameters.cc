@@ -87,12 +87,13 @@ namespace Debond
     table.add(
       "Slip direction",
       slip_direction,
-      Allowed::choice("trial | previous gap | integrated"),
-      "Direction in which a sliding point is pulled. `trial': that of the gap "
-      "which it would have without sliding in this step, of first order in the "
-      "step where the direction turns. `previous gap': that of the step before, "
-      "Eq. (31) as printed, which can never turn. `integrated': the point tows "
-      "its interacting point along its way in the step, of second order.");
+      Allowed::choice("integrated | trial | previous gap"),
+      "Direction in which a sliding point is pulled. `integrated': the point "
+      "tows its interacting point along its way in the step, of second order "
+      "in the step. `trial': that of the gap which it would have without "
+      "sliding in this step, of first order where the direction turns. "
+      "`previous gap': that of the step before, Eq. (31) as printed, which can "
+      "never turn. The last two are there to compare with.");
     table.add(
       "Friction update",
       explicit_friction,

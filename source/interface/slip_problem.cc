@@ -202,7 +202,7 @@ namespace Debond
         // parts of a vector v in the plane change by t . dv - (n . v) t . dn.
         Eigen::Matrix<double, 4, 3> of_towed;
         of_towed << limit * axes, slope * tau, 0., 0., 1.;
-        const Eigen::Matrix<double, 4, 6> by = of_towed * towed->derivative;
+        const Eigen::Matrix<double, 4, 7> by = of_towed * towed->derivative;
         const Eigen::Matrix<double, 4, 3> held =
                                             by.leftCols<2>() * axes.transpose(),
                                           moved = by.middleCols<2>(2) *
@@ -212,6 +212,7 @@ namespace Debond
         change.old_gap = held - moved;
         change.trial   = moved;
         change.gap     = by.col(5) * along_gap.transpose();
+        change.turn    = by.col(6);
         change.normal =
           -n.dot(g) * held - n.dot(trial_gap - g) * moved - g_n * change.gap;
       }
@@ -222,6 +223,7 @@ namespace Debond
         change.trial = by_distance * forward.transpose();
         change.gap   = -change.trial;
         change.old_gap.setZero();
+        change.turn.setZero();
         change.normal.setZero();
         if (has_direction)
           {
@@ -244,21 +246,21 @@ namespace Debond
 
 
 
-  // With respect to w = (x, y, a_1, a_2, y_n, g_n), at fixed xi_hat. x moves
-  // both gaps, y the gap alone, y_n the trial gap alone, the tangents the
+  // With respect to w = (x, y, a_1, a_2, y_n, g_n, turn), at fixed xi_hat. x
+  // moves both gaps, y the gap alone, y_n the trial gap alone, the tangents the
   // normal and what of the excess lies along them. The traction is t = -p n +
   // t_t, and of the excess g - t_t / eps_t the parts in the surface are h.
-  inline SlipEquations::Derivative<18>
+  inline SlipEquations::Derivative<ContactPointResult::n_w>
   SlipEquations::along_w() const
   {
     constexpr int   at_x = 0, at_y = 3, at_a1 = 6, at_a2 = 9; // columns of w
-    const Vector3d &n                    = normal.n;
-    const Eigen::Matrix<double, 3, 6> dn = normal.derivative();
-    Eigen::Matrix<double, 4, 18>      d;
+    const Vector3d &n                                    = normal.n;
+    const Eigen::Matrix<double, 3, 6>                 dn = normal.derivative();
+    Eigen::Matrix<double, 4, ContactPointResult::n_w> d;
     d << change.gap + change.trial, -change.gap, change.normal * dn,
-      -change.trial, change.old_gap;
+      -change.trial, change.old_gap, change.turn;
 
-    Derivative<18> result;
+    Derivative<ContactPointResult::n_w> result;
     result.distance        = d.row(3);
     result.traction        = d.topRows<3>();
     const Matrix3d along_n = normal_response.stiffness * n * n.transpose();
@@ -425,9 +427,6 @@ namespace Debond
     result.energy =
       e.normal_response.energy +
       0.5 * e.tangential_traction.squaredNorm() / law.tangential_penalty;
-    if (e.towed)
-      result.dissipated =
-        law.tangential_penalty * e.towed->mean_length * e.distance;
     // g_s = g_s^n + |y - y_n|, Eq. (32), and what else the law remembers; it is
     // the history of the point once the step is accepted
     if (!friction.frictionless)

@@ -66,6 +66,33 @@ namespace Debond
                           0.5 * (behind.turn - arc.turn));
       }
 
+      /** Its derivative by the turn. */
+      Vector
+      part_by_turn(const double fraction) const
+      {
+        if (fraction == 0. || fraction == 1.)
+          return 0.;
+        const double f = fraction, t = arc.turn, h = 0.5 * t;
+        // sin(f h) / sin(h) = f (1 + (1 - f^2) (t^2 / 24 + (7 - 3 f^2) t^4 /
+        // 5760 + ...))
+        const double ratio_by_turn =
+          std::abs(t) < 0.02 ?
+            f * (1. - f * f) *
+              (t / 12. + (7. - 3. * f * f) * t * t * t / 1440.) :
+            0.5 * (f * std::cos(f * h) - std::sin(f * h) / std::tan(h)) /
+              std::sin(h);
+        return ratio_by_turn * std::polar(1., h * (f - 1.)) +
+               0.5 * (f - 1.) * perpendicular(part(f));
+      }
+      double
+      length_by_turn() const
+      {
+        const double t = arc.turn, c = arc.chord_over_length;
+        return -length / c *
+               (std::abs(t) < 0.02 ? -t / 12. + t * t * t / 480. :
+                                     (std::cos(0.5 * t) - c) / t);
+      }
+
       Vector
       direction(const double fraction) const
       {
@@ -202,7 +229,7 @@ namespace Debond
 
 
 
-    using Row = Eigen::Matrix<double, 1, 6>;
+    using Row = Eigen::Matrix<double, 1, 7>;
 
     /** How the string lies when sliding begins, and how far the point then has
      *  to go, with derivatives like those of TowedGap. */
@@ -219,34 +246,42 @@ namespace Debond
         : way((1. - beginning.fraction) * path.length)
         , length(length_of(beginning.gap))
       {
-        const Vector gap = length > 0. ? beginning.gap / length : path.chord;
-        unit             = gap * std::conj(beginning.direction);
+        // a string without length lies along the path
+        const Vector gap =
+          length > 0. ? beginning.gap / length : beginning.direction;
+        unit           = gap * std::conj(beginning.direction);
         const auto row = [](const Vector &gap_part, const Vector &motion_part) {
           Row result;
           result << gap_part.real(), gap_part.imag(), motion_part.real(),
-            motion_part.imag(), 0., 0.;
+            motion_part.imag(), 0., 0., 0.;
           return result;
         };
+        const double f = beginning.fraction;
         // of v . (old_gap + part * motion) at a fixed fraction
-        const auto of_gap = [&](const Vector &v) {
-          return row(v, v * std::conj(beginning.part));
+        const Vector by_turn = path.part_by_turn(f) * path.motion;
+        const auto   of_gap  = [&](const Vector &v) {
+          Row result = row(v, v * std::conj(beginning.part));
+          result[6]  = dot(v, by_turn);
+          return result;
         };
         const double over_chord =
           path.chord_length > 0. ? 1. / path.chord_length : 0.;
-        d_chord = row(0., perpendicular(path.chord) * over_chord);
-        d_way   = row(0., path.chord * (way * over_chord));
+        d_chord  = row(0., perpendicular(path.chord) * over_chord);
+        d_way    = row(0., path.chord * (way * over_chord));
+        d_way[6] = (1. - f) * path.length_by_turn();
         d_length.setZero();
         d_angle.setZero();
-        if (length > 0.) // else the string lies along the path
+        if (length > 0.)
           {
             d_length = of_gap(gap);
             d_angle  = of_gap(perpendicular(gap) / length) - d_chord;
+            d_angle[6] -= f - 0.5;
           }
-        if (beginning.fraction == 0. || beginning.fraction == 1.)
+        if (f == 0. || f == 1.)
           return;
         // where it begins moves, too
         d_fraction = -2. * length * d_length;
-        d_fraction[4] += 2. * beginning.limit * beginning.fraction;
+        d_fraction[4] += 2. * beginning.limit * f;
         d_fraction /= beginning.slope;
         d_way -= path.length * d_fraction;
         d_length += path.length * dot(gap, beginning.direction) * d_fraction;
@@ -281,12 +316,14 @@ namespace Debond
 
     Row d_mean = 0.5 * start.d_length;
     d_mean[5] += 0.5;
-    Eigen::Matrix<double, 3, 6> d;
+    Eigen::Matrix<double, 3, 7> d;
     d << start.d_angle,
       (0.5 * start.d_way - x * d_mean) / (mean_length > 0. ? mean_length : 1.),
       0.5 * path.arc.turn * start.d_fraction;
-    const Eigen::Matrix<double, 2, 6> at_end = turning.derivative * d;
-    const Row                         d_tau  = start.d_chord + at_end.row(0);
+    d(2, 6) -= 0.5 * (1. - beginning.fraction);
+    const Eigen::Matrix<double, 2, 7> at_end = turning.derivative * d;
+    Row                               d_tau  = start.d_chord + at_end.row(0);
+    d_tau[6] += 0.5;
     derivative << -tau.imag() * d_tau, tau.real() * d_tau,
       turning.growth * d_mean + mean_length * at_end.row(1) + start.d_length;
     derivative(2, 5) -= 1.;

@@ -284,10 +284,10 @@ namespace Debond
     if (!is_first && turn > 1.001 * largest_turn && parameters.has_friction())
       note("turn",
            Text() << "the implant turned by " << turn * 180. / M_PI
-                  << " degrees in one step: sliding points are pulled along "
-                     "the chords of their paths, and friction is too small by "
-                     "1 - cos of half the angle, "
-                  << 1. - std::cos(0.5 * turn) << " of itself");
+                  << " degrees in one step: dissipation is summed over the "
+                     "chords of paths, and too small by a sixth of the square "
+                     "of the angle, "
+                  << turn * turn / 6. << " of itself");
     if (reaction_defect >
         std::max(1e-6, 100. * parameters.load_steps.residual_tolerance))
       note("reaction",

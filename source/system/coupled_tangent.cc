@@ -45,6 +45,8 @@ namespace Debond
     const MeanSlip mean   = interface.mean_slip(configuration);
     const double   weight = reference / slip;
     add_in_unknowns(mean.gradient, configuration, weight, gradient);
+    for (const auto &[component, row] : configuration.chuck_unknowns)
+      gradient[row] += weight * mean.by_chuck[component];
     return weight * (mean.value - old_slip - slip);
   }
 

@@ -91,8 +91,8 @@ namespace Debond
       Allowed::list(Allowed::whole_number(1, 10000000), 1, 0),
       "Number of planned steps in each phase: one number less than Times. With "
       "Adaptive this sets the largest step. A step that turns the chuck by "
-      "more than 5 degrees is divided: sliding points are pulled along the "
-      "chords of their paths.");
+      "more than 5 degrees is divided: works are summed over the chords of "
+      "paths.");
     table.add("Adaptive",
               adaptive,
               Allowed::choice("false | true"),
@@ -109,8 +109,9 @@ namespace Debond
               Allowed::number_between(1e-7, 1, ""),
               "Relative accuracy wanted of the torque curve. With Adaptive "
               "that of drawing it as straight lines between the steps, whose "
-              "states are taken to be exact: they are in a pure twist, but of "
-              "first order in the step where the direction of slip turns; with "
+              "states are taken to be exact: they nearly are, but with "
+              "Interface / Slip direction = trial, which is of first order in "
+              "the step where the direction of slip turns; with "
               "Model = auto the largest difference, relative to the largest "
               "torque, from the curve of the scene's bodies on a converged "
               "mesh. Else not used.");

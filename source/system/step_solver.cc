@@ -89,11 +89,12 @@ namespace Debond
   StepSolver::solve(const Step &step)
   {
     StepResult result;
-    // A sliding point is pulled along the chord of its path. If that turns too
-    // far from the direction at its end the step is not even tried: the torque
-    // would be too small by cos(angle / 2), a thousandth at 5 degrees, and the
-    // residual would not show it. It is the whole step that counts, even if
-    // only the first half of it is on trial.
+    // Works are trapezoids over the chords of paths, which are too small by
+    // angle^2 / 6 where points slide round in a circle, a thousandth at 5
+    // degrees; along the trial gap friction itself is too small by cos(angle /
+    // 2). Steps that turn further are not even tried: the residual would not
+    // show it. It is the whole step that counts, even if only the first half of
+    // it is on trial.
     // A rotation that is found, by a moment or along a path, is not known
     // before. Without friction there is no direction of slip.
     const auto turn = [&](const unsigned int k) {

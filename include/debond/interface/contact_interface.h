@@ -36,11 +36,13 @@ namespace Debond
 
   /** Area mean of the sliding distance g_s over the contact face [mm], and its
    *  derivatives with respect to the positions of the control points of both
-   *  surfaces, in space. */
+   *  surfaces, in space, and to the chuck where these stay: it turns the way of
+   *  the points. */
   struct MeanSlip
   {
-    double    value = 0;
-    NodalSums gradient;
+    double                      value = 0;
+    NodalSums                   gradient;
+    Eigen::Matrix<double, 6, 1> by_chuck = Eigen::Matrix<double, 6, 1>::Zero();
   };
 
   /** The works of the interface up to the accepted state [N mm]. */

@@ -58,9 +58,9 @@ namespace Debond
   /** Where a point slides in a step. */
   enum class SlipDirection
   {
-    trial,        ///< along the gap that it would have without sliding
-    previous_gap, ///< along that of the step before, Eq. (31) as printed
-    integrated    ///< along its way, see TowedGap
+    integrated,  ///< along its way, see TowedGap
+    trial,       ///< along the gap that it would have without sliding
+    previous_gap ///< along that of the step before, Eq. (31) as printed
   };
 
   /** What governs all points of an interface. */
@@ -76,7 +76,7 @@ namespace Debond
     /** mu at g_s^n instead of g_s: a variant that the implicit law is compared
      *  with. */
     bool          explicit_friction = false;
-    SlipDirection slip_direction    = SlipDirection::trial;
+    SlipDirection slip_direction    = SlipDirection::integrated;
   };
 } // namespace Debond
 #endif

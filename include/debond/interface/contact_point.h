@@ -47,11 +47,11 @@ namespace Debond
    *
    *   h_alpha = a_alpha . (g - t_t / eps_t) = 0,
    *   t_t = (mu(g_s) p + eta (g_s - g_s^n) / dt) tau,
-   *   g_s = g_s^n + |y(xi_hat) - y(xi_hat^n)|            [Eq. (32)],
    *
-   * with tau the direction of the trial gap x - y(xi_hat^n) projected on the
-   * tangent plane at xi_hat, and mu taken at the updated g_s; @p law and @p
-   * mode may say otherwise.
+   * with mu taken at the updated g_s. tau and g_s are those of TowedGap, or,
+   * with SlipDirection::trial, tau is the direction of the trial gap x -
+   * y(xi_hat^n) projected on the tangent plane at xi_hat and g_s = g_s^n +
+   * |y(xi_hat) - y(xi_hat^n)| [Eq. (32)].
    */
   void
   update_contact_point(const ContactPointLaw   &law,

@@ -7,7 +7,6 @@
 #include <Eigen/Core>
 
 #include <array>
-#include <optional>
 
 namespace Debond
 {
@@ -80,37 +79,34 @@ namespace Debond
     /** For SlipDirection::previous_gap: that gap in space, of any length; zero:
      *  there is none yet. The tangent takes it as fixed. */
     Eigen::Vector3d slip_direction = Eigen::Vector3d::Zero();
-    /** For SlipDirection::integrated: where the rigid motion of the bodies
-     * takes the point over the master at the beginning and at the end of the
-     * step, in space, of any length: the angle between them is that by which
-     * its way turns. The tangent takes them as fixed. */
-    std::array<Eigen::Vector3d, 2> way{
-      {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}};
+    /** For SlipDirection::integrated: the angle by which the rigid motion of
+     *  the bodies turns the way of the point over the master in the step, about
+     *  the normal [rad]. */
+    double turn = 0;
   };
 
   /**
    * Everything one quadrature point contributes.
    *
-   * Derivatives are with respect to w = (x, y, a_1, a_2, y_n, g_n), 18 numbers:
-   * slave point, master point and tangents at xi_hat, the master point at the
-   * old xi_hat^n, and the tangential gap of the step before where the master
-   * has taken it. They are total: the motion of xi_hat is eliminated by the
-   * implicit function theorem on its two equations.
+   * Derivatives are with respect to w = (x, y, a_1, a_2, y_n, g_n, turn), 19
+   * numbers: slave point, master point and tangents at xi_hat, the master point
+   * at the old xi_hat^n, the tangential gap of the step before where the master
+   * has taken it, and the angle by which the point's way turns. They are total:
+   * the motion of xi_hat is eliminated by the implicit function theorem on its
+   * two equations.
    */
   struct ContactPointResult
   {
-    ContactPointState state;
-    bool              failed = false; ///< the local iteration found no solution
-    bool              negative_friction = false; ///< or one with a negative mu
+    static constexpr int n_w = 19;
+    ContactPointState    state;
+    bool failed            = false; ///< the local iteration found no solution
+    bool negative_friction = false; ///< or one with a negative mu
 
     /** t = eps_n g_n n + t_t [MPa], as it enters the residual of the slave. */
     Eigen::Vector3d traction            = Eigen::Vector3d::Zero();
     Eigen::Vector3d tangential_traction = Eigen::Vector3d::Zero();
     /** Part of the tangential traction that the viscosity makes up [MPa]. */
     Eigen::Vector3d viscous_traction = Eigen::Vector3d::Zero();
-    /** Work of the tangential traction on the slip of this step, per area
-     *  [N/mm]; none where it is a trapezoid (InterfaceWork). */
-    std::optional<double> dissipated;
     /** y(xi_hat) - y(xi_hat^n) on the current surface [mm]. */
     Eigen::Vector3d slip_increment = Eigen::Vector3d::Zero();
     double          normal_gap     = 0; ///< g_n [mm]
@@ -122,11 +118,14 @@ namespace Debond
      *  solution is unique while this is below one. */
     double softening = 0;
 
-    SurfaceBasis                 basis;     ///< master basis at xi_hat
-    SurfaceBasis                 old_basis; ///< at xi_hat^n; only when slipping
-    Eigen::Matrix<double, 3, 18> dt;        ///< dt/dw
-    Eigen::Matrix<double, 2, 18> dxi;       ///< dxi_hat/dw
-    Eigen::Matrix<double, 1, 18> dslip;     ///< dg_s/dw; only when slipping
+    SurfaceBasis basis;                  ///< master basis at xi_hat
+    SurfaceBasis old_basis;              ///< at xi_hat^n; only when slipping
+    Eigen::Matrix<double, 3, n_w> dt;    ///< dt/dw
+    Eigen::Matrix<double, 2, n_w> dxi;   ///< dxi_hat/dw
+    Eigen::Matrix<double, 1, n_w> dslip; ///< dg_s/dw; only when slipping
+    /** d turn / dq of the chuck, where a component of it is unknown. */
+    Eigen::Matrix<double, 6, 1> turn_by_chuck =
+      Eigen::Matrix<double, 6, 1>::Zero();
   };
 } // namespace Debond
 #endif

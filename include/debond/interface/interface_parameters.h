@@ -20,7 +20,7 @@ namespace Debond
     FrictionLawChoice  friction_choice;
     double        friction_starts_at = 0; ///< frictionless before this time
     double        viscosity      = 0; ///< eta [MPa per (mm per unit of time)]
-    SlipDirection slip_direction = SlipDirection::trial;
+    SlipDirection slip_direction = SlipDirection::integrated;
     /** A variant of the method that is there to be compared with: mu at g_s^n.
      */
     bool              explicit_friction = false;

@@ -32,7 +32,7 @@ namespace Debond
     Eigen::Vector3d old_gap       = Eigen::Vector3d::Zero();
     double          old_mu        = 0.;
     double          old_limit     = 0.; ///< [mm]
-    Arc             arc = Arc();
+    Arc             arc           = Arc();
 
     /** mu and its slope once the point has slid by @p distance. */
     FrictionCoefficient

@@ -107,7 +107,7 @@ namespace Debond
       Eigen::Matrix<double, 1, N> distance;
     };
     /** With respect to w, see ContactPointResult: for the whole system. */
-    Derivative<18>
+    Derivative<ContactPointResult::n_w>
     along_w() const;
     /** With respect to the two parameters of the surface: for this point. */
     Derivative<2>
@@ -194,10 +194,12 @@ namespace Debond
     Eigen::Vector3d excess;  ///< g - t_t / eps_t [mm]
 
     /** How the tangential traction, and in the last row the distance, change
-     *  with x - y, x - y_n, the gap of the step before, and n. */
+     *  with x - y, x - y_n, the gap of the step before, n, and the angle by
+     *  which the way turns. */
     struct
     {
       Eigen::Matrix<double, 4, 3> gap, trial, old_gap, normal;
+      Eigen::Vector4d             turn;
     } change;
   };
 

@@ -62,8 +62,8 @@ namespace Debond
     double distance;
     /** Mean length of the gap while the point slides [mm]. */
     double mean_length;
-    /** d(direction, distance)/d(old_gap, motion, held_limit, length). */
-    Eigen::Matrix<double, 3, 6> derivative;
+    /** d(direction, distance)/d(old_gap, motion, held_limit, length, turn). */
+    Eigen::Matrix<double, 3, 7> derivative;
   };
 } // namespace Debond
 #endif

@@ -9,9 +9,8 @@
 
 namespace Debond
 {
-  /** Largest rotation in a step [rad]. A sliding point is pulled along the
-   * chord of its path, at half this angle to its direction at the end: 5
-   * degrees cost a thousandth of the friction. */
+  /** Largest rotation in a step [rad]. Works are summed over the chords of
+   *  paths: 5 degrees cost a thousandth of the dissipation. */
   constexpr double largest_turn = 5. * M_PI / 180.;
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the pictures of the pages again, and puts them into doc/images as PNG and, but for maps, as SVG: doc/pictures.sh NAME...
-#   geometry        the sketch of doc/model.md
+#   geometry        the sketches of doc/model.md
 #   bodies          mesh, front and stresses (a minute); needs pvpython, see doc/results.md
 #   paper           the figures of doc/reproduction.md (ten minutes, most of them Fig. 13); fig_1, fig_4, ... alone: see
 #                   doc/paper/reproduce.sh
@@ -44,7 +44,7 @@ bodies() {
 
 make_pictures() {
   case $1 in
-    geometry) gnuplot doc/geometry.gp && publish output/geometry ;;
+    geometry) gnuplot doc/geometry.gp && gnuplot doc/towing.gp && publish output/geometry output/towing ;;
     bodies) bodies ;;
     paper) doc/paper/reproduce.sh $figures && publish_figures $figures ;;
     fig_*) doc/paper/reproduce.sh "$1" && publish_figures "$1" ;;

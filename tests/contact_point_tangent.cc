@@ -550,7 +550,7 @@ solve_slip(const Setting         &setting,
 /** Largest deviations from the reference, relative to its largest entry. */
 struct Deviation
 {
-  double       xi = 0, slip = 0, traction = 0, dt = 0, dforce = 0;
+  double       xi = 0, slip = 0, traction = 0, dt = 0, dforce = 0, by_turn = 0;
   unsigned int n_other_status = 0, n_other_element = 0;
   double       slip_from = 1e9, slip_to = 0, softening = 0;
 };
@@ -607,6 +607,38 @@ chain(const ContactPointResult &result,
       result.basis.N[b] * dt +
       result.traction *
         (result.basis.N_1[b] * dxi.row(0) + result.basis.N_2[b] * dxi.row(1));
+}
+
+/** The derivatives of traction and g_s by the turn of the point's way against
+ *  central differences, relative to the traction's. */
+double
+deviation_by_turn(const Setting &setting, const ContactPointResult &result)
+{
+  const double       h = 1e-5;
+  ContactPointResult varied[2];
+  for (const int i : {0, 1})
+    {
+      ContactPointMode mode = setting.mode;
+      mode.turn += (2 * i - 1) * h;
+      update_contact_point(setting.law,
+                           setting.old_state,
+                           setting.phi_0,
+                           setting.x,
+                           setting.master,
+                           mode,
+                           varied[i]);
+    }
+  constexpr int at_turn = ContactPointResult::n_w - 1;
+  const double  scale   = result.dt.col(at_turn).norm();
+  return std::max(((varied[1].traction - varied[0].traction) / (2. * h) -
+                   result.dt.col(at_turn))
+                      .norm() /
+                    scale,
+                  setting.law.tangential_penalty *
+                    std::abs((varied[1].state.slip - varied[0].state.slip) /
+                               (2. * h) -
+                             result.dslip[at_turn]) /
+                    scale);
 }
 
 /** Compares a closed point. */
@@ -668,6 +700,8 @@ compare(const Setting    &setting,
   chain(result, setting.old_state.gap, n_cp, our_dt, our_dforce);
   grow(deviation.traction, relative_deviation(result.traction, traction));
   grow(deviation.dt, relative_deviation(our_dt, dt));
+  if (setting.law.slip_direction == SlipDirection::integrated)
+    grow(deviation.by_turn, deviation_by_turn(setting, result));
   grow(deviation.dforce, relative_deviation(our_dforce, dforce));
 }
 
@@ -751,6 +785,8 @@ check(const std::string         &name,
   report("  deviation of g_s [mm]", deviation.slip, 1e-13);
   report("  relative deviation of the traction", deviation.traction, 1e-12);
   report("  relative deviation of its derivatives", deviation.dt, 1e-9);
+  if (basic.law.slip_direction == SlipDirection::integrated)
+    report("  of those by the turn of its way", deviation.by_turn, 1e-6);
   report("  relative deviation of those of the master's forces",
          deviation.dforce,
          1e-9);

@@ -12,7 +12,7 @@ do for [format in "png svg"] {
   set title "Direction of slip"
   set xrange [0:10]
   set yrange [0:70]
-  plot results("trial") using "angle_deg":"torque_Nmm" with lines linetype 10 title "trial gap, steps of 0.1°", \
+  plot results("integrated") using "angle_deg":"torque_Nmm" with lines linetype 10 title "integrated, steps of 0.1°", \
     results("previous_gap_fine") using "angle_deg":"torque_Nmm" with lines linetype 2 title "previous gap, steps of 0.01°", \
     results("previous_gap") using "angle_deg":"torque_Nmm" with lines linetype 4 title "previous gap, steps of 0.1°"
 

@@ -37,7 +37,7 @@ run() {
 
 draw_pictures() {
   command -v gnuplot > /dev/null || { echo "stability.sh: gnuplot is needed to draw" >&2; exit 1; }
-  run slip_direction trial
+  run slip_direction integrated
   run slip_direction previous_gap "Interface/Slip direction=previous gap"
   run slip_direction previous_gap_fine "Interface/Slip direction=previous gap" "Load steps/Steps=1, 1000"
   run softening implicit "Load steps/Steps=1, 1000"

@@ -457,7 +457,8 @@ namespace Debond
   // Surfaces that are pressed together touch over a patch. Open points inside
   // of it tell that the faces of the elements cannot take the shape that a
   // stiff interface asks for: each touches in some places only, with too large
-  // a pressure. Points lie in rows and columns over the whole surface.
+  // a pressure. Points lie in rows and columns over the whole surface, which are
+  // curved on a disk: one alone may leave the patch and come back.
   unsigned int
   ContactInterface::n_enclosed() const
   {
@@ -467,7 +468,8 @@ namespace Debond
     const auto number = [&](const unsigned int i, const unsigned int j) {
       return ((j / n * elements[0] + i / n) * n + j % n) * n + i % n;
     };
-    std::vector<bool> is_enclosed(points.size(), false);
+    // in its row, its column, or both
+    std::vector<unsigned int> times_enclosed(points.size(), 0);
     for (const bool is_row : {true, false})
       for (unsigned int line = 0; line < n * elements[is_row]; ++line)
         {
@@ -484,13 +486,13 @@ namespace Debond
               else
                 {
                   for (const unsigned int open : since_closed)
-                    is_enclosed[open] = is_enclosed[open] || any_closed;
+                    times_enclosed[open] += any_closed;
                   since_closed.clear();
                   any_closed = true;
                 }
             }
         }
-    return std::count(is_enclosed.begin(), is_enclosed.end(), true);
+    return std::count(times_enclosed.begin(), times_enclosed.end(), 2u);
   }
 
 

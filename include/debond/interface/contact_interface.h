@@ -173,8 +173,8 @@ namespace Debond
     bool
     has_open_points() const;
 
-    /** How many points were left open between closed ones of their row or
-     *  column of the surface in the accepted state. */
+    /** How many points were left open between closed ones of their row and of
+     *  their column of the surface in the accepted state. */
     unsigned int
     n_enclosed() const;
 

@@ -254,7 +254,8 @@ namespace Debond
       }
 
       /** The angle by which it turns the way of a point of the slave that was
-       *  at @p x over the master, about the master's axis at the end [rad]. */
+       *  at @p x over the master, about the master's axis towards the slave
+       *  at the end [rad]. */
       double
       turn_of_way(const Eigen::Vector3d &x, const Side slave) const
       {
@@ -266,7 +267,7 @@ namespace Debond
         Eigen::Vector3d       first = velocity(r), last = velocity(turn * r);
         if (slave == Side::bone) // it stays, and is seen from the implant
           {
-            n     = implant_axis;
+            n     = -implant_axis;
             first = turn * first;
             last  = velocity(x - centre);
           }
@@ -457,8 +458,8 @@ namespace Debond
   // Surfaces that are pressed together touch over a patch. Open points inside
   // of it tell that the faces of the elements cannot take the shape that a
   // stiff interface asks for: each touches in some places only, with too large
-  // a pressure. Points lie in rows and columns over the whole surface, which are
-  // curved on a disk: one alone may leave the patch and come back.
+  // a pressure. Points lie in rows and columns over the whole surface, which
+  // are curved on a disk: one alone may leave the patch and come back.
   unsigned int
   ContactInterface::n_enclosed() const
   {

@@ -8,6 +8,8 @@ os.environ.setdefault('OPENBLAS_NUM_THREADS', '1')
 sys.dont_write_bytecode = True
 
 import numpy as np  # noqa: E402
+from scipy.integrate import solve_ivp  # noqa: E402
+from scipy.optimize import brentq  # noqa: E402
 
 import friction  # noqa: E402
 import interface  # noqa: E402
@@ -15,6 +17,7 @@ import nurbs  # noqa: E402
 import scene_file  # noqa: E402
 import simulation  # noqa: E402
 import solids  # noqa: E402
+import towing  # noqa: E402
 
 RADIUS, HEIGHT = 2.5, 3.
 RANDOM = np.random.default_rng(1)
@@ -114,8 +117,64 @@ def reactions_of_the_top():
     return max(relative(a, b) for a, b in zip(solver.top_reactions(), solver.reactions()))
 
 
+def towed_on_a_disk(radius, angle, gap, string):
+    """The gap, complex, and the distance slid of a point at `radius` on a disk that turns by `angle`, by integration.
+
+    The string keeps its length. The gap is shorter at the beginning, or as long and is pulled at once.
+    """
+    def held(turned):
+        return gap + radius * (np.exp(1j * turned) - 1)
+
+    begins = 0.
+    if abs(gap) < string * (1 - 1e-9):
+        turned = np.linspace(0, angle, 2001)
+        within = np.flatnonzero(np.abs(held(turned)) <= string)[-1]
+        if within == 2000:
+            return held(angle), 0.
+        begins = brentq(lambda t: np.abs(held(t)) - string, turned[within], turned[within + 1], xtol=1e-16)
+
+    def motion(_, state):
+        direction = 1j * np.exp(1j * (begins + np.sign(angle) * state[2])) * np.sign(angle)
+        now = (state[0] + 1j * state[1]) / np.hypot(*state[:2])
+        pulled = (direction * now.conjugate()).real
+        change = direction - pulled * now
+        return [radius * change.real, radius * change.imag, 1, radius * pulled]
+
+    first = held(begins)
+    end = solve_ivp(motion, (0, abs(angle - begins)), [first.real, first.imag, 0, 0], 'DOP853', rtol=1e-13, atol=1e-15)
+    return complex(*end.y[:2, -1]), end.y[3, -1]
+
+
+def towing_on_a_disk():
+    """Points that tow on a turning disk, also nearer to its centre than strings are long; relative to the string."""
+    worst = 0.
+    for number in range(200):
+        radius, angle, string = 10 ** RANDOM.uniform(-2, 0), RANDOM.uniform(-2, 2), 10 ** RANDOM.uniform(-2, -.5)
+        along = np.pi / 2 * np.sign(angle) + RANDOM.uniform(-1.5, 1.5)
+        gap = string * np.exp(1j * along) if number % 2 else string * RANDOM.uniform() * np.exp(1j * 3 * along)
+        exact, slid = towed_on_a_disk(radius, angle, gap, string)
+        lengths = np.full((2, 1), string)
+        towed = towing.tow(np.array([gap]), np.array([radius * (np.exp(1j * angle) - 1)]), np.array([angle]), *lengths,
+                           lambda d: (lengths[0], 0 * d))
+        worst = max(worst, np.abs(towed.gap - exact)[0] / string, np.abs(towed.slid - slid)[0] / string)
+    return worst
+
+
+def towing_along_a_line():
+    """Points that are towed almost straight against u_1 = u_0 exp(-way/string), u = tan(alpha/2); relative."""
+    way, string = 10 ** RANDOM.uniform(-4, 0, 1000), 10 ** RANDOM.uniform(-4, 0, 1000)
+    before = np.tan(RANDOM.uniform(-1.5, 1.5, 1000))
+    after = before * np.exp(-way / string)
+    exact = way + string * np.log((1 + after ** 2) / (1 + before ** 2))
+    worst = 0.
+    for turn in (0., 1e-16):
+        half, pulled = towing.pull(string, np.exp(1j * np.arctan(before)), way, np.full(1000, turn))
+        worst = max(worst, np.abs(half.imag / half.real - after).max(), (np.abs(pulled - exact) / (way + string)).max())
+    return worst
+
+
 CHECKS = {derivatives_of_the_energy: 1e-7, rigid_motion: 1e-13, uniform_stress: 1e-12, points_on_a_disk: 1e-13,
-          stiff_bodies: 1e-4, reactions_of_the_top: 1e-10}
+          stiff_bodies: 1e-4, reactions_of_the_top: 1e-10, towing_on_a_disk: 1e-11, towing_along_a_line: 1e-13}
 
 
 def main():

@@ -7,6 +7,8 @@ from types import SimpleNamespace
 import numpy as np
 import scipy.sparse as sparse
 
+import towing
+
 
 def closest_points(surface, control_points, x, xi):
     """Parameters (m, 2) of the points of the surface closest to x (m, 3), and which x lie beyond its edge (m,).
@@ -60,18 +62,22 @@ def face_quadrature(solid, count):
 class Interface:
     """Slave points with their history: parameters xi of the interacting points, sliding distances g_s, states theta.
 
+    Their tangential gaps are parts along the master's tangents: they move along with it.
+
     slave, master     solids.Solid
     towards           +1 or -1: sign of a_1 x a_2 of the master's surface that points to the slave
     law               one of those in friction.py
     stiffness         normal and tangential, MPa/mm
     viscosity         MPa per (mm per unit of time)
     bonding           phi_0 as a function of reference positions x, y (m,)
+    integrated        whether sliding points tow their partners, instead of pulling along the trial gap
     """
 
-    def __init__(self, slave, master, towards, law, stiffness, points_per_direction, bonding, viscosity=0.):
+    def __init__(self, slave, master, towards, law, stiffness, points_per_direction, bonding, viscosity=0.,
+                 integrated=False):
         self.slave, self.master, self.towards, self.law = slave, master, towards, law
         self.normal_stiffness, self.tangential_stiffness = stiffness
-        self.viscosity = viscosity
+        self.viscosity, self.integrated = viscosity, integrated
         xi, self.area = face_quadrature(slave, points_per_direction)  # tractions are nominal
         self.face_area = self.area  # of the points that shares and the mean bonding state are those of
         self.numbers, self.values, _ = slave.face.basis(xi)
@@ -84,6 +90,7 @@ class Interface:
         self.nearest = self.xi.copy()  # parameters of the closest points of those beyond the edge
         self.accepted = None  # control points of slave and master in the accepted state
         self.pressure, self.shear = np.zeros(len(xi)), np.zeros((len(xi), 3))  # of the accepted state
+        self.gap_parts = np.zeros((len(xi), 2))  # of the tangential gap, g^1 and g^2
         self.viscous = np.zeros((len(xi), 3))  # traction, MPa
         self.dissipation = self.viscous_work = self.adhesive_work = 0.  # N mm
 
@@ -148,90 +155,126 @@ class Interface:
         normal = np.cross(tangents[:, 0], tangents[:, 1])
         normal *= self.towards / np.linalg.norm(normal, axis=1)[:, None]
         metric = np.einsum('mki,mli->mkl', tangents, tangents)
-        return SimpleNamespace(numbers=numbers, values=values, slopes=slopes, normal=normal,
+        return SimpleNamespace(numbers=numbers, values=values, slopes=slopes, normal=normal, tangents=tangents,
                                point=np.einsum('ma,mai->mi', values, near), dual=np.linalg.solve(metric, tangents))
 
-    def _history(self, friction, duration, which=slice(None)):
-        """How the points `which` begin a step, as the friction law wants to know it."""
-        return SimpleNamespace(slid=self.slid[which], bonded=self.bonded[which], theta=self.theta[which],
-                               friction=friction, duration=duration)
+    def accepted_positions(self):
+        """Positions (m, 3) of the slave points in the accepted state."""
+        return self.positions(self.accepted[0])
 
-    def _reach(self, history, way, depth):
+    def _beginning(self, start, x, friction, duration, turn):
+        """How the points x (m, 3) begin a step at the place `start` of the master."""
+        gap = np.einsum('mk,mki->mi', self.gap_parts, start.tangents)
+        trial = x - start.point
+        return SimpleNamespace(slid=self.slid, bonded=self.bonded, theta=self.theta, friction=friction,
+                               duration=duration, point=start.point, trial=trial, gap=gap, motion=trial - gap,
+                               turn=turn, depth=self.pressure / self.normal_stiffness)
+
+    def _reach(self, begin, way, depth):
         """Tangential gap of sliding points [mm], and its derivatives by their depth and by their way in this step.
 
         The gap bears mu p and the viscous traction.
         """
-        if not history.friction:
+        if not begin.friction:
             return 0 * way, 0 * way, 0 * way
-        mu, slope = self.law.coefficient(history, way)
+        mu, slope = self.law.coefficient(begin, way)
         ratio = self.normal_stiffness / self.tangential_stiffness
-        viscous = self.viscosity / history.duration / self.tangential_stiffness if history.duration else 0.
+        viscous = self.viscosity / begin.duration / self.tangential_stiffness if begin.duration else 0.
         return ratio * mu * depth + viscous * way, ratio * mu, ratio * slope * depth + viscous
 
-    def respond(self, slave_points, master_points, friction=True, duration=1., all_stick=False):
+    def respond(self, slave_points, master_points, friction=True, duration=1., all_stick=False, turn=0.):
         """State at given control points of both surfaces, from the accepted history, which does not change.
 
         The partner of a sticking point stays. A sliding point's partner moves until the tangential traction is
-        mu p plus the viscous one in the direction of the trial gap, Eqs. (29) and (30), with mu and g_s of Eq. (32) at
-        the end of the step, which takes a time of `duration`.
+        mu p plus the viscous one, Eqs. (29) and (30), with mu and g_s of Eq. (32) at the end of the step, which takes a
+        time of `duration`: in the direction of the trial gap, or, if `integrated`, of that with which it is towed.
+        The way of a point over the master turns by `turn` (m,) meanwhile, rad, anticlockwise about the normal.
         """
-        history = self._history(friction, duration)
         x = self.positions(slave_points)
         come, entries = self._entries(slave_points, master_points)
         xi, beyond = self.xi.copy(), self.beyond.copy()
         xi[come], beyond[come] = entries, False
         start = self._place(master_points, xi)
-        trial = x - start.point
-        normal_gap = _dot(start.normal, trial)
-        stretch = np.linalg.norm(trial - normal_gap[:, None] * start.normal, axis=1)
+        begin = self._beginning(start, x, friction, duration, np.broadcast_to(turn, self.area.shape))
+        normal_gap = _dot(start.normal, begin.trial)
+        stretch = np.linalg.norm(begin.trial - normal_gap[:, None] * start.normal, axis=1)
         closed = (normal_gap < 0) & ~beyond
-        sliding = closed & (stretch > self._reach(history, 0 * stretch, -normal_gap)[0])
+        sliding = closed & (stretch > self._reach(begin, 0 * stretch, -normal_gap)[0])
         if all_stick:
             sliding[:] = False
 
         inside = np.ones(len(x), bool)
-        if sliding.any():
-            history_there = self._history(friction, duration, sliding)
-            xi[sliding], inside[sliding] = self._slide(x[sliding], trial[sliding], start.point[sliding], xi[sliding],
-                                                       master_points, history_there)
+        xi[sliding], inside[sliding] = self._slide(x[sliding], xi[sliding], master_points, _some(begin, sliding))
         state = self._place(master_points, np.clip(xi, 0, 1))
-        state.start, state.xi, state.beyond, state.gap = start, xi, beyond, x - state.point
+        state.start, state.begin, state.xi, state.beyond, state.gap = start, begin, xi, beyond, x - state.point
         state.normal_gap = _dot(state.normal, state.gap)
         state.closed = closed & inside & (state.normal_gap < 0)
         state.sliding = sliding & state.closed
         state.pressure = -self.normal_stiffness * state.normal_gap * state.closed
         tangential_gap = state.gap - state.normal_gap[:, None] * state.normal
+        if self.integrated:
+            place = _some(state, state.sliding)
+            towed = self._tow(place, _some(begin, state.sliding))
+            tangential_gap[state.sliding] = _in_space(towed.gap, place)  # as long as the string, to the last digit
+            state.direction, _ = _direction(tangential_gap, state.normal)
+            state.way = np.zeros(len(x))
+            state.way[state.sliding] = towed.slid
+        else:
+            state.direction, state.trial_length = _direction(begin.trial, state.normal)
+            state.way = np.linalg.norm(state.point - start.point, axis=1) * state.sliding
         state.shear = self.tangential_stiffness * tangential_gap * state.closed[:, None]
         state.traction = -state.pressure[:, None] * state.normal + state.shear
-        state.way = np.linalg.norm(state.point - start.point, axis=1) * state.sliding
-        state.reach, state.by_depth, state.by_way = self._reach(history, state.way, -state.normal_gap)
-        state.history = history
-        state.direction, state.trial_length = _direction(trial, state.normal)
+        state.reach, state.by_depth, state.by_way = self._reach(begin, np.maximum(state.way, 0), -state.normal_gap)
         return state
 
-    def _slide(self, x, trial, origin, xi, master_points, history):
+    def _slide(self, x, xi, master_points, begin):
         """Parameters of the partners of sliding points (k, 2), and whether they lie on the master (k,).
 
-        Newton's method for the gap that the law asks for, with the law's slope but without the curvature of the master;
-        late steps are halved, as a coefficient that rises and then stays makes them go to and fro. The partners were at
-        `origin`, with parameters xi.
+        Newton's method from xi for the gap that the law asks for, with the law's slope but without the curvature of the
+        master; late steps are halved, as a coefficient that rises and then stays makes them go to and fro.
         """
         for iteration in range(100):
             place = self._place(master_points, xi)
-            gap = x - place.point
-            depth = -_dot(place.normal, gap)
-            tau, _ = _direction(trial, place.normal)
-            way = np.linalg.norm(place.point - origin, axis=1)
-            reach, _, by_way = self._reach(history, way, depth)
-            excess = gap + depth[:, None] * place.normal - reach[:, None] * tau
+            place.gap = x - place.point
+            place.normal_gap = _dot(place.normal, place.gap)
+            excess, move = (self._excess_of_towed if self.integrated else self._excess_of_trial)(place, begin)
             inside = ((xi >= 0) & (xi <= 1)).all(1)
             if np.abs(excess[inside]).max(initial=0.) < 1e-13:
                 return xi, inside
-            along = _dot(excess, tau)
-            excess += ((1 / (1 + by_way) - 1) * along)[:, None] * tau
-            step = np.einsum('mki,mi->mk', place.dual, excess)
+            step = np.einsum('mki,mi->mk', place.dual, move)
             xi = np.where(inside[:, None], xi + (step if iteration < 30 else step / 2), xi)
         raise ArithmeticError('the partner of a sliding point was not found')
+
+    def _excess_of_trial(self, place, begin):
+        """Tangential gap beyond that in the direction of the trial gap, and how the partner should move (k, 3)."""
+        tau, _ = _direction(begin.trial, place.normal)
+        way = np.linalg.norm(place.point - begin.point, axis=1)
+        reach, _, by_way = self._reach(begin, way, -place.normal_gap)
+        excess = place.gap - place.normal_gap[:, None] * place.normal - reach[:, None] * tau
+        return excess, excess + ((1 / (1 + by_way) - 1) * _dot(excess, tau))[:, None] * tau
+
+    def _excess_of_towed(self, place, begin):
+        """Tangential gap beyond that with which the partner is towed, and how the partner should move (k, 3)."""
+        towed = _in_space(self._tow(place, begin).gap, place)
+        excess = place.gap - place.normal_gap[:, None] * place.normal - towed
+        return excess, excess
+
+    def _tow(self, place, begin, further=0., deeper=0.):
+        """What becomes of points that tow their partners to a place of the master, see towing.tow.
+
+        The motion and the depth there may be altered by `further`, complex, and `deeper`.
+        """
+        rest = np.zeros(len(begin.trial))
+        depth = deeper - place.normal_gap
+
+        def string(slid):
+            """Where the distance is negative the law goes on with its slope, if that is positive."""
+            reach, _, slope = self._reach(begin, np.maximum(slid, 0), depth)
+            slope = np.where(slid < 0, np.maximum(slope, 0), slope)
+            return reach + slope * np.minimum(slid, 0), slope
+
+        return towing.tow(_in_plane(begin.gap, place), _in_plane(begin.motion, place) + further, begin.turn,
+                          self._reach(begin, rest, begin.depth)[0], self._reach(begin, rest, depth)[0], string)
 
     def nodal_forces(self, state):
         """Forces on the control points of slave and master as they enter the residual, (., 3) each, Eq. (28)."""
@@ -276,6 +319,8 @@ class Interface:
 
     def _gap_derivatives(self, state):
         """d gap = A h + B d trial: the blocks A, B (m, 3, 3)."""
+        if self.integrated:
+            return self._towed_derivatives(state)
         tau = state.direction
         normal = state.normal[:, :, None] * state.normal[:, None, :]
         along = tau[:, :, None] * tau[:, None, :]
@@ -287,6 +332,23 @@ class Interface:
         by_trial[~state.sliding] = np.eye(3)
         return by_gap, by_trial
 
+    def _towed_derivatives(self, state):
+        """The same by differences of the towed gap; what else depends on the motion, as the turn does, is left out."""
+        place, begin = _some(state, state.sliding), _some(state.begin, state.sliding)
+        gap = self._tow(place, begin).gap
+        step = 1e-6 * (np.abs(gap) + np.linalg.norm(begin.trial, axis=1))
+
+        def slope(**change):
+            return _in_space((self._tow(place, begin, **change).gap - gap) / step, place)
+
+        by_gap, by_trial = np.zeros((2, len(state.gap), 3, 3))
+        by_trial[:] = np.eye(3)
+        first, second = _axes(place)
+        by_trial[state.sliding] = (slope(further=step)[:, :, None] * first[:, None, :]
+                                   + slope(further=1j * step)[:, :, None] * second[:, None, :])
+        by_gap[state.sliding] = (place.normal - slope(deeper=step))[:, :, None] * place.normal[:, None, :]
+        return by_gap, by_trial
+
     def accept(self, state, slave_points, master_points, turn):
         """Make the state the history; open points face the closest point of the master anew.
 
@@ -296,19 +358,20 @@ class Interface:
         """
         if (state.by_depth[state.closed] < 0).any():
             raise ArithmeticError('a coefficient of friction is negative')
-        history, way = state.history, (state.point - state.start.point) * state.sliding[:, None]
+        begin, way = state.begin, (state.point - state.start.point) * state.sliding[:, None]
         viscous = np.zeros(state.shear.shape)
-        if history.friction:
-            if history.duration:
-                viscous = (self.viscosity / history.duration * state.way)[:, None] * state.direction
-            spent = self.law.adhesive_strength(history, state.way)
+        if begin.friction:
+            if begin.duration:
+                viscous = (self.viscosity / begin.duration * state.way)[:, None] * state.direction
+            spent = self.law.adhesive_strength(begin, state.way)
             self.adhesive_work += (self.area * (state.pressure + self.pressure) / 2 * spent).sum()
             self.slid = self.slid + state.way
-            self.theta = np.where(state.closed, self.law.theta(history, state.way), self.theta)
+            self.theta = np.where(state.closed, self.law.theta(begin, state.way), self.theta)
         self.dissipation += (self.area * _dot(state.shear + self.shear @ turn.T, way) / 2).sum()
         self.viscous_work += (self.area * _dot(viscous + self.viscous @ turn.T, way) / 2).sum()
         self.xi, self.beyond = state.xi, state.beyond
         self.pressure, self.shear, self.viscous = state.pressure, state.shear, viscous
+        self.gap_parts = np.einsum('mki,mi->mk', state.dual, state.shear) / self.tangential_stiffness
         self.face(slave_points, master_points, ~state.closed)
 
     def energy(self, state):
@@ -326,6 +389,30 @@ def _direction(trial, normal):
     tangential = trial - _dot(trial, normal)[:, None] * normal
     length = np.maximum(np.linalg.norm(tangential, axis=1), 1e-300)
     return tangential / length[:, None], length
+
+
+def _some(points, which):
+    """The same of the points `which` alone: all arrays, but not what belongs to all points."""
+    return SimpleNamespace(**{name: value[which] if isinstance(value, np.ndarray) else value
+                              for name, value in vars(points).items()})
+
+
+def _axes(place):
+    """Two unit vectors (m, 3) each in the tangent planes; the normal is the third of them."""
+    first = place.tangents[:, 0] / np.linalg.norm(place.tangents[:, 0], axis=1)[:, None]
+    return first, np.cross(place.normal, first)
+
+
+def _in_plane(vectors, place):
+    """Tangential parts of vectors (m, 3) as complex numbers (m,)."""
+    first, second = _axes(place)
+    return _dot(vectors, first) + 1j * _dot(vectors, second)
+
+
+def _in_space(numbers, place):
+    """Vectors (m, 3) in the tangent planes from complex numbers (m,)."""
+    first, second = _axes(place)
+    return numbers.real[:, None] * first + numbers.imag[:, None] * second
 
 
 def _blocks(matrices):

@@ -31,6 +31,7 @@ ENTRIES = {
     'Interface/Friction law': ('modified coulomb', 'coulomb', 'frictionless', 'table', 'rate and state'),
     'Interface/Friction coefficient broken': .4, 'Interface/Friction coefficient unbroken': .58,
     'Interface/Sliding threshold': .022, 'Interface/Transition factor': .74, 'Interface/Friction starts at': 0.,
+    'Interface/Slip direction': ('integrated', 'trial'),
     'Interface/Opening breaks bond': ('false',), 'Interface/Viscosity': 0., 'Interface/Friction table': '',
     'Interface/Rate and state/Reference coefficient': .4, 'Interface/Rate and state/Direct effect': .01,
     'Interface/Rate and state/Evolution effect': .015, 'Interface/Rate and state/Reference speed': 1e-3,
@@ -173,7 +174,7 @@ class Scene:
         slave, master, towards = (implant, bone, +1) if get('Interface/Slave') == 'implant' else (bone, implant, -1)
         points = int(get('Interface/Quadrature points'))
         contact = interface.Interface(slave, master, towards, self._law(), stiffness, points, self._bonding(),
-                                      get('Interface/Viscosity'))
+                                      get('Interface/Viscosity'), get('Interface/Slip direction') == 'integrated')
         area = interface.face_quadrature(implant, points)[1].sum()
         return simulation.Simulation(bone, implant, contact, area, self.height, get('Load steps/Residual tolerance'))
 

@@ -29,7 +29,6 @@ class Simulation:
         self.implant_displacement = np.zeros(implant.points.shape)
         self.free = np.flatnonzero(~np.vstack([bone.held, implant.held]).ravel())
         self.state = None
-        self.accepted_rotation = np.eye(3)
         self.iterations = 0
         self.work = 0.  # of the chuck, N mm
 
@@ -69,11 +68,30 @@ class Simulation:
             return sparse.bmat([[None, implant], [bone, None]], 'csr')
         return sparse.bmat([[bone, None], [None, implant]], 'csr')
 
+    def _turn_of_ways(self):
+        """Angles (m,) by which the ways of slave points over the master turn in a step, rad, as if bodies were rigid.
+
+        The implant's centre goes straight, and it turns evenly. The bone rests; seen from the implant it moves. Ways
+        begin at the accepted places of the points. Angles are about the z axis of the master's own frame, or its
+        opposite, whichever points to the slave.
+        """
+        way, turn = self.translation - self.accepted_translation, self.rotation @ self.accepted_rotation.T
+        spin = Rotation.from_matrix(turn).as_rotvec()
+        arms = self.interface.accepted_positions() - self.centre - self.accepted_translation
+        if self.interface.slave is self.implant:
+            first, last = way + np.cross(spin, arms), way + np.cross(spin, arms @ turn.T)
+        else:
+            first = -(way + np.cross(spin, arms)) @ self.accepted_rotation
+            last = -(way + np.cross(spin, arms - way)) @ self.rotation
+        across, along = np.cross(first[:, :2], last[:, :2]), (first[:, :2] * last[:, :2]).sum(1)
+        return self.interface.towards * np.arctan2(across, along)
+
     # ---- equilibrium
 
     def start(self, components, friction=True):
         """The first state: undeformed bodies where the chuck is, then equilibrium as in a step."""
         self.move_chuck(components)
+        self.accepted_translation, self.accepted_rotation = self.translation, self.rotation
         self.interface.face(*self._control_points(), np.ones(len(self.interface.area), bool))
         if self.interface.slave is self.bone:
             self.interface.leave_out_those_beyond()
@@ -93,13 +111,14 @@ class Simulation:
         In the first iteration all closed points stick: points that begin to slide as the rigid implant would make them
         may change between sliding and sticking for ever.
         """
-        motion = self._motion()
+        motion, turn = self._motion(), self._turn_of_ways()
         bulk = sparse.block_diag([self.bone.tangent(self.bone_displacement),
                                   self.implant.tangent(self.implant_displacement)], 'csr')
         least = 1e-6 * self.interface.normal_stiffness * self.contact_area * self.centre[2]  # N, where all is open
         for self.iterations in range(60):
             first = self.iterations == 0
-            self.state = self.interface.respond(*self._control_points(), friction, duration, all_stick=first)
+            self.state = self.interface.respond(*self._control_points(), friction, duration, all_stick=first,
+                                                turn=turn)
             contact = np.concatenate(self.interface.nodal_forces(self.state)).ravel()
             internal = np.concatenate([self.bone.forces(self.bone_displacement).ravel(),
                                        self.implant.forces(self.implant_displacement).ravel()])
@@ -120,7 +139,7 @@ class Simulation:
     def _accept(self):
         turn = self.rotation @ self.accepted_rotation.T if self.interface.master is self.implant else np.eye(3)
         self.interface.accept(self.state, *self._control_points(), turn)
-        self.accepted_rotation = self.rotation
+        self.accepted_translation, self.accepted_rotation = self.translation, self.rotation
 
     # ---- results
 

@@ -1,6 +1,6 @@
 #!/bin/bash
 # Motions that no scene here has, compared with debond as the scenes are: motions.sh PROGRAM [NAME]. All are made from
-# general_motion.prm, and done in both slip directions. Prints the largest differences of each; two minutes in all.
+# general_motion.prm, and done in both slip directions. Prints the largest differences of each; four minutes in all.
 debond=$(realpath "$1")
 only=$2
 cd "$(dirname "$(realpath "$0")")/../../.." || exit

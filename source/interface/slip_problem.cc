@@ -87,9 +87,10 @@ namespace Debond
   SlipEquations::find_direction()
   {
     direction_is_given = !friction.slip_direction.isZero(0.);
-    pull             = direction_is_given ? friction.slip_direction : trial_gap;
-    pull_along_n     = normal.n.dot(pull);
-    const Vector3d u = pull - pull_along_n * normal.n; // in the tangent plane
+    const Vector3d &pull =
+      direction_is_given ? friction.slip_direction : trial_gap;
+    pull_along_n       = normal.n.dot(pull);
+    const Vector3d u   = pull - pull_along_n * normal.n; // in the tangent plane
     pull_along_surface = u.norm();
     // a point right under its old partner is pulled nowhere: it has no tau, and
     // no tangential traction
@@ -122,14 +123,9 @@ namespace Debond
                      length});
     tau       = axes * towed->direction;
     distance  = towed->distance;
-    forward   = Vector3d::Zero(); // not by the slip alone
     along_gap = Vector3d::Zero();
     if (length > 0.)
       along_gap = g_t / length;
-    pull         = trial_gap;
-    pull_along_n = pull_along_surface = 0.;
-    has_direction                     = true;
-    direction_is_given                = false;
   }
 
 

@@ -303,7 +303,7 @@ namespace Debond
                               step.held_limit - step.old_limit);
     const Start     start(path, beginning);
     // a string without length follows the path
-    mean_length =
+    const double mean_length =
       std::max(0.5 * (start.length + step.length), 1e-12 * start.way);
     // nothing turns where nothing moves, whatever the length
     const double x = start.way > 0. ? 0.5 * start.way / mean_length : 0.;

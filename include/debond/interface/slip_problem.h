@@ -174,9 +174,8 @@ namespace Debond
     const MasterNormal     normal;
     const Eigen::Vector3d  gap, trial_gap; ///< x - y and x - y_n [mm]
 
-    /** What pulls the point: its part along n, the length of the rest, and tau,
-     *  the direction of the rest; zero if there is none. */
-    Eigen::Vector3d pull;
+    /** Of what pulls the point: its part along n, the length of the rest, and
+     * tau, the direction of the rest; zero if there is none. */
     double          pull_along_n, pull_along_surface;
     Eigen::Vector3d tau;
     bool            has_direction, direction_is_given;

@@ -60,8 +60,6 @@ namespace Debond
     /** g_s - g_s^n [mm]; negative only at trial places where the point would
      *  slide against its traction. */
     double distance;
-    /** Mean length of the gap while the point slides [mm]. */
-    double mean_length;
     /** d(direction, distance)/d(old_gap, motion, held_limit, length, turn). */
     Eigen::Matrix<double, 3, 7> derivative;
   };

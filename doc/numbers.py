@@ -48,12 +48,13 @@ def debond(scene, directory, *changes, force=True):
 
 @functools.lru_cache(None)
 def run(scene, *changes):
-    """The summary of a run, with its curve: rows of torque.csv."""
+    """The summary of a run, with its rows, those of torque.csv, and the curve between them, those of curve.csv."""
     directory = directory_of(scene, changes)
     debond(scene, directory, 'Output/Fields every=0', *changes)
     with open(directory + '/summary.json', encoding='utf-8') as text:
         summary = json.load(text)
-    return {**summary, 'curve': rows_of(directory + '/torque.csv')}
+    rows, fine = rows_of(directory + '/torque.csv'), directory + '/curve.csv'
+    return {**summary, 'curve': rows, 'fine curve': rows_of(fine) if os.path.exists(fine) else rows}
 
 
 @functools.lru_cache(None)
@@ -746,11 +747,64 @@ def turning_slip():
         for tolerance in ('1e-2', '1e-3', '1e-4'):
             line = [('%s, ' % name if tolerance == '1e-2' else '') + tolerance]
             for direction in ('integrated', 'trial'):
-                curve = run(*motion, 'Load steps/Adaptive=true', 'Load steps/Steps=1, 10, 10', 'Load steps/Tolerance=' + tolerance,
-                            'Interface/Slip direction=' + direction)['curve']
-                line += [str(len(curve))] + ['%.1e' % error for error in errors(reference, curve)]
+                result = run(*motion, 'Load steps/Adaptive=true', 'Load steps/Steps=1, 10, 10', 'Load steps/Tolerance=' + tolerance,
+                             'Interface/Slip direction=' + direction)
+                line += [str(len(result['curve']))] + ['%.1e' % error for error in errors(reference, result['fine curve'])]
             lines.append(line)
     return table(['tolerance', '`integrated`: rows', 'Fx', 'torque', '`trial`: rows', 'Fx', 'torque'], lines)
+
+
+@numbers('minutes')
+def adaptive_scenes():
+    press, twice = '-0.0049 * min(t, 1)', 'min(max(t - 1, 0), 1)'
+    mesh = ('Bone/Cells=12, 12, 3', 'Implant/Cells=4, 2') + LINEAR + LAYERED
+    rigid = ('Bone/Material=rigid', 'Implant/Material=rigid', 'Implant/Cells=12, 2')
+    turning = {'Translation x': '0.02 * ' + twice, 'Rotation z': '2 * max(t - 2, 0)'}
+    zigzag = 'min(max(t - 1, 0), 1) - 2 * min(max(t - 2, 0), 1) + 2 * min(max(t - 3, 0), 1)'
+    scenes = [
+        ('twist', 1, {'Rotation z': '10 * max(t - 1, 0)'}, mesh),
+        ('shear, then twist, rigid bodies', 2, turning, rigid),
+        ('shear, then twist', 2, turning, mesh),
+        ('the same, bone as slave', 2, turning, mesh + ('Interface/Slave=bone',)),
+        ('zig-zag while it turns', 4, {'Translation x': '0.01 * (%s - min(max(t - 4, 0), 1))' % zigzag,
+                                       'Translation y': '0.005 * max(t - 1, 0)', 'Rotation z': '0.5 * max(t - 1, 0)'}, mesh),
+        ('random patches, 3000 MPa/mm', 1, {'Rotation z': '3 * max(t - 1, 0)'}, mesh + (
+            'Interface/Penalty stiffness=3000', 'Interface/Tangential penalty stiffness=3000', 'Interface/Bonding/Pattern=random',
+            'Interface/Bonding/Bonded fraction=0.5')),
+        ('bonded beside the axis', 1, {'Rotation z': '3 * max(t - 1, 0)'}, mesh + (
+            'Interface/Bonding/Pattern=expression', 'Interface/Bonding/Expression=(x - 0.6)^2 + y^2 < 1 ? 1 : 0')),
+        ('tilt and twist', 1, {'Rotation x': '0.02 * max(t - 1, 0)', 'Rotation z': '3 * max(t - 1, 0)'}, mesh),
+        ('twist to and fro', 3, {'Rotation z': '1.5 * (%s)' % zigzag}, mesh),
+        ('pressure that changes', 1, {'Translation z': press + ' - 0.002 * sin(4 * max(t - 1, 0))',
+                                      'Translation x': '0.01 * max(t - 1, 0)', 'Rotation z': '2 * max(t - 1, 0)'}, mesh),
+        ('circular shear', 2, {'Translation x': '0.01 * (%s + cos(2 * pi * max(t - 2, 0)) - 1)' % twice,
+                               'Translation y': '0.01 * sin(2 * pi * max(t - 2, 0))'}, mesh),
+        ('fretting: shear by a sine, slow twist', 2, {'Translation x': '0.01 * sin(2 * pi * max(t - 1, 0))',
+                                                      'Rotation z': '0.3 * max(t - 1, 0)'}, mesh)]
+    forces, moments = ['chuck_F%s_N' % k for k in 'xyz'], ['chuck_M%s_Nmm' % k for k in 'xyz']
+
+    def largest_error(reference, curve):
+        errors, after = [], 0
+        for row in reference:
+            while curve[after]['time'] < row['time'] - 1e-12:
+                after += 1
+            begin, end = curve[max(after - 1, 0)], curve[after]
+            share = (row['time'] - begin['time']) / (end['time'] - begin['time']) if after else 0
+            errors.append({c: abs(begin[c] + share * (end[c] - begin[c]) - row[c]) for c in forces + moments})
+        return max(max(error[c] for error in errors for c in columns) / max(abs(row[c]) for row in reference for c in columns)
+                   for columns in (forces, moments))
+
+    lines = []
+    for name, phases, motion, changes in scenes:
+        scene = (MAIN, 'Load steps/Times=' + ', '.join(str(k) for k in range(phases + 2))) + changes + tuple(
+            'Chuck/%s/Value=%s' % entry for entry in {'Translation z': press, 'Rotation z': '0', **motion}.items())
+        reference = run(*scene, 'Load steps/Steps=30' + ', 800' * phases)['curve']
+        line = [name]
+        for tolerance in ('1e-2', '1e-3', '1e-4'):
+            result = run(*scene, 'Load steps/Adaptive=true', 'Load steps/Steps=1' + ', 10' * phases, 'Load steps/Tolerance=' + tolerance)
+            line += [str(len(result['curve'])), '%.1f' % (largest_error(reference, result['fine curve']) / float(tolerance))]
+        lines.append(line)
+    return table(['12 x 12 x 3 and 4 x 4 x 2 cells, linear', '1e-2: rows', 'error', '1e-3: rows', 'error', '1e-4: rows', 'error'], lines)
 
 
 def pages():

@@ -79,6 +79,39 @@ drive_at(const double t, const bool sideways = false)
 
 
 
+/** Rates of the forces in the phase that ends at or after @p t. */
+AdaptiveStepping::Forces
+rates_at(const double t, const double ripple = 0.)
+{
+  const double h = 1e-6;
+  return (forces_at(t, ripple) - forces_at(t - h, ripple)) / h;
+}
+
+
+
+/** What is drawn of force @p k at the part @p x of the step that ends with
+ *  times[i]: Hermite's cubic, or a parabola where a phase begins. */
+double
+drawn(const std::vector<double> &times,
+      const unsigned int         i,
+      const double               x,
+      const unsigned int         k,
+      const double               ripple = 0.)
+{
+  const double h      = times[i] - times[i - 1];
+  const double F_0    = forces_at(times[i - 1], ripple)[k],
+               F_1    = forces_at(times[i], ripple)[k],
+               m_1    = h * rates_at(times[i], ripple)[k];
+  const bool   begins = times[i - 1] == 0. || times[i - 1] == 1.;
+  const double m_0 =
+    begins ? 2. * (F_1 - F_0) - m_1 : h * rates_at(times[i - 1], ripple)[k];
+  return F_0 * (1. + 2. * x) * (1. - x) * (1. - x) +
+         m_0 * x * (1. - x) * (1. - x) + F_1 * x * x * (3. - 2. * x) -
+         m_1 * x * x * (1. - x);
+}
+
+
+
 /** The ends of the steps; notes in @p n_pressing how many the first phase has.
  */
 std::vector<double>
@@ -92,13 +125,16 @@ adaptive_times(const double  tolerance,
   parameters.steps                  = {1, 4};
   parameters.tolerance              = tolerance;
   parameters.smallest_step_fraction = 1e-6;
-  AdaptiveStepping    stepping(parameters, 2.5);
+  AdaptiveStepping    stepping(parameters, 2.5, [&](const double time) {
+    return drive_at(time, sideways);
+  });
   std::vector<double> times{0.};
   const auto          state_at = [&](const double time) {
     return StepState{time,
                      forces_at(time, ripple),
                      drive_at(time, sideways),
-                     0.};
+                     0.,
+                     rates_at(time, ripple)};
   };
   while (!stepping.is_finished())
     {
@@ -115,7 +151,7 @@ adaptive_times(const double  tolerance,
 
 
 
-/** Largest distance of the curve of the lateral force from its straight lines.
+/** Largest distance of the curve of the lateral force from what is drawn.
  */
 double
 lateral_error(const std::vector<double> &times, const double ripple)
@@ -128,8 +164,7 @@ lateral_error(const std::vector<double> &times, const double ripple)
         const double t = times[i] + x * (times[i + 1] - times[i]);
         grow(error,
              std::abs(forces_at(t, ripple)[0] -
-                      (1. - x) * forces_at(times[i], ripple)[0] -
-                      x * forces_at(times[i + 1], ripple)[0]));
+                      drawn(times, i + 1, x, 0, ripple)));
       }
   return error;
 }
@@ -148,10 +183,11 @@ check_small_forces()
   const auto   without = adaptive_times(tolerance, n_pressing);
   const auto   with    = adaptive_times(tolerance, n_pressing, ripple);
   const auto   driven  = adaptive_times(tolerance, n_pressing, ripple, true);
-  // in proportion to itself it would take some 100 / sqrt(8 tolerance) = 1100
+  // in proportion to itself it would take some 100 / (384 tolerance)^(1/4) =
+  // 130
   report("Steps that a small reaction adds",
          double(with.size()) - without.size(),
-         250);
+         90);
   report("Its error relative to the tolerance of a tenth of the largest",
          lateral_error(with, ripple) / (tolerance * 0.1 * 40.),
          1.);
@@ -173,20 +209,18 @@ check_adaptive(const double tolerance)
       {
         const double x = k / 200.;
         const double t = times[i] + x * (times[i + 1] - times[i]);
-        const double line =
-          (1. - x) * forces_at(times[i])[5] + x * forces_at(times[i + 1])[5];
-        grow(error, std::abs(forces_at(t)[5] - line));
+        grow(error, std::abs(forces_at(t)[5] - drawn(times, i + 1, x, 5)));
         grow(largest, std::abs(forces_at(t)[5]));
-        // the fewest straight lines: int sqrt(|F''| / 8 / tolerance) dt
-        const double h = 1e-4;
-        const double F2 =
-          (forces_at(t + h)[5] - 2. * forces_at(t)[5] + forces_at(t - h)[5]) /
-          (h * h);
-        if (t > 1. + h)
-          integral +=
-            std::sqrt(std::abs(F2) / 8.) * (times[i + 1] - times[i]) / 200.;
+        // the fewest cubics: int (|F_4| / 384 / tolerance)^(1/4) dt
+        const double h = 1e-3;
+        const auto   F = [&](const int i) { return forces_at(t + i * h)[5]; };
+        const double F4 =
+          (F(2) - 4. * F(1) + 6. * F(0) - 4. * F(-1) + F(-2)) / std::pow(h, 4);
+        if (t > 1. + 2. * h)
+          integral += std::pow(std::abs(F4) / 384., 0.25) *
+                      (times[i + 1] - times[i]) / 200.;
       }
-  const double fewest = integral / std::sqrt(tolerance * largest);
+  const double fewest = integral / std::pow(tolerance * largest, 0.25);
   std::cout << "Adaptive, tolerance " << tolerance << std::endl;
   report("A straight line takes one step", n_pressing == 1);
   report("The end is hit exactly", times.back() == 2.);

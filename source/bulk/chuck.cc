@@ -123,8 +123,10 @@ namespace Debond
   Chuck::Vector6
   Chuck::rates(const double time) const
   {
-    const double h = 1e-6 * std::max(1., std::abs(time));
-    return (values(time + h) - values(time - h)) / (2. * h);
+    const double h = 1e-5 * std::max(1., std::abs(time));
+    return (3. * values(time) - 4. * values(time - h) +
+            values(time - 2. * h)) /
+           (2. * h);
   }
 
 

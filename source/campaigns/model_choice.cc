@@ -311,6 +311,7 @@ namespace Debond
     {
       namespace fs = std::filesystem;
       const std::set<std::string> stay{"torque.csv",
+                                       "curve.csv",
                                        "summary.json",
                                        "parameters.prm"};
       std::vector<fs::path>       files;
@@ -320,7 +321,7 @@ namespace Debond
       for (const fs::path &file : files)
         {
           const fs::path name = file.filename();
-          if (is_answer && name == "torque.csv")
+          if (is_answer && (name == "torque.csv" || name == "curve.csv"))
             fs::copy_file(file,
                           to / name,
                           fs::copy_options::overwrite_existing);

@@ -286,7 +286,7 @@ namespace Debond
     const auto measures = [](const std::vector<TorqueRow> &rows,
                              const std::vector<TorqueRow> &others) {
       CurveSettings settings;
-      for (const TorqueRow &row : others)
+      for (const TorqueRow &row : fine_curve(others))
         settings.reference.emplace_back(row.angle_deg, row.torque_Nmm);
       return measure_torque_curve(rows, settings);
     };

@@ -327,7 +327,7 @@ namespace Debond
         for (const Variant &variant : variants)
           {
             const std::string curve =
-              variant.scene.output.directory + "/torque.csv";
+              finest_curve(variant.scene.output.directory);
             members.push_back(
               {without_seed(variant.values),
                variant.done,

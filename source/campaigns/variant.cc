@@ -145,14 +145,14 @@ namespace Debond
                           reference = other.scene.output.directory + "/";
         std::vector<TorqueRow> rows;
         for (const auto &[angle, torque] :
-             read_reference_curve(own + "torque.csv"))
+             read_reference_curve(finest_curve(own)))
           {
             rows.emplace_back();
             rows.back().angle_deg  = angle;
             rows.back().torque_Nmm = torque;
           }
         CurveSettings settings;
-        settings.reference = read_reference_curve(reference + "torque.csv");
+        settings.reference = read_reference_curve(finest_curve(reference));
         distances          = measure_torque_curve(rows, settings);
         if (std::filesystem::exists(own + "profiles.csv") &&
             std::filesystem::exists(reference + "profiles.csv"))

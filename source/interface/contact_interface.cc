@@ -280,6 +280,52 @@ namespace Debond
                  0.;
       }
     };
+
+
+
+    /** turn_of_way() of a step, and its derivatives by the components of the
+     *  chuck that are unknown. */
+    class TurnOfWay
+    {
+    public:
+      TurnOfWay(const Eigen::Matrix3d        &old_frame,
+                const Eigen::Vector3d        &old_centre,
+                const InterfaceConfiguration &configuration)
+        : rigid(old_frame, old_centre, configuration)
+        // a little of the motion of the step [mm], [rad]
+        , dq(1e-6 *
+             ((rigid.centre - rigid.old_centre).norm() + rigid.axis.norm()))
+      {
+        if (dq > 0.)
+          for (const auto &unknown : configuration.chuck_unknowns)
+            for (const double sign : {-1., 1.})
+              varied[unknown.first].emplace_back(
+                old_frame, old_centre, configuration, unknown.first, sign * dq);
+      }
+
+      double
+      of(const Eigen::Vector3d &x, const Side slave) const
+      {
+        return rigid.turn_of_way(x, slave);
+      }
+
+      Chuck::Vector6
+      by_chuck(const Eigen::Vector3d &x, const Side slave) const
+      {
+        Chuck::Vector6 result = Chuck::Vector6::Zero();
+        for (unsigned int k = 0; k < 6; ++k)
+          if (!varied[k].empty())
+            result[k] = (varied[k][1].turn_of_way(x, slave) -
+                         varied[k][0].turn_of_way(x, slave)) /
+                        (2. * dq);
+        return result;
+      }
+
+    private:
+      const RigidMotion                       rigid;
+      const double                            dq;
+      std::array<std::vector<RigidMotion>, 6> varied;
+    };
   } // namespace
 
 
@@ -303,21 +349,8 @@ namespace Debond
     const double        moved   = motion(configuration);
     const auto         &sides   = configuration.side;
     mode_now                    = mode;
-    // how the implant moves in the step, and how it would if an unknown
-    // component of the chuck went a little less or more far, compared with the
-    // motion of the step
-    const RigidMotion rigid(accepted_frame, accepted_centre, configuration);
-    const double      dq = 1e-6 * ((rigid.centre - accepted_centre).norm() +
-                              rigid.axis.norm()); // [mm], [rad]
-    std::vector<RigidMotion> varied;
-    for (const auto &unknown : configuration.chuck_unknowns)
-      for (const double sign : {-1., 1.})
-        varied.emplace_back(accepted_frame,
-                            accepted_centre,
-                            configuration,
-                            unknown.first,
-                            sign * dq);
-    const auto update = [&](const unsigned int q, NodalSums &sums) {
+    const TurnOfWay turn(accepted_frame, accepted_centre, configuration);
+    const auto      update = [&](const unsigned int q, NodalSums &sums) {
       SlavePoint         &point  = points[q];
       ContactPointResult &result = point.trial;
       // Most points beyond the edge stay there: they need no projection until
@@ -347,13 +380,8 @@ namespace Debond
         {
           const Eigen::Vector3d old_x =
             interpolate(point.basis, accepted_positions[slave]);
-          mode_here.turn = rigid.turn_of_way(old_x, slave);
-          for (unsigned int i = 0; i < varied.size(); i += 2)
-            result.turn_by_chuck[configuration.chuck_unknowns[i / 2].first] =
-              dq > 0. ? (varied[i + 1].turn_of_way(old_x, slave) -
-                         varied[i].turn_of_way(old_x, slave)) /
-                          (2. * dq) :
-                        0.;
+          mode_here.turn       = turn.of(old_x, slave);
+          result.turn_by_chuck = turn.by_chuck(old_x, slave);
         }
       update_contact_point(
         law, start, point.phi_0, x, surface, mode_here, result);
@@ -378,6 +406,24 @@ namespace Debond
       });
     failed = found == points.end() ? nullptr : &*found;
     return failed == nullptr;
+  }
+
+
+
+  // While the chuck follows the scene only its unknown components change in
+  // Newton's method, and others need no derivative. Rates of change do.
+  void
+  ContactInterface::differentiate_turns(
+    const InterfaceConfiguration &configuration)
+  {
+    if (law.slip_direction != SlipDirection::integrated)
+      return;
+    const TurnOfWay turn(accepted_frame, accepted_centre, configuration);
+    for (SlavePoint &point : points)
+      if (point.trial.state.status == PointStatus::slip)
+        point.trial.turn_by_chuck =
+          turn.by_chuck(interpolate(point.basis, accepted_positions[slave]),
+                        slave);
   }
 
 

@@ -59,6 +59,12 @@ namespace Debond
     nlohmann::ordered_json summary = measure_torque_curve(rows, settings);
     summary.update(profiles.measures());
     summary.update(facts);
+    const std::vector<TorqueRow> fine = fine_curve(rows);
+    if (fine.size() > rows.size())
+      write_file(directory.file("curve.csv"), curve_table(fine));
+    if (!output.curve_at.empty())
+      write_file(directory.file("curve_at.csv"),
+                 curve_table(rows_at(fine, output.curve_at)));
     const bool converged = summary["converged"];
     if (converged && !reference.empty() && summary["reference_rows_used"] == 0)
       console.warn("reference",

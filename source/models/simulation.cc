@@ -71,7 +71,7 @@ namespace Debond
     // bodies that a study has condensed already are taken over, not built again
     , coupled_system(build(this->scene, std::move(bodies), timer))
     , solver(this->scene, coupled_system)
-    , steps(choose_steps(scene))
+    , steps(choose_steps())
     , step_control(
         std::visit([](auto &chosen) -> StepControl & { return chosen; }, steps))
     , state_checks(this->scene)
@@ -91,14 +91,16 @@ namespace Debond
   // along the path of equilibrium: path following takes the mean sliding
   // distance instead, which does.
   Simulation::Steps
-  Simulation::choose_steps(const Scene &scene)
+  Simulation::choose_steps() const
   {
     const LoadSteppingParameters &load_steps = scene.load_steps;
     const double                  R = scene.implant.characteristic_radius();
     // The radius R [mm] makes forces of moments, so that one tolerance can
     // judge the curves of all six chuck forces.
     if (load_steps.adaptive)
-      return AdaptiveStepping(load_steps, R);
+      return AdaptiveStepping(load_steps, R, [&](const double time) {
+        return coupled_system.chuck.values(time);
+      });
     if (!load_steps.follow_path)
       return PlannedSteps(load_steps);
     // A twentieth of the distance over which mu changes resolves the law; an
@@ -226,7 +228,7 @@ namespace Debond
         // There is a state. The control may still refuse it, because the curve
         // would be drawn too coarsely, or because it was a trial in the middle
         // of a step from which the error is estimated.
-        else if (!step_control.take(step, state(), result.iterations))
+        else if (!step_control.take(step, end_of_step(step), result.iterations))
           coupled_system.rollback();
         else
           {
@@ -254,6 +256,24 @@ namespace Debond
             coupled_system.chuck_forces(),
             coupled_system.chuck.values(time),
             coupled_system.mean_slip()};
+  }
+
+
+
+  // Adaptive steps draw the curve with the rates at the ends of the steps,
+  // which cost one more solution each. A trial in the middle needs none. Where
+  // the tangent is singular, at a limit point, there are none; the step is then
+  // made smaller, and drawn straight in the end.
+  StepState
+  Simulation::end_of_step(const Step &step)
+  {
+    StepState end = state();
+    if (scene.load_steps.adaptive && step.time == step.whole_time)
+      {
+        rates           = coupled_system.rates();
+        end.force_rates = rates.forces;
+      }
+    return end;
   }
 
 
@@ -425,6 +445,30 @@ namespace Debond
         row.chuck_reaction[k] = reaction[k];
         row.chuck_position[k] = q[k] * (is_rotation(k) ? 180. / M_PI : 1.);
       }
+    if (row.step > 0 &&
+        step_control.step_shape() != StepControl::StepShape::straight)
+      set_rates(row);
     all_rows.push_back(row);
+  }
+
+
+
+  // The rates at the beginning of a step are those at the end of the one
+  // before, unless a phase begins: then those of a parabola.
+  void
+  Simulation::set_rates(TorqueRow &row) const
+  {
+    const TorqueRow &before = all_rows.back();
+    row.rates_at_end[0]     = rates.forces[ChuckComponent::rotation_z];
+    for (unsigned int k = 0; k < 6; ++k)
+      {
+        row.rates_at_end[1 + k] = rates.reaction[k];
+        row.rates_at_end[7 + k] =
+          rates.position[k] * (is_rotation(k) ? 180. / M_PI : 1.);
+      }
+    row.rates_at_begin = before.rates_at_end;
+    if (step_control.step_shape() == StepControl::StepShape::parabola ||
+        !before.is_curved())
+      row.rates_at_begin = row.rates_of_parabola(before);
   }
 } // namespace Debond

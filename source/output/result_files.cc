@@ -16,7 +16,7 @@ namespace Debond
     namespace fs = std::filesystem;
     static const std::regex rung("rung-[0-9]+"),
       file("(summary|repetition-[0-9]+)\\.json|checkpoint-[12]|"
-           "(torque|auto|bonding|profiles|friction_law)\\.csv|"
+           "(torque|curve|curve_at|auto|bonding|profiles|friction_law)\\.csv|"
            "(bulk|interface)(-[0-9]+\\.vtu|\\.pvd)");
     const fs::directory_iterator entries(directory);
     for (const fs::path &path :
@@ -73,6 +73,15 @@ namespace Debond
       {
         refuse(reason.what());
       }
+  }
+
+
+
+  std::string
+  finest_curve(const std::string &directory)
+  {
+    const std::string fine = directory + "/curve.csv";
+    return std::filesystem::exists(fine) ? fine : directory + "/torque.csv";
   }
 
 

@@ -140,6 +140,14 @@ namespace Debond
         "each phase, whose end is always written; 0: no VTU files.");
       declare_references(output, table);
       table.add(
+        "Curve at",
+        output.curve_at,
+        Allowed::list(Allowed::number_between(-1e6, 1e6, "deg"), 0, 0),
+        "Angles [deg] at which torque, force and place of the chuck are "
+        "written to curve_at.csv, each time that the implant turns "
+        "through one of them; between rows as curve.csv has them, or "
+        "linear. Empty: no such file.");
+      table.add(
         "Full sliding angle",
         output.full_sliding_angle,
         Allowed::number_from(0, "deg"),

@@ -1,5 +1,7 @@
 #include <debond/system/step_control.h>
 
+#include <boost/math/tools/minima.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,9 +13,49 @@ namespace Debond
     StepControl::begin_phase(accepted);
     if (phase == 1)
       first_drive = accepted.drive;
-    current  = accepted.forces;
-    greatest = greatest.cwiseMax(current.cwiseAbs());
+    current  = {time, accepted.forces, {}};
+    greatest = greatest.cwiseMax(current.forces.cwiseAbs());
+    turn     = first_turn(time, end);
     set_size(planned);
+  }
+
+
+
+  // The first time between the two at which a component of what the scene
+  // prescribes has an extreme value. No step goes across it: the part of the
+  // path beyond its end would be lost, and with it friction. The end if there
+  // is none. Sampled in 256 parts, and found to a part in 1e8 there.
+  double
+  AdaptiveStepping::first_turn(const double begin, const double end) const
+  {
+    constexpr unsigned int n_parts = 256;
+    const double           part    = (end - begin) / n_parts;
+    double                 first   = end;
+    Forces                 before = drive(begin), here = drive(begin + part);
+    for (unsigned int i = 2; i <= n_parts && first == end; ++i)
+      {
+        const double t    = begin + i * part;
+        const Forces next = drive(t);
+        for (unsigned int k = 0; k < 6; ++k)
+          if (const double there = here[k] - before[k],
+              back               = here[k] - next[k];
+              there * back > 0. && std::min(std::abs(there), std::abs(back)) >
+                                     1e-12 * std::abs(here[k]))
+            {
+              const double sign = next[k] > here[k] ? 1. : -1.;
+              const double at =
+                boost::math::tools::brent_find_minima(
+                  [&](const double time) { return sign * drive(time)[k]; },
+                  t - 2. * part,
+                  t,
+                  std::numeric_limits<double>::digits / 2)
+                  .first;
+              first = std::min(first, at);
+            }
+        before = here;
+        here   = next;
+      }
+    return first;
   }
 
 
@@ -39,9 +81,9 @@ namespace Debond
   AdaptiveStepping::target_time() const
   {
     // no tiny step before the end: two equal ones instead
-    const double left = end - time;
+    const double left = turn - time;
     if (left <= size * (1. + 1e-9))
-      return end;
+      return turn;
     return left < 2. * size ? time + 0.5 * left : time + size;
   }
 
@@ -60,43 +102,100 @@ namespace Debond
 
 
 
-  double
-  AdaptiveStepping::error(const StepState &state) const
+  // How far the curve is from what is drawn in the middle of the step. With
+  // s = (t - t_0) / h the cubic is
+  //
+  //   p(s) = F_0 + s D + s (1 - s) ((1 - s) (h m_0 - D) - s (h m_1 - D)),
+  //
+  // D = F_1 - F_0. In the first step of a phase m_0 is not known, and the
+  // parabola through both ends with the rate m_1 is taken. Else values and
+  // rates at three times determine a polynomial of degree five (four, if the
+  // first of them is where the phase began), which is
+  //
+  //   p(s) + s^2 (1 - s)^2 (a + b (s + r)),
+  //
+  // with the time before at s = -r.
+  AdaptiveStepping::Forces
+  AdaptiveStepping::difference(const StepState &state) const
   {
-    // How far the curve is from the straight line through the step before, or,
-    // in the first step, from the chord of this one.
-    const Forces &forces     = state.forces;
-    Forces        difference = middle - 0.5 * (current + forces);
-    if (has_previous)
-      difference =
-        forces - current -
-        (target_time() - time) / (time - previous_time) * (current - previous);
+    const double h      = target_time() - current.time;
+    const Forces change = state.forces - current.forces,
+                 end    = h * state.force_rates - change;
+    if (!has_previous)
+      return middle - (current.forces + 0.5 * change - 0.25 * end);
+    const Forces begin = h * current.rates - change;
+    const double r     = (current.time - previous.time) / h;
+    const double w     = std::pow(r * (1. + r), 2), // s^2 (1 - s)^2 at -r, and
+      dw               = -2. * r * (1. + r) * (1. + 2. * r); // its derivative
+    const Forces a     = (previous.forces - current.forces + r * change +
+                      r * (1. + r) * ((1. + r) * begin + r * end)) /
+                     w;
+    Forces b = Forces::Zero();
+    if (!second)
+      {
+        const Forces slope = change +
+                             (1. + 2. * r) * ((1. + r) * begin + r * end) +
+                             r * (1. + r) * (begin + end);
+        b = (h * previous.rates - slope - dw * a) / w;
+      }
+    return (a + (0.5 + r) * b) / 16.;
+  }
+
+
+
+  // The largest of the six, over what they are compared with. @p largest: of
+  // each so far [N, N mm].
+  double
+  AdaptiveStepping::relative(const Forces &difference,
+                             const Forces &largest) const
+  {
     // moments are forces at the distance of the radius
     Forces unit;
     unit << 1., 1., 1., radius, radius, radius;
-    const Forces largest = greatest.cwiseMax(forces.cwiseAbs());
-    const double of_all  = largest.cwiseQuotient(unit).maxCoeff();
+    const double of_all = largest.cwiseQuotient(unit).maxCoeff();
     // A component next to nothing, for instance by symmetry, has no curve.
     // Small reactions to patterns beside the axis have a kink wherever a few
     // points begin to slide: in proportion to themselves they would take three
     // times as many steps as the torque.
-    double deviation = 0;
+    double result = 0.;
     for (unsigned int k = 0; k < 6; ++k)
       {
         const double floor = (drive_change[k] > 0. ? 1e-3 : 0.1) * of_all;
         const double scale = std::max(largest[k], floor * unit[k]);
         if (scale > 0.)
-          deviation =
-            std::max(deviation,
-                     std::abs(difference[k]) / scale / parameters.tolerance);
+          result = std::max(result, std::abs(difference[k]) / scale);
       }
-    if (!has_previous) // twice: the curve need not be a parabola
-      return 2. * deviation;
-    // A parabola that begins to bend with this step would leave its chord by a
-    // quarter of that. Where the curve was straight before it may have a kink
-    // anywhere in this step, and leave its chord by nearly all of it.
-    const double bent = 0.25 * deviation;
-    return bent > 10. * previous_error ? deviation : bent;
+    return result;
+  }
+
+
+
+  // The error in the middle of the step over the tolerance.
+  double
+  AdaptiveStepping::error(const StepState &state) const
+  {
+    const Forces largest = greatest.cwiseMax(state.forces.cwiseAbs());
+    const double smooth =
+      relative(difference(state), largest) / parameters.tolerance;
+    if (!has_previous) // twice: the curve need not be a cubic
+      return 2. * smooth;
+    // Where the error is much more than the fourth power of the step would make
+    // of that of the step before, or that is not known, there may be a kink or
+    // a jump anywhere in this step. A cubic leaves a kink between two straight
+    // lines by h |m_1 - m_0| / 8, and a jump by half of it and more.
+    const double h = target_time() - current.time;
+    const double expected =
+      second ? 0. :
+               previous_error * std::pow(h / (current.time - previous.time), 4);
+    if (smooth < std::max(3. * expected, 0.02))
+      return smooth;
+    const Forces begin = h * current.rates, end = h * state.force_rates;
+    const Forces kink = (end - begin) / 8.,
+                 jump =
+                   (state.forces - current.forces - (begin + end) / 2.) / 2.;
+    return std::max(smooth,
+                    std::max(relative(kink, largest), relative(jump, largest)) /
+                      parameters.tolerance);
   }
 
 
@@ -118,19 +217,28 @@ namespace Debond
     const double taken     = step.time - time;
     if (error_now > 1. && taken > smallest() * (1. + 1e-9))
       {
-        set_size(taken * std::clamp(std::sqrt(0.8 / error_now), 0.1, 0.7));
+        set_size(taken * std::clamp(std::pow(0.8 / error_now, 0.25), 0.1, 0.7));
         return false;
       }
+    second         = !has_previous;
+    is_resolved    = error_now <= 1.;
     previous       = current;
-    previous_time  = time;
     previous_error = error_now;
     has_previous   = true;
-    current        = state.forces;
+    current        = {step.time, state.forces, state.force_rates};
     time           = step.time;
-    greatest       = greatest.cwiseMax(state.forces.cwiseAbs());
-    // the error goes with the square of the step; towards 0.8 of the tolerance
-    set_size(taken *
-             std::clamp(std::sqrt(0.8 / std::max(error_now, 1e-12)), 0.5, 2.));
+    if (time == turn && time != end)
+      {
+        // as a new phase, but for the size of steps
+        turn         = first_turn(time, end);
+        has_previous = false;
+      }
+    greatest = greatest.cwiseMax(state.forces.cwiseAbs());
+    // the error goes with the fourth power of the step; towards 0.8 of the
+    // tolerance
+    set_size(
+      taken *
+      std::clamp(std::pow(0.8 / std::max(error_now, 1e-12), 0.25), 0.5, 2.));
     return true;
   }
 

@@ -97,19 +97,20 @@ namespace Debond
               adaptive,
               Allowed::choice("false | true"),
               "Let the program choose the steps of each phase, at most as "
-              "large as the planned ones, such that torque and forces drawn as "
-              "straight lines between the rows keep the Tolerance, relative to "
-              "the largest value of each (where the machine holds still to a "
-              "tenth of the largest of all, if that is more); each accepted "
-              "step is a row. The error in time of Interface / Viscosity is "
-              "not covered. A step that does not converge is halved in any "
-              "case.");
+              "large as the planned ones, such that the curves of torque and "
+              "forces in curve.csv, cubics between the rows, keep the "
+              "Tolerance, relative to the largest value of each (where the "
+              "machine holds still to a tenth of the largest of all, if that "
+              "is more); each accepted step is a row. Steps end where "
+              "something prescribed turns back. The error in time of Interface "
+              "/ Viscosity is not covered. A step that does not converge is "
+              "halved in any case.");
     table.add("Tolerance",
               tolerance,
               Allowed::number_between(1e-7, 1, ""),
               "Relative accuracy wanted of the torque curve. With Adaptive "
-              "that of drawing it as straight lines between the steps, whose "
-              "states are taken to be exact: they nearly are, but with "
+              "that of drawing it as cubics between the steps, whose states "
+              "are taken to be exact: they nearly are, but with "
               "Interface / Slip direction = trial, which is of first order in "
               "the step where the direction of slip turns; with "
               "Model = auto the largest difference, relative to the largest "

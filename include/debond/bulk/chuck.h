@@ -121,7 +121,8 @@ namespace Debond
     Vector6
     values(double time) const;
 
-    /** Their rates of change with time, by differences. */
+    /** Their rates of change with time up to it, where a phase may end; by
+     *  differences. */
     Vector6
     rates(double time) const;
     /** Whether a component is where the scene wants it, at any load. */
@@ -235,6 +236,14 @@ namespace Debond
     axis(unsigned int k) const
     {
       return b[k - 3];
+    }
+
+    /** How it turns while the chuck moves at @p rates. */
+    Eigen::Vector3d
+    axis_rate(const unsigned int k, const Vector6 &rates) const
+    {
+      const auto &by = db[k - 3];
+      return rates[3] * by[0] + rates[4] * by[1] + rates[5] * by[2];
     }
 
     /** Force or moment that the machine applies to component k at its trial

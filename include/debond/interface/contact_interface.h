@@ -124,6 +124,24 @@ namespace Debond
     evaluate(const InterfaceConfiguration &configuration,
              const ContactPointMode       &mode);
 
+    /** The mode of the last evaluate(). */
+    const ContactPointMode &
+    mode() const
+    {
+      return mode_now;
+    }
+    /** Whether friction depends on the duration of a step. */
+    bool
+    depends_on_rate() const
+    {
+      return law.viscosity > 0. || law.friction->depends_on_rate();
+    }
+    /** Completes the derivatives of the last evaluate() by those with the
+     *  components of the chuck that are unknowns of @p configuration, where it
+     *  has others than that evaluate() had. */
+    void
+    differentiate_turns(const InterfaceConfiguration &configuration);
+
     /** Nodal forces of the last evaluate() on the control points of a side, in
      *  space, as they enter the residual [N]. */
     const ControlNet &

@@ -141,18 +141,22 @@ namespace Debond
     // A step in order: solve_row() asks the control of steps which one to
     // try and has the solver look for the state at its end, accept() makes it
     // history, add_row() says what came of it.
-    static Steps
-    choose_steps(const Scene &scene);
+    Steps
+    choose_steps() const;
     void
     solve_first_row();
     void
     solve_row();
     StepState
     state() const;
+    StepState
+    end_of_step(const Step &step);
     void
     accept(const StepResult &result);
     void
     add_row(const InterfaceSummary &summary, unsigned int iterations);
+    void
+    set_rates(TorqueRow &row) const;
     [[noreturn]] void
     give_up(const Step &step, const StepResult &result) const;
     void
@@ -170,6 +174,7 @@ namespace Debond
     std::vector<Warning>   all_warnings;
     Effort                 so_far;
     double                 reaction_defect = 0; ///< of the last accepted state
+    CoupledSystem::Rates   rates; ///< of the last step that was solved
   };
 } // namespace Debond
 #endif

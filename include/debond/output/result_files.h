@@ -52,6 +52,11 @@ namespace Debond
     DirectoryLock lock;
   };
 
+  /** The file in a directory of results with the finest torque curve:
+   *  curve.csv, or torque.csv where there is none. */
+  std::string
+  finest_curve(const std::string &directory);
+
   /** Writes a JSON object with its members in their order and every digit;
    *  what is not finite becomes `null`. Throws WriteError. */
   void

@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -46,6 +47,39 @@ namespace Debond
     double machine_angle_deg = 0;
     /** Energy that jumps have released so far, see ReleasedEnergy. */
     double released_energy_Nmm = 0;
+
+    /** What the curve between rows is drawn of: torque [N mm], chuck_reaction
+     *  and chuck_position, by the unit of time. */
+    using Rates = std::array<double, 13>;
+    /** At the beginning and at the end of the step that ends with this row;
+     *  NaN: it is a straight line. */
+    Rates rates_at_begin, rates_at_end;
+
+    TorqueRow()
+    {
+      rates_at_begin.fill(std::numeric_limits<double>::quiet_NaN());
+      rates_at_end = rates_at_begin;
+    }
+    bool
+    is_curved() const
+    {
+      return !std::isnan(rates_at_end[0]);
+    }
+    /** At the beginning of the step, of the parabola from @p before that has
+     * the rates at the end. */
+    Rates
+    rates_of_parabola(TorqueRow before) const;
+    /** Calls visit(value) for what Rates are of. */
+    template <typename Row, typename Visitor>
+    static void
+    for_each_curve(Row &row, const Visitor &visit)
+    {
+      visit(row.torque_Nmm);
+      for (auto &value : row.chuck_reaction)
+        visit(value);
+      for (auto &value : row.chuck_position)
+        visit(value);
+    }
 
     /** Calls visit(name, value) for the columns of torque.csv in their order.
      *  The first eighteen are fixed: users' scripts count on them. */
@@ -93,6 +127,7 @@ namespace Debond
     {
       for_each_column(
         [&](const std::string &, auto &value) { archive &value; });
+      archive &rates_at_begin &rates_at_end;
     }
   };
 
@@ -108,6 +143,26 @@ namespace Debond
   torque_table(const std::vector<TorqueRow> &rows);
 
 
+
+  /**
+   * The rows of a run, and between those that rates of change are known of
+   * further ones on the cubic through both ends with these rates: 16 parts of a
+   * step, which drawn as straight lines are within 1/256 of what the ends would
+   * be. Other columns are linear in between.
+   */
+  std::vector<TorqueRow>
+  fine_curve(const std::vector<TorqueRow> &rows);
+
+  /** The text of curve.csv: time, angle, torque, force and place of the chuck
+   *  along a fine_curve(). */
+  std::string
+  curve_table(const std::vector<TorqueRow> &fine);
+
+  /** Where a fine_curve() goes through @p angles [deg], in its order; linear
+   *  between its rows. */
+  std::vector<TorqueRow>
+  rows_at(const std::vector<TorqueRow> &fine,
+          const std::vector<double>    &angles);
 
   /** Torque at an angle, linear between the points of a curve whose angles do
    *  not fall; NaN beside them. Differences of angles up to @p tolerance are
@@ -154,8 +209,9 @@ namespace Debond
    *    theta_full: beginning of full sliding; T_inf: T of the last row;
    *  - pressure: at the end of the last phase before the angle first changes;
    *  - initial_stiffness: torque per angle up to the first row that has turned;
-   *  - E_deb, E_fric, W_adh: Eq. (20), without what jumps release; w_adh: Eq. (21); w_adh_star: Eq. (21)
-   *    with a mean phi_0 of 1; D_adh: work the law spends on adhesion;
+   *  - E_deb, E_fric, W_adh: Eq. (20), without what jumps release; w_adh: Eq.
+   * (21); w_adh_star: Eq. (21) with a mean phi_0 of 1; D_adh: work the law
+   * spends on adhesion;
    *  - dissipation, and viscous_dissipation, which is part of it;
    *  - theta_debonding: angle of the first row whose mean bonding state is
    * below the initial;

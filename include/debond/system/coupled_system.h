@@ -173,6 +173,18 @@ namespace Debond
      *  space, from the contact forces [N, N mm]. */
     Chuck::Vector6
     chuck_resultant() const;
+    /** How forces and place of the chuck change with the time in which a step
+     *  ends, by its unit. Finite where the equations can be solved. */
+    struct Rates
+    {
+      Chuck::Vector6 forces;   ///< of chuck_forces()
+      Chuck::Vector6 reaction; ///< of chuck_resultant()
+      Chuck::Vector6 position; ///< of the chuck
+    };
+    /** In the state of the last evaluate(), which has to be one of equilibrium.
+     *  Not along a path. */
+    Rates
+    rates();
     /** Strain energy of both bodies in the state of the last evaluate() [N mm].
      */
     double
@@ -223,6 +235,8 @@ namespace Debond
     update_configuration();
     double
     evaluate_chuck(Residual &residual);
+    Eigen::VectorXd
+    rates_by_duration(const InterfaceConfiguration &moving);
     void
     number_unknowns();
     bool

@@ -4,6 +4,7 @@
 #include <debond/bulk/chuck.h>
 #include <debond/system/load_step_parameters.h>
 
+#include <functional>
 #include <string>
 
 namespace Debond
@@ -41,6 +42,8 @@ namespace Debond
     /** What the scene prescribes, displacements and angles or loads. */
     Chuck::Vector6 drive;
     double         mean_slip = 0; ///< [mm]; known along a path only
+    /** How the forces change with time; known with adaptive steps only. */
+    Chuck::Vector6 force_rates = Chuck::Vector6::Zero();
   };
 
   /**
@@ -83,6 +86,20 @@ namespace Debond
     is_finished() const
     {
       return phase == parameters.steps.size() && time == end;
+    }
+    /** What the curve in the step that was taken is: a straight line, the
+     *  parabola with the rate at the end, or the cubic with the rates at both
+     *  ends. */
+    enum class StepShape
+    {
+      straight,
+      parabola,
+      cubic
+    };
+    virtual StepShape
+    step_shape() const
+    {
+      return StepShape::straight;
     }
     /** Why there is no further step, for people. */
     virtual std::string
@@ -161,29 +178,33 @@ namespace Debond
 
   /**
    * Steps of a size that keeps the curves of the six chuck forces, drawn as
-   * straight lines between the ends of the steps, within a tolerance. The
-   * states at these ends are nearly exact whatever the step; what a large step
-   * loses is the shape of the curve in between.
+   * cubics through the ends of the steps with the rates of change there, within
+   * a tolerance. The states at these ends are nearly exact whatever the step;
+   * what a large step loses is the shape of the curve in between.
    *
    * The tolerance is relative to the largest value of each curve; where the
    * machine holds still, for instance against the lateral forces of a bond on
    * one side, it is relative to a tenth of the largest of all forces if that is
    * more.
    *
-   * The error of a step is estimated from the distance of its end from the
-   * straight line through the step before, in the first step of a phase from a
-   * trial in its middle.
+   * In the first step of a phase the rate at its beginning is that of a
+   * parabola, whose error a trial in the middle of the step tells. Later the
+   * error is estimated from how far the cubic, drawn on backwards, is from the
+   * step before.
    */
   class AdaptiveStepping : public StepControl
   {
   public:
     using Forces = Chuck::Vector6;
 
-    /** @p radius makes forces of moments, to compare them with [mm]. */
-    AdaptiveStepping(const LoadSteppingParameters &parameters,
-                     const double                  radius)
+    /** @p radius makes forces of moments, to compare them with [mm]. @p drive:
+     *  what the scene prescribes at a time. */
+    AdaptiveStepping(const LoadSteppingParameters        &parameters,
+                     const double                         radius,
+                     const std::function<Forces(double)> &drive)
       : StepControl(parameters)
       , radius(radius)
+      , drive(drive)
     {}
 
     void
@@ -198,6 +219,15 @@ namespace Debond
     /** Halves the step. */
     bool
     reject(const Step &) override;
+    /** Not where even the smallest step was too large: there is a jump, and a
+     *  cubic would swing. */
+    StepShape
+    step_shape() const override
+    {
+      return !is_resolved ? StepShape::straight :
+             second       ? StepShape::parabola :
+                            StepShape::cubic;
+    }
 
     /** See serialization.h. */
     template <class Archive>
@@ -205,8 +235,9 @@ namespace Debond
     serialize(Archive &archive, const unsigned int version)
     {
       StepControl::serialize(archive, version);
-      archive &size &current &previous &middle &previous_time &previous_error;
-      archive &has_middle &greatest &first_drive              &drive_change;
+      archive &size &turn &current &previous &second &is_resolved;
+      archive &middle &previous_error &has_middle    &greatest;
+      archive &first_drive                           &drive_change;
     }
 
   private:
@@ -215,21 +246,44 @@ namespace Debond
     double
     target_time() const;
     double
+    first_turn(double begin, double end) const;
+    Forces
+    difference(const StepState &state) const;
+    double
+    relative(const Forces &difference, const Forces &largest) const;
+    double
     error(const StepState &state) const;
     void
     set_size(double new_size);
 
-    const double radius;
-    double       size     = 0;
-    Forces       current  = Forces::Zero(); ///< at the beginning of the step
-    Forces       previous = Forces::Zero(); ///< one step before
-    Forces       middle   = Forces::Zero();
-    double       previous_time  = 0;
-    double       previous_error = 0; ///< of the step before
-    bool         has_middle     = false;
-    Forces       greatest       = Forces::Zero(); ///< so far
-    Forces       first_drive    = Forces::Zero();
-    Forces       drive_change   = Forces::Zero(); ///< largest so far
+    /** What is known of an end of a step. */
+    struct Node
+    {
+      double time   = 0;
+      Forces forces = Forces::Zero(), rates = Forces::Zero();
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &time &forces &rates;
+      }
+    };
+
+    const double                        radius;
+    const std::function<Forces(double)> drive;
+    double                              size = 0;
+    double turn = 0;               ///< next time at which something turns back
+    Node   current;                ///< at the beginning of the step
+    Node   previous;               ///< one step before
+    bool   second         = false; ///< previous is where the phase began
+    bool   is_resolved    = true;  ///< the error was below the tolerance
+    Forces middle         = Forces::Zero();
+    double previous_error = 0; ///< of the step before
+    bool   has_middle     = false;
+    Forces greatest       = Forces::Zero(); ///< so far
+    Forces first_drive    = Forces::Zero();
+    Forces drive_change   = Forces::Zero(); ///< largest so far
   };
 
 

@@ -53,8 +53,11 @@ def run(scene, *changes):
     debond(scene, directory, 'Output/Fields every=0', *changes)
     with open(directory + '/summary.json', encoding='utf-8') as text:
         summary = json.load(text)
-    rows, fine = rows_of(directory + '/torque.csv'), directory + '/curve.csv'
-    return {**summary, 'curve': rows, 'fine curve': rows_of(fine) if os.path.exists(fine) else rows}
+    return {**summary, 'curve': rows_of(directory + '/torque.csv'), 'fine curve': fine_curve(directory)}
+
+
+def fine_curve(directory):
+    return rows_of(directory + ('/curve.csv' if os.path.exists(directory + '/curve.csv') else '/torque.csv'))
 
 
 @functools.lru_cache(None)
@@ -67,7 +70,7 @@ def study(scene, *changes):
 
 def study_with_curves(scene, *changes):
     """The same, each row with its curve."""
-    return [{**row, 'curve': rows_of('%s/variant-%03d/torque.csv' % (directory_of(scene, changes), row['variant']))}
+    return [{**row, 'curve': fine_curve('%s/variant-%03d' % (directory_of(scene, changes), row['variant']))}
             for row in study(scene, *changes)]
 
 
@@ -119,8 +122,8 @@ def small(value, digits=1):
 
 def difference(result, reference):
     """Largest difference of the torque at the angles of the reference, relative to its largest torque."""
-    return max(abs(torque_at(result['curve'], row['angle_deg']) - row['torque_Nmm'])
-               for row in reference['curve'] if row['angle_deg'] > 0) / reference['T_max_Nmm']
+    return max(abs(torque_at(result['fine curve'], row['angle_deg']) - row['torque_Nmm'])
+               for row in reference['fine curve'] if row['angle_deg'] > 0) / reference['T_max_Nmm']
 
 
 def table(head, rows):

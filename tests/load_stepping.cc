@@ -134,7 +134,8 @@ adaptive_times(const double  tolerance,
                      forces_at(time, ripple),
                      drive_at(time, sideways),
                      0.,
-                     rates_at(time, ripple)};
+                     rates_at(time, ripple),
+                     [] { return AdaptiveStepping::Forces::Zero(); }};
   };
   while (!stepping.is_finished())
     {

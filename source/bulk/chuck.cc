@@ -124,8 +124,7 @@ namespace Debond
   Chuck::rates(const double time) const
   {
     const double h = 1e-5 * std::max(1., std::abs(time));
-    return (3. * values(time) - 4. * values(time - h) +
-            values(time - 2. * h)) /
+    return (3. * values(time) - 4. * values(time - h) + values(time - 2. * h)) /
            (2. * h);
   }
 

@@ -326,6 +326,33 @@ namespace Debond
       const double                            dq;
       std::array<std::vector<RigidMotion>, 6> varied;
     };
+
+
+
+    /** From the state @p start at @p old_x to @p x, the slave point in space
+     * [mm]; finds what master and law make of it (contact_point.cc). */
+    void
+    update_point(const ContactPointLaw   &law,
+                 const Side               slave,
+                 const SlavePoint        &point,
+                 const ContactPointState &start,
+                 const Eigen::Vector3d   &old_x,
+                 const Eigen::Vector3d   &old_traction,
+                 const MasterSurface     &surface,
+                 const TurnOfWay         &turn,
+                 ContactPointMode         mode,
+                 const Eigen::Vector3d   &x,
+                 ContactPointResult      &result)
+    {
+      if (law.slip_direction == SlipDirection::previous_gap)
+        mode.slip_direction = old_traction;
+      else if (law.slip_direction == SlipDirection::integrated)
+        {
+          mode.turn            = turn.of(old_x, slave);
+          result.turn_by_chuck = turn.by_chuck(old_x, slave);
+        }
+      update_contact_point(law, start, point.phi_0, x, surface, mode, result);
+    }
   } // namespace
 
 
@@ -368,23 +395,17 @@ namespace Debond
         point.accepted.has_partner ? point.accepted : entered;
       // the previous gap of Eq. (31) as printed has the direction of the
       // previous traction, which is kept in the frame of the master
-      ContactPointMode mode_here = mode;
-      if (law.slip_direction == SlipDirection::previous_gap)
-        mode_here.slip_direction =
-          sides[master_side()].frame * point.accepted_traction;
-      // x, the slave point in space [mm]; the update finds what master and law
-      // make of it (contact_point.cc).
-      const Eigen::Vector3d x =
-        interpolate(point.basis, sides[slave].positions);
-      if (law.slip_direction == SlipDirection::integrated)
-        {
-          const Eigen::Vector3d old_x =
-            interpolate(point.basis, accepted_positions[slave]);
-          mode_here.turn       = turn.of(old_x, slave);
-          result.turn_by_chuck = turn.by_chuck(old_x, slave);
-        }
-      update_contact_point(
-        law, start, point.phi_0, x, surface, mode_here, result);
+      update_point(law,
+                   slave,
+                   point,
+                   start,
+                   interpolate(point.basis, accepted_positions[slave]),
+                   sides[master_side()].frame * point.accepted_traction,
+                   surface,
+                   turn,
+                   mode,
+                   interpolate(point.basis, sides[slave].positions),
+                   result);
       if (result.state.status == PointStatus::open)
         return;
       // f_A = int N_A t dA on the slave, and the opposite on the master at
@@ -406,6 +427,77 @@ namespace Debond
       });
     failed = found == points.end() ? nullptr : &*found;
     return failed == nullptr;
+  }
+
+
+
+  // A step takes the way of each point over the master to be straight, or an
+  // arc where the bodies turn, and its pressure to change evenly. Two halves by
+  // way of where the point is in the middle know better. The difference is the
+  // error of the step but for a factor of 4/3, that of a method of second
+  // order.
+  NodalSums
+  ContactInterface::difference_of_halves(
+    const InterfaceConfiguration &middle,
+    const InterfaceConfiguration &configuration) const
+  {
+    InterfaceConfiguration first = middle, last = configuration;
+    first.chuck_unknowns.clear(); // no derivatives
+    last.chuck_unknowns.clear();
+    const MasterSurface surface = master(first), last_surface = master(last);
+    const TurnOfWay     turn(accepted_frame, accepted_centre, first),
+      last_turn(first.side[Side::implant].frame, first.chuck->centre(), last);
+    ContactPointMode mode = mode_now;
+    mode.duration *= 0.5;
+    const auto update = [&](const unsigned int q, NodalSums &sums) {
+      const SlavePoint        &point = points[q];
+      const ContactPointState &begin = point.accepted, &end = point.trial.state;
+      if (!begin.has_partner || !end.has_partner ||
+          (begin.status != PointStatus::slip &&
+           end.status != PointStatus::slip))
+        return;
+      const auto at = [&](const ControlNet &positions) {
+        return Eigen::Vector3d(interpolate(point.basis, positions));
+      };
+      const Eigen::Vector3d old_x = at(accepted_positions[slave]),
+                            x     = at(first.side[slave].positions);
+      ContactPointResult half, whole;
+      update_point(law,
+                   slave,
+                   point,
+                   point.accepted,
+                   old_x,
+                   first.side[master_side()].frame * point.accepted_traction,
+                   surface,
+                   turn,
+                   mode,
+                   x,
+                   half);
+      update_point(law,
+                   slave,
+                   point,
+                   half.state,
+                   x,
+                   half.tangential_traction,
+                   last_surface,
+                   last_turn,
+                   mode,
+                   at(last.side[slave].positions),
+                   whole);
+      // A string forgets errors as it is towed, by exp(-slip / length) in a
+      // step. Until then those of earlier steps are in it, too, taken to be
+      // those of this one.
+      const double length = point.trial.tangential_traction.norm() /
+                            law.tangential_penalty,
+                   left       = length > 0. ?
+                                  std::exp((begin.slip - end.slip) / length) :
+                                  0.;
+      const Eigen::Vector3d f = point.JxW / (1. - std::min(left, 0.9)) *
+                                (whole.traction - point.trial.traction);
+      spread(point.basis, f, sums[slave]);
+      spread(point.trial.basis, -f, sums[master_side()]);
+    };
+    return sum_in_chunks(points.size(), configuration, update);
   }
 
 

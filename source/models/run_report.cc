@@ -65,6 +65,11 @@ namespace Debond
     if (!output.curve_at.empty())
       write_file(directory.file("curve_at.csv"),
                  curve_table(rows_at(fine, output.curve_at)));
+    for (const double angle : output.curve_at)
+      if (rows_at(fine, {angle}).empty())
+        console.warn("curve at",
+                     "Output / Curve at: the implant never turns through " +
+                       to_text(angle, 6) + " deg");
     const bool converged = summary["converged"];
     if (converged && !reference.empty() && summary["reference_rows_used"] == 0)
       console.warn("reference",

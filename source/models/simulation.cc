@@ -270,8 +270,15 @@ namespace Debond
     StepState end = state();
     if (scene.load_steps.adaptive && step.time == step.whole_time)
       {
-        rates           = coupled_system.rates();
-        end.force_rates = rates.forces;
+        rates                    = coupled_system.rates();
+        end.force_rates          = rates.forces;
+        end.difference_of_halves = [this, &step] {
+          return coupled_system.difference_of_halves(step.time - solver.time(),
+                                                     step.extrapolate ?
+                                                       &accepted_rates :
+                                                       nullptr,
+                                                     rates);
+        };
       }
     return end;
   }
@@ -363,6 +370,7 @@ namespace Debond
           state_checks.add_motion(row, coupled_system.chuck, from, to);
       }
     solver.commit();
+    accepted_rates = rates;
     // Energies, jumps, penetration: a check that is not passed does not end the
     // run, but it is said, and counted in the row.
     state_checks.add(row, coupled_system, result.interface, reaction_defect);

@@ -170,32 +170,69 @@ namespace Debond
 
 
 
-  // The error in the middle of the step over the tolerance.
-  double
-  AdaptiveStepping::error(const StepState &state) const
+  // The rate at the end of the step, if the cubic of the step before went on:
+  // with q = h / (t_0 - t_-1), A = m_-1 - D and B = m_0 - D,
+  //
+  //   D + (1 + 2 q) (q A + (1 + q) B) + q (1 + q) (A + B).
+  AdaptiveStepping::Forces
+  AdaptiveStepping::expected_rates(const double h) const
   {
-    const Forces largest = greatest.cwiseMax(state.forces.cwiseAbs());
-    const double smooth =
-      relative(difference(state), largest) / parameters.tolerance;
+    const double before = current.time - previous.time, q = h / before;
+    const Forces D = (current.forces - previous.forces) / before,
+                 A = previous.rates - D, B = current.rates - D;
+    return D + (1. + 2. * q) * (q * A + (1. + q) * B) + q * (1. + q) * (A + B);
+  }
+
+
+
+  // The largest error of what is drawn in the step over the tolerance.
+  AdaptiveStepping::ErrorBetween
+  AdaptiveStepping::error_between(const StepState &state) const
+  {
+    const Forces largest  = greatest.cwiseMax(state.forces.cwiseAbs());
+    const auto   in_parts = [&](const Forces &difference) {
+      return relative(difference, largest) / parameters.tolerance;
+    };
+    const Forces from_polynomial = difference(state);
     if (!has_previous) // twice: the curve need not be a cubic
-      return 2. * smooth;
+      return {2. * in_parts(from_polynomial), 2. * in_parts(from_polynomial)};
+    // A kink near the end of the step hardly moves the polynomial in its
+    // middle, and shows in the rate. On a smooth curve with equal steps that
+    // rate is off by h^3 F'''' / 2, and the cubic by h^4 F'''' / 384; half as
+    // much is wanted.
+    const double h = target_time() - current.time;
+    const double smooth =
+      std::max(in_parts(from_polynomial),
+               in_parts(h / 96. * (state.force_rates - expected_rates(h))));
     // Where the error is much more than the fourth power of the step would make
-    // of that of the step before, or that is not known, there may be a kink or
+    // of that of the steps before, or that is not known, there may be a kink or
     // a jump anywhere in this step. A cubic leaves a kink between two straight
     // lines by h |m_1 - m_0| / 8, and a jump by half of it and more.
-    const double h = target_time() - current.time;
     const double expected =
-      second ? 0. :
-               previous_error * std::pow(h / (current.time - previous.time), 4);
-    if (smooth < std::max(3. * expected, 0.02))
-      return smooth;
+      second ? 0. : std::max(bend, bend_before) * std::pow(h, 4);
+    if (smooth < std::max(2. * expected, 0.02))
+      return {smooth, smooth};
     const Forces begin = h * current.rates, end = h * state.force_rates;
-    const Forces kink = (end - begin) / 8.,
-                 jump =
-                   (state.forces - current.forces - (begin + end) / 2.) / 2.;
-    return std::max(smooth,
-                    std::max(relative(kink, largest), relative(jump, largest)) /
-                      parameters.tolerance);
+    return {smooth,
+            std::max(
+              {smooth,
+               in_parts((end - begin) / 8.),
+               in_parts((state.forces - current.forces - (begin + end) / 2.) /
+                        2.)})};
+  }
+
+
+
+  // The error of the state at the end of the step over the tolerance. Two
+  // halves of a method of second order are right to a quarter of what one step
+  // is.
+  double
+  AdaptiveStepping::error_at_end(const StepState &state) const
+  {
+    return 4. / 3. *
+           relative(state.difference_of_halves(),
+                    greatest.cwiseMax(state.forces.cwiseAbs())) /
+           parameters.tolerance;
   }
 
 
@@ -213,20 +250,36 @@ namespace Debond
       }
     drive_change =
       drive_change.cwiseMax((state.drive - first_drive).cwiseAbs());
-    const double error_now = error(state);
-    const double taken     = step.time - time;
-    if (error_now > 1. && taken > smallest() * (1. + 1e-9))
+    const auto [smooth, drawn] = error_between(state);
+    const double taken         = step.time - time;
+    // to 0.8 of the tolerance: the error of the cubic goes with the fourth
+    // power of the step, that of the state at its end with the square
+    double     at_end = 0.;
+    const auto change = [&](const double curve) {
+      return std::min(std::pow(0.8 / std::max(curve, 1e-12), 0.25),
+                      std::pow(0.8 / std::max(at_end, 1e-12), 0.5));
+    };
+    if (taken > smallest() * (1. + 1e-9))
       {
-        set_size(taken * std::clamp(std::pow(0.8 / error_now, 0.25), 0.1, 0.7));
-        return false;
+        if (drawn <= 1.)
+          at_end = error_at_end(state);
+        if (std::max(drawn, at_end) > 1.)
+          {
+            set_size(taken * std::clamp(change(drawn), 0.1, 0.7));
+            return false;
+          }
       }
-    second         = !has_previous;
-    is_resolved    = error_now <= 1.;
-    previous       = current;
-    previous_error = error_now;
-    has_previous   = true;
-    current        = {step.time, state.forces, state.force_rates};
-    time           = step.time;
+    second = !has_previous;
+    if (second) // of the parabola that was drawn
+      current.rates =
+        2. / taken * (state.forces - current.forces) - state.force_rates;
+    is_resolved  = drawn <= 1.;
+    previous     = current;
+    bend_before  = second ? 0. : bend;
+    bend         = smooth / std::pow(taken, 4);
+    has_previous = true;
+    current      = {step.time, state.forces, state.force_rates};
+    time         = step.time;
     if (time == turn && time != end)
       {
         // as a new phase, but for the size of steps
@@ -234,11 +287,11 @@ namespace Debond
         has_previous = false;
       }
     greatest = greatest.cwiseMax(state.forces.cwiseAbs());
-    // the error goes with the fourth power of the step; towards 0.8 of the
-    // tolerance
-    set_size(
-      taken *
-      std::clamp(std::pow(0.8 / std::max(error_now, 1e-12), 0.25), 0.5, 2.));
+    set_size(taken *
+             std::clamp(
+               change(std::max(drawn, 0.2 * bend_before * std::pow(taken, 4))),
+               0.5,
+               2.));
     return true;
   }
 

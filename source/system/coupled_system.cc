@@ -669,6 +669,7 @@ namespace Debond
 
     Rates result;
     result.position = motion.tail<6>();
+    result.surfaces = nodal_motion(motion, moving);
     result.forces   = (whole.interface_product(motion) + by_duration).tail<6>();
     // The rows are those of equations, the force of a spring in them.
     for (const auto &[k, number] : configuration.chuck_unknowns)
@@ -684,6 +685,50 @@ namespace Debond
       }
     result.reaction           = result.forces;
     result.reaction.tail<3>() = axes.inverse() * turned;
+    return result;
+  }
+
+
+
+  // Where friction turns, points slide back or friction depends on the speed,
+  // the state at the end depends on the way there, and one step knows it less
+  // well than two. The bodies follow the surfaces at rest; that they would give
+  // way a little is left out.
+  Chuck::Vector6
+  CoupledSystem::difference_of_halves(const double duration,
+                                      const Rates *begin,
+                                      const Rates &end) const
+  {
+    InterfaceConfiguration middle = configuration;
+    Chuck                  chuck_in_middle(chuck);
+    middle.chuck = &chuck_in_middle;
+    {
+      const Chuck::Vector6 last = duration * end.position;
+      chuck_in_middle.place_in_middle(begin ? Chuck::Vector6(duration *
+                                                             begin->position) :
+                                              chuck.change() * 2. - last,
+                                      last);
+    }
+    middle.side[Side::implant].frame = chuck_in_middle.rotation();
+    for (const Side side : both_sides)
+      {
+        const ControlNet &start = interface.accepted_surface(side),
+                         &stop  = configuration.side[side].positions;
+        const ControlNet last   = duration * end.surfaces[side],
+                         first =
+                           begin ?
+                             ControlNet(duration * begin->surfaces[side]) :
+                             ControlNet(2. * (stop - start) - last);
+        middle.side[side].positions = (start + stop) / 2. + (first - last) / 8.;
+      }
+    const NodalSums difference =
+      interface.difference_of_halves(middle, configuration);
+    Chuck::Vector6 result = Chuck::Vector6::Zero();
+    const auto    &x      = configuration.side[Side::implant].positions;
+    for (unsigned int k = 0; k < 6; ++k)
+      for (unsigned int A = 0; A < x.cols(); ++A)
+        result[k] +=
+          difference[Side::implant].col(A).dot(chuck.velocity(k, x.col(A)));
     return result;
   }
 

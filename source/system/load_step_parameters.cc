@@ -102,17 +102,14 @@ namespace Debond
               "Tolerance, relative to the largest value of each (where the "
               "machine holds still to a tenth of the largest of all, if that "
               "is more); each accepted step is a row. Steps end where "
-              "something prescribed turns back. The error in time of Interface "
-              "/ Viscosity is not covered. A step that does not converge is "
-              "halved in any case.");
+              "something prescribed turns back. A step that does not converge "
+              "is halved in any case.");
     table.add("Tolerance",
               tolerance,
               Allowed::number_between(1e-7, 1, ""),
               "Relative accuracy wanted of the torque curve. With Adaptive "
-              "that of drawing it as cubics between the steps, whose states "
-              "are taken to be exact: they nearly are, but with "
-              "Interface / Slip direction = trial, which is of first order in "
-              "the step where the direction of slip turns; with "
+              "that of the states at the ends of the steps and of the cubics "
+              "between them, both by estimates; with "
               "Model = auto the largest difference, relative to the largest "
               "torque, from the curve of the scene's bodies on a converged "
               "mesh. Else not used.");

@@ -155,6 +155,19 @@ namespace Debond
     {
       move_to(q + dq * Vector6::Unit(component));
     }
+    /** What it has moved since the accepted state. */
+    Vector6
+    change() const
+    {
+      return q - accepted.value;
+    }
+    /** Places it in the middle of the way from the accepted to the trial state,
+     *  on the cubic with these changes at both ends: rates times duration. */
+    void
+    place_in_middle(const Vector6 &begin, const Vector6 &end)
+    {
+      move_to((accepted.value + q) / 2. + (begin - end) / 8.);
+    }
     /** Moves components with a compliant machine to where its springs are
      *  relaxed. */
     void

@@ -142,6 +142,13 @@ namespace Debond
     void
     differentiate_turns(const InterfaceConfiguration &configuration);
 
+    /** By how much nodal forces would differ from those of the last evaluate(),
+     *  at @p end, if the points went there by way of @p middle, in two steps of
+     *  half the duration [N]. */
+    NodalSums
+    difference_of_halves(const InterfaceConfiguration &middle,
+                         const InterfaceConfiguration &end) const;
+
     /** Nodal forces of the last evaluate() on the control points of a side, in
      *  space, as they enter the residual [N]. */
     const ControlNet &

@@ -130,6 +130,7 @@ namespace Debond
     {
       archive &coupled_system &solver &state_checks &all_rows &all_warnings;
       archive &so_far.steps &so_far.newton_iterations &so_far.smallest_step;
+      archive                                         &accepted_rates;
       std::visit([&archive](auto &chosen) { archive &chosen; }, steps);
     }
 
@@ -175,6 +176,7 @@ namespace Debond
     Effort                 so_far;
     double                 reaction_defect = 0; ///< of the last accepted state
     CoupledSystem::Rates   rates; ///< of the last step that was solved
+    CoupledSystem::Rates   accepted_rates;
   };
 } // namespace Debond
 #endif

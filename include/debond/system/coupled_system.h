@@ -177,14 +177,32 @@ namespace Debond
      *  ends, by its unit. Finite where the equations can be solved. */
     struct Rates
     {
-      Chuck::Vector6 forces;   ///< of chuck_forces()
-      Chuck::Vector6 reaction; ///< of chuck_resultant()
-      Chuck::Vector6 position; ///< of the chuck
+      Chuck::Vector6 forces = Chuck::Vector6::Zero(); ///< of chuck_forces()
+      Chuck::Vector6 reaction =
+        Chuck::Vector6::Zero(); ///< of chuck_resultant()
+      Chuck::Vector6 position = Chuck::Vector6::Zero(); ///< of the chuck
+      NodalSums      surfaces; ///< of the control points in space
+
+      /** See serialization.h. */
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &forces &reaction &position &surfaces;
+      }
     };
     /** In the state of the last evaluate(), which has to be one of equilibrium.
      *  Not along a path. */
     Rates
     rates();
+    /** By how much chuck_forces() in the state of the last evaluate() differ
+     *  from those of two steps of half the @p duration, by way of the cubic
+     *  through both ends with these rates; without those at the beginning, of
+     *  the parabola. */
+    Chuck::Vector6
+    difference_of_halves(double       duration,
+                         const Rates *begin,
+                         const Rates &end) const;
     /** Strain energy of both bodies in the state of the last evaluate() [N mm].
      */
     double

@@ -44,6 +44,9 @@ namespace Debond
     double         mean_slip = 0; ///< [mm]; known along a path only
     /** How the forces change with time; known with adaptive steps only. */
     Chuck::Vector6 force_rates = Chuck::Vector6::Zero();
+    /** By how much the forces would differ after two steps of half the size;
+     *  asked with adaptive steps only, as it takes time. */
+    std::function<Chuck::Vector6()> difference_of_halves = {};
   };
 
   /**
@@ -236,7 +239,7 @@ namespace Debond
     {
       StepControl::serialize(archive, version);
       archive &size &turn &current &previous &second &is_resolved;
-      archive &middle &previous_error &has_middle    &greatest;
+      archive &middle &bend &bend_before &has_middle &greatest;
       archive &first_drive                           &drive_change;
     }
 
@@ -251,8 +254,17 @@ namespace Debond
     difference(const StepState &state) const;
     double
     relative(const Forces &difference, const Forces &largest) const;
+    Forces
+    expected_rates(double h) const;
+    struct ErrorBetween
+    {
+      double smooth; ///< if the curve is
+      double drawn;  ///< with the kink or jump that there may be
+    };
+    ErrorBetween
+    error_between(const StepState &state) const;
     double
-    error(const StepState &state) const;
+    error_at_end(const StepState &state) const;
     void
     set_size(double new_size);
 
@@ -273,17 +285,19 @@ namespace Debond
     const double                        radius;
     const std::function<Forces(double)> drive;
     double                              size = 0;
-    double turn = 0;               ///< next time at which something turns back
-    Node   current;                ///< at the beginning of the step
-    Node   previous;               ///< one step before
-    bool   second         = false; ///< previous is where the phase began
-    bool   is_resolved    = true;  ///< the error was below the tolerance
-    Forces middle         = Forces::Zero();
-    double previous_error = 0; ///< of the step before
-    bool   has_middle     = false;
-    Forces greatest       = Forces::Zero(); ///< so far
-    Forces first_drive    = Forces::Zero();
-    Forces drive_change   = Forces::Zero(); ///< largest so far
+    double turn = 0;            ///< next time at which something turns back
+    Node   current;             ///< at the beginning of the step
+    Node   previous;            ///< one step before
+    bool   second      = false; ///< previous is where the phase began
+    bool   is_resolved = true;  ///< the error was below the tolerance
+    Forces middle      = Forces::Zero();
+    /** Errors of the last two steps, if smooth, over the tolerance and the
+     * fourth power of the step. */
+    double bend = 0, bend_before = 0;
+    bool   has_middle   = false;
+    Forces greatest     = Forces::Zero(); ///< so far
+    Forces first_drive  = Forces::Zero();
+    Forces drive_change = Forces::Zero(); ///< largest so far
   };
 
 

@@ -752,7 +752,7 @@ def turning_slip():
             for direction in ('integrated', 'trial'):
                 result = run(*motion, 'Load steps/Adaptive=true', 'Load steps/Steps=1, 10, 10', 'Load steps/Tolerance=' + tolerance,
                              'Interface/Slip direction=' + direction)
-                line += [str(len(result['curve']))] + ['%.1e' % error for error in errors(reference, result['fine curve'])]
+                line += [str(len(result['curve']))] + [small(error) for error in errors(reference, result['fine curve'])]
             lines.append(line)
     return table(['tolerance', '`integrated`: rows', 'Fx', 'torque', '`trial`: rows', 'Fx', 'torque'], lines)
 
@@ -808,6 +808,35 @@ def adaptive_scenes():
             line += [str(len(result['curve'])), '%.1f' % (largest_error(reference, result['fine curve']) / float(tolerance))]
         lines.append(line)
     return table(['12 x 12 x 3 and 4 x 4 x 2 cells, linear', '1e-2: rows', 'error', '1e-3: rows', 'error', '1e-4: rows', 'error'], lines)
+
+
+@functools.lru_cache(None)
+def step_error(name):
+    """A table of doc/studies/step_error.py, as text."""
+    subprocess.run(['doc/studies/step_error.py'] + ['--force'] * options.force, env={**os.environ, 'DEBOND': options.debond}, check=True,
+                   stdout=subprocess.DEVNULL)
+    with open('output/step_error/' + name, encoding='utf-8') as text:
+        return list(csv.DictReader(text))
+
+
+@numbers('minutes')
+def step_orders():
+    rows, lines = step_error('order.csv'), []
+    for case in dict.fromkeys(row['case'] for row in rows):
+        errors = {int(row['steps']): float(row['error']) for row in rows if row['case'] == case}
+        lines.append([case.replace('trial', 'shear then twist, `Slip direction = trial`')] + [small(error) for error in errors.values()] +
+                     ['%.1f' % (math.log(errors[20] / errors[200]) / math.log(10))])
+    return table(['steps in each phase', '10', '20', '50', '100', '200', 'order, 20 to 200'], lines)
+
+
+@numbers('minutes')
+def step_codes():
+    rows, lines = step_error('codes.csv'), []
+    for code in dict.fromkeys(row['code'] for row in rows):
+        best = min((row for row in rows if row['code'] == code), key=lambda row: float(row['error']))
+        lines.append([code, best['steps'] + (' in all' if 'adaptive' in code else ' in each phase'), '%.2g' % float(best['seconds']),
+                      small(float(best['error']))])
+    return table(['code', 'steps', 'seconds', 'error'], lines)
 
 
 def pages():

@@ -7,6 +7,7 @@
 #   stability       those of doc/stability.md (two minutes)
 #   convergence     that of doc/verification.md (some minutes)
 #   ensemble        those of doc/partial_bonding.md (ten minutes)
+#   step_error      that of friction that turns in doc/speed_and_accuracy.md (ten minutes; CalculiX, if it is there)
 #   work_precision  those of doc/speed_and_accuracy.md, and its tables (20 minutes on a quiet machine)
 #   all             all of these
 # Another program: DEBOND=FILE. Studies that are there already are not run again. Needs gnuplot.
@@ -50,10 +51,11 @@ make_pictures() {
     fig_*) doc/paper/reproduce.sh "$1" && publish_figures "$1" ;;
     stability) doc/stability/stability.sh --draw --publish ;;
     convergence) doc/verification/convergence.sh && publish output/convergence ;;
+    step_error) doc/studies/step_error.py --publish ;;
     ensemble | work_precision) "doc/studies/$1.sh" --publish ;;
     all)
       local name
-      for name in geometry bodies paper stability convergence ensemble work_precision; do make_pictures $name; done
+      for name in geometry bodies paper stability convergence ensemble step_error work_precision; do make_pictures $name; done
       ;;
     *)
       echo "pictures.sh: unknown name '$1'; the names stand at the top of this script" >&2
@@ -77,5 +79,5 @@ publish_figures() {
   done
 }
 
-if (($# == 0)); then sed -n '2,12s/^# //p' "$0"; exit 1; fi
+if (($# == 0)); then sed -n '2,13s/^# //p' "$0"; exit 1; fi
 for name in "$@"; do make_pictures "$name"; done

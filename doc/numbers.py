@@ -591,6 +591,23 @@ def auto():
 
 
 @numbers('minutes')
+def auto_levels():
+    scene = 'prm/verification/auto.prm'
+    study(scene)
+    factors = []
+    for file in glob.glob(directory_of(scene, ()) + '/variant-*/auto.csv'):
+        with open(file, encoding='utf-8') as text:
+            for row in csv.DictReader(text):
+                level = '%s/rung-%s/summary.json' % (os.path.dirname(file), row['rung'])
+                if os.path.exists(level): # it may not be applicable
+                    with open(level, encoding='utf-8') as summary:
+                        true = json.load(summary)['difference_max']
+                    if true and math.isfinite(float(row['estimate'])):
+                        factors.append(float(row['estimate']) / true)
+    return '%d levels of these chains that have an estimate it bounds the error, %.2f to %.1f times' % (len(factors), min(factors), max(factors))
+
+
+@numbers('minutes')
 def auto_foundation():
     names = ('main, 585 MPa/mm', '1800 MPa/mm', '18 000 MPa/mm', 'force held', 'brittle law', 'disk pattern')
     return table(['scene', 'tolerance', 'estimate', 'true error'],

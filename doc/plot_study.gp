@@ -13,7 +13,9 @@ set datafile separator comma
 set datafile columnheaders
 stats dir . "/study.csv" using "variant" nooutput
 n = int(STATS_max)
-file(i) = sprintf("%s/variant-%03d/torque.csv", dir, i)
+# with adaptive steps curve.csv is the curve, and torque.csv its rows
+finest(d) = d . (system("test -s '" . d . "/curve.csv' && echo yes") eq "yes" ? "/curve.csv" : "/torque.csv")
+file(i) = finest(sprintf("%s/variant-%03d", dir, i))
 curve(i) = system("test -s " . file(i) . " && echo 1 || echo 0") + 0 ? file(i) : "/dev/null"
 title_of_scene = system("sed -n 's/^set Title *= *//p' " . dir . "/variant-001/parameters.prm")
 name(i) = system(sprintf("awk -v variant=%d -f doc/studies/variant_name.awk %s/study.csv", i, dir))

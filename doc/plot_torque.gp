@@ -10,7 +10,7 @@
 #
 #   gnuplot -e "dir='output/coin'; other='output/coin_fast'" doc/plot_torque.gp
 #
-# With a curve to compare with (CSV with the columns angle_deg,torque_Nmm; another run's torque.csv will do):
+# With a curve to compare with (CSV with the columns angle_deg,torque_Nmm; another run's torque.csv or curve.csv will do):
 #
 #   gnuplot -e "dir='output/coin'; reference='measured.csv'" doc/plot_torque.gp
 #
@@ -21,7 +21,9 @@ if (!exists("dir")) {
   print "usage: gnuplot -e \"dir='output/coin'\" doc/plot_torque.gp"
   exit status 1
 }
-file = dir . "/torque.csv"
+# with adaptive steps curve.csv is the curve, and torque.csv its rows
+finest(d) = d . (system("test -s '" . d . "/curve.csv' && echo yes") eq "yes" ? "/curve.csv" : "/torque.csv")
+file = finest(dir)
 if (!exists("faces")) { angles = "" }
 n_faces = words(angles)
 
@@ -74,8 +76,9 @@ if (exists("published")) {
 }
 if (exists("other")) {
   plot file using "angle_deg":"torque_Nmm" with lines linewidth 2 linecolor rgb "#c03028" title label(dir), \
-       other . "/torque.csv" using "angle_deg":"torque_Nmm" with linespoints pointtype 7 pointsize 0.6 \
-         linewidth 1 linecolor rgb "#2c1e5c" title label(other)
+       finest(other) using "angle_deg":"torque_Nmm" with lines linewidth 1 linecolor rgb "#2c1e5c" notitle, \
+       other . "/torque.csv" using "angle_deg":"torque_Nmm" with points pointtype 7 pointsize 0.6 \
+         linecolor rgb "#2c1e5c" title label(other)
 } else { if (exists("reference")) {
   plot reference using "angle_deg":"torque_Nmm" with points pointtype 6 linecolor rgb "#555555" title reference, \
        file using "angle_deg":"torque_Nmm" with lines linewidth 2 linecolor rgb "#c03028" title "debond"

@@ -5,7 +5,7 @@ do for [format in "png svg"] {
   load "doc/style.gp"
   eval picture(dir . "ensemble", 1400, 560)
   file = dir . "ensemble/ensemble.csv"
-  homogeneous = dir . "ensemble_homogeneous/variant-007/torque.csv"
+  homogeneous = dir . "ensemble_homogeneous/variant-007/curve.csv"
   set multiplot layout 1, 2
   set xlabel angle_label
   set ylabel torque_label

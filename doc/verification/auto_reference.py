@@ -53,7 +53,7 @@ directory = sys.argv[1] if len(sys.argv) > 1 else 'output/verification/auto_refe
 if len(sys.argv) == 1:
     subprocess.run([PROGRAM, STUDY, '--set', 'Output/Directory=' + directory], check=True)
 for i, name in enumerate(NAMES):
-    curves = [read_curve('%s/variant-%03d/torque.csv' % (directory, i + 1 + len(NAMES) * k)) for k in range(3)]
+    curves = [read_curve('%s/variant-%03d/curve.csv' % (directory, i + 1 + len(NAMES) * k)) for k in range(3)]
     differences = [largest_difference(curves[k], curves[k + 1]) for k in range(2)]
     observed = observed_order(*differences)
     order = min(max(observed, 0.5), 2.)  # no other order is trusted

@@ -453,8 +453,7 @@ namespace Debond
         row.chuck_reaction[k] = reaction[k];
         row.chuck_position[k] = q[k] * (is_rotation(k) ? 180. / M_PI : 1.);
       }
-    if (row.step > 0 &&
-        step_control.step_shape() != StepControl::StepShape::straight)
+    if (row.step > 0 && scene.load_steps.adaptive)
       set_rates(row);
     all_rows.push_back(row);
   }
@@ -474,9 +473,9 @@ namespace Debond
         row.rates_at_end[7 + k] =
           rates.position[k] * (is_rotation(k) ? 180. / M_PI : 1.);
       }
-    row.rates_at_begin = before.rates_at_end;
-    if (step_control.step_shape() == StepControl::StepShape::parabola ||
-        !before.is_curved())
+    if (step_control.step_shape() == StepControl::StepShape::parabola)
       row.rates_at_begin = row.rates_of_parabola(before);
+    else if (step_control.step_shape() == StepControl::StepShape::cubic)
+      row.rates_at_begin = before.rates_at_end;
   }
 } // namespace Debond

@@ -630,10 +630,14 @@ namespace Debond
           1e-3 * (first.torque_Nmm - before.torque_Nmm) /
           radians(first.angle_deg - before.angle_deg);
         // the stiffness of a face that sticks is asked for
-        if (first.share_slip - before.share_slip > 0.1)
+        const TorqueRow &end_of_step =
+          *std::find_if(steps.begin(), steps.end(), [&](const TorqueRow &row) {
+            return row.time >= first.time;
+          });
+        if (end_of_step.share_slip - before.share_slip > 0.1)
           measures["remarks"].push_back(
             "initial_stiffness_Nm_per_rad is too small: " +
-            to_text(100. * first.share_slip, 2) +
+            to_text(100. * end_of_step.share_slip, 2) +
             " % of the face slides in the first row that has turned");
         // the bonding state is not known between them
         for (auto row = steps.rbegin();

@@ -149,6 +149,9 @@ namespace Debond
   AdaptiveStepping::relative(const Forces &difference,
                              const Forces &largest) const
   {
+    // a rate that could not be found: as bad as can be
+    if (!difference.allFinite())
+      return std::numeric_limits<double>::infinity();
     // moments are forces at the distance of the radius
     Forces unit;
     unit << 1., 1., 1., radius, radius, radius;
@@ -276,8 +279,8 @@ namespace Debond
     is_resolved  = drawn <= 1.;
     previous     = current;
     bend_before  = second ? 0. : bend;
-    bend         = smooth / std::pow(taken, 4);
-    has_previous = true;
+    bend         = is_resolved ? smooth / std::pow(taken, 4) : 0.;
+    has_previous = state.force_rates.allFinite();
     current      = {step.time, state.forces, state.force_rates};
     time         = step.time;
     if (time == turn && time != end)

@@ -143,11 +143,12 @@ namespace Debond
     differentiate_turns(const InterfaceConfiguration &configuration);
 
     /** By how much nodal forces would differ from those of the last evaluate(),
-     *  at @p end, if the points went there by way of @p middle, in two steps of
-     *  half the duration [N]. */
+     *  in this @p configuration, if the points went there by way of @p middle,
+     *  in two steps of half the duration, and had come there by such steps for
+     *  as long as their gaps remember [N]. */
     NodalSums
     difference_of_halves(const InterfaceConfiguration &middle,
-                         const InterfaceConfiguration &end) const;
+                         const InterfaceConfiguration &configuration) const;
 
     /** Nodal forces of the last evaluate() on the control points of a side, in
      *  space, as they enter the residual [N]. */

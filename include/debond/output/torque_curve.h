@@ -52,7 +52,7 @@ namespace Debond
      *  and chuck_position, by the unit of time. */
     using Rates = std::array<double, 13>;
     /** At the beginning and at the end of the step that ends with this row;
-     *  NaN: it is a straight line. */
+     *  NaN at the beginning: it is drawn as a straight line. */
     Rates rates_at_begin, rates_at_end;
 
     TorqueRow()
@@ -63,7 +63,7 @@ namespace Debond
     bool
     is_curved() const
     {
-      return !std::isnan(rates_at_end[0]);
+      return !std::isnan(rates_at_begin[0]);
     }
     /** At the beginning of the step, of the parabola from @p before that has
      * the rates at the end. */
@@ -209,9 +209,9 @@ namespace Debond
    *    theta_full: beginning of full sliding; T_inf: T of the last row;
    *  - pressure: at the end of the last phase before the angle first changes;
    *  - initial_stiffness: torque per angle up to the first row that has turned;
-   *  - E_deb, E_fric, W_adh: Eq. (20), without what jumps release; w_adh: Eq.
-   * (21); w_adh_star: Eq. (21) with a mean phi_0 of 1; D_adh: work the law
-   * spends on adhesion;
+   *  - E_deb, E_fric, W_adh: Eq. (20), without what jumps release;
+   *  - w_adh: Eq. (21), w_adh_star: the same with a mean phi_0 of 1;
+   *  - D_adh: work the law spends on adhesion;
    *  - dissipation, and viscous_dissipation, which is part of it;
    *  - theta_debonding: angle of the first row whose mean bonding state is
    * below the initial;

@@ -195,10 +195,10 @@ namespace Debond
      *  Not along a path. */
     Rates
     rates();
-    /** By how much chuck_forces() in the state of the last evaluate() differ
-     *  from those of two steps of half the @p duration, by way of the cubic
-     *  through both ends with these rates; without those at the beginning, of
-     *  the parabola. */
+    /** By how much chuck_forces() in the state of the last evaluate() would
+     *  differ after steps of half the @p duration, by way of the cubic through
+     *  both ends with these rates; without those at the beginning, of the
+     *  parabola. See ContactInterface. */
     Chuck::Vector6
     difference_of_halves(double       duration,
                          const Rates *begin,

@@ -44,8 +44,8 @@ namespace Debond
     double         mean_slip = 0; ///< [mm]; known along a path only
     /** How the forces change with time; known with adaptive steps only. */
     Chuck::Vector6 force_rates = Chuck::Vector6::Zero();
-    /** By how much the forces would differ after two steps of half the size;
-     *  asked with adaptive steps only, as it takes time. */
+    /** By how much the forces would differ after steps of half the size; asked
+     *  with adaptive steps only, as it takes time. */
     std::function<Chuck::Vector6()> difference_of_halves = {};
   };
 
@@ -180,20 +180,18 @@ namespace Debond
 
 
   /**
-   * Steps of a size that keeps the curves of the six chuck forces, drawn as
-   * cubics through the ends of the steps with the rates of change there, within
-   * a tolerance. The states at these ends are nearly exact whatever the step;
-   * what a large step loses is the shape of the curve in between.
+   * Steps of a size that keeps the six chuck forces at the ends of the steps,
+   * and their curves in between, cubics with the rates of change at both ends,
+   * within a tolerance.
    *
    * The tolerance is relative to the largest value of each curve; where the
    * machine holds still, for instance against the lateral forces of a bond on
    * one side, it is relative to a tenth of the largest of all forces if that is
    * more.
    *
-   * In the first step of a phase the rate at its beginning is that of a
-   * parabola, whose error a trial in the middle of the step tells. Later the
-   * error is estimated from how far the cubic, drawn on backwards, is from the
-   * step before.
+   * doc/solution.md says how both errors are estimated. In the first step of a
+   * phase the rate at its beginning is not known: it is a parabola, whose error
+   * a trial in the middle of the step tells.
    */
   class AdaptiveStepping : public StepControl
   {

@@ -800,29 +800,34 @@ def adaptive_scenes():
         ('circular shear', 2, {'Translation x': '0.01 * (%s + cos(2 * pi * max(t - 2, 0)) - 1)' % twice,
                                'Translation y': '0.01 * sin(2 * pi * max(t - 2, 0))'}, mesh),
         ('fretting: shear by a sine, slow twist', 2, {'Translation x': '0.01 * sin(2 * pi * max(t - 1, 0))',
-                                                      'Rotation z': '0.3 * max(t - 1, 0)'}, mesh)]
+                                                      'Rotation z': '0.3 * max(t - 1, 0)'}, mesh),
+        ('a cap that rocks about x and y', 1, {'Translation z': '-0.02 * min(t, 1)', 'Rotation x': '0.5 * sin(2 * pi * max(t - 1, 0))',
+                                               'Rotation y': '0.3 * sin(4 * pi * max(t - 1, 0))'}, mesh + ('Implant/Shape=cap',)),
+        ('under a moment, to and fro: the angle', 2, {'Rotation z': '49.5 * (%s - 1.8 * max(t - 2, 0))' % twice},
+         mesh + ('Chuck/Rotation z/Control=moment',))]
     forces, moments = ['chuck_F%s_N' % k for k in 'xyz'], ['chuck_M%s_Nmm' % k for k in 'xyz']
 
-    def largest_error(reference, curve):
+    def largest_error(reference, curve, groups):
         errors, after = [], 0
         for row in reference:
             while curve[after]['time'] < row['time'] - 1e-12:
                 after += 1
             begin, end = curve[max(after - 1, 0)], curve[after]
             share = (row['time'] - begin['time']) / (end['time'] - begin['time']) if after else 0
-            errors.append({c: abs(begin[c] + share * (end[c] - begin[c]) - row[c]) for c in forces + moments})
+            errors.append({c: abs(begin[c] + share * (end[c] - begin[c]) - row[c]) for columns in groups for c in columns})
         return max(max(error[c] for error in errors for c in columns) / max(abs(row[c]) for row in reference for c in columns)
-                   for columns in (forces, moments))
+                   for columns in groups)
 
     lines = []
     for name, phases, motion, changes in scenes:
         scene = (MAIN, 'Load steps/Times=' + ', '.join(str(k) for k in range(phases + 2))) + changes + tuple(
             'Chuck/%s/Value=%s' % entry for entry in {'Translation z': press, 'Rotation z': '0', **motion}.items())
         reference = run(*scene, 'Load steps/Steps=30' + ', 800' * phases)['curve']
+        groups = [['angle_deg']] if 'under a moment' in name else [forces, moments]
         line = [name]
         for tolerance in ('1e-2', '1e-3', '1e-4'):
             result = run(*scene, 'Load steps/Adaptive=true', 'Load steps/Steps=1' + ', 10' * phases, 'Load steps/Tolerance=' + tolerance)
-            line += [str(len(result['curve'])), '%.1f' % (largest_error(reference, result['fine curve']) / float(tolerance))]
+            line += [str(len(result['curve'])), '%.1f' % (largest_error(reference, result['fine curve'], groups) / float(tolerance))]
         lines.append(line)
     return table(['12 x 12 x 3 and 4 x 4 x 2 cells, linear', '1e-2: rows', 'error', '1e-3: rows', 'error', '1e-4: rows', 'error'], lines)
 

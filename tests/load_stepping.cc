@@ -125,9 +125,12 @@ adaptive_times(const double  tolerance,
   parameters.steps                  = {1, 4};
   parameters.tolerance              = tolerance;
   parameters.smallest_step_fraction = 1e-6;
-  AdaptiveStepping    stepping(parameters, 2.5, [&](const double time) {
-    return drive_at(time, sideways);
-  });
+  AdaptiveStepping    stepping(parameters,
+                            2.5,
+                            ChuckParameters(),
+                            [&](const double time) {
+                              return drive_at(time, sideways);
+                            });
   std::vector<double> times{0.};
   const auto          state_at = [&](const double time) {
     return StepState{time,

@@ -80,7 +80,7 @@ main()
   show({"Load steps/Tolerance=1e-2"});
   show({"Load steps/Tolerance=1e-2", "Load steps/Adaptive=true"});
   show({"Load steps/Steps=1, 10", "Load steps/Adaptive=true"});
-  show({"Interface/Viscosity=1", "Load steps/Adaptive=true"});
+  show({"Interface/Friction law=rate and state", "Load steps/Adaptive=true"});
   show({"Model=auto"});
   show({"Load steps/Largest slip step=1e-3"});
   show({"Closed form/Shear modulus=50", "Closed form/Pressure=2"});

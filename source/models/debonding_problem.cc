@@ -392,7 +392,9 @@ namespace Debond
         << "memory: some " << std::ceil(estimated_memory_MB(scene)) << " MB\n"
         << "initial bonding " << name_of(scene.interface.bonding.pattern)
         << ": " << interface.bonding().description() << '\n'
-        << scene.load_steps.n_steps() << " planned steps from time "
+        << (scene.load_steps.adaptive ? "adaptive steps, no larger than " : "")
+        << scene.load_steps.n_steps() << " planned steps"
+        << (scene.load_steps.adaptive ? "," : "") << " from time "
         << times.front() << " to " << times.back() << '\n';
     for (const Warning &warning : simulation.warnings())
       out << "warning: " << warning.text << '\n';

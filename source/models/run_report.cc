@@ -65,12 +65,15 @@ namespace Debond
     if (!output.curve_at.empty())
       write_file(directory.file("curve_at.csv"),
                  curve_table(rows_at(fine, output.curve_at)));
+    const bool  converged = summary["converged"];
+    std::string missed;
     for (const double angle : output.curve_at)
       if (rows_at(fine, {angle}).empty())
-        console.warn("curve at",
-                     "Output / Curve at: the implant never turns through " +
-                       to_text(angle, 6) + " deg");
-    const bool converged = summary["converged"];
+        missed += (missed.empty() ? "" : ", ") + to_text(angle, 6);
+    if (converged && !missed.empty())
+      console.warn("curve at",
+                   "Output / Curve at: the implant never turns through " +
+                     missed + " deg");
     if (converged && !reference.empty() && summary["reference_rows_used"] == 0)
       console.warn("reference",
                    "no row of the reference curve could be compared with");

@@ -98,9 +98,12 @@ namespace Debond
     // The radius R [mm] makes forces of moments, so that one tolerance can
     // judge the curves of all six chuck forces.
     if (load_steps.adaptive)
-      return AdaptiveStepping(load_steps, R, [&](const double time) {
-        return coupled_system.chuck.values(time);
-      });
+      return AdaptiveStepping(load_steps,
+                              R,
+                              scene.chuck,
+                              [&](const double time) {
+                                return coupled_system.chuck.values(time);
+                              });
     if (!load_steps.follow_path)
       return PlannedSteps(load_steps);
     // A twentieth of the distance over which mu changes resolves the law; an
@@ -243,19 +246,21 @@ namespace Debond
 
 
 
-  // What the control of steps judges by: the forces of the chuck, whose curves
-  // are drawn, and where the scene wants the chuck to be.
+  // What the control of steps judges by: forces and place of the chuck, whose
+  // curves are drawn, and where the scene wants the chuck to be.
   //
   // Forces are N, moments N mm. The mean sliding distance [mm] is known along a
   // path only, where it is what a step prescribes.
   StepState
   Simulation::state() const
   {
-    const double time = coupled_system.time();
-    return {time,
-            coupled_system.chuck_forces(),
-            coupled_system.chuck.values(time),
-            coupled_system.mean_slip()};
+    StepState result;
+    result.time      = coupled_system.time();
+    result.forces    = coupled_system.chuck_forces();
+    result.drive     = coupled_system.chuck.values(result.time);
+    result.mean_slip = coupled_system.mean_slip();
+    result.position  = coupled_system.chuck.position();
+    return result;
   }
 
 
@@ -264,20 +269,26 @@ namespace Debond
   // which cost one more solution each. A trial in the middle needs none. Where
   // the tangent is singular, at a limit point, there are none; the step is then
   // made smaller, and drawn straight in the end.
+  //
+  // Two halves of a method of second order are right to a quarter of what one
+  // step is. Friction that depends on the speed is of first order: to a half.
   StepState
   Simulation::end_of_step(const Step &step)
   {
     StepState end = state();
     if (scene.load_steps.adaptive && step.time == step.whole_time)
       {
-        rates                    = coupled_system.rates();
-        end.force_rates          = rates.forces;
-        end.difference_of_halves = [this, &step] {
-          return coupled_system.difference_of_halves(step.time - solver.time(),
-                                                     step.extrapolate ?
-                                                       &accepted_rates :
-                                                       nullptr,
-                                                     rates);
+        rates              = coupled_system.rates();
+        end.force_rates    = rates.forces;
+        end.position_rates = rates.position;
+        const double times =
+          coupled_system.interface.depends_on_rate() ? 2. : 4. / 3.;
+        end.error = [this, &step, times] {
+          return Chuck::Vector6(times *
+                                coupled_system.difference_of_halves(
+                                  step.time - solver.time(),
+                                  step.extrapolate ? &accepted_rates : nullptr,
+                                  rates));
         };
       }
     return end;

@@ -129,19 +129,21 @@ namespace Debond
   rows_at(const std::vector<TorqueRow> &fine, const std::vector<double> &angles)
   {
     std::vector<TorqueRow> result;
-    for (std::size_t i = 0; i < fine.size(); ++i)
+    bool                   has_turned = false;
+    for (std::size_t i = 0; i + 1 < fine.size(); ++i)
       {
-        const TorqueRow &begin = fine[i == 0 ? 0 : i - 1], &end = fine[i];
+        const TorqueRow &begin = fine[i], &end = fine[i + 1];
         const double     turned = end.angle_deg - begin.angle_deg;
         // angles go from degrees to radians and back
         const double rounding = 1e-9 * std::max(1., std::abs(end.angle_deg));
+        if (std::abs(turned) <= rounding)
+          continue;
         std::vector<double> parts;
         for (const double angle : angles)
           if (std::abs(angle - end.angle_deg) <= rounding)
-            {
-              if (i == 0 || std::abs(turned) > rounding)
-                parts.push_back(1.);
-            }
+            parts.push_back(1.);
+          else if (!has_turned && std::abs(angle - begin.angle_deg) <= rounding)
+            parts.push_back(0.);
           else if ((angle - begin.angle_deg) * turned >
                      rounding * std::abs(turned) &&
                    (end.angle_deg - angle) * turned > 0.)
@@ -149,6 +151,7 @@ namespace Debond
         std::sort(parts.begin(), parts.end());
         for (const double part : parts)
           result.push_back(part == 1. ? end : row_on_chord(begin, end, part));
+        has_turned = true;
       }
     return result;
   }

@@ -168,6 +168,19 @@ namespace Debond
 
 
 
+    /** Its error is of first order, and nothing estimates it. */
+    void
+    check_explicit_friction(const Scene &scene)
+    {
+      if (scene.load_steps.adaptive && scene.interface.explicit_friction)
+        throw EntryError("Interface / Friction update",
+                         "explicit depends on the size of the steps, which "
+                         "Load steps / Adaptive = true chooses: compare it in "
+                         "equal steps");
+    }
+
+
+
     void
     check_references(const OutputParameters &output)
     {
@@ -233,6 +246,7 @@ namespace Debond
     load_steps.check();
     check_start_of_friction(interface, load_steps);
     check_rate(*this);
+    check_explicit_friction(*this);
     check_chuck(*this);
     check_path_following(*this);
     check_references(output);

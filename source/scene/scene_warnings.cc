@@ -112,19 +112,17 @@ namespace Debond
     void
     judge_steps(const Scene &scene, const Note &note)
     {
-      const LoadSteppingParameters &steps    = scene.load_steps;
-      const bool                    has_rate = scene.interface.viscosity > 0. ||
-                            scene.interface.friction->depends_on_rate();
-      // Adaptive steps look at the curve between states, and take the states
-      // to be exact. With friction that depends on the speed these depend on
-      // the step (backward Euler).
-      note(steps.adaptive && has_rate,
+      const LoadSteppingParameters &steps = scene.load_steps;
+      // The error of a step is estimated, but in steps of first order (backward
+      // Euler) those of earlier ones add up where friction falls with the
+      // speed.
+      note(steps.adaptive && scene.interface.friction->depends_on_rate(),
            "rate",
-           "Load steps / Tolerance does not cover the error in time of "
-           "friction that depends on the speed, which is of first order in the "
-           "step: compare with smaller Steps");
+           "Load steps / Tolerance holds for each step; with friction that "
+           "depends on the speed errors of earlier steps may grow: compare "
+           "with a smaller Tolerance");
       note(
-        steps.adaptive && !has_rate &&
+        steps.adaptive &&
           steps.steps == LoadSteppingParameters().steps,
         "largest steps",
         "Load steps / Steps = 1, 1000, the default: adaptive steps are never "

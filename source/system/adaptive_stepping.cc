@@ -13,9 +13,9 @@ namespace Debond
     StepControl::begin_phase(accepted);
     if (phase == 1)
       first_drive = accepted.drive;
-    current  = {time, accepted.forces, {}};
-    greatest = greatest.cwiseMax(current.forces.cwiseAbs());
-    turn     = first_turn(time, end);
+    current = node_of(accepted);
+    grow(accepted);
+    turn = first_turn(time, end);
     set_size(planned);
   }
 
@@ -102,6 +102,38 @@ namespace Debond
 
 
 
+  // Of a component that is loaded the force is what the scene says.
+  AdaptiveStepping::Forces
+  AdaptiveStepping::answers(const Forces &forces, const Forces &positions) const
+  {
+    Forces result = forces;
+    for (unsigned int k = 0; k < 6; ++k)
+      if (chuck.component[k].loaded)
+        result[k] = positions[k];
+    return result;
+  }
+
+
+
+  AdaptiveStepping::Node
+  AdaptiveStepping::node_of(const StepState &state) const
+  {
+    return {state.time,
+            answers(state.forces, state.position),
+            answers(state.force_rates, state.position_rates)};
+  }
+
+
+
+  void
+  AdaptiveStepping::grow(const StepState &state)
+  {
+    greatest = greatest.cwiseMax(state.forces.cwiseAbs());
+    furthest = furthest.cwiseMax(state.position.cwiseAbs());
+  }
+
+
+
   // How far the curve is from what is drawn in the middle of the step. With
   // s = (t - t_0) / h the cubic is
   //
@@ -119,15 +151,16 @@ namespace Debond
   AdaptiveStepping::difference(const StepState &state) const
   {
     const double h      = target_time() - current.time;
-    const Forces change = state.forces - current.forces,
-                 end    = h * state.force_rates - change;
+    const Node   last   = node_of(state);
+    const Forces change = last.answers - current.answers,
+                 end    = h * last.rates - change;
     if (!has_previous)
-      return middle - (current.forces + 0.5 * change - 0.25 * end);
+      return middle - (current.answers + 0.5 * change - 0.25 * end);
     const Forces begin = h * current.rates - change;
     const double r     = (current.time - previous.time) / h;
     const double w     = std::pow(r * (1. + r), 2), // s^2 (1 - s)^2 at -r, and
       dw               = -2. * r * (1. + r) * (1. + 2. * r); // its derivative
-    const Forces a     = (previous.forces - current.forces + r * change +
+    const Forces a     = (previous.answers - current.answers + r * change +
                       r * (1. + r) * ((1. + r) * begin + r * end)) /
                      w;
     Forces b = Forces::Zero();
@@ -143,19 +176,23 @@ namespace Debond
 
 
 
-  // The largest of the six, over what they are compared with. @p largest: of
-  // each so far [N, N mm].
+  // The largest of the six, over what they are compared with. They are of the
+  // answers, or all of the forces.
   double
-  AdaptiveStepping::relative(const Forces &difference,
-                             const Forces &largest) const
+  AdaptiveStepping::relative(const Forces    &difference,
+                             const StepState &state,
+                             const bool       of_answers) const
   {
     // a rate that could not be found: as bad as can be
     if (!difference.allFinite())
       return std::numeric_limits<double>::infinity();
-    // moments are forces at the distance of the radius
+    // moments are forces at the distance of the radius, and arcs have lengths
     Forces unit;
     unit << 1., 1., 1., radius, radius, radius;
-    const double of_all = largest.cwiseQuotient(unit).maxCoeff();
+    const Forces largest  = greatest.cwiseMax(state.forces.cwiseAbs()),
+                 motion   = furthest.cwiseMax(state.position.cwiseAbs());
+    const double of_all   = largest.cwiseQuotient(unit).maxCoeff(),
+                 distance = motion.cwiseProduct(unit).maxCoeff();
     // A component next to nothing, for instance by symmetry, has no curve.
     // Small reactions to patterns beside the axis have a kink wherever a few
     // points begin to slide: in proportion to themselves they would take three
@@ -163,8 +200,16 @@ namespace Debond
     double result = 0.;
     for (unsigned int k = 0; k < 6; ++k)
       {
-        const double floor = (drive_change[k] > 0. ? 1e-3 : 0.1) * of_all;
-        const double scale = std::max(largest[k], floor * unit[k]);
+        const double floor    = drive_change[k] > 0. ? 1e-3 : 0.1,
+                     force    = std::max(largest[k], floor * of_all * unit[k]),
+                     place    = std::max(motion[k], floor * distance / unit[k]);
+        const auto &component = chuck.component[k];
+        // what a compliant machine lags behind is its force over its stiffness
+        const double scale = of_answers && component.loaded ?
+                               place :
+                             component.stiffness > 0. ?
+                               std::min(force, component.stiffness * place) :
+                               force;
         if (scale > 0.)
           result = std::max(result, std::abs(difference[k]) / scale);
       }
@@ -181,7 +226,7 @@ namespace Debond
   AdaptiveStepping::expected_rates(const double h) const
   {
     const double before = current.time - previous.time, q = h / before;
-    const Forces D = (current.forces - previous.forces) / before,
+    const Forces D = (current.answers - previous.answers) / before,
                  A = previous.rates - D, B = current.rates - D;
     return D + (1. + 2. * q) * (q * A + (1. + q) * B) + q * (1. + q) * (A + B);
   }
@@ -192,9 +237,9 @@ namespace Debond
   AdaptiveStepping::ErrorBetween
   AdaptiveStepping::error_between(const StepState &state) const
   {
-    const Forces largest  = greatest.cwiseMax(state.forces.cwiseAbs());
-    const auto   in_parts = [&](const Forces &difference) {
-      return relative(difference, largest) / parameters.tolerance;
+    const Node last     = node_of(state);
+    const auto in_parts = [&](const Forces &difference) {
+      return relative(difference, state, true) / parameters.tolerance;
     };
     const Forces from_polynomial = difference(state);
     if (!has_previous) // twice: the curve need not be a cubic
@@ -206,7 +251,7 @@ namespace Debond
     const double h = target_time() - current.time;
     const double smooth =
       std::max(in_parts(from_polynomial),
-               in_parts(h / 96. * (state.force_rates - expected_rates(h))));
+               in_parts(h / 96. * (last.rates - expected_rates(h))));
     // Where the error is much more than the fourth power of the step would make
     // of that of the steps before, or that is not known, there may be a kink or
     // a jump anywhere in this step. A cubic leaves a kink between two straight
@@ -215,27 +260,22 @@ namespace Debond
       second ? 0. : std::max(bend, bend_before) * std::pow(h, 4);
     if (smooth < std::max(2. * expected, 0.02))
       return {smooth, smooth};
-    const Forces begin = h * current.rates, end = h * state.force_rates;
+    const Forces begin = h * current.rates, end = h * last.rates;
     return {smooth,
             std::max(
               {smooth,
                in_parts((end - begin) / 8.),
-               in_parts((state.forces - current.forces - (begin + end) / 2.) /
+               in_parts((last.answers - current.answers - (begin + end) / 2.) /
                         2.)})};
   }
 
 
 
-  // The error of the state at the end of the step over the tolerance. Two
-  // halves of a method of second order are right to a quarter of what one step
-  // is.
+  // The error of the state at the end of the step over the tolerance.
   double
   AdaptiveStepping::error_at_end(const StepState &state) const
   {
-    return 4. / 3. *
-           relative(state.difference_of_halves(),
-                    greatest.cwiseMax(state.forces.cwiseAbs())) /
-           parameters.tolerance;
+    return relative(state.error(), state, false) / parameters.tolerance;
   }
 
 
@@ -247,12 +287,13 @@ namespace Debond
   {
     if (step.time != step.whole_time)
       {
-        middle     = state.forces;
+        middle     = node_of(state).answers;
         has_middle = true;
         return false;
       }
     drive_change =
       drive_change.cwiseMax((state.drive - first_drive).cwiseAbs());
+    const Node last            = node_of(state);
     const auto [smooth, drawn] = error_between(state);
     const double taken         = step.time - time;
     // to 0.8 of the tolerance: the error of the cubic goes with the fourth
@@ -275,13 +316,13 @@ namespace Debond
     second = !has_previous;
     if (second) // of the parabola that was drawn
       current.rates =
-        2. / taken * (state.forces - current.forces) - state.force_rates;
+        2. / taken * (last.answers - current.answers) - last.rates;
     is_resolved  = drawn <= 1.;
     previous     = current;
     bend_before  = second ? 0. : bend;
     bend         = is_resolved ? smooth / std::pow(taken, 4) : 0.;
-    has_previous = state.force_rates.allFinite();
-    current      = {step.time, state.forces, state.force_rates};
+    has_previous = last.rates.allFinite();
+    current      = last;
     time         = step.time;
     if (time == turn && time != end)
       {
@@ -289,7 +330,7 @@ namespace Debond
         turn         = first_turn(time, end);
         has_previous = false;
       }
-    greatest = greatest.cwiseMax(state.forces.cwiseAbs());
+    grow(state);
     set_size(taken *
              std::clamp(
                change(std::max(drawn, 0.2 * bend_before * std::pow(taken, 4))),

@@ -98,7 +98,8 @@ namespace Debond
               Allowed::choice("false | true"),
               "Let the program choose the steps of each phase, at most as "
               "large as the planned ones, such that the curves of torque and "
-              "forces in curve.csv, cubics between the rows, keep the "
+              "forces in curve.csv, or of the place of what a force or moment "
+              "is prescribed for, cubics between the rows, keep the "
               "Tolerance, relative to the largest value of each (where the "
               "machine holds still to a tenth of the largest of all, if that "
               "is more); each accepted step is a row. Steps end where "
@@ -106,7 +107,7 @@ namespace Debond
               "is halved in any case.");
     table.add("Tolerance",
               tolerance,
-              Allowed::number_between(1e-7, 1, ""),
+              Allowed::number_between(1e-7, 0.1, ""),
               "Relative accuracy wanted of the torque curve. With Adaptive "
               "that of the states at the ends of the steps and of the cubics "
               "between them, both by estimates; with "

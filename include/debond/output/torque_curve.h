@@ -158,8 +158,8 @@ namespace Debond
   std::string
   curve_table(const std::vector<TorqueRow> &fine);
 
-  /** Where a fine_curve() goes through @p angles [deg], in its order; linear
-   *  between its rows. */
+  /** Where a fine_curve() goes through @p angles [deg], or begins to turn from
+   *  them, in its order; linear between its rows. */
   std::vector<TorqueRow>
   rows_at(const std::vector<TorqueRow> &fine,
           const std::vector<double>    &angles);

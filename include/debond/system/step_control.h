@@ -44,9 +44,13 @@ namespace Debond
     double         mean_slip = 0; ///< [mm]; known along a path only
     /** How the forces change with time; known with adaptive steps only. */
     Chuck::Vector6 force_rates = Chuck::Vector6::Zero();
-    /** By how much the forces would differ after steps of half the size; asked
+    /** By how much the forces are off, going by steps of half the size; asked
      *  with adaptive steps only, as it takes time. */
-    std::function<Chuck::Vector6()> difference_of_halves = {};
+    std::function<Chuck::Vector6()> error = {};
+    /** Of the chuck [mm, rad], and how it changes with time, which is known
+     *  with adaptive steps only. */
+    Chuck::Vector6 position       = Chuck::Vector6::Zero(),
+                   position_rates = Chuck::Vector6::Zero();
   };
 
   /**
@@ -181,13 +185,15 @@ namespace Debond
 
   /**
    * Steps of a size that keeps the six chuck forces at the ends of the steps,
-   * and their curves in between, cubics with the rates of change at both ends,
-   * within a tolerance.
+   * and the curves of what answers in between, cubics with the rates of change
+   * at both ends, within a tolerance. A prescribed component answers with its
+   * force, a loaded one with its position, and one that a compliant machine
+   * drives with both.
    *
    * The tolerance is relative to the largest value of each curve; where the
    * machine holds still, for instance against the lateral forces of a bond on
    * one side, it is relative to a tenth of the largest of all forces if that is
-   * more.
+   * more, and of all motions for a load that is constant.
    *
    * doc/solution.md says how both errors are estimated. In the first step of a
    * phase the rate at its beginning is not known: it is a parabola, whose error
@@ -198,13 +204,15 @@ namespace Debond
   public:
     using Forces = Chuck::Vector6;
 
-    /** @p radius makes forces of moments, to compare them with [mm]. @p drive:
-     *  what the scene prescribes at a time. */
+    /** @p radius makes forces of moments and lengths of angles, to compare them
+     *  with [mm]. @p drive: what the scene prescribes at a time. */
     AdaptiveStepping(const LoadSteppingParameters        &parameters,
                      const double                         radius,
+                     const ChuckParameters               &chuck,
                      const std::function<Forces(double)> &drive)
       : StepControl(parameters)
       , radius(radius)
+      , chuck(chuck)
       , drive(drive)
     {}
 
@@ -237,8 +245,8 @@ namespace Debond
     {
       StepControl::serialize(archive, version);
       archive &size &turn &current &previous &second &is_resolved;
-      archive &middle &bend &bend_before &has_middle &greatest;
-      archive &first_drive                           &drive_change;
+      archive &middle &bend &bend_before             &has_middle;
+      archive &greatest &furthest &first_drive       &drive_change;
     }
 
   private:
@@ -250,8 +258,12 @@ namespace Debond
     first_turn(double begin, double end) const;
     Forces
     difference(const StepState &state) const;
+    Forces
+    answers(const Forces &forces, const Forces &positions) const;
     double
-    relative(const Forces &difference, const Forces &largest) const;
+    relative(const Forces    &difference,
+             const StepState &state,
+             bool             of_answers) const;
     Forces
     expected_rates(double h) const;
     struct ErrorBetween
@@ -269,18 +281,23 @@ namespace Debond
     /** What is known of an end of a step. */
     struct Node
     {
-      double time   = 0;
-      Forces forces = Forces::Zero(), rates = Forces::Zero();
+      double time    = 0;
+      Forces answers = Forces::Zero(), rates = Forces::Zero();
 
       template <class Archive>
       void
       serialize(Archive &archive, const unsigned int)
       {
-        archive &time &forces &rates;
+        archive &time &answers &rates;
       }
     };
+    Node
+    node_of(const StepState &state) const;
+    void
+    grow(const StepState &state);
 
     const double                        radius;
+    const ChuckParameters               chuck;
     const std::function<Forces(double)> drive;
     double                              size = 0;
     double turn = 0;            ///< next time at which something turns back
@@ -292,8 +309,8 @@ namespace Debond
     /** Errors of the last two steps, if smooth, over the tolerance and the
      * fourth power of the step. */
     double bend = 0, bend_before = 0;
-    bool   has_middle   = false;
-    Forces greatest     = Forces::Zero(); ///< so far
+    bool   has_middle = false;
+    Forces greatest = Forces::Zero(), furthest = Forces::Zero(); ///< so far
     Forces first_drive  = Forces::Zero();
     Forces drive_change = Forces::Zero(); ///< largest so far
   };

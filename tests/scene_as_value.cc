@@ -25,7 +25,7 @@ namespace
     scene.load_steps.times         = {0, 1, 3};
     scene.load_steps.steps         = {2, 10};
     scene.load_steps.adaptive      = true;
-    scene.load_steps.tolerance     = 1. / 30.;
+    scene.load_steps.tolerance     = 1. / 3.;
     scene.chuck.component[2].value = "-0.0049 * min(t, 1)";
     scene.chuck.component[5].value = "10 * max(t - 1, 0)";
     return scene;
@@ -45,7 +45,7 @@ namespace
                                "  set Times = 0, 1, 3\n"
                                "  set Steps = 2, 10\n"
                                "  set Adaptive = true\n"
-                               "  set Tolerance = 0.03333333333333333\n"
+                               "  set Tolerance = 0.3333333333333333\n"
                                "end\n"
                                "subsection Chuck\n"
                                "  subsection Translation z\n"

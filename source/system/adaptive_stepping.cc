@@ -239,7 +239,7 @@ namespace Debond
   {
     const Node last     = node_of(state);
     const auto in_parts = [&](const Forces &difference) {
-      return relative(difference, state, true) / parameters.tolerance;
+      return relative(difference, state, true) / tolerance;
     };
     const Forces from_polynomial = difference(state);
     if (!has_previous) // twice: the curve need not be a cubic
@@ -275,7 +275,7 @@ namespace Debond
   double
   AdaptiveStepping::error_at_end(const StepState &state) const
   {
-    return relative(state.error(), state, false) / parameters.tolerance;
+    return relative(state.error(), state, false) / tolerance;
   }
 
 

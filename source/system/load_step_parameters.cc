@@ -107,10 +107,11 @@ namespace Debond
               "is halved in any case.");
     table.add("Tolerance",
               tolerance,
-              Allowed::number_between(1e-7, 0.1, ""),
+              Allowed::number_between(1e-7, 1, ""),
               "Relative accuracy wanted of the torque curve. With Adaptive "
               "that of the states at the ends of the steps and of the cubics "
-              "between them, both by estimates; with "
+              "between them, both by estimates, which more than 0.1 would "
+              "deceive: then it is 0.1; with "
               "Model = auto the largest difference, relative to the largest "
               "torque, from the curve of the scene's bodies on a converged "
               "mesh. Else not used.");

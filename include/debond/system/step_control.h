@@ -4,6 +4,7 @@
 #include <debond/bulk/chuck.h>
 #include <debond/system/load_step_parameters.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 
@@ -211,6 +212,7 @@ namespace Debond
                      const ChuckParameters               &chuck,
                      const std::function<Forces(double)> &drive)
       : StepControl(parameters)
+      , tolerance(std::min(parameters.tolerance, 0.1))
       , radius(radius)
       , chuck(chuck)
       , drive(drive)
@@ -296,6 +298,8 @@ namespace Debond
     void
     grow(const StepState &state);
 
+    /** Steps that are coarser than 0.1 do not see what they leave out. */
+    const double                        tolerance;
     const double                        radius;
     const ChuckParameters               chuck;
     const std::function<Forces(double)> drive;

@@ -1,5 +1,7 @@
+#include <debond/campaigns/compare_results.h>
 #include <debond/campaigns/run_scene.h>
 #include <debond/campaigns/study.h>
+#include <debond/input/allowed_values.h>
 #include <debond/input/parameter_loop.h>
 #include <debond/models/debonding_problem.h>
 #include <debond/models/memory_estimate.h>
@@ -45,6 +47,7 @@ namespace
   const char *const help_text =
     R"(usage: debond [OPTIONS] SCENE.prm
        debond --resume DIR [OPTIONS] [SCENE.prm]
+       debond --compare DIR CURVE [--columns LIST]
 
 Simulates the tangential debonding of an implant from bone as the scene file
 describes it, and writes torque curve, summary and fields into the directory
@@ -59,6 +62,10 @@ study: all variants are run and gathered in study.csv.
   --resume DIR        go on with the interrupted run whose results are in DIR, from
                       its last checkpoint; with SCENE.prm only if that is the
                       same scene
+  --compare DIR CURVE compare the torque curves in DIR, of a run, a study or an
+                      ensemble, with a measured one; nothing is run
+  --columns LIST      which columns of CURVE are angle and torque, as Output /
+                      Reference columns: "2 [deg], 3 [N m]"
   --jobs N            run N variants of a study at a time (default: as many as
                       there are processors)
   --threads N         use N threads (default: as many as there are processors, in
@@ -90,8 +97,10 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
   // What the words amount to. Nothing is decided yet.
   struct Arguments
   {
-    std::string              scene_file;
-    std::string              directory_to_resume; ///< empty: a run begins anew
+    std::string scene_file;
+    std::string directory_to_resume;    ///< empty: a run begins anew
+    std::string directory_to_compare;   ///< with the curve in scene_file
+    std::string columns;                ///< of that curve; empty: recognised
     std::vector<std::string> overrides; ///< "Subsection/Entry=value", in order
     bool force = false, check = false, print_parameters = false, help = false,
          version           = false;
@@ -171,6 +180,10 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
           arguments.overrides.push_back(value("ENTRY=VALUE"));
         else if (option == "--resume")
           arguments.directory_to_resume = value("the directory of a run");
+        else if (option == "--compare")
+          arguments.directory_to_compare = value("a directory of results");
+        else if (option == "--columns")
+          arguments.columns = value("two columns, the angle and the torque");
         else if (option.size() > 1 && option[0] == '-')
           refuse_usage("unknown option '" + option + "'");
         else if (!arguments.scene_file.empty())
@@ -189,6 +202,15 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     if (resumes && (arguments.check || arguments.print_parameters ||
                     arguments.force || arguments.n_jobs > 0))
       refuse_usage("--resume goes with SCENE.prm, --set and --threads only");
+    const bool compares = !arguments.directory_to_compare.empty();
+    if (compares && (resumes || arguments.check || arguments.print_parameters ||
+                     arguments.force || !arguments.overrides.empty()))
+      refuse_usage("--compare goes with a curve and --columns only");
+    if (compares && arguments.scene_file.empty())
+      refuse_usage("--compare needs a measured curve: --compare DIR CURVE.csv");
+    if (!compares && !arguments.columns.empty())
+      refuse_usage("--columns is for --compare; a scene has Output / Reference "
+                   "columns");
     // With --print-parameters alone the defaults are printed.
     const bool needs_no_scene =
       resumes || arguments.help || arguments.version ||
@@ -292,6 +314,11 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
       }
     if (!arguments.directory_to_resume.empty())
       return resume(arguments);
+    if (!arguments.directory_to_compare.empty())
+      return compare_results(arguments.directory_to_compare,
+                             arguments.scene_file,
+                             split_list(arguments.columns),
+                             std::cout);
     if (arguments.scene_file.empty())
       return print_parameters(std::cout);
 

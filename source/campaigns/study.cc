@@ -189,6 +189,7 @@ namespace Debond
         run_variants(n_jobs, out);
         write_table();
         write_ensemble(out);
+        name_best(out);
         out << "Results are in " << directory << "/study.csv" << std::endl;
         if (n_done() < variants.size())
           throw RunError(Text() << variants.size() - n_done() << " of "
@@ -307,6 +308,30 @@ namespace Debond
             text += csv_line(row);
           }
         write_file(directory + "/study.csv", text);
+      }
+
+
+
+      /** The variant closest to the measured curve. */
+      void
+      name_best(std::ostream &out) const
+      {
+        const Variant *best = nullptr;
+        for (const Variant &variant : variants)
+          if (reference == 0 && variant.done &&
+              number_in(variant.summary, "difference_mean") <
+                (best == nullptr ? std::numeric_limits<double>::infinity() :
+                                   number_in(best->summary, "difference_mean")))
+            best = &variant;
+        if (best == nullptr || variants.size() == 1)
+          return;
+        const auto percent = [&](const char *const name) {
+          return to_text(100. * number_in(best->summary, name), 2) + " %";
+        };
+        out << "Closest to " << best->scene.output.reference_curve << ": "
+            << best->name << ", by " << percent("difference_mean")
+            << " in the mean and " << percent("difference_max") << " at most"
+            << std::endl;
       }
 
 

@@ -137,38 +137,28 @@ namespace Debond
   {
     if (compared)
       return;
-    compared       = done && other.done;
-    auto distances = measure_torque_curve({}, CurveSettings());
+    compared                         = done && other.done;
+    nlohmann::ordered_json distances = CurveComparison().members();
+    for (const char *const name :
+         {"pressure_difference_rms", "slip_difference_rms"})
+      distances[name] = std::numeric_limits<double>::quiet_NaN();
+    distances["reference_angles_used"] = 0;
     if (compared)
       {
         const std::string own       = scene.output.directory + "/",
                           reference = other.scene.output.directory + "/";
-        std::vector<TorqueRow> rows;
-        for (const auto &[angle, torque] :
-             read_reference_curve(finest_curve(own)))
-          {
-            rows.emplace_back();
-            rows.back().angle_deg  = angle;
-            rows.back().torque_Nmm = torque;
-          }
-        CurveSettings settings;
-        settings.reference = read_reference_curve(finest_curve(reference));
-        distances          = measure_torque_curve(rows, settings);
+        distances.update(
+          CurveComparison(read_reference_curve(finest_curve(own)),
+                          read_reference_curve(finest_curve(reference)))
+            .members());
         if (std::filesystem::exists(own + "profiles.csv") &&
             std::filesystem::exists(reference + "profiles.csv"))
           distances.update(
             compare_profiles(read_profiles(own + "profiles.csv"),
                              read_profiles(reference + "profiles.csv")));
       }
-    for (const char *const name : {"e_mp",
-                                   "e_rel",
-                                   "difference_max",
-                                   "difference_mean",
-                                   "reference_rows_used",
-                                   "pressure_difference_rms",
-                                   "slip_difference_rms",
-                                   "reference_angles_used"})
+    for (const auto &[name, value] : distances.items())
       if (summary.contains(name))
-        summary[name] = distances[name];
+        summary[name] = value;
   }
 } // namespace Debond

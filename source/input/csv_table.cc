@@ -8,6 +8,8 @@
 
 #include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/replace.hpp>
+#include <boost/algorithm/string/trim.hpp>
+#include <boost/tokenizer.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -133,6 +135,41 @@ namespace Debond
                          boost::join(names, ",") + " and rows below",
                        filename);
     return rows;
+  }
+
+
+
+  std::vector<std::string>
+  split_csv_line(const std::string &line, const char separator)
+  {
+    using Separator = boost::escaped_list_separator<char>;
+    // no character escapes another one
+    const boost::tokenizer<Separator> fields(
+      line, Separator("", std::string(1, separator), "\""));
+    std::vector<std::string> items(fields.begin(), fields.end());
+    for (std::string &item : items)
+      boost::trim(item);
+    return items;
+  }
+
+
+
+  std::vector<std::vector<std::string>>
+  read_csv_texts(const std::string &filename, const std::string &entry)
+  {
+    constexpr unsigned int largest_MB = 200;
+    const auto             refuse     = [&](const std::string &why) {
+      throw EntryError(entry, why, filename);
+    };
+    std::istringstream file(
+      plain_text(read_input_bytes(filename, refuse, largest_MB), refuse));
+    std::vector<std::vector<std::string>> lines;
+    std::string                           line;
+    while (std::getline(file, line))
+      lines.push_back(split_csv_line(line, ','));
+    if (lines.empty())
+      refuse("this file is empty");
+    return lines;
   }
 
 

@@ -13,7 +13,8 @@ namespace Debond
     : console(scene.output.quiet, std::cout)
     , scene(scene)
     , directory(directory)
-    , reference(read_reference_curve(scene.output.reference_curve))
+    , reference(read_reference_curve(scene.output.reference_curve,
+                                     scene.output.reference_columns))
     , profiles(scene, directory)
   {}
 
@@ -74,15 +75,22 @@ namespace Debond
       console.warn("curve at",
                    "Output / Curve at: the implant never turns through " +
                      missed + " deg");
-    if (converged && !reference.empty() && summary["reference_rows_used"] == 0)
+    const CurveComparison comparison(angles_and_torques(fine), reference);
+    if (converged && !reference.empty() && comparison.rows_used == 0)
       console.warn("reference",
-                   "no row of the reference curve could be compared with");
+                   output.reference_curve +
+                     " could not be compared with: " + comparison.why_none);
+    for (const std::string &remark : comparison.remarks)
+      console.warn(remark, output.reference_curve + ": " + remark);
     summary["warnings"]       = console.warnings;
     summary["peak_memory_MB"] = peak_memory_MB();
     write_json(directory.file("summary.json"), summary);
     if (!converged)
       return;
 
+    if (comparison.rows_used > 0)
+      console.headline("The torque differs from that of " +
+                       output.reference_curve + " by " + comparison.text());
     Text        text;
     const auto &end = rows.back().chuck_reaction;
     if (const double theta_max = summary["theta_max_deg"],

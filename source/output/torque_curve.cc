@@ -180,22 +180,13 @@ namespace Debond
 
 
 
-  double
-  torque_at(const ReferenceCurve &curve, double angle, const double tolerance)
+  ReferenceCurve
+  angles_and_torques(const std::vector<TorqueRow> &rows)
   {
-    for (const double end : {curve.front().first, curve.back().first})
-      if (std::abs(angle - end) <= tolerance)
-        angle = end;
-    for (std::size_t i = 0; i + 1 < curve.size(); ++i)
-      {
-        const auto &[begin, torque_begin] = curve[i];
-        const auto &[end, torque_end]     = curve[i + 1];
-        if (begin <= angle && angle <= end && begin != end)
-          return angle == end ? torque_end :
-                                torque_begin + (angle - begin) / (end - begin) *
-                                                 (torque_end - torque_begin);
-      }
-    return std::numeric_limits<double>::quiet_NaN();
+    ReferenceCurve curve;
+    for (const TorqueRow &row : rows)
+      curve.emplace_back(row.angle_deg, row.torque_Nmm);
+    return curve;
   }
 
 
@@ -220,46 +211,6 @@ namespace Debond
     {
       return degrees * dealii::numbers::PI / 180.;
     }
-
-
-
-    /** How the angle runs over the rows. Changes that are rounding errors of a
-     *  chuck that is free to turn are no rotation. */
-    struct Rotation
-    {
-      double       tolerance = 0; ///< [deg]
-      double       direction = 0; ///< +1, -1; 0: nothing rotates
-      bool         reverses  = false;
-      unsigned int first_row = 0; ///< the first one with another angle
-
-      explicit Rotation(const Rows &rows)
-      {
-        if (rows.empty())
-          return;
-        const auto [least, most] =
-          std::minmax_element(rows.begin(),
-                              rows.end(),
-                              [](const TorqueRow &a, const TorqueRow &b) {
-                                return a.angle_deg < b.angle_deg;
-                              });
-        const double range = most->angle_deg - least->angle_deg;
-        tolerance          = 1e-9 * std::max(1., range);
-        if (!(range > tolerance))
-          return;
-
-        const double start = rows.front().angle_deg;
-        while (std::abs(rows[first_row].angle_deg - start) <= tolerance)
-          ++first_row;
-        direction       = (rows[first_row].angle_deg > start ? 1. : -1.);
-        double furthest = direction * start;
-        for (const TorqueRow &row : rows)
-          {
-            reverses =
-              reverses || direction * row.angle_deg < furthest - tolerance;
-            furthest = std::max(furthest, direction * row.angle_deg);
-          }
-      }
-    };
 
 
 
@@ -378,9 +329,7 @@ namespace Debond
     double
     torque_between(const Rows &rows, const double angle)
     {
-      ReferenceCurve curve;
-      for (const TorqueRow &row : rows)
-        curve.emplace_back(row.angle_deg, row.torque_Nmm);
+      ReferenceCurve curve = angles_and_torques(rows);
       if (curve.back().first < curve.front().first)
         std::reverse(curve.begin(), curve.end());
       return torque_at(curve, angle, 0.);
@@ -480,67 +429,18 @@ namespace Debond
 
 
 
-    /** Eqs. (19) and (50). Rows of the reference with next to no torque would
-     *  dominate a relative error and are left out. */
+    /** Eqs. (19) and (50). */
     void
     measure_errors(const Rows           &rows,
-                   const Rotation       &rotation,
                    const ReferenceCurve &reference,
-                   const double          T_max,
                    Measures             &measures)
     {
       if (reference.empty())
         return;
-      ReferenceCurve curve; // in ascending order
-      for (const TorqueRow &row : rows)
-        curve.emplace_back(rotation.direction * row.angle_deg, row.torque_Nmm);
-      double largest = 0;
-      for (const auto &[angle_deg, torque_Nmm] : reference)
-        largest = std::max(largest, std::abs(torque_Nmm));
-
-      double       sum_mp = 0, sum_difference = 0, max_difference = 0;
-      double       products = 0;
-      unsigned int n        = 0;
-      for (const auto &[angle_deg, T_reference] : reference)
-        {
-          const double turned = rotation.direction * angle_deg;
-          // angles go from degrees to radians and back
-          const double T = torque_at(curve, turned, rotation.tolerance);
-          if (turned > 0. && std::abs(T_reference) > 0.01 * largest &&
-              std::isfinite(T))
-            {
-              const double difference = std::abs(T - T_reference);
-              sum_mp += difference / std::abs(T_reference);
-              sum_difference += difference;
-              products += T * T_reference;
-              max_difference = std::max(max_difference, difference);
-              ++n;
-            }
-        }
-      measures["reference_rows_used"] = n;
-      const double end                = std::abs(rows.back().angle_deg),
-                   reference_end      = std::abs(reference.back().first);
-      const auto ask = [&](const bool is_so, const std::string &text) {
-        if (is_so)
-          measures["remarks"].push_back("e_mp, e_rel: " + text);
-      };
-      ask(!(largest > 0.01 * T_max && largest < 100. * T_max),
-          "the largest torque of the reference curve is " +
-            to_text(largest, 4) + " and that of the run " + to_text(T_max, 4) +
-            " N mm: is it in N mm?");
-      ask(reference_end < 0.05 * end,
-          "the reference curve ends at " + to_text(reference_end, 4) +
-            " and the run at " + to_text(end, 4) +
-            " degrees: is it in degrees?");
-      ask(products < 0.,
-          "the torques of the reference curve have the opposite sign");
-      if (n > 0)
-        {
-          measures["e_mp"]            = sum_mp / n;
-          measures["e_rel"]           = sum_difference / n / T_max;
-          measures["difference_mean"] = sum_difference / n / largest;
-          measures["difference_max"]  = max_difference / largest;
-        }
+      const CurveComparison comparison(angles_and_torques(rows), reference);
+      measures.update(comparison.members());
+      for (const std::string &remark : comparison.remarks)
+        measures["remarks"].push_back("e_mp, e_rel: " + remark);
     }
 
 
@@ -579,7 +479,7 @@ namespace Debond
       "initial_stiffness_Nm_per_rad theta_debonding_deg force_end_N work_Nm "
       "E_bulk_Nm E_interface_Nm largest_energy_defect largest_reaction_defect "
       "viscous_dissipation_Nm smallest_step pressure_difference_rms "
-      "slip_difference_rms reference_angles_used remarks";
+      "slip_difference_rms reference_angles_used difference_max_deg remarks";
     nlohmann::ordered_json summary;
     for (const std::string &name : split(names, " "))
       summary[name] = std::numeric_limits<double>::quiet_NaN();
@@ -599,7 +499,7 @@ namespace Debond
       return measures;
 
     const Rows       rows = fine_curve(steps);
-    const Rotation   rotation(rows);
+    const Rotation   rotation(angles_and_torques(rows));
     const TorqueRow *peak = &rows.front(), &end = rows.back();
     double           energy_defect = 0, reaction_defect = 0;
     for (const TorqueRow &row : rows)
@@ -649,7 +549,7 @@ namespace Debond
           if (row->phi_mean < steps.front().phi_mean * (1. - 1e-12))
             measures["theta_debonding_deg"] = row->angle_deg;
         measure_energies(rows, rotation, settings, T_max, measures);
-        measure_errors(rows, rotation, settings.reference, T_max, measures);
+        measure_errors(rows, settings.reference, measures);
       }
     else
       measures["remarks"].push_back(

@@ -1,15 +1,22 @@
 #include <debond/input/csv_table.h>
+#include <debond/input/measured_table.h>
 #include <debond/scene/reference_data.h>
 
 namespace Debond
 {
   ReferenceCurve
-  read_reference_curve(const std::string &filename)
+  read_reference_curve(const std::string              &filename,
+                       const std::vector<std::string> &columns)
   {
     ReferenceCurve curve;
     if (!filename.empty())
-      for (const std::vector<double> &row : read_csv_columns(
-             filename, "Output / Reference curve", {"angle_deg", "torque_Nmm"}))
+      for (const std::vector<double> &row :
+           read_measured_table(filename,
+                               "Output / Reference curve",
+                               {{"angle_deg", Quantity::angle},
+                                {"torque_Nmm", Quantity::moment}},
+                               columns,
+                               "Output / Reference columns"))
         curve.emplace_back(row[0], row[1]);
     return curve;
   }

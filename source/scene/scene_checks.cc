@@ -184,7 +184,7 @@ namespace Debond
     void
     check_references(const OutputParameters &output)
     {
-      read_reference_curve(output.reference_curve);
+      read_reference_curve(output.reference_curve, output.reference_columns);
       read_profiles(output.reference_profiles);
       if (!output.reference_profiles.empty() && output.profile_angles.empty())
         throw EntryError("Output / Reference profiles",

@@ -1,6 +1,7 @@
 #ifndef debond_output_torque_curve_h
 #define debond_output_torque_curve_h
 
+#include <debond/output/curve_comparison.h>
 #include <debond/output/profile_output.h>
 
 #include <nlohmann/json_fwd.hpp>
@@ -164,11 +165,8 @@ namespace Debond
   rows_at(const std::vector<TorqueRow> &fine,
           const std::vector<double>    &angles);
 
-  /** Torque at an angle, linear between the points of a curve whose angles do
-   *  not fall; NaN beside them. Differences of angles up to @p tolerance are
-   *  rounding errors. */
-  double
-  torque_at(const ReferenceCurve &curve, double angle, double tolerance);
+  ReferenceCurve
+  angles_and_torques(const std::vector<TorqueRow> &rows);
 
 
 
@@ -217,9 +215,8 @@ namespace Debond
    * below the initial;
    *  - force_end, work, E_bulk, E_interface: of the last row axial force, work
    *    of the chuck, energy stored in bodies and interface;
-   *  - e_mp, e_rel: Eqs. (19) and (50), ratios; difference_max,
-   * difference_mean: largest and mean |T - T_reference| over the reference's
-   * rows, relative to the largest |T_reference|; reference_rows_used: in these;
+   *  - e_mp, e_rel, difference_max, difference_mean, difference_max_deg,
+   *    reference_rows_used: see CurveComparison;
    *  - largest_energy_defect, largest_reaction_defect: largest magnitudes over
    *    the rows.
    */

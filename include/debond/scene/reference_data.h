@@ -13,16 +13,15 @@ namespace Debond
   using ReferenceCurve = std::vector<std::pair<double, double>>;
 
   /**
-   * Reads a reference curve from a CSV file whose first line names the columns;
-   * `angle_deg` and `torque_Nmm` must be among them (so another run's
-   * torque.csv will do), others are ignored, as are empty lines and lines that
-   * begin with
-   * `#`. Throws InputError that names the entry `Output / Reference curve`, the
+   * Reads a reference curve from a table as instruments write them, or the
+   * torque.csv or curve.csv of a run, see read_measured_table(). @p columns:
+   * `Output / Reference columns`. Throws EntryError that names the entry, the
    * file, the line and what was expected. An empty @p filename gives an empty
    * curve.
    */
   ReferenceCurve
-  read_reference_curve(const std::string &filename);
+  read_reference_curve(const std::string              &filename,
+                       const std::vector<std::string> &columns = {});
 
   /** What a profiles.csv holds of one point, as far as it is compared. */
   struct ProfilePoint

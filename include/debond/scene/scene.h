@@ -51,12 +51,13 @@ namespace Debond
   {
     std::string  directory = "output/coin";
     unsigned int fields_every =
-      50; ///< planned steps between VTU files, 0: none
-    std::string         reference_curve; ///< CSV angle_deg,torque_Nmm, or empty
-    std::string         reference_profiles;     ///< a profiles.csv, or empty
-    std::vector<double> curve_at;               ///< angles [deg]
-    double              full_sliding_angle = 0; ///< [deg], 0: from the curve
-    double observed_bonding = 0;        ///< mean phi_0 of w_adh, 0: the scene's
+      50;                        ///< planned steps between VTU files, 0: none
+    std::string reference_curve; ///< file with a measured curve, or empty
+    std::vector<std::string> reference_columns;  ///< of it; empty: recognised
+    std::string              reference_profiles; ///< a profiles.csv, or empty
+    std::vector<double>      curve_at;           ///< angles [deg]
+    double full_sliding_angle = 0;               ///< [deg], 0: from the curve
+    double observed_bonding   = 0;      ///< mean phi_0 of w_adh, 0: the scene's
     std::vector<double> profile_angles; ///< [deg]
     bool                friction_law_curve = false; ///< write friction_law.csv
     unsigned int        checkpoint_every = 0; ///< rows; 0: if interrupted only

@@ -1,0 +1,48 @@
+#ifndef debond_input_measured_table_h
+#define debond_input_measured_table_h
+
+#include <string>
+#include <vector>
+
+namespace Debond
+{
+  /** What a column of a measured table holds, and what it is read in. */
+  enum class Quantity
+  {
+    angle, ///< [deg]
+    moment ///< [N mm]
+  };
+
+  /** A column that is asked for. */
+  struct MeasuredColumn
+  {
+    std::string name; ///< in tables of this program: "angle_deg"
+    Quantity    quantity;
+  };
+
+  /**
+   * Reads columns of a table as instruments, spreadsheets and this program
+   * write them, in degrees and N mm, with a row for each of the file.
+   *
+   * Items are separated by semicolons, tabs, commas or blanks, numbers have a
+   * point or, where commas do not separate, a comma. Numbers begin with the
+   * first line that has nothing else. The one or two lines above, if they have
+   * as many items, name the columns and their units; what stands before them is
+   * not read, nor are lines that begin with `#`.
+   *
+   * @p choice names the columns in the order of @p columns, each by its name in
+   * the file or its number from 1, with a unit in brackets where the file has
+   * none: "Winkel", "3 [N m]". Empty: the column called as
+   * MeasuredColumn::name, else the only one with a unit of that quantity.
+   *
+   * Throws EntryError that names the @p entry of the scene which gave the file,
+   * the file, and what was found and is needed; or the entry @p choice_entry.
+   */
+  std::vector<std::vector<double>>
+  read_measured_table(const std::string                 &filename,
+                      const std::string                 &entry,
+                      const std::vector<MeasuredColumn> &columns,
+                      const std::vector<std::string>    &choice,
+                      const std::string                 &choice_entry);
+} // namespace Debond
+#endif

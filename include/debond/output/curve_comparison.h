@@ -1,0 +1,67 @@
+#ifndef debond_output_curve_comparison_h
+#define debond_output_curve_comparison_h
+
+#include <debond/scene/reference_data.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace Debond
+{
+  /** How the angle runs over the rows of a curve. Changes that are rounding
+   *  errors of a chuck that is free to turn are no rotation. */
+  struct Rotation
+  {
+    double       tolerance = 0; ///< [deg]
+    double       direction = 0; ///< +1, -1; 0: nothing rotates
+    bool         reverses  = false;
+    unsigned int first_row = 0; ///< the first one with another angle
+
+    explicit Rotation(const ReferenceCurve &curve);
+  };
+
+  /** Torque at an angle, linear between the points of a curve whose angles do
+   *  not fall; NaN beside them. Differences of angles up to @p tolerance are
+   *  rounding errors. */
+  double
+  torque_at(const ReferenceCurve &curve, double angle, double tolerance);
+
+  /**
+   * How far a computed curve is from a measured one, at the rows of the latter
+   * that the former covers and whose angles are positive, or negative if the
+   * implant turns backwards. Rows with less than a hundredth of the largest
+   * measured torque would dominate a relative error and are left out. NaN if
+   * there is none, or if the computed curve does not turn or turns back.
+   */
+  struct CurveComparison
+  {
+    static constexpr double undefined =
+      std::numeric_limits<double>::quiet_NaN();
+
+    unsigned int rows_used = 0;         ///< of the measured curve
+    double       e_mp      = undefined; ///< Eq. (19), a ratio
+    double       e_rel     = undefined; ///< Eq. (50), a ratio
+    /** Mean and largest difference over the largest measured torque. */
+    double difference_mean = undefined, difference_max = undefined;
+    double angle_of_max_deg = undefined; ///< where it is largest
+    /** What may be wrong with the measured curve: its units, its sign. */
+    std::vector<std::string> remarks;
+    std::string              why_none; ///< no row is used; else empty
+
+    CurveComparison() = default;
+    CurveComparison(const ReferenceCurve &computed,
+                    const ReferenceCurve &measured);
+
+    /** All numbers, as members of a summary. */
+    nlohmann::ordered_json
+    members() const;
+
+    /** "2.3 % in the mean, 6 % at most, at 0.9 deg", or why not. */
+    std::string
+    text() const;
+  };
+} // namespace Debond
+#endif

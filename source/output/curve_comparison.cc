@@ -1,0 +1,167 @@
+#include <debond/output/curve_comparison.h>
+#include <debond/support/number_text.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Debond
+{
+  Rotation::Rotation(const ReferenceCurve &curve)
+  {
+    if (curve.empty())
+      return;
+    const auto [least, most] = std::minmax_element(curve.begin(), curve.end());
+    const double range       = most->first - least->first;
+    tolerance                = 1e-9 * std::max(1., range);
+    if (!(range > tolerance))
+      return;
+
+    const double start = curve.front().first;
+    while (std::abs(curve[first_row].first - start) <= tolerance)
+      ++first_row;
+    direction       = (curve[first_row].first > start ? 1. : -1.);
+    double furthest = direction * start;
+    for (const auto &[angle, torque] : curve)
+      {
+        reverses = reverses || direction * angle < furthest - tolerance;
+        furthest = std::max(furthest, direction * angle);
+      }
+  }
+
+
+
+  double
+  torque_at(const ReferenceCurve &curve, double angle, const double tolerance)
+  {
+    for (const double end : {curve.front().first, curve.back().first})
+      if (std::abs(angle - end) <= tolerance)
+        angle = end;
+    for (std::size_t i = 0; i + 1 < curve.size(); ++i)
+      {
+        const auto &[begin, torque_begin] = curve[i];
+        const auto &[end, torque_end]     = curve[i + 1];
+        if (begin <= angle && angle <= end && begin != end)
+          return angle == end ? torque_end :
+                                torque_begin + (angle - begin) / (end - begin) *
+                                                 (torque_end - torque_begin);
+      }
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+
+
+
+  namespace
+  {
+    double
+    largest_torque(const ReferenceCurve &curve)
+    {
+      double largest = 0.;
+      for (const auto &[angle, torque] : curve)
+        largest = std::max(largest, std::abs(torque));
+      return largest;
+    }
+
+
+
+    double
+    furthest(const ReferenceCurve &curve)
+    {
+      double largest = 0.;
+      for (const auto &[angle, torque] : curve)
+        largest = std::max(largest, std::abs(angle));
+      return largest;
+    }
+  } // namespace
+
+
+
+  CurveComparison::CurveComparison(const ReferenceCurve &computed,
+                                   const ReferenceCurve &measured)
+  {
+    const Rotation rotation(computed);
+    if (measured.empty() || rotation.direction == 0. || rotation.reverses)
+      {
+        why_none = measured.empty()         ? "there is no curve" :
+                   rotation.direction == 0. ? "nothing rotates in the run" :
+                                              "the run turns back";
+        return;
+      }
+    ReferenceCurve curve = computed; // in ascending order
+    for (auto &[angle, torque] : curve)
+      angle *= rotation.direction;
+
+    const double largest = largest_torque(measured),
+                 T_max   = largest_torque(computed);
+    double sum_mp = 0., sum = 0., products = 0., most = -1.;
+    for (const auto &[angle, T_measured] : measured)
+      {
+        const double turned = rotation.direction * angle;
+        // angles go from degrees to radians and back
+        const double T = torque_at(curve, turned, rotation.tolerance);
+        if (!(turned > 0. && std::abs(T_measured) > 0.01 * largest &&
+              std::isfinite(T)))
+          continue;
+        const double difference = std::abs(T - T_measured);
+        sum_mp += difference / std::abs(T_measured);
+        sum += difference;
+        products += T * T_measured;
+        ++rows_used;
+        if (difference > most)
+          {
+            most             = difference;
+            angle_of_max_deg = angle;
+          }
+      }
+    const double end = furthest(computed), measured_end = furthest(measured);
+    const auto   ask = [&](const bool is_so, const std::string &text) {
+      if (is_so)
+        remarks.push_back(text);
+    };
+    ask(!(largest > 0.01 * T_max && largest < 100. * T_max),
+        "the largest torque of the reference curve is " + to_text(largest, 4) +
+          " and that of the run " + to_text(T_max, 4) +
+          " N mm: is it in N mm?");
+    ask(measured_end < 0.05 * end,
+        "the reference curve ends at " + to_text(measured_end, 4) +
+          " and the run at " + to_text(end, 4) + " degrees: is it in degrees?");
+    ask(products < 0.,
+        "the torques of the reference curve have the opposite sign");
+    if (rows_used == 0)
+      {
+        why_none = "the run turns to " + to_text(computed.back().first, 4) +
+                   " deg, and no row of the curve lies on the way";
+        return;
+      }
+    e_mp            = sum_mp / rows_used;
+    e_rel           = sum / rows_used / T_max;
+    difference_mean = sum / rows_used / largest;
+    difference_max  = most / largest;
+  }
+
+
+
+  nlohmann::ordered_json
+  CurveComparison::members() const
+  {
+    return {{"e_mp", e_mp},
+            {"e_rel", e_rel},
+            {"difference_max", difference_max},
+            {"difference_mean", difference_mean},
+            {"reference_rows_used", rows_used},
+            {"difference_max_deg", angle_of_max_deg}};
+  }
+
+
+
+  std::string
+  CurveComparison::text() const
+  {
+    if (rows_used == 0)
+      return "not compared: " + why_none;
+    return to_text(100. * difference_mean, 2) + " % in the mean, " +
+           to_text(100. * difference_max, 2) + " % at most, at " +
+           to_text(angle_of_max_deg, 3) + " deg";
+  }
+} // namespace Debond

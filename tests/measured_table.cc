@@ -50,8 +50,9 @@ main()
   read("a table of this program",
        "step,time,angle_deg,torque_Nmm,chuck_Mx_Nmm,chuck_rx_deg\n"
        "0,0,0.5,20,1,2\n1,1,1,50,3,nan\n");
-  read("semicolons, decimal commas, units in brackets",
-       "\xEF\xBB\xBFWinkel [\xC2\xB0];Drehmoment [Nm]\r\n0,5;0,02\r\n1,0;5e-2\r\n");
+  read(
+    "semicolons, decimal commas, units in brackets",
+    "\xEF\xBB\xBFWinkel [\xC2\xB0];Drehmoment [Nm]\r\n0,5;0,02\r\n1,0;5e-2\r\n");
   read("tabs, a line of units, lines above",
        "Torque meter 4711\nOperator\tA. B.\n\n"
        "time\tangle\ttorque\ns\tdeg\tN cm\n0\t0.5\t2\n1\t1\t5\n");

@@ -301,6 +301,7 @@ check_errors()
   check("e_mp", m["e_mp"], (5. / 20 + 10. / 50 + 0.) / 3);
   check("e_rel", m["e_rel"], (5. / 50 + 10. / 50 + 0.) / 3);
   check("largest difference", m["difference_max"], 10. / 50);
+  check("where it is [deg]", m["difference_max_deg"], 4.);
   check("mean difference", m["difference_mean"], (5. + 10. + 0.) / 3 / 50);
   check("rows read without a file", read_reference_curve("").size(), 0);
 

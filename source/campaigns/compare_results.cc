@@ -55,7 +55,7 @@ namespace Debond
           const std::string curve = finest_curve(directory + "/" + name);
           if (std::filesystem::exists(curve))
             variants.push_back(
-              {name + ": " + varied_values(table.front(), *row),
+              {name + ", " + varied_values(table.front(), *row),
                CurveComparison(read_reference_curve(curve), measured)});
           else
             ++n_without;
@@ -72,9 +72,10 @@ namespace Debond
                          return distance(a) < distance(b);
                        });
       for (const Compared &variant : variants)
-        out << variant.name << ": " << variant.comparison.text() << '\n';
+        out << variant.comparison.text() << ": " << variant.name << '\n';
       if (n_without > 0)
-        out << n_without << " variants have no curve yet\n";
+        out << n_without << " of " << table.size() - 1
+            << " variants have no curve\n";
     }
 
 
@@ -124,8 +125,8 @@ namespace Debond
                 ++n;
                 n_inside += low <= torque && torque <= high;
               }
-          out << "ensemble" << (name.empty() ? "" : ", " + name)
-              << ": mean curve " << CurveComparison(band.mean, measured).text()
+          out << CurveComparison(band.mean, measured).text()
+              << ": mean of the ensemble" << (name.empty() ? "" : ", " + name)
               << "; " << n_inside << " of " << n
               << " rows lie between the quantiles of 5 and 95 %\n";
         }

@@ -155,6 +155,7 @@ namespace Debond
       char                                        separator = ';';
       std::vector<std::pair<unsigned int, Items>> rows;  ///< line, items
       Items                                       names; ///< empty: none
+      std::string line_above; ///< with another number of items; empty: none
 
       Table(const std::vector<Line> &lines, const FileRefusal &refuse)
       {
@@ -176,7 +177,11 @@ namespace Debond
           {
             const Items above = split_line(lines[i - 1].text, separator);
             if (above.size() != rows[0].second.size())
-              break;
+              {
+                if (names.empty())
+                  line_above = lines[i - 1].text;
+                break;
+              }
             if (names.empty())
               names = above;
             else
@@ -219,7 +224,13 @@ namespace Debond
       {
         return names.empty() ?
                  "this file has " + std::to_string(rows[0].second.size()) +
-                   " columns without names" :
+                   " columns without names" +
+                   (line_above.empty() ?
+                      std::string() :
+                      ", since the line above the numbers, '" +
+                        shortened(line_above) +
+                        "', has not as many (a decimal comma may be taken for "
+                        "a separator)") :
                  "the columns of this file are '" + boost::join(names, "', '") +
                    "'";
       }

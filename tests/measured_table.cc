@@ -69,6 +69,10 @@ main()
        "phi [deg], M2");
   read("comments", "# first\nangle_deg,torque_Nmm\n0.5,20\n# between\n1,50\n");
 
+  read("Latin-1, capitals, separators at the end",
+       "WINKEL [\xB0];Drehmoment [cNm];\n0,5;2;\n1;5;;\n;;;\n");
+  read("capitals", "ANGLE (DEG)\tTORQUE (Nmm)\n0.5\t20\n1\t50\n");
+
   read("no unit", "angle,torque\n0.5,20\n1,50\n");
   read("two torques", "angle_deg,M1 [Nm],M2 [Nm]\n0.5,1,2\n1,2,3\n");
   read("no names, no choice", "0.5 20\n1 50\n");
@@ -79,6 +83,9 @@ main()
   read("decimal commas among commas",
        "angle_deg,torque_Nmm\n0,5,20,1\n1,1,50,2\n");
   read("a word among numbers", "angle_deg,torque_Nmm\n0.5,20\nend,50\n");
+  read("thousands", "angle_deg;torque_Nmm\n0,5;20\n1;1.050\n");
+  read("blanks in numbers", "angle_deg\ttorque_Nmm\n0.5\t1 020\n1\t1 050\n");
+  read("a factor", "angle [deg];torque [Nm] x10\n0,5;2\n1;5\n");
   read("a gap", "angle_deg;torque_Nmm\n0.5;20\n1;\n");
   read("a short line", "angle_deg;torque_Nmm\n0.5;20\n1\n");
   read("no numbers", "angle_deg,torque_Nmm\n");

@@ -35,6 +35,15 @@ namespace Debond
 
 
     void
+    print_remarks(const CurveComparison &comparison, std::ostream &out)
+    {
+      for (const std::string &remark : comparison.remarks)
+        out << "warning: " << remark << '\n';
+    }
+
+
+
+    void
     compare_variants(const std::string    &directory,
                      const ReferenceCurve &measured,
                      std::ostream         &out)
@@ -71,6 +80,8 @@ namespace Debond
                        [&](const Compared &a, const Compared &b) {
                          return distance(a) < distance(b);
                        });
+      if (!variants.empty())
+        print_remarks(variants.front().comparison, out);
       for (const Compared &variant : variants)
         out << variant.comparison.text() << ": " << variant.name << '\n';
       if (n_without > 0)
@@ -141,24 +152,34 @@ namespace Debond
                   const std::vector<std::string> &columns,
                   std::ostream                   &out)
   {
-    namespace fs                  = std::filesystem;
-    const ReferenceCurve curve    = read_reference_curve(measured, columns);
-    const std::string    own      = finest_curve(directory);
-    const bool           is_study = fs::exists(directory + "/study.csv");
+    namespace fs = std::filesystem;
+    std::string          read_from;
+    const ReferenceCurve curve =
+      read_curve_to_compare(measured, columns, read_from);
+    const std::string own      = finest_curve(directory);
+    const bool        is_study = fs::exists(directory + "/study.csv");
     if (!is_study && !fs::exists(own))
       throw InputError("debond: --compare " + directory +
                        ": there are no results in this directory, neither "
                        "torque.csv nor study.csv");
-    out << measured << ": " << curve.size() << " rows\n";
+    const auto [least, most] = std::minmax_element(curve.begin(), curve.end());
+    double largest           = 0.;
+    for (const auto &[angle, torque] : curve)
+      largest = std::max(largest, std::abs(torque));
+    out << measured << ": " << read_from << "; " << curve.size()
+        << " rows, from " << to_text(least->first, 4) << " to "
+        << to_text(most->first, 4) << " deg, torques up to "
+        << to_text(largest, 4) << " N mm\n";
     if (!is_study)
       {
         const CurveComparison comparison(read_reference_curve(own), curve);
-        out << directory << ": " << comparison.text() << " ("
-            << comparison.rows_used << " rows; e_mp "
-            << to_text(100. * comparison.e_mp, 3) << " %, e_rel "
-            << to_text(100. * comparison.e_rel, 3) << " %)\n";
-        for (const std::string &remark : comparison.remarks)
-          out << "warning: " << remark << '\n';
+        out << directory << ": " << comparison.text();
+        if (comparison.rows_used > 0)
+          out << " (" << comparison.rows_used << " rows; e_mp "
+              << to_text(100. * comparison.e_mp, 3) << " %, e_rel "
+              << to_text(100. * comparison.e_rel, 3) << " %)";
+        out << '\n';
+        print_remarks(comparison, out);
         return;
       }
     compare_variants(directory, curve, out);

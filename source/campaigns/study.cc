@@ -332,6 +332,10 @@ namespace Debond
             << best->name << ", by " << percent("difference_mean")
             << " in the mean and " << percent("difference_max") << " at most"
             << std::endl;
+        if (best->summary.contains("remarks"))
+          for (const std::string remark : best->summary["remarks"])
+            if (remark.rfind("e_mp", 0) == 0)
+              out << "warning: " << remark << std::endl;
       }
 
 

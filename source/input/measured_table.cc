@@ -36,8 +36,11 @@ namespace Debond
         {"degree", {Quantity::angle, 1.}},
         {"degrees", {Quantity::angle, 1.}},
         {"°", {Quantity::angle, 1.}},
+        {"º", {Quantity::angle, 1.}}, // masculine ordinal, on some keyboards
         {"rad", {Quantity::angle, degree}},
         {"mrad", {Quantity::angle, 1e-3 * degree}},
+        {"uNm", {Quantity::moment, 1e-3}},
+        {"cNm", {Quantity::moment, 10.}},
         {"Nmm", {Quantity::moment, 1.}},
         {"mNm", {Quantity::moment, 1.}},
         {"Ncm", {Quantity::moment, 10.}},
@@ -51,7 +54,8 @@ namespace Debond
     const char *
     units_of(const Quantity quantity)
     {
-      return quantity == Quantity::angle ? "deg or rad" : "N mm or N m";
+      return quantity == Quantity::angle ? "deg, rad or mrad" :
+                                           "N mm, mN m, N cm, N m or kN m";
     }
 
 
@@ -61,17 +65,23 @@ namespace Debond
     {
       for (const char *const mark : {" ", ".", "*", "·", "-"})
         boost::erase_all(text, mark);
-      const auto found = units().find(text);
+      // angles may be shouted; of torques M and m differ
+      auto found = units().find(boost::to_lower_copy(text));
+      if (found == units().end() || found->second.quantity != Quantity::angle)
+        found = units().find(text);
       return found == units().end() ? nullptr : &found->second;
     }
 
 
 
     /** The unit in a name: in brackets, behind the last slash or underscore,
-     *  or all or the last words of it. Null if there is none. */
+     *  or all or the last words of it. Null if there is none, or a factor. */
     const Unit *
     unit_in(const std::string &name)
     {
+      for (const char *const factor : {"10^", "x10", "x 10", "*10", "×"})
+        if (name.find(factor) != std::string::npos)
+          return nullptr;
       for (const char *const brackets : {"[]", "()"})
         if (const auto begin = name.rfind(brackets[0]),
             end              = name.rfind(brackets[1]);
@@ -97,6 +107,34 @@ namespace Debond
 
 
 
+    /** German Excel, for one, writes Latin-1 where it says CSV. */
+    std::string
+    utf8(const std::string &text)
+    {
+      const auto continues = [&](const std::size_t i) {
+        return i < text.size() && (text[i] & 0xC0) == 0x80;
+      };
+      bool        is_utf8 = true;
+      std::string from_latin_1;
+      for (std::size_t i = 0; i < text.size(); ++i)
+        {
+          const auto code = static_cast<unsigned char>(text[i]);
+          is_utf8 =
+            is_utf8 && (code < 0x80 || (code >= 0xC2 && continues(i + 1)) ||
+                        (continues(i) && i > 0 && (text[i - 1] & 0x80)));
+          if (code < 0x80)
+            from_latin_1 += text[i];
+          else
+            {
+              from_latin_1 += static_cast<char>(0xC0 | (code >> 6));
+              from_latin_1 += static_cast<char>(0x80 | (code & 0x3F));
+            }
+        }
+      return is_utf8 ? text : from_latin_1;
+    }
+
+
+
     struct Line
     {
       unsigned int number;
@@ -106,13 +144,17 @@ namespace Debond
     Items
     split_line(const std::string &line, const char separator)
     {
-      if (separator != ' ')
-        return split_csv_line(line, separator);
       Items items;
-      boost::split(items,
-                   boost::trim_copy(line),
-                   boost::is_any_of(" \t"),
-                   boost::token_compress_on);
+      if (separator != ' ')
+        items = split_csv_line(line, separator);
+      else if (line.find('\t') == std::string::npos)
+        boost::split(items,
+                     boost::trim_copy(line),
+                     boost::is_any_of(" "),
+                     boost::token_compress_on);
+      // spreadsheets end rows with separators
+      while (!items.empty() && items.back().empty())
+        items.pop_back();
       return items;
     }
 
@@ -170,8 +212,10 @@ namespace Debond
                                   ", and its first line is '" +
                                     shortened(lines[0].text) + "'"));
         for (std::size_t i = first; i < lines.size(); ++i)
-          rows.emplace_back(lines[i].number,
-                            split_line(lines[i].text, separator));
+          if (const Items items = split_line(lines[i].text, separator);
+              !items.empty())
+            rows.emplace_back(lines[i].number, items);
+        refuse_thousands(refuse);
         // names, or names and units below
         for (std::size_t i = first; i > 0 && i + 2 > first; --i)
           {
@@ -188,6 +232,33 @@ namespace Debond
               for (std::size_t k = 0; k < names.size(); ++k)
                 names[k] = dealii::Utilities::trim(above[k] + " " + names[k]);
           }
+      }
+
+      /** Of decimal points and commas one may separate thousands. */
+      void
+      refuse_thousands(const FileRefusal &refuse) const
+      {
+        if (separator == ',')
+          return; // no number has one
+        unsigned int with_point = 0, with_comma = 0;
+        for (const auto &[number, items] : rows)
+          for (const std::string &item : items)
+            if (const auto value = read_value(item, separator);
+                value && !std::isnan(*value))
+              {
+                with_point = with_point > 0 || item.find('.') == item.npos ?
+                               with_point :
+                               number;
+                with_comma = with_comma > 0 || item.find(',') == item.npos ?
+                               with_comma :
+                               number;
+              }
+        if (with_point > 0 && with_comma > 0)
+          refuse("line " + std::to_string(with_point) +
+                 " has a number with a point and line " +
+                 std::to_string(with_comma) +
+                 " one with a comma: write decimals in one way, and thousands "
+                 "without a separator");
       }
 
       /** Chooses the separator with which most of the first lines are rows;
@@ -299,9 +370,11 @@ namespace Debond
         refuse((found.empty() ? "no column" : "more than one column") +
                std::string(" has a unit that says ") +
                units_of(column.quantity) + ": " + table.described() +
-               "; say which, as in 'set " +
-               choice_entry.substr(choice_entry.rfind('/') + 2) +
-               " = 1 [deg], 2 [N m]'");
+               "; say which, as in " +
+               (choice_entry.rfind("--", 0) == 0 ?
+                  choice_entry + " \"1 [deg], 2 [N m]\"" :
+                  "'set " + choice_entry.substr(choice_entry.rfind('/') + 2) +
+                    " = 1 [deg], 2 [N m]'"));
       return found[0];
     }
   } // namespace
@@ -313,14 +386,15 @@ namespace Debond
                       const std::string                 &entry,
                       const std::vector<MeasuredColumn> &columns,
                       const Items                       &choice,
-                      const std::string                 &choice_entry)
+                      const std::string                 &choice_entry,
+                      std::string                       *read_from)
   {
     constexpr unsigned int largest_MB = 200;
     const auto             refuse     = [&](const std::string &why) {
       throw EntryError(entry, why, filename);
     };
     std::istringstream file(
-      plain_text(read_input_bytes(filename, refuse, largest_MB), refuse));
+      utf8(plain_text(read_input_bytes(filename, refuse, largest_MB), refuse)));
     std::vector<Line> lines;
     std::string       text;
     for (unsigned int number = 1; std::getline(file, text); ++number)
@@ -345,6 +419,14 @@ namespace Debond
                                why + " (" + filename + ")",
                                boost::join(choice, ", "));
             }));
+
+    if (read_from != nullptr)
+      for (const FoundColumn &column : found)
+        *read_from +=
+          (read_from->empty() ? "column " : ", column ") +
+          std::to_string(column.number + 1) +
+          (table.names.empty() ? std::string() :
+                                 " '" + table.names[column.number] + "'");
 
     std::vector<std::vector<double>> rows;
     for (const auto &[number, items] : table.rows)

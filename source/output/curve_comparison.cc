@@ -65,6 +65,24 @@ namespace Debond
 
 
 
+    /** By more than a twentieth of its range: angles are measured, too. */
+    bool
+    turns_back(const ReferenceCurve &curve)
+    {
+      double highest = curve.front().first, lowest = highest, falls = 0.,
+             rises = 0.;
+      for (const auto &[angle, torque] : curve)
+        {
+          highest = std::max(highest, angle);
+          lowest  = std::min(lowest, angle);
+          falls   = std::max(falls, highest - angle);
+          rises   = std::max(rises, angle - lowest);
+        }
+      return std::min(falls, rises) > 0.05 * (highest - lowest);
+    }
+
+
+
     double
     furthest(const ReferenceCurve &curve)
     {
@@ -128,10 +146,17 @@ namespace Debond
           " and the run at " + to_text(end, 4) + " degrees: is it in degrees?");
     ask(products < 0.,
         "the torques of the reference curve have the opposite sign");
+    ask(
+      turns_back(measured),
+      "the angles of the reference curve turn back: loading and unloading, or "
+      "two tests, are compared with one curve");
     if (rows_used == 0)
       {
-        why_none = "the run turns to " + to_text(computed.back().first, 4) +
-                   " deg, and no row of the curve lies on the way";
+        why_none = "the run turns from " + to_text(computed.front().first, 4) +
+                   " to " + to_text(computed.back().first, 4) +
+                   " deg, and the curve from " +
+                   to_text(measured.front().first, 4) + " to " +
+                   to_text(measured.back().first, 4) + " deg";
         return;
       }
     e_mp            = sum_mp / rows_used;
@@ -160,8 +185,13 @@ namespace Debond
   {
     if (rows_used == 0)
       return "not compared: " + why_none;
-    return to_text(100. * difference_mean, 2) + " % in the mean, " +
-           to_text(100. * difference_max, 2) + " % at most, at " +
+    const auto percent = [](const double ratio) {
+      const double value = 100. * ratio;
+      return to_text(value >= 100. ? std::round(value) : value,
+                     value >= 100. ? 6 : 2);
+    };
+    return percent(difference_mean) + " % in the mean, " +
+           percent(difference_max) + " % at most, at " +
            to_text(angle_of_max_deg, 3) + " deg";
   }
 } // namespace Debond

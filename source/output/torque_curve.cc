@@ -439,6 +439,9 @@ namespace Debond
         return;
       const CurveComparison comparison(angles_and_torques(rows), reference);
       measures.update(comparison.members());
+      if (comparison.rows_used == 0)
+        measures["remarks"].push_back("e_mp, e_rel: null, " +
+                                      comparison.why_none);
       for (const std::string &remark : comparison.remarks)
         measures["remarks"].push_back("e_mp, e_rel: " + remark);
     }

@@ -112,14 +112,15 @@ namespace Debond
                 "spreadsheet writes it, or the torque.csv of a run; empty: "
                 "none. Semicolons, tabs, commas or blanks separate; units are "
                 "read off the names of the columns, as in torque [N m].");
-      table.add("Reference columns",
-                output.reference_columns,
-                Allowed::text("two columns, the angle and the torque"),
-                "Which columns of Reference curve are angle and torque, each "
-                "by its name there or its number from 1, with a unit (deg, "
-                "rad, mrad; N mm, N cm, N m) where the file has none: "
-                "Winkel [rad], 3 [N m]. Empty: angle_deg and torque_Nmm, else "
-                "the only columns with such units.");
+      table.add(
+        "Reference columns",
+        output.reference_columns,
+        Allowed::text("two columns, the angle and the torque"),
+        "Which columns of Reference curve are angle and torque, each "
+        "by its name there or its number from 1, with a unit (deg, "
+        "rad, mrad; N mm, mN m, N cm, N m, kN m) where the file has "
+        "none: Winkel [rad], 3 [N m]. Empty: angle_deg and torque_Nmm, else "
+        "the only columns with such units.");
       table.add("Reference profiles",
                 output.reference_profiles,
                 Allowed::text("the name of a CSV file"),

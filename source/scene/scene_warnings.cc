@@ -122,8 +122,7 @@ namespace Debond
            "depends on the speed errors of earlier steps may grow: compare "
            "with a smaller Tolerance");
       note(
-        steps.adaptive &&
-          steps.steps == LoadSteppingParameters().steps,
+        steps.adaptive && steps.steps == LoadSteppingParameters().steps,
         "largest steps",
         "Load steps / Steps = 1, 1000, the default: adaptive steps are never "
         "larger than these. Steps = 1, 10 leaves them a choice");

@@ -35,6 +35,8 @@ namespace Debond
    * none: "Winkel", "3 [N m]". Empty: the column called as
    * MeasuredColumn::name, else the only one with a unit of that quantity.
    *
+   * @p read_from: the columns that were read, for people.
+   *
    * Throws EntryError that names the @p entry of the scene which gave the file,
    * the file, and what was found and is needed; or the entry @p choice_entry.
    */
@@ -43,6 +45,7 @@ namespace Debond
                       const std::string                 &entry,
                       const std::vector<MeasuredColumn> &columns,
                       const std::vector<std::string>    &choice,
-                      const std::string                 &choice_entry);
+                      const std::string                 &choice_entry,
+                      std::string                       *read_from = nullptr);
 } // namespace Debond
 #endif

@@ -163,13 +163,11 @@ namespace Debond
                        ": there are no results in this directory, neither "
                        "torque.csv nor study.csv");
     const auto [least, most] = std::minmax_element(curve.begin(), curve.end());
-    double largest           = 0.;
-    for (const auto &[angle, torque] : curve)
-      largest = std::max(largest, std::abs(torque));
     out << measured << ": " << read_from << "; " << curve.size()
         << " rows, from " << to_text(least->first, 4) << " to "
         << to_text(most->first, 4) << " deg, torques up to "
-        << to_text(largest, 4) << " N mm\n";
+        << to_text(largest(curve, &ReferenceCurve::value_type::second), 4)
+        << " N mm\n";
     if (!is_study)
       {
         const CurveComparison comparison(read_reference_curve(own), curve);

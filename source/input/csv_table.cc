@@ -19,8 +19,8 @@ namespace Debond
 {
   namespace
   {
-    /** Calls work(line number, items) for the lines that are neither empty nor
-     *  comments. */
+    /** Calls work(line number, text) for the lines that are neither empty nor
+     *  comments, without blanks at their ends. */
     template <typename Work>
     void
     for_each_line(const std::string &filename,
@@ -38,7 +38,7 @@ namespace Debond
         {
           text = dealii::Utilities::trim(text);
           if (!text.empty() && text[0] != '#')
-            work(number, split_list(text));
+            work(number, text);
         }
     }
 
@@ -74,9 +74,9 @@ namespace Debond
   read_csv_header(const std::string &filename, const std::string &entry)
   {
     std::vector<std::string> header;
-    for_each_line(filename, entry, [&](unsigned int, const auto &items) {
+    for_each_line(filename, entry, [&](unsigned int, const auto &line) {
       if (header.empty())
-        header = items;
+        header = split_list(line);
     });
     return header;
   }
@@ -94,10 +94,9 @@ namespace Debond
     std::vector<std::size_t>         columns;
     std::size_t                      n_columns = 0;
     for_each_line(
-      filename,
-      entry,
-      [&](const unsigned int number, const std::vector<std::string> &items) {
-        const auto refuse = [&](const std::string &why) {
+      filename, entry, [&](const unsigned int number, const std::string &line) {
+        const std::vector<std::string> items  = split_list(line);
+        const auto                     refuse = [&](const std::string &why) {
           throw EntryError(entry,
                            "line " + std::to_string(number) + ": " + why,
                            filename);
@@ -157,18 +156,12 @@ namespace Debond
   std::vector<std::vector<std::string>>
   read_csv_texts(const std::string &filename, const std::string &entry)
   {
-    constexpr unsigned int largest_MB = 200;
-    const auto             refuse     = [&](const std::string &why) {
-      throw EntryError(entry, why, filename);
-    };
-    std::istringstream file(
-      plain_text(read_input_bytes(filename, refuse, largest_MB), refuse));
     std::vector<std::vector<std::string>> lines;
-    std::string                           line;
-    while (std::getline(file, line))
+    for_each_line(filename, entry, [&](unsigned int, const auto &line) {
       lines.push_back(split_csv_line(line, ','));
+    });
     if (lines.empty())
-      refuse("this file is empty");
+      throw EntryError(entry, "this file is empty", filename);
     return lines;
   }
 

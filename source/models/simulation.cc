@@ -86,8 +86,8 @@ namespace Debond
 
   // Three strategies lead through the load history; they share the interface
   // StepControl. Planned steps are those of the scene. Adaptive ones keep the
-  // curves, drawn as straight lines from row to row, within a tolerance. Where
-  // the load falls and the machine springs back, neither time nor angle grows
+  // curves, drawn as cubics from row to row, within a tolerance. Where the load
+  // falls and the machine springs back, neither time nor angle grows
   // along the path of equilibrium: path following takes the mean sliding
   // distance instead, which does.
   Simulation::Steps
@@ -95,8 +95,8 @@ namespace Debond
   {
     const LoadSteppingParameters &load_steps = scene.load_steps;
     const double                  R = scene.implant.characteristic_radius();
-    // The radius R [mm] makes forces of moments, so that one tolerance can
-    // judge the curves of all six chuck forces.
+    // The radius R [mm] makes forces of moments, and lengths of angles, so that
+    // one tolerance can judge the curves of all six components of the chuck.
     if (load_steps.adaptive)
       return AdaptiveStepping(load_steps,
                               R,

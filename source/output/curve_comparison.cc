@@ -52,19 +52,20 @@ namespace Debond
 
 
 
+  double
+  largest(const ReferenceCurve &curve,
+          double ReferenceCurve::value_type::*const member)
+  {
+    double result = 0.;
+    for (const auto &point : curve)
+      result = std::max(result, std::abs(point.*member));
+    return result;
+  }
+
+
+
   namespace
   {
-    double
-    largest_torque(const ReferenceCurve &curve)
-    {
-      double largest = 0.;
-      for (const auto &[angle, torque] : curve)
-        largest = std::max(largest, std::abs(torque));
-      return largest;
-    }
-
-
-
     /** By more than a twentieth of its range: angles are measured, too. */
     bool
     turns_back(const ReferenceCurve &curve)
@@ -79,17 +80,6 @@ namespace Debond
           rises   = std::max(rises, angle - lowest);
         }
       return std::min(falls, rises) > 0.05 * (highest - lowest);
-    }
-
-
-
-    double
-    furthest(const ReferenceCurve &curve)
-    {
-      double largest = 0.;
-      for (const auto &[angle, torque] : curve)
-        largest = std::max(largest, std::abs(angle));
-      return largest;
     }
   } // namespace
 
@@ -110,15 +100,17 @@ namespace Debond
     for (auto &[angle, torque] : curve)
       angle *= rotation.direction;
 
-    const double largest = largest_torque(measured),
-                 T_max   = largest_torque(computed);
+    constexpr auto angle_of  = &ReferenceCurve::value_type::first;
+    constexpr auto torque_of = &ReferenceCurve::value_type::second;
+    const double   T_largest = largest(measured, torque_of),
+                 T_max       = largest(computed, torque_of);
     double sum_mp = 0., sum = 0., products = 0., most = -1.;
     for (const auto &[angle, T_measured] : measured)
       {
         const double turned = rotation.direction * angle;
         // angles go from degrees to radians and back
         const double T = torque_at(curve, turned, rotation.tolerance);
-        if (!(turned > 0. && std::abs(T_measured) > 0.01 * largest &&
+        if (!(turned > 0. && std::abs(T_measured) > 0.01 * T_largest &&
               std::isfinite(T)))
           continue;
         const double difference = std::abs(T - T_measured);
@@ -132,14 +124,15 @@ namespace Debond
             angle_of_max_deg = angle;
           }
       }
-    const double end = furthest(computed), measured_end = furthest(measured);
-    const auto   ask = [&](const bool is_so, const std::string &text) {
+    const double end          = largest(computed, angle_of),
+                 measured_end = largest(measured, angle_of);
+    const auto ask            = [&](const bool is_so, const std::string &text) {
       if (is_so)
         remarks.push_back(text);
     };
-    ask(!(largest > 0.01 * T_max && largest < 100. * T_max),
-        "the largest torque of the reference curve is " + to_text(largest, 4) +
-          " and that of the run " + to_text(T_max, 4) +
+    ask(!(T_largest > 0.01 * T_max && T_largest < 100. * T_max),
+        "the largest torque of the reference curve is " +
+          to_text(T_largest, 4) + " and that of the run " + to_text(T_max, 4) +
           " N mm: is it in N mm?");
     ask(measured_end < 0.05 * end,
         "the reference curve ends at " + to_text(measured_end, 4) +
@@ -161,8 +154,8 @@ namespace Debond
       }
     e_mp            = sum_mp / rows_used;
     e_rel           = sum / rows_used / T_max;
-    difference_mean = sum / rows_used / largest;
-    difference_max  = most / largest;
+    difference_mean = sum / rows_used / T_largest;
+    difference_max  = most / T_largest;
   }
 
 

@@ -29,6 +29,11 @@ namespace Debond
   double
   torque_at(const ReferenceCurve &curve, double angle, double tolerance);
 
+  /** The largest magnitude of its angles, `first`, or torques, `second`. */
+  double
+  largest(const ReferenceCurve &curve,
+          double ReferenceCurve::value_type::*member);
+
   /**
    * How far a computed curve is from a measured one, at the rows of the latter
    * that the former covers and whose angles are positive, or negative if the

@@ -1,3 +1,4 @@
+#include <debond/campaigns/calibration.h>
 #include <debond/campaigns/compare_results.h>
 #include <debond/campaigns/run_scene.h>
 #include <debond/campaigns/study.h>
@@ -265,6 +266,23 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
 
+  // A calibration runs its scenes in memory, several searches at a time.
+  void
+  act_on_calibration(const std::vector<SceneEntry> &entries,
+                     const Arguments               &arguments)
+  {
+    if (arguments.check)
+      return check_calibration(entries, arguments.scene_file, std::cout);
+    catch_interruptions();
+    run_calibration(entries,
+                    arguments.scene_file,
+                    or_processors(arguments.n_threads),
+                    arguments.force,
+                    std::cout);
+  }
+
+
+
   // A run that was interrupted goes on from its last checkpoint, to the same
   // files, to the last bit, as if it never had been.
   //
@@ -327,6 +345,10 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     const std::vector<SceneEntry> entries =
       with_overrides(read_scene_file(arguments.scene_file),
                      arguments.overrides);
+    // A calibration's entries hold <<unknowns>>, and {{a|b}} where there are
+    // several experiments.
+    if (is_calibration(entries) && !arguments.print_parameters)
+      return act_on_calibration(entries, arguments);
     // A study's entries hold {{a|b}}: each of its variants is a scene, they
     // themselves are none.
     if (!varied_entries(entries).empty() && !arguments.print_parameters)

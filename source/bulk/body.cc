@@ -64,6 +64,17 @@ namespace Debond
 
 
 
+  // What was condensed stays, where it is that of a body at rest.
+  void
+  Body::return_to_rest()
+  {
+    v.setZero();
+    accepted         = AcceptedState<Eigen::VectorXd>(v);
+    surface_is_stale = false;
+  }
+
+
+
   // The bulk says which degrees of freedom it leaves to the coupled system; the
   // interface needs those of the control points by their place. Control points
   // come after all vertices, so that 3 (control point) + component is the

@@ -61,25 +61,25 @@ namespace Debond
   {
     /** A member of summary.json that is NAME_UNIT, so that its statistics are
      *  NAME_mean_UNIT and so on. */
-    using Quantity = std::pair<std::string, std::string>;
+    using EnsembleQuantity = std::pair<std::string, std::string>;
 
-    const Quantity quantities[] = {{"T_max", "_Nmm"},
-                                   {"theta_max", "_deg"},
-                                   {"theta_full", "_deg"},
-                                   {"T_inf", "_Nmm"},
-                                   {"E_deb", "_Nm"},
-                                   {"W_adh", "_Nm"},
-                                   {"w_adh", "_N_per_m"},
-                                   {"D_adh", "_Nm"},
-                                   {"initial_stiffness", "_Nm_per_rad"},
-                                   {"largest_bonded_patch", "_mm2"}};
+    const EnsembleQuantity quantities[] = {{"T_max", "_Nmm"},
+                                           {"theta_max", "_deg"},
+                                           {"theta_full", "_deg"},
+                                           {"T_inf", "_Nmm"},
+                                           {"E_deb", "_Nm"},
+                                           {"W_adh", "_Nm"},
+                                           {"w_adh", "_N_per_m"},
+                                           {"D_adh", "_Nm"},
+                                           {"initial_stiffness", "_Nm_per_rad"},
+                                           {"largest_bonded_patch", "_mm2"}};
 
     using Fields = std::vector<std::string>;
 
 
 
     void
-    add_names(const Quantity &quantity, Fields &fields)
+    add_names(const EnsembleQuantity &quantity, Fields &fields)
     {
       for (const char *const what : {"_mean", "_sd", "_p05", "_p50", "_p95"})
         fields.push_back(quantity.first + what + quantity.second);
@@ -124,7 +124,7 @@ namespace Debond
     of_curves.insert(of_curves.end(), {"angle_deg", "members"});
     add_names({"torque", "_Nmm"}, of_curves);
     of_summary.insert(of_summary.end(), {"members", "failed"});
-    for (const Quantity &quantity : quantities)
+    for (const EnsembleQuantity &quantity : quantities)
       add_names(quantity, of_summary);
     curves  = csv_line(of_curves);
     summary = csv_line(of_summary);

@@ -65,6 +65,9 @@ namespace Debond
            likely.empty()   ? " (debond --print-parameters lists all entries)" :
                               "; did you mean " + likely + "?"));
       }
+    if (entry.value.find("<<") != std::string::npos)
+      entry.refuse("<<...>> stands for an unknown, which is for Task = "
+                   "calibrate: expected a value here");
     if (entry.value.find("{{") != std::string::npos)
       entry.refuse("several values make a study: expected one value here");
     const std::string refusal = row->allowed.refusal(entry.value);

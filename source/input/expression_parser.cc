@@ -85,7 +85,8 @@ namespace Debond
                   const double       radius)
   {
     const auto refuse = [&](const std::string &why) {
-      throw InputError("this expression in " + variables +
+      throw InputError("this expression" +
+                       (variables.empty() ? "" : " in " + variables) +
                        " cannot be read: " + why);
     };
     const std::string why = why_refused(expression);
@@ -135,7 +136,7 @@ namespace Debond
     if (parser.GetNumResults() > 1)
       refuse("decimals are written with a point");
 
-    return [shared, variables_at](const std::initializer_list<double> &values) {
+    return [shared, variables_at](const std::vector<double> &values) {
       std::copy(values.begin(), values.end(), variables_at->begin());
       return shared->Eval();
     };
@@ -149,6 +150,8 @@ namespace Debond
                      const TimeFunction &given)
   {
     TimeFunction function = given;
+    if (const auto number = read_number(expression); !function && number)
+      return [value = *number](double) { return value; };
     if (!function)
       function = [in_t = read_expression("t", expression, radius)](
                    const double t) { return in_t({t}); };

@@ -263,6 +263,49 @@ namespace Debond
 
 
 
+  std::string
+  scene_text(const std::vector<SceneEntry> &entries)
+  {
+    std::vector<SceneEntry> in_order = entries;
+    std::stable_sort(in_order.begin(),
+                     in_order.end(),
+                     [](const SceneEntry &a, const SceneEntry &b) {
+                       return a.subsections < b.subsections;
+                     });
+    std::string              text;
+    std::vector<std::string> open;
+    const auto indent = [&] { return std::string(2 * open.size(), ' '); };
+    for (const SceneEntry &entry : in_order)
+      {
+        const auto common = std::mismatch(open.begin(),
+                                          open.end(),
+                                          entry.subsections.begin(),
+                                          entry.subsections.end())
+                              .first -
+                            open.begin();
+        while (static_cast<std::ptrdiff_t>(open.size()) > common)
+          {
+            open.pop_back();
+            text += indent() + "end\n";
+          }
+        while (open.size() < entry.subsections.size())
+          {
+            text +=
+              indent() + "subsection " + entry.subsections[open.size()] + "\n";
+            open.push_back(entry.subsections[open.size()]);
+          }
+        text += indent() + "set " + entry.name + " = " + entry.value + "\n";
+      }
+    while (!open.empty())
+      {
+        open.pop_back();
+        text += indent() + "end\n";
+      }
+    return text;
+  }
+
+
+
   SceneEntry
   read_override(const std::string &text)
   {

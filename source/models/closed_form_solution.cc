@@ -205,16 +205,37 @@ namespace Debond
 
 
 
-    std::unique_ptr<TorsionModel>
-    make_model(const ClosedFormSolution &solution, const double final_pressure)
+    /** p [MPa] under a @p load, of which the @p last one is that of the
+     *  rotation. */
+    double
+    pressure_under(const Scene &scene,
+                   const double normal_stiffness,
+                   const Load  &load,
+                   const Load  &last)
     {
-      const Scene                &scene   = solution.scene;
-      const ClosedFormParameters &given   = scene.closed_form;
-      const BondingParameters     bonding = scene.interface.bonding_of_law();
-      TorsionModel::Disk          disk;
+      const double prescribed = scene.closed_form.pressure;
+      if (prescribed > 0. && last.push <= 0.)
+        return prescribed;
+      return std::max(0.,
+                      prescribed > 0. ?
+                        prescribed * load.push / last.push :
+                      scene.chuck.component[push].loaded ?
+                        load.push / (M_PI * std::pow(scene.implant.radius, 2)) :
+                        load.push * normal_stiffness);
+    }
+
+
+
+    /** The disk under a pressure [MPa], on a foundation with this torsional
+     *  stiffness [MPa/mm]. */
+    TorsionModel::Disk
+    make_disk(const Scene &scene, const double pressure, const double stiffness)
+    {
+      const BondingParameters bonding = scene.interface.bonding_of_law();
+      TorsionModel::Disk      disk;
       disk.radius    = scene.implant.radius;
-      disk.pressure  = final_pressure;
-      disk.stiffness = solution.torsional_stiffness;
+      disk.pressure  = pressure;
+      disk.stiffness = stiffness;
       disk.phi_0     = bonding.initial_bonding;
       disk.friction  = scene.interface.friction;
       if (bonding.pattern == BondingPatternKind::disk)
@@ -222,14 +243,33 @@ namespace Debond
       refuse_if(!(disk.pressure > 0.),
                 entry_name(push, "Value"),
                 "closed forms need pressure while they turn");
+      return disk;
+    }
 
+
+
+    void
+    refuse_jumps(const TorsionModel::Disk &disk)
+    {
+      refuse_if(!RigidBodiesTorsion::has_unique_solution(disk),
+                "Interface / Friction law",
+                "the law softens faster than the foundation is stiff, so "
+                "that the traction would jump. What helps: a larger " +
+                  disk.friction->entries_against_fall());
+    }
+
+
+
+    std::unique_ptr<TorsionModel>
+    make_model(const ClosedFormSolution &solution, const double final_pressure)
+    {
+      const Scene                &scene = solution.scene;
+      const ClosedFormParameters &given = scene.closed_form;
+      const TorsionModel::Disk    disk =
+        make_disk(scene, final_pressure, solution.torsional_stiffness);
       if (scene.model == ModelKind::foundation)
         {
-          refuse_if(!RigidBodiesTorsion::has_unique_solution(disk),
-                    "Interface / Friction law",
-                    "the law softens faster than the foundation is stiff, so "
-                    "that the traction would jump. What helps: a larger " +
-                      disk.friction->entries_against_fall());
+          refuse_jumps(disk);
           return std::make_unique<RigidBodiesTorsion>(disk);
         }
       if (scene.model == ModelKind::mathieu)
@@ -306,6 +346,25 @@ namespace Debond
 
 
 
+  TorsionModel::Disk
+  foundation_disk(const Scene &scene,
+                  const double normal_stiffness,
+                  const double torsional_stiffness)
+  {
+    const Chuck::Vector6 q =
+      Chuck(scene.chuck, Eigen::Vector3d::Zero(), scene.implant.radius)
+        .values(scene.load_steps.times.back());
+    const Load last{scene.load_steps.times.back(), -q[push], q[twist]};
+    const TorsionModel::Disk disk =
+      make_disk(scene,
+                pressure_under(scene, normal_stiffness, last, last),
+                torsional_stiffness);
+    refuse_jumps(disk);
+    return disk;
+  }
+
+
+
   ClosedFormSolution::ClosedFormSolution(const Scene &given)
     : scene(given)
   {
@@ -315,15 +374,7 @@ namespace Debond
     const Load   last          = history.loads.back();
     const double largest_angle = std::abs(last.angle);
     const auto   pressure_at   = [&](const Load &load) {
-      const double prescribed = scene.closed_form.pressure;
-      const double R          = scene.implant.radius;
-      if (prescribed > 0. && last.push <= 0.)
-        return prescribed;
-      return std::max(0.,
-                      prescribed > 0. ? prescribed * load.push / last.push :
-                          scene.chuck.component[push].loaded ?
-                                            load.push / (M_PI * R * R) :
-                                            load.push * normal_stiffness);
+      return pressure_under(scene, normal_stiffness, load, last);
     };
     model = make_model(*this, pressure_at(last));
 

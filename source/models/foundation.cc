@@ -60,11 +60,17 @@ namespace Debond
 
 
   FoundationStiffness
-  foundation_stiffness(const Scene &scene)
+  foundation_stiffness(const Scene                     &scene,
+                       std::shared_ptr<BodyPair> *const bodies)
   {
-    const double            R     = scene.implant.characteristic_radius();
-    const double            depth = 1e-6 * R, angle = 1e-6;
-    Simulation              simulation(sticking_scene(scene, depth, angle));
+    if (bodies != nullptr && *bodies)
+      (*bodies)->return_to_rest();
+    const double R     = scene.implant.characteristic_radius();
+    const double depth = 1e-6 * R, angle = 1e-6;
+    Simulation   simulation(sticking_scene(scene, depth, angle),
+                          bodies != nullptr ? *bodies : nullptr);
+    if (bodies != nullptr)
+      *bodies = simulation.system().bodies();
     const ContactInterface &interface = simulation.system().interface;
     const auto             &points    = interface.get_points();
     // [MPa], with the sign that a positive rotation gives the implant's

@@ -11,24 +11,19 @@
 
 namespace Debond
 {
-  namespace
+  std::string
+  identity_of(const std::string &filename)
   {
-    /** A comment that tells one content of a file from another: results belong
-     *  to the content, not to the name. */
-    std::string
-    identity_of(const std::string &filename)
-    {
-      if (filename.empty())
-        return "";
-      const std::string  content = read_whole_file(filename).value_or("");
-      boost::crc_32_type crc;
-      crc.process_bytes(content.data(), content.size());
-      std::ostringstream text;
-      text << "# " << filename << ": " << content.size() << " bytes, CRC-32 "
-           << std::hex << crc.checksum() << "\n";
-      return text.str();
-    }
-  } // namespace
+    if (filename.empty())
+      return "";
+    const std::string  content = read_whole_file(filename).value_or("");
+    boost::crc_32_type crc;
+    crc.process_bytes(content.data(), content.size());
+    std::ostringstream text;
+    text << "# " << filename << ": " << content.size() << " bytes, CRC-32 "
+         << std::hex << crc.checksum() << "\n";
+    return text.str();
+  }
 
 
 

@@ -103,6 +103,93 @@ namespace Debond
 
 
     void
+    declare_rig(CalibrationParameters &calibration, EntryTable &table)
+    {
+      table.add("Angle offset",
+                calibration.angle_offset,
+                Allowed::number("deg"),
+                "Angle [deg] that the instrument shows where the implant has "
+                "not turned.");
+      table.add("Slack",
+                calibration.slack,
+                Allowed::number("deg"),
+                "Angle [deg] that the machine turns before it takes the "
+                "implant along; after a reversal it turns back by as much.");
+      table.add("Machine compliance",
+                calibration.machine_compliance,
+                Allowed::number_from(0, "deg/(N mm)"),
+                "How much more the machine turns than the implant, per torque "
+                "[deg/(N mm)].");
+      table.add("Torque offset",
+                calibration.torque_offset,
+                Allowed::number("N mm"),
+                "Torque [N mm] that the instrument shows without a load.");
+    }
+
+
+
+    void
+    declare_calibration(CalibrationParameters &calibration, EntryTable &table)
+    {
+      table.enter_subsection("Calibration");
+      table.add("Curves",
+                calibration.curves,
+                Allowed::list(Allowed::text("a column of torque.csv", false),
+                              1,
+                              0),
+                "What has been measured: columns of torque.csv, of torque_Nmm "
+                "and those that begin with chuck_, in the order of Output / "
+                "Reference columns.");
+      table.add("Over",
+                calibration.over,
+                Allowed::text("a column of torque.csv", false),
+                "What it has been measured over: time, angle_deg or another "
+                "column of torque.csv that begins with chuck_. It is the first "
+                "of Output / Reference columns.");
+      table.add("Windows",
+                calibration.windows,
+                Allowed::list(Allowed::number(""), 0, 0),
+                "Parts of the measured curves that are fitted, as pairs of "
+                "bounds in Over: 0, 0.13, 9, 10. Empty: all.");
+      table.add("Noise",
+                calibration.noise,
+                Allowed::list(Allowed::number_from(0, ""), 1, 0),
+                "Standard deviation of what is measured, relative to the "
+                "largest value of the curve: of each curve, or one for all. 0: "
+                "unknown, the same for all curves and taken from what the fit "
+                "leaves.");
+      declare_rig(calibration, table);
+      table.add("Measure",
+                calibration.measure,
+                Allowed::choice("least squares | e_mp | e_rel"),
+                "What is made small: the sum of squares, or the mean of "
+                "relative differences of Eq. (19) or (50), smoothed where they "
+                "are less than a thousandth.");
+      table.add("Largest misfit",
+                calibration.largest_misfit,
+                Allowed::number_above(0, ""),
+                "e_rel, Eq. (50), above which nothing has been found: the "
+                "program says so and ends with the code 2.");
+      table.add("Starts",
+                calibration.starts,
+                Allowed::whole_number(1, 100000),
+                "Places from which unknowns are searched; the five best of "
+                "them are followed to the end.");
+      table.add("Seed",
+                calibration.seed,
+                Allowed::whole_number(1, std::numeric_limits<int>::max()),
+                "Of random samples, for intervals of e_mp and e_rel.");
+      table.add("Profiles",
+                calibration.profiles,
+                Allowed::choice("false | true"),
+                "Fix each unknown in turn at values around the best one and "
+                "fit the others: profile.csv.");
+      table.leave_subsection();
+    }
+
+
+
+    void
     declare_references(OutputParameters &output, EntryTable &table)
     {
       table.add("Reference curve",
@@ -224,10 +311,12 @@ namespace Debond
               "Load steps / Tolerance, and answers with the cheapest model "
               "that is; the program chooses the steps.");
     table.add("Task",
-              "simulate",
-              nullptr,
-              Allowed::reserved("simulate"),
-              "What to do with the model: run it once.");
+              task,
+              Allowed::choice("simulate | calibrate"),
+              "What to do with the model. `simulate': run it once. "
+              "`calibrate': find the numbers that stand in entries as "
+              "<<START in LOWER..UPPER>> from Output / Reference curve, see "
+              "subsection Calibration.");
     bone.declare_bone(table);
     implant.declare_implant(table);
     interface.declare(table);
@@ -235,6 +324,7 @@ namespace Debond
     load_steps.declare(table);
     declare_closed_form(closed_form, table);
     declare_campaigns(largest_number_of_unknowns, study, table);
+    declare_calibration(calibration, table);
     declare_output(output, table);
   }
 } // namespace Debond

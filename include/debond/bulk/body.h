@@ -149,6 +149,9 @@ namespace Debond
     {
       v = accepted.value;
     }
+    /** Forgets all states, for another run with the same body. */
+    void
+    return_to_rest();
     /** Starts a step from the accepted state, extrapolated linearly to @p time
      *  if @p extrapolate and two states are known. */
     void

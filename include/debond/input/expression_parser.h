@@ -2,15 +2,14 @@
 #define debond_input_expression_parser_h
 
 #include <functional>
-#include <initializer_list>
 #include <string>
+#include <vector>
 
 namespace Debond
 {
   /** The value of an expression for values of its variables, in their order.
    *  Not to be called by several threads at a time; copies share a parser. */
-  using Expression =
-    std::function<double(const std::initializer_list<double> &)>;
+  using Expression = std::function<double(const std::vector<double> &)>;
 
   /**
    * Reads an expression in muParser's language, with the functions that

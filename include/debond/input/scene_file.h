@@ -50,6 +50,10 @@ namespace Debond
   with_overrides(std::vector<SceneEntry>         entries,
                  const std::vector<std::string> &overrides);
 
+  /** The text of a scene that sets these entries. */
+  std::string
+  scene_text(const std::vector<SceneEntry> &entries);
+
   /** Takes "Subsection/Entry=value" apart; its place is "--set". Throws
    *  InputError if there is no `=` or no name. */
   SceneEntry

@@ -47,6 +47,15 @@ namespace Debond
   void
   write_results(const ClosedFormSolution &solution, const dealii::Timer &clock);
 
+  /** The disk of `Model = foundation` under the load at the end of a scene that
+   *  has this closed form, on a foundation with these stiffnesses [MPa/mm].
+   *  Throws EntryError if it has no pressure, or if its bond breaks in a jump.
+   */
+  TorsionModel::Disk
+  foundation_disk(const Scene &scene,
+                  double       normal_stiffness,
+                  double       torsional_stiffness);
+
   /** Why closed forms do not know what the chuck of a scene does; empty: they
    *  do. */
   std::string

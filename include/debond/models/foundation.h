@@ -6,10 +6,13 @@
 
 #include <Eigen/Core>
 
+#include <memory>
 #include <vector>
 
 namespace Debond
 {
+  struct BodyPair;
+
   /** Stiffness of interface and bodies in series, lumped into the interface of
    *  a disk [MPa/mm]. */
   struct FoundationStiffness
@@ -34,11 +37,13 @@ namespace Debond
   /**
    * One linear solution with the bodies of @p scene, all of whose interface
    * sticks: pressed by a millionth of its radius, then turned by as little. The
-   * bodies keep mesh and elasticity, rigid ones stay rigid. Throws InputError
-   * if the bodies do not touch all over then.
+   * bodies keep mesh and elasticity, rigid ones stay rigid. @p bodies: those of
+   * an earlier call with a scene that has the same ones, or null; here they are
+   * then. Throws InputError if the bodies do not touch all over then.
    */
   FoundationStiffness
-  foundation_stiffness(const Scene &scene);
+  foundation_stiffness(const Scene               &scene,
+                       std::shared_ptr<BodyPair> *bodies = nullptr);
 
 
 

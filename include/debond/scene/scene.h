@@ -25,6 +25,13 @@ namespace Debond
     automatic ///< `auto`
   };
 
+  /** What is done with the model. */
+  enum class Task
+  {
+    simulate, ///< run it once
+    calibrate ///< find unknowns of the scene from measured curves
+  };
+
   /** The subsection `Closed form` of a scene: what the models foundation,
    *  analytical and mathieu need besides the other entries. */
   struct ClosedFormParameters
@@ -44,6 +51,34 @@ namespace Debond
     unsigned int reference_variant = 0; ///< 0: none
     unsigned int factors_at_once   = 0; ///< 0: all combinations
     unsigned int repetitions       = 1; ///< runs of each variant
+  };
+
+  /** What a calibration makes small. */
+  enum class MisfitMeasure
+  {
+    least_squares,
+    e_mp, ///< Eq. (19)
+    e_rel ///< Eq. (50)
+  };
+
+  /** The subsection `Calibration`, for `Task = calibrate`. */
+  struct CalibrationParameters
+  {
+    std::vector<std::string> curves{"torque_Nmm"}; ///< columns of torque.csv
+    std::string              over = "angle_deg";   ///< what they are drawn over
+    std::vector<double>      windows; ///< pairs of bounds in `over`; empty: all
+    /** Standard deviation over the largest measured value, of each curve or of
+     *  all; 0: from the residuals. */
+    std::vector<double> noise{0.};
+    double              angle_offset       = 0; ///< [deg]
+    double              slack              = 0; ///< [deg]
+    double              machine_compliance = 0; ///< [deg/(N mm)]
+    double              torque_offset      = 0; ///< [N mm]
+    MisfitMeasure       measure            = MisfitMeasure::least_squares;
+    double              largest_misfit     = 0.1; ///< e_rel
+    unsigned int        starts             = 20;
+    unsigned int        seed               = 1;
+    bool                profiles           = false; ///< of the likelihood
   };
 
   /** The subsection `Output` of a scene. */
@@ -94,11 +129,13 @@ namespace Debond
   {
     std::string          title;
     ModelKind            model = ModelKind::finite_elements;
+    Task                 task  = Task::simulate;
     ClosedFormParameters closed_form;
     /** The subsection `Auto`, for `Model = auto`. */
-    unsigned int     largest_number_of_unknowns = 250000;
-    StudyParameters  study;
-    OutputParameters output;
+    unsigned int          largest_number_of_unknowns = 250000;
+    StudyParameters       study;
+    CalibrationParameters calibration;
+    OutputParameters      output;
 
     /** The entries that the scene sets, and its name: where to look for a
      *  mistake. */
@@ -151,6 +188,11 @@ namespace Debond
     std::vector<Warning>
     warnings() const;
   };
+
+  /** A comment that tells one content of a file from another: results belong to
+   *  the content, not to the name. Empty without a name. */
+  std::string
+  identity_of(const std::string &filename);
 
   /** Writes all entries with documentation, what they allow and their values:
    *  those of @p scene, or the defaults without one. */

@@ -24,6 +24,14 @@ namespace Debond
   {
     explicit BodyPair(const ModelParameters &parameters);
 
+    /** For another run with them. */
+    void
+    return_to_rest()
+    {
+      bone->return_to_rest();
+      implant->return_to_rest();
+    }
+
     const std::unique_ptr<Body> bone, implant;
     /** Seconds that a study took for them, for all variants that use them. */
     double seconds_shared = 0;

@@ -1,0 +1,165 @@
+#ifndef debond_campaigns_experiment_h
+#define debond_campaigns_experiment_h
+
+#include <debond/campaigns/unknowns.h>
+#include <debond/models/foundation.h>
+#include <debond/models/torsion_curve.h>
+#include <debond/output/torque_curve.h>
+#include <debond/scene/varying_scene.h>
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace Debond
+{
+  struct BodyPair;
+
+  /** What is computed where something has been measured: curve after curve,
+   *  each with its rows, and by column the derivatives with respect to the
+   *  unknowns of the calibration. */
+  struct PredictedCurves
+  {
+    Eigen::VectorXd values;
+    Eigen::MatrixXd derivatives; ///< no columns if they were not asked for
+  };
+
+  /** A column of torque.csv whose derivatives are known: the time, a reaction
+   *  or a position of the chuck. */
+  struct CurveColumn
+  {
+    enum Kind
+    {
+      time,
+      reaction,
+      position
+    };
+    std::string  name;
+    Kind         kind      = time;
+    unsigned int component = 0;
+
+    /** Throws EntryError that names the @p entry of the scene. */
+    CurveColumn(const std::string &name, const std::string &entry);
+    double
+    of(const TorqueRow &row) const;
+    std::string
+    unit() const;
+  };
+
+  /** What has been measured: rows in the order of the file. */
+  struct Measurement
+  {
+    std::string      file;   ///< empty: nothing has been measured yet
+    std::vector<int> branch; ///< of each row, between turning points
+    Eigen::VectorXd  over;
+    Eigen::MatrixXd  values; ///< rows x curves
+    Eigen::VectorXd  scale;  ///< of each curve: its largest magnitude
+  };
+
+  /**
+   * A scene with unknowns, and a measured curve that belongs to it: what the
+   * scene predicts for given unknowns at the measured rows. The rig stands
+   * between both,
+   *
+   *   shown angle  = angle + offset + slack + compliance T,
+   *   shown torque = T + offset.
+   *
+   * Not to be used by several threads at a time.
+   */
+  class Experiment
+  {
+  public:
+    /** Experiment @p number of @p unknowns. Throws InputError. */
+    Experiment(const Unknowns    &unknowns,
+               unsigned int       number,
+               const std::string &name);
+
+    /** Whether a closed form predicts it for any unknowns; else why not. */
+    std::string why_no_closed_form;
+
+    /** The model that predicts. */
+    enum class By
+    {
+      closed_form,
+      scene ///< the scene's own model
+    };
+    /** Throws RunError or InputError if there is no such curve. */
+    PredictedCurves
+    predict(const Eigen::VectorXd &values, By model, bool with_derivatives);
+
+    /** For one that has not been done: rows over all of its load. */
+    void
+    propose_rows();
+
+    /** At the starts of the unknowns. */
+    const Scene              scene;
+    std::vector<CurveColumn> columns;
+    const CurveColumn        over;
+    Measurement              measured;
+
+  private:
+    /** Changes of what is predicted by those of the unknowns. */
+    struct Variation
+    {
+      Scene  plus, minus;
+      double width;
+    };
+
+    void
+    read_measurement();
+    const Scene &
+    scene_at(const Eigen::VectorXd &values);
+    /** The unknown @p j moved by a small part of itself, within its bounds. */
+    Variation
+    variation(const Eigen::VectorXd &values, unsigned int j);
+    /** Rows of a curve that may turn back -> the measured rows. */
+    PredictedCurves
+    at_measured_rows(
+      const std::vector<TorqueRow>                     &rows,
+      const std::vector<Eigen::Matrix<double, 12, -1>> &row_derivatives,
+      const CalibrationParameters                      &rig,
+      const Eigen::MatrixXd                            &rig_derivatives) const;
+    PredictedCurves
+    predict_by_disk(const Eigen::VectorXd &values, bool with_derivatives);
+    PredictedCurves
+    predict_by_differences(const Eigen::VectorXd &values);
+    std::vector<TorqueRow>
+    run(const Scene &scene);
+
+    /** Stiffness of the foundation, for unknowns near those that it was
+     *  computed for: what the bodies add to the compliance of the interface
+     *  changes slowly. */
+    struct Foundation
+    {
+      Eigen::VectorXd unknowns;   ///< where it is exact
+      Eigen::Vector2d compliance; ///< of the bodies, normal and torsional
+      Eigen::MatrixXd slopes;     ///< of the logarithms, by unknown
+    };
+    Eigen::Vector2d
+    exact_compliance(const Eigen::VectorXd &values);
+    /** Normal and torsional stiffness [MPa/mm] of a scene. */
+    Eigen::Vector2d
+    foundation(const Scene &scene, const Eigen::VectorXd &values) const;
+
+  public:
+    /** Makes the closed form exact in stiffness at these unknowns. */
+    void
+    centre_closed_form(const Eigen::VectorXd &values);
+
+  private:
+    const Unknowns    &unknowns;
+    const unsigned int number;
+    VaryingScene       varying;
+    /** Whether an unknown changes more than the rig, the friction law, what
+     *  stiffness bodies and interface have, the bodies. */
+    std::vector<bool> changes_model, changes_law, changes_stiffness,
+      changes_bodies;
+    bool                      has_elastic_bodies;
+    Foundation                centre;
+    std::shared_ptr<BodyPair> bodies, linear_bodies;
+  };
+} // namespace Debond
+#endif

@@ -1,0 +1,477 @@
+#include <debond/campaigns/calibration.h>
+#include <debond/output/result_files.h>
+#include <debond/support/interruption.h>
+#include <debond/support/number_text.h>
+#include <debond/support/runtime.h>
+
+#include <deal.II/base/timer.h>
+
+#include <boost/random/sobol.hpp>
+#include <boost/random/uniform_01.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <numeric>
+#include <ostream>
+#include <thread>
+
+namespace Debond
+{
+  namespace
+  {
+    using By = Experiment::By;
+
+    /** Of starts that are followed: runs of finite elements take longer. */
+    constexpr unsigned int n_followed = 5, n_followed_slowly = 2;
+
+
+
+    /** Calls work(i, worker) for i < n, as many at a time as there are
+     *  workers. */
+    template <typename Work>
+    void
+    for_each_at_once(const unsigned int n,
+                     const unsigned int n_workers,
+                     const Work        &work)
+    {
+      std::atomic<unsigned int>       next{0};
+      std::vector<std::exception_ptr> errors(n_workers);
+      std::vector<std::thread>        threads;
+      for (unsigned int worker = 0; worker < n_workers; ++worker)
+        threads.emplace_back([&, worker] {
+          try
+            {
+              for (unsigned int i = next++; i < n; i = next++)
+                work(i, worker);
+            }
+          catch (...)
+            {
+              errors[worker] = std::current_exception();
+            }
+        });
+      for (std::thread &thread : threads)
+        thread.join();
+      for (const std::exception_ptr &error : errors)
+        if (error)
+          std::rethrow_exception(error);
+    }
+
+
+
+    void
+    stop_if_asked()
+    {
+      if (interrupting_signal() != 0)
+        throw Interrupted(interrupting_signal(),
+                          "interrupted by " +
+                            signal_name(interrupting_signal()) +
+                            ": the same calibration without --force goes on");
+    }
+
+
+
+    std::vector<StudyVariant>
+    experiments_of(const std::vector<SceneEntry> &entries)
+    {
+      for (const SceneEntry &entry : varied_entries(entries))
+        if (entry.full_name() == "Output / Directory")
+          entry.refuse("a calibration has one directory: expected one value");
+      return study_variants(entries);
+    }
+
+
+
+    /** The places that a search starts from: that of the scene, and others
+     *  spread evenly between the bounds, always the same. */
+    std::vector<Eigen::VectorXd>
+    starts_of(const Unknowns &unknowns, const unsigned int n)
+    {
+      std::vector<Eigen::VectorXd> starts{unknowns.starts()};
+      boost::random::sobol         sequence(unknowns.list.size());
+      boost::random::uniform_01<>  uniform;
+      while (starts.size() < n)
+        {
+          Eigen::VectorXd place(unknowns.list.size());
+          for (std::size_t j = 0; j < unknowns.list.size(); ++j)
+            {
+              const Unknown &u     = unknowns.list[j];
+              const double   share = uniform(sequence);
+              place[j] = u.from_search((1. - share) * u.to_search(u.lower) +
+                                       share * u.to_search(u.upper));
+            }
+          starts.push_back(place);
+        }
+      return starts;
+    }
+
+
+
+    /** Searches, and what it needs to do so at several places at once. */
+    class Search
+    {
+    public:
+      Search(const Unknowns    &unknowns,
+             const unsigned int n_experiments,
+             const std::string &name,
+             const unsigned int n_threads,
+             EvaluationLog     &log)
+        : unknowns(unknowns)
+      {
+        for (unsigned int i = 0; i < n_threads; ++i)
+          workers.push_back(
+            std::make_unique<Misfit>(unknowns, n_experiments, name, &log));
+      }
+
+      Misfit &
+      first()
+      {
+        return *workers.front();
+      }
+
+      /** Why closed forms do not predict all that has been measured. */
+      std::string
+      why_no_closed_form()
+      {
+        for (const auto &experiment : first().experiments)
+          if (!experiment->measured.file.empty() &&
+              !experiment->why_no_closed_form.empty())
+            return experiment->why_no_closed_form;
+        return "";
+      }
+
+      /** The best starts, followed to their ends. */
+      std::vector<Optimum>
+      from_starts(const unsigned int n_starts,
+                  const unsigned int n_best,
+                  const By           model)
+      {
+        const auto          starts = starts_of(unknowns, n_starts);
+        std::vector<double> costs(starts.size());
+        for_each_at_once(starts.size(),
+                         workers.size(),
+                         [&](const unsigned int i, const unsigned int worker) {
+                           if (interrupting_signal() != 0)
+                             return;
+                           Misfit          &misfit = *workers[worker];
+                           const Evaluation at =
+                             misfit.evaluate(starts[i], model, false);
+                           costs[i] =
+                             at.failure.empty() ?
+                               misfit.residuals(at.values).squaredNorm() :
+                               std::numeric_limits<double>::infinity();
+                         });
+        stop_if_asked();
+        std::vector<unsigned int> order(starts.size());
+        std::iota(order.begin(), order.end(), 0);
+        std::stable_sort(order.begin(),
+                         order.end(),
+                         [&](const auto a, const auto b) {
+                           return costs[a] < costs[b];
+                         });
+        std::vector<Eigen::VectorXd> best;
+        for (const unsigned int i : order)
+          if (std::isfinite(costs[i]) && best.size() < n_best)
+            best.push_back(starts[i]);
+        return follow(best, model);
+      }
+
+      /** Searches from all of them; those that end at the same curves are one.
+       */
+      std::vector<Optimum>
+      follow(const std::vector<Eigen::VectorXd> &starts, const By model)
+      {
+        std::vector<Optimum> ends(starts.size());
+        for_each_at_once(starts.size(),
+                         workers.size(),
+                         [&](const unsigned int i, const unsigned int worker) {
+                           Misfit &misfit = *workers[worker];
+                           ends[i]        = minimise(misfit, starts[i], model);
+                           if (model == By::closed_form)
+                             centre(misfit, ends[i]);
+                         });
+        stop_if_asked();
+        return distinct(ends);
+      }
+
+      std::vector<std::unique_ptr<Misfit>> workers;
+
+    private:
+      /** The closed form has the stiffness of the place that it was centred at:
+       *  there, until the fit stays there. */
+      static void
+      centre(Misfit &misfit, Optimum &end)
+      {
+        constexpr unsigned int most = 6;
+        for (unsigned int i = 0; end.why.empty() && i < most; ++i)
+          {
+            const Eigen::VectorXd before = end.unknowns;
+            for (const auto &experiment : misfit.experiments)
+              if (!experiment->measured.file.empty())
+                experiment->centre_closed_form(before);
+            end = minimise(misfit, before, By::closed_form);
+            if ((end.unknowns - before).norm() <= 1e-8 * before.norm())
+              break;
+          }
+      }
+
+      std::vector<Optimum>
+      distinct(std::vector<Optimum> ends) const
+      {
+        std::stable_sort(ends.begin(),
+                         ends.end(),
+                         [](const Optimum &a, const Optimum &b) {
+                           return a.why.empty() != b.why.empty() ?
+                                    a.why.empty() :
+                                    a.cost < b.cost;
+                         });
+        std::vector<Optimum> result;
+        for (const Optimum &end : ends)
+          if (end.why.empty() &&
+              std::none_of(
+                result.begin(), result.end(), [&](const Optimum &other) {
+                  return workers.front()
+                           ->residuals(end.values)
+                           .isApprox(workers.front()->residuals(other.values),
+                                     1e-3) ||
+                         (end.values - other.values).norm() <
+                           1e-4 * other.values.norm();
+                }))
+            result.push_back(end);
+        return result;
+      }
+
+      const Unknowns &unknowns;
+    };
+
+
+
+    /** By how much experiments that have not been done would shrink the
+     *  intervals. */
+    void
+    judge_candidates(Calibration &calibration, Misfit &misfit, const By model)
+    {
+      const Eigen::VectorXd &best = calibration.optima.front().unknowns;
+      for (unsigned int i = 0; i < misfit.experiments.size(); ++i)
+        {
+          Experiment &experiment = *misfit.experiments[i];
+          if (!experiment.measured.file.empty())
+            continue;
+          stop_if_asked();
+          experiment.propose_rows();
+          const PredictedCurves curves =
+            experiment.predict(best,
+                               experiment.why_no_closed_form.empty() ?
+                                 model :
+                                 By::scene,
+                               true);
+          const Eigen::Index n        = experiment.measured.over.size();
+          Eigen::MatrixXd    jacobian = curves.derivatives;
+          const auto        &noise    = experiment.scene.calibration.noise;
+          for (std::size_t c = 0; c < experiment.columns.size(); ++c)
+            {
+              const double known = noise[std::min(c, noise.size() - 1)];
+              const double scale =
+                curves.values.segment(c * n, n).cwiseAbs().maxCoeff();
+              jacobian.middleRows(c * n, n) /=
+                scale * (misfit.has_noise() && known > 0. ? known : 1.);
+            }
+          for (std::size_t j = 0; j < misfit.unknowns.list.size(); ++j)
+            jacobian.col(j) *= misfit.unknowns.list[j].per_search(best[j]);
+          calibration.candidates.push_back(
+            {i, calibration.statistics->intervals_with(jacobian)});
+        }
+    }
+
+
+
+    /** Fits the others while one unknown is held at several values around its
+     *  best one. */
+    void
+    find_profiles(Calibration &calibration, Search &search, const By model)
+    {
+      constexpr unsigned int n        = 11;
+      const Unknowns        &unknowns = search.first().unknowns;
+      const Optimum         &best     = calibration.optima.front();
+      const FitStatistics   &known    = *calibration.statistics;
+      calibration.profiles.resize(n * unknowns.list.size());
+      for_each_at_once(
+        unknowns.list.size(),
+        search.workers.size(),
+        [&](const unsigned int j, const unsigned int worker) {
+          const Unknown &u      = unknowns.list[j];
+          const double   centre = u.to_search(best.unknowns[j]),
+                       reach    = 2. * known.half_widths[j];
+          const double begin = std::max(u.to_search(u.lower), centre - reach),
+                       end   = std::min(u.to_search(u.upper), centre + reach);
+          std::vector<bool> fixed(unknowns.list.size(), false);
+          fixed[j] = true;
+          for (unsigned int i = 0; i < n; ++i)
+            {
+              Eigen::VectorXd start = best.unknowns;
+              start[j] = u.from_search(begin + (end - begin) * i / (n - 1));
+              const Optimum other =
+                minimise(*search.workers[worker], start, model, fixed);
+              calibration.profiles[j * n + i] = {j,
+                                                 start[j],
+                                                 2. * (other.cost - best.cost) /
+                                                   (known.s * known.s),
+                                                 other.unknowns};
+              if (!other.why.empty())
+                calibration.profiles[j * n + i].chi_squared = NAN;
+            }
+        });
+      stop_if_asked();
+    }
+  } // namespace
+
+
+
+  bool
+  is_calibration(const std::vector<SceneEntry> &entries)
+  {
+    return std::any_of(entries.begin(),
+                       entries.end(),
+                       [](const SceneEntry &entry) {
+                         return entry.full_name() == "Task" &&
+                                entry.value == "calibrate";
+                       });
+  }
+
+
+
+  void
+  run_calibration(const std::vector<SceneEntry> &entries,
+                  const std::string             &name,
+                  const unsigned int             n_threads,
+                  const bool                     force,
+                  std::ostream                  &out)
+  {
+    const dealii::Timer clock;
+    const auto          experiments = experiments_of(entries);
+    const Unknowns      unknowns(experiments);
+    if (unknowns.list.empty())
+      throw EntryError("Task",
+                       "a calibration needs unknowns: write "
+                       "<<START in LOWER..UPPER>> in the place of numbers that "
+                       "are to be found",
+                       "calibrate",
+                       name);
+    // reads all that is to be read, and refuses, before anything is written
+    const Misfit     all(unknowns, experiments.size(), name, nullptr);
+    const Scene     &scene         = all.experiments.front()->scene;
+    OutputParameters output        = scene.output;
+    output.overwrite_other_results = force;
+    std::string identity           = scene_text(entries);
+    for (const auto &experiment : all.experiments)
+      identity += identity_of(experiment->measured.file);
+    if (all.measured.size() == 0)
+      throw scene.with_place(
+        EntryError("Output / Reference curve",
+                   "a calibration needs a measured curve"));
+    const ResultDirectory directory(output, identity);
+    EvaluationLog         log(directory.file("evaluations.jsonl"), force);
+
+    Calibration result;
+    result.directory = directory.path();
+    set_number_of_threads(1); // a search for each thread
+    Search search(unknowns, experiments.size(), name, n_threads, log);
+    out << all.measured.size() << " measured values, " << unknowns.list.size()
+        << " unknowns" << std::endl;
+
+    const std::string no_closed_form = search.why_no_closed_form();
+    result.by_closed_form =
+      scene.model == ModelKind::foundation && no_closed_form.empty();
+    const unsigned int n_starts = scene.calibration.starts;
+    if (no_closed_form.empty())
+      result.optima = search.from_starts(n_starts, n_followed, By::closed_form);
+    else
+      result.optima =
+        search.from_starts(n_starts,
+                           scene.model == ModelKind::finite_elements ?
+                             n_followed_slowly :
+                             n_followed,
+                           By::scene);
+    if (no_closed_form.empty() && !result.by_closed_form &&
+        !result.optima.empty())
+      {
+        out << "Closed form: " << result.optima.size() << " optima, the best "
+            << "after " << to_text(clock.wall_time(), 2) << " s" << std::endl;
+        std::vector<Eigen::VectorXd> starts;
+        for (const Optimum &optimum : result.optima)
+          if (optimum.cost <= 4. * result.optima.front().cost + 1e-12 &&
+              starts.size() < n_followed_slowly)
+            starts.push_back(optimum.unknowns);
+        result.optima = search.follow(starts, By::scene);
+      }
+    for (const auto &worker : search.workers)
+      {
+        result.n_failures += worker->n_failures;
+        if (!worker->last_failure.empty())
+          result.last_failure = worker->last_failure;
+      }
+    result.n_evaluations = log.n_evaluations;
+    if (result.optima.empty())
+      throw RunError("nothing was found: no unknowns that were tried give a "
+                     "curve. The last reason: " +
+                     result.last_failure);
+
+    const By model  = result.by_closed_form ? By::closed_form : By::scene;
+    Misfit  &misfit = search.first();
+    const Eigen::VectorXd &best = result.optima.front().unknowns;
+    if (result.by_closed_form)
+      for (const auto &worker : search.workers)
+        for (const auto &experiment : worker->experiments)
+          experiment->centre_closed_form(best);
+    result.at_best = misfit.evaluate(best, model, true);
+    if (!result.at_best.failure.empty())
+      throw RunError("the best fit cannot be differentiated: " +
+                     result.at_best.failure);
+    result.statistics =
+      std::make_unique<FitStatistics>(misfit, best, result.at_best);
+    judge_candidates(result, misfit, model);
+    if (scene.calibration.profiles)
+      find_profiles(result, search, model);
+    result.seconds = clock.wall_time();
+    report(result, misfit, out);
+    if (result.statistics->e_rel > scene.calibration.largest_misfit)
+      throw RunError(
+        "no parameters of this scene fit the measured curve: the best ones "
+        "leave e_rel = " +
+        to_text(100. * result.statistics->e_rel, 3) +
+        " %, more than Calibration / Largest misfit, " +
+        to_text(100. * scene.calibration.largest_misfit, 3) + " %");
+  }
+
+
+
+  void
+  check_calibration(const std::vector<SceneEntry> &entries,
+                    const std::string             &name,
+                    std::ostream                  &out)
+  {
+    const auto     experiments = experiments_of(entries);
+    const Unknowns unknowns(experiments);
+    Misfit         misfit(unknowns, experiments.size(), name, nullptr);
+    for (const Unknown &u : unknowns.list)
+      out << u.name << ": from " << to_text(u.start, 6) << ", between "
+          << to_text(u.lower, 6) << " and " << to_text(u.upper, 6)
+          << (u.logarithmic ? ", by its logarithm" : "") << '\n';
+    for (const auto &experiment : misfit.experiments)
+      {
+        const Measurement &measured = experiment->measured;
+        if (measured.file.empty())
+          out << "A candidate without a measured curve\n";
+        else
+          out << measured.file << ": " << measured.over.size() << " rows, "
+              << experiment->over.name << " from "
+              << to_text(measured.over.minCoeff(), 6) << " to "
+              << to_text(measured.over.maxCoeff(), 6) << ' '
+              << experiment->over.unit() << "; "
+              << (experiment->why_no_closed_form.empty() ?
+                    "searched with the closed form first" :
+                    "no closed form: " + experiment->why_no_closed_form)
+              << '\n';
+      }
+  }
+} // namespace Debond

@@ -1,0 +1,719 @@
+#include <debond/campaigns/experiment.h>
+#include <debond/input/measured_table.h>
+#include <debond/models/closed_form_solution.h>
+#include <debond/models/simulation.h>
+#include <debond/support/number_text.h>
+
+#include <boost/algorithm/string/predicate.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+// An experiment of a calibration: what a scene predicts where something has
+// been measured, for unknowns that change from one call to the next, and how
+// that changes with them.
+namespace Debond
+{
+  namespace
+  {
+    constexpr double degree = M_PI / 180.;
+    constexpr auto   push   = ChuckComponent::translation_z;
+    constexpr auto   twist  = ChuckComponent::rotation_z;
+
+    const std::string calibration = "Calibration / ";
+
+
+
+    Quantity
+    quantity_of(const CurveColumn &column)
+    {
+      const bool turns = is_rotation(column.component);
+      switch (column.kind)
+        {
+          case CurveColumn::time:
+            return Quantity::time;
+          case CurveColumn::reaction:
+            return turns ? Quantity::moment : Quantity::force;
+          default:
+            return turns ? Quantity::angle : Quantity::length;
+        }
+    }
+  } // namespace
+
+
+
+  CurveColumn::CurveColumn(const std::string &given, const std::string &entry)
+    : name(given)
+  {
+    if (name == "time")
+      return;
+    if (name == "torque_Nmm" || name == "angle_deg")
+      {
+        kind      = name == "angle_deg" ? position : reaction;
+        component = twist;
+        return;
+      }
+    TorqueRow    row;
+    unsigned int n = 0; // reactions come first, then positions
+    row.for_each_column([&](const std::string &other, const auto &) {
+      if (!boost::starts_with(other, "chuck_"))
+        return;
+      if (other == name)
+        {
+          kind      = n < 6 ? reaction : position;
+          component = n % 6;
+        }
+      ++n;
+    });
+    if (kind == time)
+      throw EntryError(entry,
+                       "there is no such curve: expected time, angle_deg, "
+                       "torque_Nmm or a column of torque.csv that begins with "
+                       "chuck_, not '" +
+                         shortened(name) + "'");
+  }
+
+
+
+  double
+  CurveColumn::of(const TorqueRow &row) const
+  {
+    return kind == time     ? row.time :
+           kind == reaction ? row.chuck_reaction[component] :
+                              row.chuck_position[component];
+  }
+
+
+
+  std::string
+  CurveColumn::unit() const
+  {
+    switch (quantity_of(*this))
+      {
+        case Quantity::angle:
+          return "deg";
+        case Quantity::moment:
+          return "N mm";
+        case Quantity::force:
+          return "N";
+        case Quantity::length:
+          return "mm";
+        default:
+          return "";
+      }
+  }
+
+
+
+  namespace
+  {
+    std::vector<CurveColumn>
+    columns_of(const CalibrationParameters &parameters)
+    {
+      std::vector<CurveColumn> columns;
+      for (const std::string &name : parameters.curves)
+        columns.emplace_back(name, calibration + "Curves");
+      return columns;
+    }
+
+
+
+    /** What the scene predicts needs neither the measured curve nor a
+     *  directory. */
+    std::vector<SceneEntry>
+    without_reference(const std::vector<SceneEntry> &entries)
+    {
+      return with_overrides(
+        entries,
+        {"Task=simulate", "Output/Reference curve=", "Output/Console=quiet"});
+    }
+
+
+
+    /** Between which turning points each value lies, 0 before the first. A
+     *  curve turns where it goes back by more than @p least of its range. */
+    std::vector<int>
+    branches_of(const Eigen::VectorXd &over, const double least)
+    {
+      std::vector<int> branch(over.size(), 0);
+      if (over.size() == 0)
+        return branch;
+      const double tolerance = least * (over.maxCoeff() - over.minCoeff());
+      int          direction = 0, n = 0;
+      Eigen::Index extreme = 0;
+      for (Eigen::Index i = 0; i < over.size(); ++i)
+        {
+          const double moved = over[i] - over[extreme];
+          if (direction == 0 && std::abs(moved) > tolerance)
+            direction = moved > 0. ? 1 : -1;
+          if (direction * moved >= 0.)
+            extreme = direction == 0 ? extreme : i;
+          else if (std::abs(moved) > tolerance)
+            {
+              ++n;
+              for (Eigen::Index k = extreme + 1; k < i; ++k)
+                branch[k] = n;
+              direction = -direction;
+              extreme   = i;
+            }
+          branch[i] = n;
+        }
+      return branch;
+    }
+  } // namespace
+
+
+
+  Experiment::Experiment(const Unknowns    &unknowns,
+                         const unsigned int number,
+                         const std::string &name)
+    : scene(
+        Scene::from_entries(unknowns.entries(number, unknowns.starts()), name))
+    , columns(columns_of(scene.calibration))
+    , over(scene.calibration.over, calibration + "Over")
+    , unknowns(unknowns)
+    , number(number)
+    , varying(without_reference(unknowns.entries(number, unknowns.starts())),
+              name)
+    , has_elastic_bodies(scene.bone.material != Material::rigid ||
+                         scene.implant.material != Material::rigid)
+  {
+    try
+      {
+        read_measurement();
+      }
+    catch (const InputError &error)
+      {
+        throw scene.with_place(error);
+      }
+    // Values that are not allowed within the bounds show now, and not in the
+    // middle of a search.
+    const Eigen::VectorXd starts = unknowns.starts();
+    for (Eigen::Index j = 0; j < starts.size(); ++j)
+      for (const double bound :
+           {unknowns.list[j].lower, unknowns.list[j].upper})
+        {
+          Eigen::VectorXd at_bound = starts;
+          at_bound[j]              = bound;
+          scene_at(at_bound).check();
+        }
+    // What an unknown changes shows in the entries that hold it.
+    const auto before = unknowns.varied_entries(number, starts);
+    for (Eigen::Index j = 0; j < starts.size(); ++j)
+      {
+        Eigen::VectorXd other = starts;
+        const Unknown  &u     = unknowns.list[j];
+        other[j] =
+          0.5 * (starts[j] + (starts[j] < u.upper ? u.upper : u.lower));
+        const auto after = unknowns.varied_entries(number, other);
+        bool       model = false, bulk = false, penalty = false, law = false;
+        for (std::size_t e = 0; e < before.size(); ++e)
+          if (before[e].value != after[e].value)
+            {
+              const std::string entry       = before[e].full_name();
+              const auto        starts_with = [&](const char *const text) {
+                return boost::starts_with(entry, text);
+              };
+              model = model || !starts_with(calibration.c_str());
+              bulk  = bulk || starts_with("Bone /") || starts_with("Implant");
+              const bool is_penalty =
+                entry.find("enalty stiffness") != std::string::npos;
+              penalty = penalty || is_penalty;
+              law     = law || (starts_with("Interface /") && !is_penalty &&
+                            !starts_with("Interface / Bonding"));
+            }
+        changes_model.push_back(model);
+        changes_law.push_back(law);
+        changes_bodies.push_back(bulk);
+        changes_stiffness.push_back(bulk || penalty);
+      }
+    Scene as_foundation = scene;
+    as_foundation.model = ModelKind::foundation;
+    why_no_closed_form  = Debond::why_no_closed_form(as_foundation);
+    if (why_no_closed_form.empty() && scene.load_steps.follow_path)
+      why_no_closed_form = "the scene follows a path";
+    if (why_no_closed_form.empty() &&
+        scene.chuck.component[twist].stiffness > 0.)
+      why_no_closed_form = "the machine is compliant";
+    if (why_no_closed_form.empty() &&
+        scene.interface.bonding_of_law().pattern !=
+          BondingPatternKind::homogeneous &&
+        scene.interface.bonding_of_law().pattern != BondingPatternKind::disk)
+      why_no_closed_form = "closed forms know homogeneous bonding and the disk";
+    if (over.kind != CurveColumn::position || over.component != twist)
+      why_no_closed_form = "closed forms know curves over the angle";
+    for (const CurveColumn &column : columns)
+      if (column.kind != CurveColumn::reaction ||
+          (column.component != twist && column.component != push))
+        why_no_closed_form = "closed forms know torque and axial force";
+  }
+
+
+
+  // Rows in windows only. What the scene does not come to is left out, too, if
+  // that can be told from what it prescribes.
+  void
+  Experiment::read_measurement()
+  {
+    const CalibrationParameters &parameters = scene.calibration;
+    if (parameters.windows.size() % 2 != 0)
+      throw EntryError(calibration + "Windows",
+                       "expected pairs of bounds, an even number of them");
+    if (parameters.noise.size() != 1 &&
+        parameters.noise.size() != columns.size())
+      throw EntryError(calibration + "Noise",
+                       "expected one number, or one for each of Curves");
+    measured.file  = scene.output.reference_curve;
+    measured.scale = Eigen::VectorXd::Zero(columns.size());
+    measured.values.resize(0, columns.size());
+    if (measured.file.empty())
+      return;
+    std::vector<MeasuredColumn> wanted{{over.name, quantity_of(over)}};
+    for (const CurveColumn &column : columns)
+      wanted.push_back({column.name, quantity_of(column)});
+    const auto      table = read_measured_table(measured.file,
+                                           "Output / Reference curve",
+                                           wanted,
+                                           scene.output.reference_columns,
+                                           "Output / Reference columns");
+    Eigen::VectorXd all(table.size());
+    for (std::size_t i = 0; i < table.size(); ++i)
+      all[i] = table[i][0];
+    const auto branch = branches_of(all, 0.05);
+
+    double least = -std::numeric_limits<double>::infinity(), most = -least;
+    if (over.kind == CurveColumn::time)
+      {
+        least = scene.load_steps.times.front();
+        most  = scene.load_steps.times.back();
+      }
+    std::vector<std::size_t> used;
+    for (std::size_t i = 0; i < table.size(); ++i)
+      {
+        const auto &windows = parameters.windows;
+        bool        inside  = windows.empty();
+        for (std::size_t w = 0; w < windows.size(); w += 2)
+          inside = inside || (all[i] >= windows[w] && all[i] <= windows[w + 1]);
+        // of rows at the same place, as while it is pressed, the last one
+        const bool stays = i + 1 < table.size() && all[i + 1] == all[i];
+        if (inside && !stays && all[i] >= least && all[i] <= most)
+          used.push_back(i);
+      }
+    if (used.empty())
+      throw EntryError("Output / Reference curve",
+                       measured.file + ": none of its " +
+                         std::to_string(table.size()) + " rows, " + over.name +
+                         " from " + to_text(all.minCoeff(), 4) + " to " +
+                         to_text(all.maxCoeff(), 4) +
+                         ", is in Calibration / Windows and the scene's times");
+    measured.over.resize(used.size());
+    measured.values.resize(used.size(), columns.size());
+    for (std::size_t i = 0; i < used.size(); ++i)
+      {
+        measured.over[i] = all[used[i]];
+        measured.branch.push_back(branch[used[i]]);
+        for (std::size_t c = 0; c < columns.size(); ++c)
+          measured.values(i, c) = table[used[i]][c + 1];
+      }
+    // of the whole file, so that a window changes no weight
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      {
+        for (const auto &row : table)
+          measured.scale[c] = std::max(measured.scale[c], std::abs(row[c + 1]));
+        if (measured.scale[c] == 0.)
+          throw EntryError("Output / Reference curve",
+                           measured.file + ": all of " + columns[c].name +
+                             " is zero");
+      }
+  }
+
+
+
+  void
+  Experiment::propose_rows()
+  {
+    constexpr unsigned int n     = 200;
+    const auto            &steps = scene.load_steps;
+    Eigen::Vector2d        ends(steps.times.front(), steps.times.back());
+    if (over.kind != CurveColumn::time)
+      {
+        const Chuck chuck(scene.chuck,
+                          Eigen::Vector3d::Zero(),
+                          scene.implant.characteristic_radius());
+        for (const unsigned int end : {0u, 1u})
+          ends[end] = chuck.values(ends[end])[over.component] *
+                      (is_rotation(over.component) ? 1. / degree : 1.);
+      }
+    measured.over   = Eigen::VectorXd::LinSpaced(n, ends[0], ends[1]);
+    measured.branch = std::vector<int>(n, 0);
+  }
+
+
+
+  const Scene &
+  Experiment::scene_at(const Eigen::VectorXd &values)
+  {
+    return varying.with(unknowns.varied_entries(number, values));
+  }
+
+
+
+  Experiment::Variation
+  Experiment::variation(const Eigen::VectorXd &values, const unsigned int j)
+  {
+    const Unknown &u = unknowns.list[j];
+    const double   h =
+      1e-5 * std::max(std::abs(values[j]), 1e-2 * (u.upper - u.lower));
+    Eigen::VectorXd plus = values, minus = values;
+    plus[j]  = std::min(values[j] + h, u.upper);
+    minus[j] = std::max(values[j] - h, u.lower);
+    return {scene_at(plus), scene_at(minus), plus[j] - minus[j]};
+  }
+
+
+
+  namespace
+  {
+    /** What the rig adds, as numbers that have derivatives. */
+    Eigen::Vector4d
+    rig_of(const CalibrationParameters &c)
+    {
+      return {c.angle_offset, c.slack, c.machine_compliance, c.torque_offset};
+    }
+  } // namespace
+
+
+
+  // The rows are joined by straight lines, seen from where the instruments
+  // stand. A row of the measured curve lies on the line of its branch that
+  // crosses its place x, at the share s = (x - x_a) / (x_b - x_a), and
+  //
+  //   dy = (1 - s) (dy_a - m dx_a) + s (dy_b - m dx_b),   m = (y_b - y_a) /
+  //                                                           (x_b - x_a).
+  //
+  // Beside the ends of a branch the curve goes on as it ends.
+  PredictedCurves
+  Experiment::at_measured_rows(
+    const std::vector<TorqueRow>                     &rows,
+    const std::vector<Eigen::Matrix<double, 12, -1>> &row_derivatives,
+    const CalibrationParameters                      &rig,
+    const Eigen::MatrixXd                            &rig_derivatives) const
+  {
+    const unsigned int n_rows = rows.size(), n_measured = measured.over.size();
+    const bool         differentiate = !row_derivatives.empty();
+    const unsigned int n_unknowns    = differentiate ? unknowns.list.size() : 0;
+    const bool         over_angle =
+      over.kind == CurveColumn::position && over.component == twist;
+
+    Eigen::VectorXd x(n_rows);
+    Eigen::MatrixXd dx        = Eigen::MatrixXd::Zero(n_rows, n_unknowns);
+    const auto      of_column = [&](const CurveColumn &column,
+                               const unsigned int i) -> Eigen::RowVectorXd {
+      if (column.kind == CurveColumn::time || n_unknowns == 0)
+        return Eigen::RowVectorXd::Zero(n_unknowns);
+      return row_derivatives[i].row(
+        (column.kind == CurveColumn::position ? 6 : 0) + column.component);
+    };
+    const CurveColumn torque("torque_Nmm", "");
+    for (unsigned int i = 0; i < n_rows; ++i)
+      {
+        x[i]                = over.of(rows[i]);
+        dx.row(i)           = of_column(over, i);
+        const double T      = torque.of(rows[i]);
+        const double caught = T >= 0. ? 1. : 0.;
+        if (over_angle)
+          {
+            x[i] += rig.angle_offset + caught * rig.slack +
+                    rig.machine_compliance * T;
+            if (differentiate)
+              dx.row(i) += rig_derivatives.row(0) +
+                           caught * rig_derivatives.row(1) +
+                           T * rig_derivatives.row(2) +
+                           rig.machine_compliance * of_column(torque, i);
+          }
+      }
+
+    const std::vector<int> branch = branches_of(x, 1e-9);
+    if (n_measured > 0 && branch.back() < measured.branch.back())
+      throw EntryError("Output / Reference curve",
+                       measured.file + " turns back " +
+                         std::to_string(measured.branch.back()) +
+                         " times, the computed curve " +
+                         std::to_string(branch.back()) + " times");
+
+    PredictedCurves result{Eigen::VectorXd(n_measured * columns.size()),
+                           Eigen::MatrixXd(n_measured * columns.size(),
+                                           n_unknowns)};
+    for (unsigned int q = 0; q < n_measured; ++q)
+      {
+        // the rows of this branch, from the turning point that it begins with
+        const int    b = measured.branch[q];
+        unsigned int first =
+          std::lower_bound(branch.begin(), branch.end(), b) - branch.begin();
+        const unsigned int last =
+          std::upper_bound(branch.begin(), branch.end(), b) - branch.begin() -
+          1;
+        first -= b > 0 ? 1 : 0;
+        const double sign  = x[last] < x[first] ? -1. : 1.;
+        const double place = measured.over[q];
+        unsigned int end   = first;
+        while (end < last && sign * x[end] < sign * place)
+          ++end;
+        // rows that do not move along x belong to the end of the push-in
+        while (end < last && x[end + 1] == x[end])
+          ++end;
+        const unsigned int begin = end > first ? end - 1 : end;
+        const double       width = x[end] - x[begin];
+        const double share     = sign * (place - x[end]) >= 0. || width == 0. ?
+                                   1. :
+                                   std::max(0., (place - x[begin]) / width);
+        const bool   is_beside = share == 1. || share == 0.;
+        for (unsigned int c = 0; c < columns.size(); ++c)
+          {
+            const CurveColumn &column = columns[c];
+            const double       y_a    = column.of(rows[begin]),
+                         y_b          = column.of(rows[end]);
+            const double slope =
+              width == 0. || is_beside ? 0. : (y_b - y_a) / width;
+            const bool is_torque =
+              column.kind == CurveColumn::reaction && column.component == twist;
+            const unsigned int at = c * n_measured + q;
+            result.values[at]     = (1. - share) * y_a + share * y_b +
+                                (is_torque ? rig.torque_offset : 0.);
+            if (!differentiate)
+              continue;
+            result.derivatives.row(at) =
+              (1. - share) *
+                (of_column(column, begin) - slope * dx.row(begin)) +
+              share * (of_column(column, end) - slope * dx.row(end));
+            if (is_torque)
+              result.derivatives.row(at) += rig_derivatives.row(3);
+          }
+      }
+    if (!result.values.allFinite())
+      throw RunError("the computed curve has no values where something has "
+                     "been measured");
+    return result;
+  }
+
+
+
+  PredictedCurves
+  Experiment::predict(const Eigen::VectorXd &values,
+                      const By               model,
+                      const bool             with_derivatives)
+  {
+    if (model == By::closed_form)
+      return predict_by_disk(values, with_derivatives);
+    if (with_derivatives)
+      return predict_by_differences(values);
+    const Scene now = scene_at(values);
+    return at_measured_rows(run(now), {}, now.calibration, {});
+  }
+
+
+
+  std::vector<TorqueRow>
+  Experiment::run(const Scene &now)
+  {
+    if (now.model != ModelKind::finite_elements)
+      return ClosedFormSolution(now).rows;
+    const bool keep = std::none_of(changes_bodies.begin(),
+                                   changes_bodies.end(),
+                                   [](const bool changes) { return changes; });
+    if (bodies)
+      bodies->return_to_rest();
+    Simulation simulation(now, keep ? bodies : nullptr);
+    if (keep)
+      bodies = simulation.system().bodies();
+    simulation.run();
+    return now.load_steps.adaptive ? fine_curve(simulation.rows()) :
+                                     simulation.rows();
+  }
+
+
+
+  PredictedCurves
+  Experiment::predict_by_differences(const Eigen::VectorXd &values)
+  {
+    PredictedCurves result = predict(values, By::scene, false);
+    result.derivatives.resize(result.values.size(), values.size());
+    for (Eigen::Index j = 0; j < values.size(); ++j)
+      {
+        const Unknown &u = unknowns.list[j];
+        const double   h =
+          1e-3 * std::max(std::abs(values[j]), 1e-2 * (u.upper - u.lower));
+        Eigen::VectorXd plus = values, minus = values;
+        plus[j]                   = std::min(values[j] + h, u.upper);
+        minus[j]                  = std::max(values[j] - h, u.lower);
+        result.derivatives.col(j) = (predict(plus, By::scene, false).values -
+                                     predict(minus, By::scene, false).values) /
+                                    (plus[j] - minus[j]);
+      }
+    return result;
+  }
+
+
+
+  // By what the bodies are more compliant than the interface alone [mm/MPa].
+  Eigen::Vector2d
+  Experiment::exact_compliance(const Eigen::VectorXd &values)
+  {
+    const Scene &now  = scene_at(values);
+    const bool   keep = std::none_of(changes_bodies.begin(),
+                                   changes_bodies.end(),
+                                   [](const bool changes) { return changes; });
+    if (!keep)
+      linear_bodies.reset();
+    const FoundationStiffness stiffness =
+      foundation_stiffness(now, &linear_bodies);
+    return {1. / stiffness.normal - 1. / now.interface.normal_penalty,
+            1. / stiffness.torsional -
+              1. / now.interface.tangential_stiffness()};
+  }
+
+
+
+  void
+  Experiment::centre_closed_form(const Eigen::VectorXd &values)
+  {
+    centre                            = {values,
+                                         Eigen::Vector2d::Zero(),
+                                         Eigen::MatrixXd::Zero(2, values.size())};
+    const ClosedFormParameters &given = scene.closed_form;
+    if (!has_elastic_bodies ||
+        (given.torsional_stiffness > 0. && given.normal_stiffness > 0.))
+      return;
+    centre.compliance = exact_compliance(values);
+    for (Eigen::Index j = 0; j < values.size(); ++j)
+      if (changes_stiffness[j])
+        {
+          const Unknown  &u     = unknowns.list[j];
+          Eigen::VectorXd other = values;
+          const double    h =
+            1e-2 * std::max(std::abs(values[j]), 1e-2 * (u.upper - u.lower));
+          other[j] += values[j] + h > u.upper ? -h : h;
+          centre.slopes.col(j) =
+            (exact_compliance(other).array() / centre.compliance.array())
+              .log() /
+            (other[j] - values[j]);
+        }
+  }
+
+
+
+  Eigen::Vector2d
+  Experiment::foundation(const Scene &now, const Eigen::VectorXd &values) const
+  {
+    // far away the straight line must not leave what is possible
+    const Eigen::Array2d exponent =
+      (centre.slopes * (values - centre.unknowns)).array().max(-2.).min(2.);
+    const Eigen::Array2d compliance =
+      centre.compliance.array() * exponent.exp();
+    Eigen::Vector2d result{
+      1. / (1. / now.interface.normal_penalty + compliance[0]),
+      1. / (1. / now.interface.tangential_stiffness() + compliance[1])};
+    if (now.closed_form.normal_stiffness > 0.)
+      result[0] = now.closed_form.normal_stiffness;
+    if (now.closed_form.torsional_stiffness > 0.)
+      result[1] = now.closed_form.torsional_stiffness;
+    return result;
+  }
+
+
+
+  // The disk on a foundation, at the angles of the measured rows and some
+  // between. How the disk changes with the unknowns is the difference between
+  // two disks; what its curve does with it is exact.
+  PredictedCurves
+  Experiment::predict_by_disk(const Eigen::VectorXd &values,
+                              const bool             with_derivatives)
+  {
+    if (centre.unknowns.size() == 0)
+      centre_closed_form(unknowns.starts());
+    const auto disk_of = [&](const Scene &now, const Eigen::VectorXd &at) {
+      const Eigen::Vector2d stiffness = foundation(now, at);
+      return foundation_disk(now, stiffness[0], stiffness[1]);
+    };
+    const Scene                &now  = scene_at(values);
+    const CalibrationParameters rig  = now.calibration;
+    const TorsionModel::Disk    disk = disk_of(now, values);
+    const double last = Chuck(now.chuck, Eigen::Vector3d::Zero(), disk.radius)
+                          .values(now.load_steps.times.back())[twist];
+
+    std::vector<DiskVariation> variations;
+    Eigen::MatrixXd            rig_derivatives;
+    if (with_derivatives)
+      {
+        rig_derivatives.resize(4, values.size());
+        for (Eigen::Index j = 0; j < values.size(); ++j)
+          {
+            const Unknown &u = unknowns.list[j];
+            const double   h =
+              1e-5 * std::max(std::abs(values[j]), 1e-2 * (u.upper - u.lower));
+            std::array<TorsionModel::Disk, 2> ends;
+            std::array<Eigen::Vector4d, 2>    rigs;
+            std::array<double, 2>             places;
+            for (const unsigned int end : {0u, 1u})
+              {
+                Eigen::VectorXd other = values;
+                other[j] =
+                  std::clamp(values[j] + (end == 0 ? -h : h), u.lower, u.upper);
+                places[end]        = other[j];
+                const Scene &moved = scene_at(other);
+                rigs[end]          = rig_of(moved.calibration);
+                ends[end] = changes_model[j] ? disk_of(moved, other) : disk;
+              }
+            const double  width = places[1] - places[0];
+            DiskVariation by;
+            by.pressure  = (ends[1].pressure - ends[0].pressure) / width;
+            by.stiffness = (ends[1].stiffness - ends[0].stiffness) / width;
+            by.phi_0     = (ends[1].phi_0 - ends[0].phi_0) / width;
+            if (disk.bonded_radius < disk.radius)
+              by.bonded_radius =
+                (ends[1].bonded_radius - ends[0].bonded_radius) / width;
+            if (changes_law[j])
+              {
+                by.plus  = ends[1].friction;
+                by.minus = ends[0].friction;
+                by.width = width;
+              }
+            variations.push_back(by);
+            rig_derivatives.col(j) = (rigs[1] - rigs[0]) / width;
+          }
+      }
+
+    std::set<double> angles{0., last};
+    for (unsigned int i = 1; i < 100; ++i)
+      angles.insert(last * i / 100.);
+    for (const double place : measured.over)
+      {
+        const double angle = (place - rig.angle_offset - rig.slack) * degree;
+        if (angle * last > 0. && std::abs(angle) < std::abs(last))
+          angles.insert(angle);
+      }
+    std::vector<double> in_order(angles.begin(), angles.end());
+    if (last < 0.)
+      std::reverse(in_order.begin(), in_order.end());
+    const TorsionCurve curve = torsion_curve(disk, in_order, variations);
+
+    const double           area = M_PI * disk.radius * disk.radius;
+    std::vector<TorqueRow> rows(in_order.size());
+    std::vector<Eigen::Matrix<double, 12, -1>> derivatives(
+      with_derivatives ? rows.size() : 0,
+      Eigen::Matrix<double, 12, -1>::Zero(12, values.size()));
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      {
+        rows[i].chuck_reaction[push]  = -disk.pressure * area;
+        rows[i].chuck_reaction[twist] = curve.torque[i];
+        rows[i].chuck_position[twist] = in_order[i] / degree;
+        if (!with_derivatives)
+          continue;
+        for (Eigen::Index j = 0; j < values.size(); ++j)
+          derivatives[i](push, j) = -variations[j].pressure * area;
+        derivatives[i].row(twist) = curve.derivative.row(i);
+      }
+    return at_measured_rows(rows, derivatives, rig, rig_derivatives);
+  }
+} // namespace Debond

@@ -1,0 +1,296 @@
+#include <debond/campaigns/fit_statistics.h>
+#include <debond/support/number_text.h>
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Debond
+{
+  namespace
+  {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+
+    /** Where an unknown that is searched as it is gets a relative change from:
+     *  itself, or a part of its range if it is about zero. */
+    double
+    size_of(const Unknown &unknown, const double value)
+    {
+      return std::max(std::abs(value), 0.01 * (unknown.upper - unknown.lower));
+    }
+  } // namespace
+
+
+
+  FitStatistics::FitStatistics(const Misfit          &misfit,
+                               const Eigen::VectorXd &best,
+                               const Evaluation      &at_best)
+  {
+    const auto           &list = misfit.unknowns.list;
+    const Eigen::VectorXd r    = misfit.residuals(at_best.values);
+    const Eigen::Index    n    = r.size();
+    jacobian = misfit.weights.asDiagonal() * at_best.derivatives;
+    for (std::size_t j = 0; j < list.size(); ++j)
+      {
+        const Unknown &u    = list[j];
+        const double   near = 1e-6 * (u.upper - u.lower);
+        FittedUnknown  one{best[j], best[j], best[j], false};
+        one.at_bound = best[j] - u.lower < near || u.upper - best[j] < near;
+        unknowns.push_back(one);
+        is_free.push_back(!one.at_bound);
+        jacobian.col(j) *= is_free[j] ? u.per_search(best[j]) : 0.;
+      }
+    const Eigen::Index n_free =
+      std::count(is_free.begin(), is_free.end(), true);
+    const double freedom = std::max<Eigen::Index>(1, n - n_free);
+    s        = misfit.has_noise() ? 1. : r.norm() / std::sqrt(freedom);
+    quantile = boost::math::quantile(
+      boost::math::students_t(misfit.has_noise() ? 1e6 : freedom), 0.975);
+    judge_unknowns(misfit, best);
+    judge_residuals(misfit, at_best.values);
+
+    const Eigen::MatrixXd covariance = covariance_of(jacobian);
+    half_widths.resize(list.size());
+    correlations = Eigen::MatrixXd::Identity(list.size(), list.size());
+    for (std::size_t j = 0; j < list.size(); ++j)
+      {
+        half_widths[j] = quantile * std::sqrt(covariance(j, j));
+        if (!is_free[j])
+          half_widths[j] = 0.;
+        for (const double sign : {-1., 1.})
+          {
+            double end = list[j].to_search(best[j]) + sign * half_widths[j];
+            if (list[j].logarithmic)
+              end = std::exp(end);
+            (sign < 0. ? unknowns[j].lower : unknowns[j].upper) = end;
+          }
+        for (std::size_t i = 0; i < list.size(); ++i)
+          if (i != j && is_free[i] && is_free[j])
+            correlations(i, j) =
+              covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
+      }
+
+    // over the noise, and back to the unit of the curve; flat directions do not
+    // move it
+    sd_of_values.resize(n);
+    Eigen::MatrixXd finite = covariance;
+    for (Eigen::Index j = 0; j < finite.cols(); ++j)
+      if (!std::isfinite(finite(j, j)))
+        {
+          finite.row(j).setZero();
+          finite.col(j).setZero();
+        }
+    for (Eigen::Index i = 0; i < n; ++i)
+      sd_of_values[i] =
+        std::sqrt(
+          std::max(0.,
+                   jacobian.row(i).dot(finite * jacobian.row(i).transpose()))) /
+        misfit.weights[i];
+    band = quantile * sd_of_values;
+  }
+
+
+
+  // Singular values of the relative changes that the curves show if the
+  // unknowns change by parts of themselves. A direction along which unknowns
+  // can double without a change that the noise would let see is flat; so is
+  // one that is lost beside the others.
+  void
+  FitStatistics::judge_unknowns(const Misfit          &misfit,
+                                const Eigen::VectorXd &best)
+  {
+    const auto              &list = misfit.unknowns.list;
+    Eigen::MatrixXd          scaled(jacobian.rows(), 0);
+    std::vector<std::size_t> columns;
+    for (std::size_t j = 0; j < list.size(); ++j)
+      if (is_free[j])
+        {
+          scaled.conservativeResize(Eigen::NoChange, scaled.cols() + 1);
+          scaled.rightCols<1>() =
+            jacobian.col(j) *
+            (list[j].logarithmic ? 1. : size_of(list[j], best[j]));
+          columns.push_back(j);
+        }
+    if (columns.empty())
+      return;
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinV);
+    const auto                             &sigma   = svd.singularValues();
+    const double                            largest = sigma[0];
+    flat_limit          = std::max(1e-6 * largest, s);
+    const double weight = misfit.weights.maxCoeff();
+    for (Eigen::Index k = 0; k < sigma.size(); ++k)
+      if (sigma[k] < flat_limit)
+        {
+          FlatDirection direction{Eigen::VectorXd::Zero(list.size()), 0.};
+          for (std::size_t i = 0; i < columns.size(); ++i)
+            direction.changes[columns[i]] = svd.matrixV()(i, k);
+          Eigen::Index most;
+          const double size = direction.changes.cwiseAbs().maxCoeff(&most);
+          direction.changes /= direction.changes[most];
+          direction.effect =
+            (scaled * svd.matrixV().col(k)).cwiseAbs().maxCoeff() / size /
+            weight;
+          flat.push_back(direction);
+        }
+  }
+
+
+
+  // (J^T J)^-1 s^2 from the singular values, infinite for what has a part in a
+  // flat direction.
+  Eigen::MatrixXd
+  FitStatistics::covariance_of(const Eigen::MatrixXd &J) const
+  {
+    Eigen::VectorXd scale(J.cols());
+    for (Eigen::Index j = 0; j < J.cols(); ++j)
+      scale[j] = J.col(j).norm() > 0. ? J.col(j).norm() : 1.;
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(
+      J * scale.cwiseInverse().asDiagonal(), Eigen::ComputeThinV);
+    const auto       &V       = svd.matrixV();
+    Eigen::MatrixXd   result  = Eigen::MatrixXd::Zero(J.cols(), J.cols());
+    const double      largest = svd.singularValues()[0];
+    std::vector<bool> unbounded(J.cols(), false);
+    for (Eigen::Index k = 0; k < V.cols(); ++k)
+      {
+        const double sigma = svd.singularValues()[k];
+        if (sigma > 1e-7 * largest)
+          result += V.col(k) * V.col(k).transpose() * std::pow(s / sigma, 2);
+        else
+          for (Eigen::Index j = 0; j < J.cols(); ++j)
+            unbounded[j] =
+              unbounded[j] || (is_free[j] && std::abs(V(j, k)) > 1e-3);
+      }
+    result = scale.cwiseInverse().asDiagonal() * result *
+             scale.cwiseInverse().asDiagonal();
+    for (Eigen::Index j = 0; j < J.cols(); ++j)
+      if (unbounded[j])
+        result(j, j) = infinite;
+    return result;
+  }
+
+
+
+  Eigen::VectorXd
+  FitStatistics::intervals_with(const Eigen::MatrixXd &derivatives) const
+  {
+    Eigen::MatrixXd both(jacobian.rows() + derivatives.rows(), jacobian.cols());
+    both << jacobian, derivatives;
+    for (Eigen::Index j = 0; j < both.cols(); ++j)
+      if (!is_free[j])
+        both.col(j).setZero();
+    const Eigen::MatrixXd covariance = covariance_of(both);
+    Eigen::VectorXd       result(both.cols());
+    for (Eigen::Index j = 0; j < both.cols(); ++j)
+      result[j] = is_free[j] ? quantile * std::sqrt(covariance(j, j)) : 0.;
+    return result;
+  }
+
+
+
+  // Residuals tell whether the model fits. Larger than the noise that was
+  // stated, or so smooth that neighbours have the same sign: the curve has a
+  // shape that the model has not, and intervals mean less than they say.
+  void
+  FitStatistics::judge_residuals(const Misfit          &misfit,
+                                 const Eigen::VectorXd &values)
+  {
+    Eigen::Index first = 0;
+    for (const auto &experiment : misfit.experiments)
+      {
+        const Measurement &measured = experiment->measured;
+        const Eigen::Index n        = measured.over.size();
+        if (measured.file.empty())
+          continue;
+        for (std::size_t c = 0; c < experiment->columns.size(); ++c, first += n)
+          {
+            const Eigen::VectorXd m          = measured.values.col(c),
+                                  difference = values.segment(first, n) - m;
+            CurveMisfit  curve{experiment->columns[c].name, 0., 0., 0., 0.};
+            const double largest = measured.scale[c];
+            unsigned int used    = 0;
+            for (Eigen::Index i = 0; i < n; ++i)
+              if (std::abs(m[i]) > 0.01 * largest)
+                {
+                  curve.e_mp += std::abs(difference[i] / m[i]);
+                  curve.e_rel += std::abs(difference[i]) / largest;
+                  ++used;
+                }
+            curve.e_mp /= std::max(1u, used);
+            curve.e_rel /= std::max(1u, used);
+            curve.rms = difference.norm() / std::sqrt(double(n)) / largest;
+            if (n > 2 && curve.rms > 1e-9)
+              curve.correlation =
+                difference.head(n - 1).dot(difference.tail(n - 1)) /
+                difference.squaredNorm();
+            curves.push_back(curve);
+            e_rel = std::max(e_rel, curve.e_rel);
+            if (curve.correlation * std::sqrt(double(n)) > 4. &&
+                curve.rms > 1e-5)
+              warnings.push_back(
+                "neighbouring residuals of " + curve.name +
+                " have the same sign (correlation " +
+                to_text(curve.correlation, 2) +
+                "): the model misses the shape of the curve, or the noise is "
+                "smooth. The intervals are too narrow, by some " +
+                to_text(std::sqrt((1. + curve.correlation) /
+                                  (1. - std::min(0.99, curve.correlation))),
+                        2) +
+                " times");
+          }
+      }
+    if (!misfit.has_noise())
+      return;
+    const double freedom = std::max<double>(
+      1., values.size() - std::count(is_free.begin(), is_free.end(), true));
+    const boost::math::chi_squared expected(freedom);
+    const double                   sum = misfit.residuals(values).squaredNorm();
+    if (sum > boost::math::quantile(expected, 0.999) ||
+        sum < boost::math::quantile(expected, 0.001))
+      warnings.push_back(
+        "the residuals are " + to_text(std::sqrt(sum / freedom), 3) +
+        " times the noise that Calibration / Noise states: " +
+        (sum > freedom ? "the model does not fit, or the noise is more" :
+                         "the noise is less") +
+        ", and the intervals are wrong by about that");
+  }
+
+
+
+  std::string
+  text_of(const FlatDirection &direction, const Unknowns &unknowns)
+  {
+    std::vector<std::size_t> parts;
+    for (Eigen::Index j = 0; j < direction.changes.size(); ++j)
+      if (std::abs(direction.changes[j]) > 0.1)
+        parts.push_back(j);
+    const auto name = [&](const std::size_t part) {
+      return unknowns.list[parts[part]].name;
+    };
+    const std::string same =
+      "the curves then change by " + to_text(direction.effect * 100., 2) +
+      " % of their largest value where the unknowns change by 100 %";
+    if (parts.size() == 1)
+      return "the curves hardly depend on " + name(0) + ": " + same;
+    std::string text = "the curves cannot tell ";
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      text += (i == 0 ? "" : i + 1 == parts.size() ? " and " : ", ") + name(i);
+    text += " apart: ";
+    const double a = direction.changes[parts[0]],
+                 b = direction.changes[parts[1]];
+    if (parts.size() == 2 && std::abs(std::abs(a) - std::abs(b)) < 0.1)
+      return text + "they only appear as a " +
+             (a * b < 0. ? "product" : "ratio") + "; fix one of them (" + same +
+             ")";
+    text += "the curves stay the same if they change together,";
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      text += (i == 0 ? " " : ", ") + name(i) + " by " +
+              (direction.changes[parts[i]] > 0. ? "+" : "") +
+              to_text(direction.changes[parts[i]], 2) + " %";
+    return text + "; fix one of them (" + same + ")";
+  }
+} // namespace Debond

@@ -1,6 +1,7 @@
 #include <debond/bulk/body_mesh.h>
 #include <debond/bulk/chuck.h>
 #include <debond/interface/contact_interface.h>
+#include <debond/interface/rigid_motion.h>
 
 #include <Eigen/Geometry>
 
@@ -68,23 +69,39 @@ namespace Debond
     // The pattern is a field over the implant's face, evaluated here once for
     // all: osseointegration is over before the test begins (footnote 2 of the
     // paper).
-    pattern =
-      std::make_unique<BondingPattern>(parameters.bonding_of_law(),
-                                       mesh[Side::implant]->parameters(),
-                                       mesh[Side::implant]->surface(),
-                                       parameters.quadrature_points);
+    pattern = std::make_unique<BondingPattern>(bonding_pattern(parameters));
+    for (SlavePoint &point : points)
+      point.faces_implant =
+        slave == Side::implant || point.accepted.has_partner;
+    const std::vector<double> phi_0 = initial_bonding(*pattern);
     for (unsigned int q = 0; q < points.size(); ++q)
-      {
-        SlavePoint &point = points[q];
-        point.faces_implant =
-          slave == Side::implant || point.accepted.has_partner;
-        if (point.faces_implant)
-          // The points of the implant are those of the pattern. Those of the
-          // bone look it up at their interacting point, which initialise() has
-          // just found.
-          point.phi_0 = slave == Side::implant ? pattern->at(q) :
-                                                 pattern->at(point.accepted.xi);
-      }
+      points[q].phi_0 = phi_0[q];
+  }
+
+
+
+  // The points of the implant are those of the pattern. Those of the bone look
+  // it up at their interacting point, which initialise() has just found.
+  std::vector<double>
+  ContactInterface::initial_bonding(const BondingPattern &pattern) const
+  {
+    std::vector<double> phi_0(points.size(), 0.);
+    for (unsigned int q = 0; q < points.size(); ++q)
+      if (points[q].faces_implant)
+        phi_0[q] = slave == Side::implant ? pattern.at(q) :
+                                            pattern.at(points[q].accepted.xi);
+    return phi_0;
+  }
+
+
+
+  BondingPattern
+  ContactInterface::bonding_pattern(const InterfaceParameters &of) const
+  {
+    return BondingPattern(of.bonding_of_law(),
+                          mesh[Side::implant]->parameters(),
+                          mesh[Side::implant]->surface(),
+                          of.quadrature_points);
   }
 
 
@@ -223,66 +240,6 @@ namespace Debond
 
   namespace
   {
-    /** How the implant moves in a step, as a rigid body whose centre goes
-     *  straight while it turns evenly. */
-    struct RigidMotion
-    {
-      Eigen::Matrix3d turn; ///< from beginning to end
-      Eigen::Vector3d axis; ///< of the turn, times its angle [rad]
-      Eigen::Vector3d old_centre, centre; ///< [mm]
-      Eigen::Vector3d implant_axis;       ///< e_z of its frame at the end
-
-      /** @p dq: moves @p component of the chuck a little further. */
-      RigidMotion(const Eigen::Matrix3d        &old_frame,
-                  const Eigen::Vector3d        &old_centre,
-                  const InterfaceConfiguration &configuration,
-                  const unsigned int            component = 0,
-                  const double                  dq        = 0.)
-        : old_centre(old_centre)
-        , centre(configuration.chuck->centre())
-      {
-        Eigen::Matrix3d frame = configuration.side[Side::implant].frame;
-        if (is_rotation(component))
-          frame =
-            Eigen::AngleAxisd(dq, configuration.chuck->axis(component)) * frame;
-        else
-          centre[component] += dq;
-        implant_axis = frame.col(2);
-        turn         = frame * old_frame.transpose();
-        const Eigen::AngleAxisd rotation(turn);
-        axis = rotation.angle() * rotation.axis();
-      }
-
-      /** The angle by which it turns the way of a point of the slave that was
-       *  at @p x over the master, about the master's axis towards the slave
-       *  at the end [rad]. */
-      double
-      turn_of_way(const Eigen::Vector3d &x, const Side slave) const
-      {
-        Eigen::Vector3d n        = Eigen::Vector3d::UnitZ();
-        const auto      velocity = [&](const Eigen::Vector3d &r) {
-          return Eigen::Vector3d(centre - old_centre + axis.cross(r));
-        };
-        const Eigen::Vector3d r     = x - old_centre;
-        Eigen::Vector3d       first = velocity(r), last = velocity(turn * r);
-        if (slave == Side::bone) // it stays, and is seen from the implant
-          {
-            n     = -implant_axis;
-            first = turn * first;
-            last  = velocity(x - centre);
-          }
-        // along the axis alone it goes nowhere over the master, but for
-        // rounding
-        const double sine   = n.dot(first.cross(last)),
-                     cosine = first.dot(last) - n.dot(first) * n.dot(last);
-        return std::hypot(sine, cosine) > 1e-12 * first.norm() * last.norm() ?
-                 std::atan2(sine, cosine) :
-                 0.;
-      }
-    };
-
-
-
     /** turn_of_way() of a step, and its derivatives by the components of the
      *  chuck that are unknown. */
     class TurnOfWay
@@ -291,7 +248,7 @@ namespace Debond
       TurnOfWay(const Eigen::Matrix3d        &old_frame,
                 const Eigen::Vector3d        &old_centre,
                 const InterfaceConfiguration &configuration)
-        : rigid(old_frame, old_centre, configuration)
+        : rigid({old_frame, old_centre}, Place::of_implant(configuration))
         // a little of the motion of the step [mm], [rad]
         , dq(1e-6 *
              ((rigid.centre - rigid.old_centre).norm() + rigid.axis.norm()))
@@ -299,8 +256,10 @@ namespace Debond
         if (dq > 0.)
           for (const auto &unknown : configuration.chuck_unknowns)
             for (const double sign : {-1., 1.})
-              varied[unknown.first].emplace_back(
-                old_frame, old_centre, configuration, unknown.first, sign * dq);
+              varied[unknown.first].emplace_back(Place{old_frame, old_centre},
+                                                 varied_place(configuration,
+                                                              unknown.first,
+                                                              sign * dq));
       }
 
       double
@@ -322,6 +281,22 @@ namespace Debond
       }
 
     private:
+      /** @p component of the chuck is moved a little further. */
+      static Place
+      varied_place(const InterfaceConfiguration &configuration,
+                   const unsigned int            component,
+                   const double                  dq)
+      {
+        Place place = Place::of_implant(configuration);
+        if (is_rotation(component))
+          place.frame =
+            Eigen::AngleAxisd(dq, configuration.chuck->axis(component)) *
+            place.frame;
+        else
+          place.centre[component] += dq;
+        return place;
+      }
+
       const RigidMotion                       rigid;
       const double                            dq;
       std::array<std::vector<RigidMotion>, 6> varied;

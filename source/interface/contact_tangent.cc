@@ -1,4 +1,5 @@
 #include <debond/interface/contact_interface.h>
+#include <debond/interface/local_motion.h>
 
 #include <tuple>
 
@@ -26,8 +27,7 @@ namespace Debond
     //
     // Two forms of the tangent follow. Both go through w, so that they share
     // the derivatives of the update, 3 x 19 and 2 x 19 numbers for a point.
-    using LocalVector = Matrix<double, ContactPointResult::n_w, 1>;
-
+    //
     // The factors of g_n: the old gap has the parts g^alpha along a_alpha at
     // xi_hat^n, and moves with them.
     double
@@ -37,40 +37,43 @@ namespace Debond
       const Eigen::Vector2d &gap = point.accepted.gap;
       return gap[0] * old.N_1[b] + gap[1] * old.N_2[b];
     }
+  } // namespace
 
 
 
-    // dw when the control points of both surfaces move. While a point sticks
-    // its xi_hat stays, and y_n has no part. Parameters are held fixed here:
-    // how xi_hat moves is in the derivatives dt/dw and dxi/dw already, by the
-    // implicit function theorem.
-    LocalVector
-    local_motion(const SlavePoint &point,
-                 const Side        slave,
-                 const NodalSums  &moved,
-                 const double      turn)
-    {
-      const NodalSums::value_type &master = moved[other(slave)];
-      SurfaceGeometry              motion;
-      // The same sums that give y and a_alpha from positions, Eqs. (23) and
-      // (33), give their changes from motions, since the basis does not depend
-      // on positions.
-      contract(point.trial.basis, master, false, motion);
-      LocalVector dw;
-      dw << interpolate(point.basis, moved[slave]), motion.y, motion.a1,
-        motion.a2, Vector3d::Zero(), Vector3d::Zero(), turn;
-      if (point.trial.state.status != PointStatus::slip)
-        return dw;
-      const SurfaceBasis &old = point.trial.old_basis;
-      dw.segment<3>(12)       = interpolate(old, master);
-      for (unsigned int b = 0; b < old.size; ++b)
-        dw.segment<3>(15) +=
-          along_old_gap(point, b) * master.col(old.control_point[b]);
+  // dw when the control points of both surfaces move. While a point sticks
+  // its xi_hat stays, and y_n has no part. Parameters are held fixed here:
+  // how xi_hat moves is in the derivatives dt/dw and dxi/dw already, by the
+  // implicit function theorem.
+  LocalVector
+  local_motion(const SlavePoint &point,
+               const Side        slave,
+               const NodalSums  &moved,
+               const double      turn)
+  {
+    const NodalSums::value_type &master = moved[other(slave)];
+    SurfaceGeometry              motion;
+    // The same sums that give y and a_alpha from positions, Eqs. (23) and
+    // (33), give their changes from motions, since the basis does not depend
+    // on positions.
+    contract(point.trial.basis, master, false, motion);
+    LocalVector dw;
+    dw << interpolate(point.basis, moved[slave]), motion.y, motion.a1,
+      motion.a2, Vector3d::Zero(), Vector3d::Zero(), turn;
+    if (point.trial.state.status != PointStatus::slip)
       return dw;
-    }
+    const SurfaceBasis &old = point.trial.old_basis;
+    dw.segment<3>(12)       = interpolate(old, master);
+    for (unsigned int b = 0; b < old.size; ++b)
+      dw.segment<3>(15) +=
+        along_old_gap(point, b) * master.col(old.control_point[b]);
+    return dw;
+  }
 
 
 
+  namespace
+  {
     // Forces on w; none acts at xi_hat^n, which the traction does not see.
     using LocalForce = Matrix<double, 12, 1>;
 
@@ -116,28 +119,31 @@ namespace Debond
       force << dt, -dt, -dxi[0] * t, -dxi[1] * t;
       return force;
     }
+  } // namespace
 
 
 
-    // The same at the control points at once, where both changes meet.
-    void
-    spread_change(const SlavePoint      &point,
-                  const Side             slave,
-                  const Vector3d        &dt,
-                  const Eigen::Vector2d &dxi,
-                  NodalSums             &sums)
-    {
-      const SurfaceBasis &basis  = point.trial.basis;
-      ControlNet         &master = sums[other(slave)];
-      const Vector3d      t      = point.JxW * point.trial.traction;
-      spread(point.basis, dt, sums[slave]);
-      for (unsigned int b = 0; b < basis.size; ++b)
-        master.col(basis.control_point[b]) -=
-          basis.N[b] * dt + (basis.N_1[b] * dxi[0] + basis.N_2[b] * dxi[1]) * t;
-    }
+  // The same at the control points at once, where both changes meet.
+  void
+  spread_change(const SlavePoint      &point,
+                const Side             slave,
+                const Vector3d        &dt,
+                const Eigen::Vector2d &dxi,
+                NodalSums             &sums)
+  {
+    const SurfaceBasis &basis  = point.trial.basis;
+    ControlNet         &master = sums[other(slave)];
+    const Vector3d      t      = point.JxW * point.trial.traction;
+    spread(point.basis, dt, sums[slave]);
+    for (unsigned int b = 0; b < basis.size; ++b)
+      master.col(basis.control_point[b]) -=
+        basis.N[b] * dt + (basis.N_1[b] * dxi[0] + basis.N_2[b] * dxi[1]) * t;
+  }
 
 
 
+  namespace
+  {
     // How the unknowns of the coupled system move w: a column dw for each that
     // does, control points of both surfaces in the frames of their bodies, and
     // components of the chuck.

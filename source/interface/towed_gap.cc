@@ -156,6 +156,10 @@ namespace Debond
             if (moved < 1e-12)
               break;
           }
+        // It was longer from the beginning on, as viscosity makes it: there is
+        // no root whose place could change.
+        if (fraction < 2e-12)
+          excess(0.);
       }
     };
 
@@ -327,5 +331,6 @@ namespace Debond
     derivative << -tau.imag() * d_tau, tau.real() * d_tau,
       turning.growth * d_mean + mean_length * at_end.row(1) + start.d_length;
     derivative(2, 5) -= 1.;
+    held_fraction = beginning.fraction;
   }
 } // namespace Debond

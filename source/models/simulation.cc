@@ -68,6 +68,7 @@ namespace Debond
                          std::shared_ptr<BodyPair> bodies,
                          dealii::TimerOutput      *timer)
     : scene(scene)
+    , timer(timer)
     // bodies that a study has condensed already are taken over, not built again
     , coupled_system(build(this->scene, std::move(bodies), timer))
     , solver(this->scene, coupled_system)
@@ -80,6 +81,17 @@ namespace Debond
     // yet; a simulation can be loaded from a checkpoint from here on.
     coupled_system.start(solver.time());
     all_warnings = warnings_of(scene, coupled_system.interface);
+  }
+
+
+
+  void
+  Simulation::differentiate(std::vector<SceneVariation> variations)
+  {
+    Assert(all_rows.empty(), dealii::ExcMessage("There are rows already."));
+    if (!variations.empty())
+      sensitivities =
+        std::make_unique<Sensitivities>(scene, coupled_system, variations);
   }
 
 
@@ -380,6 +392,12 @@ namespace Debond
         if (scene.has_friction() && scene.has_friction_after(from))
           state_checks.add_motion(row, coupled_system.chuck, from, to);
       }
+    // with the history that the step began with, and the tangent of its end
+    if (sensitivities)
+      {
+        const TimedSection t(timer, "sensitivities");
+        sensitivities->advance();
+      }
     solver.commit();
     accepted_rates = rates;
     // Energies, jumps, penetration: a check that is not passed does not end the
@@ -466,6 +484,8 @@ namespace Debond
       }
     if (row.step > 0 && scene.load_steps.adaptive)
       set_rates(row);
+    if (sensitivities)
+      all_derivatives.push_back(sensitivities->of_row());
     all_rows.push_back(row);
   }
 

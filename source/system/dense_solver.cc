@@ -155,4 +155,84 @@ namespace Debond
     is_factorised = true;
     return lu.solve(b);
   }
+
+
+
+  // One right-hand side after the other by the method of generalised conjugate
+  // residuals, which minimises |b - A x| over all directions z so far. Their
+  // images q = A z are kept orthonormal, and are of use to all right-hand sides
+  // that follow: these begin with what the directions of the others do for
+  // them, and as C B^-1 is compact little is left. False if it takes too many.
+  bool
+  DenseSolver::iterate_all(const SplitMatrix     &A,
+                           const Eigen::MatrixXd &B,
+                           const double           relative_tolerance,
+                           Eigen::MatrixXd       &X) const
+  {
+    const unsigned int n = B.rows();
+    const unsigned int max_directions =
+      !A.can_be_assembled() ?
+        n :
+        std::min<unsigned int>(n, affordable_iterations(n) * (1 + B.cols()));
+    Eigen::MatrixXd Q(n, max_directions), Z(n, max_directions);
+    unsigned int    n_directions = 0;
+    X.setZero(n, B.cols());
+    for (unsigned int j = 0; j < B.cols(); ++j)
+      {
+        Eigen::VectorXd       r         = B.col(j);
+        const double          tolerance = relative_tolerance * r.norm();
+        const Eigen::VectorXd known = Q.leftCols(n_directions).transpose() * r;
+        r -= Q.leftCols(n_directions) * known;
+        X.col(j) = Z.leftCols(n_directions) * known;
+        while (r.norm() > tolerance)
+          {
+            if (n_directions == max_directions)
+              return false;
+            Eigen::VectorXd z = is_factorised ? lu.solve(r).eval() :
+                                                A.solve_bulk(r),
+                            q = is_factorised ?
+                                  A.product(z) :
+                                  Eigen::VectorXd(r + A.interface_product(z));
+            for (unsigned int i = 0; i < n_directions; ++i)
+              {
+                const double part = Q.col(i).dot(q);
+                q -= part * Q.col(i);
+                z -= part * Z.col(i);
+              }
+            const double length = q.norm();
+            if (!(length > 0.))
+              return false;
+            Q.col(n_directions) = q / length;
+            Z.col(n_directions) = z / length;
+            const double part   = Q.col(n_directions).dot(r);
+            r -= part * Q.col(n_directions);
+            X.col(j) += part * Z.col(n_directions);
+            ++n_directions;
+          }
+      }
+    return true;
+  }
+
+
+
+  // Factors of this matrix, where it takes them, are not kept: with other ones
+  // than without derivatives Newton's method would go other ways in the last
+  // digits.
+  Eigen::MatrixXd
+  DenseSolver::solve_all(const SplitMatrix     &A,
+                         const Eigen::MatrixXd &B,
+                         const double           relative_tolerance) const
+  {
+    Eigen::MatrixXd X = Eigen::MatrixXd::Zero(B.rows(), B.cols());
+    const bool      can_iterate =
+      is_factorised ? lu.rows() == B.rows() : A.bulk_is_regular();
+    if (B.rows() == 0 ||
+        (can_iterate && iterate_all(A, B, relative_tolerance, X)))
+      return X;
+    if (!A.can_be_assembled())
+      return X.setConstant(std::nan(""));
+    Eigen::MatrixXd matrix_now;
+    A.assemble(matrix_now);
+    return matrix_now.partialPivLu().solve(B);
+  }
 } // namespace Debond

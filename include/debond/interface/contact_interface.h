@@ -271,6 +271,8 @@ namespace Debond
     }
 
   private:
+    friend class InterfaceSensitivity; // reads history and geometry
+
     Side
     master_side() const
     {
@@ -280,6 +282,11 @@ namespace Debond
     master(const InterfaceConfiguration &configuration) const;
     void
     assign_bonding();
+    BondingPattern
+    bonding_pattern(const InterfaceParameters &of) const;
+    /** phi_0 of all points. */
+    std::vector<double>
+    initial_bonding(const BondingPattern &pattern) const;
     void
     project_accepted(SlavePoint                   &point,
                      const InterfaceConfiguration &configuration,

@@ -62,6 +62,17 @@ namespace Debond
                        const ContactPointMode  &mode,
                        ContactPointResult      &result);
 
+  /** Derivatives of a closed point by its data, in the state @p result that
+   *  update_contact_point() has made of the same arguments. */
+  PointData
+  differentiate_by_data(const ContactPointLaw    &law,
+                        const ContactPointState  &start,
+                        double                    phi_0,
+                        const Eigen::Vector3d    &x,
+                        const MasterSurface      &master,
+                        const ContactPointMode   &mode,
+                        const ContactPointResult &result);
+
 
 
   /** A quadrature point of the slave surface: where it lies, its history, and

@@ -109,6 +109,9 @@ namespace Debond
     /** With respect to w, see ContactPointResult: for the whole system. */
     Derivative<ContactPointResult::n_w>
     along_w() const;
+    /** With respect to the data of the step, for derivatives by parameters. */
+    Derivative<PointData::n_columns>
+    along_data() const;
     /** With respect to the two parameters of the surface: for this point. */
     Derivative<2>
     along_surface() const;
@@ -164,6 +167,11 @@ namespace Debond
     /** What traction and distance change with. */
     void
     find_changes();
+
+    /** Tangential traction and distance by what TowedGap says of tau and the
+     *  distance. */
+    Eigen::Matrix<double, 4, 3>
+    by_towed() const;
 
     // Of the two gaps below the first is what the springs of the interface are
     // stretched by, Eq. (26), the second what they would be stretched by
@@ -240,6 +248,11 @@ namespace Debond
      */
     void
     report(ContactPointResult &result) const;
+
+    /** The same for derivatives by the data, at an @p xi that solves the
+     *  equations. */
+    void
+    differentiate(const Eigen::Vector2d &xi, PointData &by);
 
     /** Where the last iteration ended. */
     const SlipEquations &

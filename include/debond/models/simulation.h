@@ -1,6 +1,7 @@
 #ifndef debond_models_simulation_h
 #define debond_models_simulation_h
 
+#include <debond/models/sensitivities.h>
 #include <debond/models/state_checks.h>
 #include <debond/output/torque_curve.h>
 #include <debond/scene/scene.h>
@@ -60,6 +61,12 @@ namespace Debond
     };
     Signals signals;
 
+    /** Has the rows differentiated by the parameters of @p variations, to be
+     *  called before the first row. They change nothing else. Throws InputError
+     *  for what why_not_differentiable() refuses. */
+    void
+    differentiate(std::vector<SceneVariation> variations);
+
     /** Solves for all rows that are left. Throws RunError where the load cannot
      *  be followed; the rows before stay. Throws InputError if an expression of
      *  the scene has no finite value. */
@@ -80,6 +87,14 @@ namespace Debond
     rows() const
     {
       return all_rows;
+    }
+    using RowDerivatives = Debond::RowDerivatives;
+    /** As many as rows() if there is something to differentiate by, else none.
+     */
+    const std::vector<RowDerivatives> &
+    row_derivatives() const
+    {
+      return all_derivatives;
     }
     /** Bodies, chuck and interface in the last accepted state. */
     const CoupledSystem &
@@ -132,6 +147,8 @@ namespace Debond
       archive &so_far.steps &so_far.newton_iterations &so_far.smallest_step;
       archive                                         &accepted_rates;
       std::visit([&archive](auto &chosen) { archive &chosen; }, steps);
+      if (sensitivities) // as the scene says
+        archive &*sensitivities &all_derivatives;
     }
 
     const Scene scene;
@@ -165,6 +182,7 @@ namespace Debond
     void
     warn(const Warning &warning);
 
+    dealii::TimerOutput *const timer;
     // In this order, because each refers to those before.
     CoupledSystem          coupled_system;
     StepSolver             solver;
@@ -177,6 +195,8 @@ namespace Debond
     double                 reaction_defect = 0; ///< of the last accepted state
     CoupledSystem::Rates   rates; ///< of the last step that was solved
     CoupledSystem::Rates   accepted_rates;
+    std::unique_ptr<Sensitivities> sensitivities; ///< if there are any
+    std::vector<RowDerivatives>    all_derivatives;
   };
 } // namespace Debond
 #endif

@@ -146,6 +146,15 @@ namespace Debond
      *  for to @p relative_tolerance. */
     Correction
     solve(const Residual &residual, double relative_tolerance);
+    /** Solves with the tangent of the last evaluate() for each column of
+     *  @p right, to |b - A x| <= @p relative_tolerance |b|. Changes nothing:
+     * what follows is the same to the last digit. */
+    Eigen::MatrixXd
+    solve_all(const Eigen::MatrixXd &right,
+              const double           relative_tolerance) const
+    {
+      return solver.solve_all(matrix, right, relative_tolerance);
+    }
     /** Adds @p fraction of a correction to the trial state. */
     void
     correct(const Correction &correction, double fraction = 1.);

@@ -87,6 +87,11 @@ namespace Debond
     void
     assemble(Eigen::MatrixXd &matrix) const override;
 
+    /** Adds the product of @p x with the part that comes from the rotation of
+     *  the implant's frame and of lever arms, and from the machine. */
+    void
+    add_geometric_part(const Eigen::VectorXd &x, Eigen::VectorXd &y) const;
+
   private:
     /** Calls work(bulk, first, n) for the n unknowns of each body that deforms,
      *  of which the first has the number @p first. */
@@ -104,8 +109,6 @@ namespace Debond
     }
     unsigned int
     size() const;
-    void
-    add_geometric_part(const Eigen::VectorXd &x, Eigen::VectorXd &y) const;
 
     const std::array<Body *, 2>   bodies;
     const ContactInterface       &interface;

@@ -56,13 +56,19 @@ namespace Debond
           const Eigen::VectorXd &b,
           double                 relative_tolerance);
 
+    /** The same for each column of @p B, with what there is to precondition
+     *  with. Later solutions do not know of it. */
+    Eigen::MatrixXd
+    solve_all(const SplitMatrix     &A,
+              const Eigen::MatrixXd &B,
+              double                 relative_tolerance) const;
+
     /** Matrices to come have nothing to do with those before. */
     void
     forget()
     {
       is_factorised = false;
     }
-
 
     /** See serialization.h. */
     template <class Archive>
@@ -79,6 +85,11 @@ namespace Debond
     }
 
   private:
+    bool
+    iterate_all(const SplitMatrix     &A,
+                const Eigen::MatrixXd &B,
+                double                 relative_tolerance,
+                Eigen::MatrixXd       &X) const;
     bool
     iterate(const SplitMatrix     &A,
             const Eigen::VectorXd &b,

@@ -1,0 +1,69 @@
+#ifndef debond_interface_rigid_motion_h
+#define debond_interface_rigid_motion_h
+
+#include <debond/interface/interface_configuration.h>
+
+namespace Debond
+{
+  /** Where the implant is: Q, and the centre of its chuck [mm]. */
+  struct Place
+  {
+    Eigen::Matrix3d frame  = Eigen::Matrix3d::Identity();
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+
+    static Place
+    of_implant(const InterfaceConfiguration &configuration);
+  };
+
+  /** A small motion of a place, in space. */
+  struct PlaceChange
+  {
+    Eigen::Vector3d shift = Eigen::Vector3d::Zero(); ///< of the centre [mm]
+    Eigen::Vector3d spin  = Eigen::Vector3d::Zero(); ///< of the frame [rad]
+  };
+
+
+
+  /** How the implant moves in a step, as a rigid body whose centre goes
+   *  straight while it turns evenly. */
+  struct RigidMotion
+  {
+    RigidMotion(const Place &old_place, const Place &place);
+
+    /** The angle by which it turns the way of a point of the slave that was at
+     *  @p x over the master, about the master's axis towards the slave at the
+     *  end [rad]. */
+    double
+    turn_of_way(const Eigen::Vector3d &x, Side slave) const;
+
+    /** How that angle changes if the point and both places move a little. */
+    double
+    change_of_turn(const Eigen::Vector3d &x,
+                   const Eigen::Vector3d &dx,
+                   Side                   slave,
+                   const PlaceChange     &old_change,
+                   const PlaceChange     &change) const;
+
+    Eigen::Matrix3d turn;               ///< from beginning to end
+    Eigen::Vector3d axis;               ///< of the turn, times its angle [rad]
+    Eigen::Vector3d old_centre, centre; ///< [mm]
+    Eigen::Vector3d implant_axis;       ///< e_z of its frame at the end
+
+  private:
+    /** Velocities over the master at both ends of the step, times its duration
+     *  [mm], and the master's axis; and how all of them change. */
+    struct Way
+    {
+      Eigen::Vector3d n, first, last;
+    };
+    Way
+    way(const Eigen::Vector3d &x, Side slave) const;
+    Way
+    change_of_way(const Eigen::Vector3d &x,
+                  const Eigen::Vector3d &dx,
+                  Side                   slave,
+                  const PlaceChange     &old_change,
+                  const PlaceChange     &change) const;
+  };
+} // namespace Debond
+#endif

@@ -1,0 +1,257 @@
+#include <debond/models/sensitivities.h>
+#include <debond/support/input_error.h>
+
+#include <Eigen/Geometry>
+
+// The coupled system, differentiated. An accepted state solves the equations of
+// CoupledSystem::evaluate(); with a parameter p they change in the forces of
+// the interface (InterfaceSensitivity), in the stiffness of linear bodies,
+// which goes with E, in what the chuck is prescribed or loaded with, and in the
+// history that the step began with.
+namespace Debond
+{
+  namespace
+  {
+    std::vector<InterfaceVariation>
+    variations_of_interface(const Scene                       &scene,
+                            const std::vector<SceneVariation> &variations)
+    {
+      std::vector<InterfaceVariation> result;
+      for (const SceneVariation &variation : variations)
+        {
+          const std::string why = why_not_differentiable(scene, variation);
+          if (!why.empty())
+            throw InputError("no derivative by " + variation.name + ": " + why);
+          result.push_back({variation.plus.interface,
+                            variation.minus.interface,
+                            variation.width});
+        }
+      return result;
+    }
+
+
+
+    /** The configuration with all six components of the chuck as unknowns, the
+     *  last ones. */
+    InterfaceConfiguration
+    with_whole_chuck(const CoupledSystem &system)
+    {
+      InterfaceConfiguration moving = system.configuration;
+      const unsigned int     n_v =
+        system.n_unknowns() - moving.chuck_unknowns.size();
+      moving.chuck_unknowns.clear();
+      for (unsigned int k = 0; k < 6; ++k)
+        moving.chuck_unknowns.emplace_back(k, n_v + k);
+      return moving;
+    }
+  } // namespace
+
+
+
+  // At the first time the bodies are placed undeformed where the scene has the
+  // chuck; what is loaded starts from zero.
+  Sensitivities::Sensitivities(const Scene                       &scene,
+                               const CoupledSystem               &system,
+                               const std::vector<SceneVariation> &variations)
+    : system(system)
+    , parameters(make_parameters(scene, system, variations))
+    , interface(system.interface,
+                variations_of_interface(scene, variations),
+                motions(given_motions(scene.load_steps.times.front(),
+                                      [&scene](const unsigned int k) {
+                                        return !scene.chuck.component[k].loaded;
+                                      })))
+  {}
+
+
+
+  std::vector<Sensitivities::Parameter>
+  Sensitivities::make_parameters(const Scene                       &scene,
+                                 const CoupledSystem               &system,
+                                 const std::vector<SceneVariation> &variations)
+  {
+    std::vector<Parameter> result;
+    for (const SceneVariation &variation : variations)
+      {
+        const auto chuck_of = [&](const Scene &varied) {
+          return Chuck(varied.chuck, system.chuck.reference_centre(), system.R);
+        };
+        Parameter                          parameter{variation.width,
+                            {{chuck_of(variation.plus),
+                                                       chuck_of(variation.minus)}},
+                            {},
+                            {}};
+        const std::array<const Scene *, 2> scenes{
+          {&variation.plus, &variation.minus}};
+        for (unsigned int i = 0; i < 2; ++i)
+          for (unsigned int k = 0; k < 6; ++k)
+            parameter.stiffness[i][k] = scenes[i]->chuck.component[k].stiffness;
+        const auto stiffening = [&](const BodyParameters Scene::*body) {
+          return ((variation.plus.*body).young_modulus -
+                  (variation.minus.*body).young_modulus) /
+                 (variation.width * (scene.*body).young_modulus);
+        };
+        parameter.stiffening[Side::bone]    = stiffening(&Scene::bone);
+        parameter.stiffening[Side::implant] = stiffening(&Scene::implant);
+        result.push_back(std::move(parameter));
+      }
+    return result;
+  }
+
+
+
+  // A column for each parameter: the unknowns of with_whole_chuck(), of which
+  // those components of the chuck move that follow what the scene says.
+  template <typename Follows>
+  Eigen::MatrixXd
+  Sensitivities::given_motions(const double time, const Follows &follows) const
+  {
+    const unsigned int n_v =
+      system.n_unknowns() - system.configuration.chuck_unknowns.size();
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n_v + 6, parameters.size());
+    for (unsigned int j = 0; j < parameters.size(); ++j)
+      {
+        const Chuck::Vector6 change = (parameters[j].chuck[0].values(time) -
+                                       parameters[j].chuck[1].values(time)) /
+                                      parameters[j].width;
+        for (unsigned int k = 0; k < 6; ++k)
+          if (follows(k))
+            result(n_v + k, j) = change[k];
+      }
+    return result;
+  }
+
+
+
+  std::vector<InterfaceMotion>
+  Sensitivities::motions(const Eigen::MatrixXd &unknowns) const
+  {
+    const InterfaceConfiguration moving = with_whole_chuck(system);
+    std::vector<InterfaceMotion> result(unknowns.cols());
+    for (unsigned int j = 0; j < unknowns.cols(); ++j)
+      {
+        const Chuck::Vector6 q  = unknowns.col(j).tail<6>();
+        result[j].surfaces      = nodal_motion(unknowns.col(j), moving);
+        result[j].implant.shift = q.head<3>();
+        for (unsigned int k = 3; k < 6; ++k)
+          result[j].implant.spin += q[k] * system.chuck.axis(k);
+      }
+    return result;
+  }
+
+
+
+  // dr/dp at rest but for what is given. @p forces: what that, the history and
+  // the law do to the interface. K goes with E, and S v_c is in equilibrium
+  // with the forces of the contact. The load of the machine is k (value - q),
+  // or the value itself.
+  Eigen::MatrixXd
+  Sensitivities::right_hand_sides(const std::vector<NodalSums> &forces,
+                                  const Eigen::MatrixXd        &given) const
+  {
+    const auto                  &unknown = system.configuration.chuck_unknowns;
+    const InterfaceConfiguration moving  = with_whole_chuck(system);
+    InterfaceConfiguration       bodies  = system.configuration;
+    bodies.chuck_unknowns.clear();
+    const PathEquation   no_path;
+    const CoupledTangent tangent(system.body,
+                                 system.interface,
+                                 moving,
+                                 no_path);
+    const unsigned int   n_v = system.n_unknowns() - unknown.size();
+    Eigen::MatrixXd      result(system.n_unknowns(), parameters.size());
+    for (unsigned int j = 0; j < parameters.size(); ++j)
+      {
+        const Parameter &parameter = parameters[j];
+        Eigen::VectorXd  change    = Eigen::VectorXd::Zero(n_v + 6);
+        NodalSums        internal;
+        for (const Side side : both_sides)
+          internal[side] =
+            -parameter.stiffening[side] * system.interface.force(side);
+        add_in_unknowns(forces[j], moving, 1., change);
+        add_in_unknowns(internal, bodies, 1., change);
+        tangent.add_geometric_part(given.col(j), change);
+        result.col(j).head(n_v) = change.head(n_v);
+        for (const auto &[k, number] : unknown)
+          {
+            const auto load = [&, k = k](const unsigned int i) {
+              const double value  = parameter.chuck[i].values(system.time())[k],
+                           spring = parameter.stiffness[i][k];
+              return spring > 0. ?
+                       spring * (value - system.chuck.position()[k]) :
+                       value;
+            };
+            result(number, j) =
+              change[n_v + k] - (load(0) - load(1)) / parameter.width;
+          }
+      }
+    return result;
+  }
+
+
+
+  // Linear systems are solved to what is left of the accuracy of the states,
+  // which errors in the history add up to.
+  void
+  Sensitivities::advance()
+  {
+    constexpr double   tolerance = 1e-9;
+    const auto        &unknown   = system.configuration.chuck_unknowns;
+    const unsigned int n_v       = system.n_unknowns() - unknown.size();
+    Eigen::MatrixXd    moved =
+      given_motions(system.time(), [this](const unsigned int k) {
+        return system.chuck.is_prescribed(k);
+      });
+    const Eigen::MatrixXd response =
+      -system.solve_all(right_hand_sides(interface.forces(system.configuration,
+                                                          motions(moved)),
+                                         moved),
+                        tolerance);
+    moved.topRows(n_v) = response.topRows(n_v);
+    for (const auto &[k, number] : unknown)
+      moved.row(n_v + k) = response.row(number);
+    const auto all_motions = motions(moved);
+    set_row(all_motions,
+            interface.advance(system.configuration, all_motions),
+            moved.bottomRows<6>());
+  }
+
+
+
+  // Sums over the forces f_A on the implant, with lever arms r_A from C + u:
+  // sum df_A and sum (dr_A x f_A + r_A x df_A). The torque is b . M about the
+  // implant's own axis b.
+  void
+  Sensitivities::set_row(const std::vector<InterfaceMotion> &motions,
+                         const std::vector<NodalSums>       &forces,
+                         const Eigen::MatrixXd              &positions)
+  {
+    using Eigen::Vector3d;
+    constexpr auto    spin  = ChuckComponent::rotation_z;
+    const Chuck      &chuck = system.chuck;
+    const ControlNet &f     = system.interface.force(Side::implant);
+    const ControlNet  arm =
+      system.configuration.side[Side::implant].positions.colwise() -
+      chuck.centre();
+    const Vector3d moment = system.chuck_resultant().tail<3>();
+    row.reaction.setZero(6, parameters.size());
+    row.torque.resize(parameters.size());
+    row.position = positions;
+    row.position.bottomRows<3>() *= 180. / M_PI;
+    for (unsigned int j = 0; j < parameters.size(); ++j)
+      {
+        const InterfaceMotion &motion = motions[j];
+        for (unsigned int A = 0; A < f.cols(); ++A)
+          {
+            const Vector3d df = forces[j][Side::implant].col(A),
+                           dr = motion.surfaces[Side::implant].col(A) -
+                                motion.implant.shift;
+            row.reaction.col(j).head<3>() += df;
+            row.reaction.col(j).tail<3>() +=
+              dr.cross(f.col(A)) + arm.col(A).cross(df);
+          }
+        row.torque[j] = chuck.axis(spin).dot(row.reaction.col(j).tail<3>()) +
+                        chuck.axis_rate(spin, positions.col(j)).dot(moment);
+      }
+  }
+} // namespace Debond

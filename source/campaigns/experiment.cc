@@ -228,6 +228,10 @@ namespace Debond
         changes_bodies.push_back(bulk);
         changes_stiffness.push_back(bulk || penalty);
       }
+    for (Eigen::Index j = 0; j < starts.size(); ++j)
+      if (why_differences.empty() && changes_model[j])
+        why_differences =
+          why_not_differentiable(varying.with(before), variation(starts, j));
     Scene as_foundation = scene;
     as_foundation.model = ModelKind::foundation;
     why_no_closed_form  = Debond::why_no_closed_form(as_foundation);
@@ -359,16 +363,33 @@ namespace Debond
 
 
 
-  Experiment::Variation
-  Experiment::variation(const Eigen::VectorXd &values, const unsigned int j)
+  std::array<Eigen::VectorXd, 2>
+  Experiment::moved(const Eigen::VectorXd &values,
+                    const unsigned int     j,
+                    const double           part) const
   {
     const Unknown &u = unknowns.list[j];
     const double   h =
-      1e-5 * std::max(std::abs(values[j]), 1e-2 * (u.upper - u.lower));
-    Eigen::VectorXd plus = values, minus = values;
-    plus[j]  = std::min(values[j] + h, u.upper);
-    minus[j] = std::max(values[j] - h, u.lower);
-    return {scene_at(plus), scene_at(minus), plus[j] - minus[j]};
+      part * std::max(std::abs(values[j]), 1e-2 * (u.upper - u.lower));
+    std::array<Eigen::VectorXd, 2> ends{{values, values}};
+    ends[0][j] = std::max(values[j] - h, u.lower);
+    ends[1][j] = std::min(values[j] + h, u.upper);
+    return ends;
+  }
+
+
+
+  // The rig is no part of the model.
+  SceneVariation
+  Experiment::variation(const Eigen::VectorXd &values, const unsigned int j)
+  {
+    const auto     ends = moved(values, j, 1e-5);
+    SceneVariation result{unknowns.list[j].name,
+                          scene_at(ends[1]),
+                          scene_at(ends[0]),
+                          ends[1][j] - ends[0][j]};
+    result.plus.calibration = result.minus.calibration = scene.calibration;
+    return result;
   }
 
 
@@ -382,6 +403,18 @@ namespace Debond
       return {c.angle_offset, c.slack, c.machine_compliance, c.torque_offset};
     }
   } // namespace
+
+
+
+  Eigen::Vector4d
+  Experiment::rig_derivative(const Eigen::VectorXd &values,
+                             const unsigned int     j)
+  {
+    const auto            ends   = moved(values, j, 1e-5);
+    const Eigen::Vector4d before = rig_of(scene_at(ends[0]).calibration),
+                          after  = rig_of(scene_at(ends[1]).calibration);
+    return (after - before) / (ends[1][j] - ends[0][j]);
+  }
 
 
 
@@ -506,30 +539,98 @@ namespace Debond
   {
     if (model == By::closed_form)
       return predict_by_disk(values, with_derivatives);
-    if (with_derivatives)
+    if (with_derivatives && !why_differences.empty())
       return predict_by_differences(values);
-    const Scene now = scene_at(values);
-    return at_measured_rows(run(now), {}, now.calibration, {});
+    if (scene.model == ModelKind::finite_elements)
+      return predict_by_run(values, with_derivatives);
+    const Scene &now = scene_at(values);
+    return at_measured_rows(ClosedFormSolution(now).rows,
+                            {},
+                            now.calibration,
+                            {});
   }
 
 
 
-  std::vector<TorqueRow>
-  Experiment::run(const Scene &now)
+  namespace
   {
-    if (now.model != ModelKind::finite_elements)
-      return ClosedFormSolution(now).rows;
-    const bool keep = std::none_of(changes_bodies.begin(),
+    /** Derivatives of @p rows, which lie on the curve between rows of a run,
+     *  linear between these. */
+    std::vector<Eigen::Matrix<double, 12, -1>>
+    on_fine_curve(const std::vector<TorqueRow>                     &rows,
+                  const std::vector<TorqueRow>                     &of_run,
+                  const std::vector<Eigen::Matrix<double, 12, -1>> &derivatives)
+    {
+      std::vector<Eigen::Matrix<double, 12, -1>> result;
+      std::size_t                                end = 0;
+      for (const TorqueRow &row : rows)
+        {
+          while (end + 1 < of_run.size() && of_run[end].time < row.time)
+            ++end;
+          const std::size_t begin = end > 0 ? end - 1 : 0;
+          const double      width = of_run[end].time - of_run[begin].time;
+          const double      share =
+            width > 0. ? (row.time - of_run[begin].time) / width : 1.;
+          result.push_back((1. - share) * derivatives[begin] +
+                           share * derivatives[end]);
+        }
+      return result;
+    }
+  } // namespace
+
+
+
+  PredictedCurves
+  Experiment::predict_by_run(const Eigen::VectorXd &values,
+                             const bool             with_derivatives)
+  {
+    const bool  keep = std::none_of(changes_bodies.begin(),
                                    changes_bodies.end(),
                                    [](const bool changes) { return changes; });
+    const Scene now  = scene_at(values);
     if (bodies)
       bodies->return_to_rest();
     Simulation simulation(now, keep ? bodies : nullptr);
     if (keep)
       bodies = simulation.system().bodies();
+
+    std::vector<SceneVariation> variations;
+    std::vector<unsigned int>   varied;
+    Eigen::MatrixXd             rig = Eigen::MatrixXd::Zero(4, values.size());
+    if (with_derivatives)
+      for (Eigen::Index j = 0; j < values.size(); ++j)
+        if (changes_model[j])
+          {
+            variations.push_back(variation(values, j));
+            varied.push_back(j);
+          }
+        else
+          rig.col(j) = rig_derivative(values, j);
+    simulation.differentiate(variations);
     simulation.run();
-    return now.load_steps.adaptive ? fine_curve(simulation.rows()) :
-                                     simulation.rows();
+
+    std::vector<Eigen::Matrix<double, 12, -1>> derivatives;
+    if (with_derivatives)
+      for (std::size_t i = 0; i < simulation.rows().size(); ++i)
+        {
+          derivatives.emplace_back(
+            Eigen::Matrix<double, 12, -1>::Zero(12, values.size()));
+          for (std::size_t v = 0; v < varied.size(); ++v)
+            {
+              const auto &row = simulation.row_derivatives()[i];
+              derivatives[i].col(varied[v]) << row.reaction.col(v),
+                row.position.col(v);
+            }
+        }
+    if (!now.load_steps.adaptive)
+      return at_measured_rows(simulation.rows(),
+                              derivatives,
+                              now.calibration,
+                              rig);
+    const auto fine = fine_curve(simulation.rows());
+    if (with_derivatives)
+      derivatives = on_fine_curve(fine, simulation.rows(), derivatives);
+    return at_measured_rows(fine, derivatives, now.calibration, rig);
   }
 
 
@@ -541,15 +642,11 @@ namespace Debond
     result.derivatives.resize(result.values.size(), values.size());
     for (Eigen::Index j = 0; j < values.size(); ++j)
       {
-        const Unknown &u = unknowns.list[j];
-        const double   h =
-          1e-3 * std::max(std::abs(values[j]), 1e-2 * (u.upper - u.lower));
-        Eigen::VectorXd plus = values, minus = values;
-        plus[j]                   = std::min(values[j] + h, u.upper);
-        minus[j]                  = std::max(values[j] - h, u.lower);
-        result.derivatives.col(j) = (predict(plus, By::scene, false).values -
-                                     predict(minus, By::scene, false).values) /
-                                    (plus[j] - minus[j]);
+        const auto ends = moved(values, j, 1e-3);
+        result.derivatives.col(j) =
+          (predict(ends[1], By::scene, false).values -
+           predict(ends[0], By::scene, false).values) /
+          (ends[1][j] - ends[0][j]);
       }
     return result;
   }
@@ -649,23 +746,13 @@ namespace Debond
         rig_derivatives.resize(4, values.size());
         for (Eigen::Index j = 0; j < values.size(); ++j)
           {
-            const Unknown &u = unknowns.list[j];
-            const double   h =
-              1e-5 * std::max(std::abs(values[j]), 1e-2 * (u.upper - u.lower));
-            std::array<TorsionModel::Disk, 2> ends;
-            std::array<Eigen::Vector4d, 2>    rigs;
-            std::array<double, 2>             places;
-            for (const unsigned int end : {0u, 1u})
-              {
-                Eigen::VectorXd other = values;
-                other[j] =
-                  std::clamp(values[j] + (end == 0 ? -h : h), u.lower, u.upper);
-                places[end]        = other[j];
-                const Scene &moved = scene_at(other);
-                rigs[end]          = rig_of(moved.calibration);
-                ends[end] = changes_model[j] ? disk_of(moved, other) : disk;
-              }
-            const double  width = places[1] - places[0];
+            rig_derivatives.col(j) = rig_derivative(values, j);
+            std::array<TorsionModel::Disk, 2> ends{{disk, disk}};
+            const auto                        places = moved(values, j, 1e-5);
+            if (changes_model[j])
+              for (const unsigned int end : {0u, 1u})
+                ends[end] = disk_of(scene_at(places[end]), places[end]);
+            const double  width = places[1][j] - places[0][j];
             DiskVariation by;
             by.pressure  = (ends[1].pressure - ends[0].pressure) / width;
             by.stiffness = (ends[1].stiffness - ends[0].stiffness) / width;
@@ -680,7 +767,6 @@ namespace Debond
                 by.width = width;
               }
             variations.push_back(by);
-            rig_derivatives.col(j) = (rigs[1] - rigs[0]) / width;
           }
       }
 

@@ -5,6 +5,7 @@
 #include <debond/models/foundation.h>
 #include <debond/models/torsion_curve.h>
 #include <debond/output/torque_curve.h>
+#include <debond/scene/scene_variation.h>
 #include <debond/scene/varying_scene.h>
 
 #include <Eigen/Core>
@@ -101,20 +102,19 @@ namespace Debond
     Measurement              measured;
 
   private:
-    /** Changes of what is predicted by those of the unknowns. */
-    struct Variation
-    {
-      Scene  plus, minus;
-      double width;
-    };
-
     void
     read_measurement();
     const Scene &
     scene_at(const Eigen::VectorXd &values);
-    /** The unknown @p j moved by a small part of itself, within its bounds. */
-    Variation
+    /** The unknown @p j moved by a @p part of itself to both sides, but not
+     *  over its bounds. */
+    std::array<Eigen::VectorXd, 2>
+    moved(const Eigen::VectorXd &values, unsigned int j, double part) const;
+    SceneVariation
     variation(const Eigen::VectorXd &values, unsigned int j);
+    /** Of the numbers of the rig. */
+    Eigen::Vector4d
+    rig_derivative(const Eigen::VectorXd &values, unsigned int j);
     /** Rows of a curve that may turn back -> the measured rows. */
     PredictedCurves
     at_measured_rows(
@@ -126,8 +126,8 @@ namespace Debond
     predict_by_disk(const Eigen::VectorXd &values, bool with_derivatives);
     PredictedCurves
     predict_by_differences(const Eigen::VectorXd &values);
-    std::vector<TorqueRow>
-    run(const Scene &scene);
+    PredictedCurves
+    predict_by_run(const Eigen::VectorXd &values, bool with_derivatives);
 
     /** Stiffness of the foundation, for unknowns near those that it was
      *  computed for: what the bodies add to the compliance of the interface
@@ -157,7 +157,9 @@ namespace Debond
      *  stiffness bodies and interface have, the bodies. */
     std::vector<bool> changes_model, changes_law, changes_stiffness,
       changes_bodies;
-    bool                      has_elastic_bodies;
+    bool has_elastic_bodies;
+    /** Why runs of the scene are not differentiated, but compared; or empty. */
+    std::string               why_differences;
     Foundation                centre;
     std::shared_ptr<BodyPair> bodies, linear_bodies;
   };

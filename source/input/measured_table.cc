@@ -23,7 +23,7 @@ namespace Debond
     struct Unit
     {
       Quantity quantity;
-      double   factor; ///< to degrees or N mm
+      double   factor; ///< to what Quantity is read in
     };
 
     /** Units by their names without blanks and dots. */
@@ -45,7 +45,20 @@ namespace Debond
         {"mNm", {Quantity::moment, 1.}},
         {"Ncm", {Quantity::moment, 10.}},
         {"Nm", {Quantity::moment, 1e3}},
-        {"kNm", {Quantity::moment, 1e6}}};
+        {"kNm", {Quantity::moment, 1e6}},
+        {"mN", {Quantity::force, 1e-3}},
+        {"N", {Quantity::force, 1.}},
+        {"kN", {Quantity::force, 1e3}},
+        {"um", {Quantity::length, 1e-3}},
+        {"\u00b5m", {Quantity::length, 1e-3}},
+        {"\u03bcm", {Quantity::length, 1e-3}}, // Greek, on some keyboards
+        {"mm", {Quantity::length, 1.}},
+        {"cm", {Quantity::length, 10.}},
+        {"m", {Quantity::length, 1e3}},
+        {"ms", {Quantity::time, 1e-3}},
+        {"s", {Quantity::time, 1.}},
+        {"min", {Quantity::time, 60.}},
+        {"time", {Quantity::time, 1.}}}; // a name that is enough
       return known;
     }
 
@@ -54,8 +67,11 @@ namespace Debond
     const char *
     units_of(const Quantity quantity)
     {
-      return quantity == Quantity::angle ? "deg, rad or mrad" :
-                                           "N mm, mN m, N cm, N m or kN m";
+      return quantity == Quantity::angle  ? "deg, rad or mrad" :
+             quantity == Quantity::moment ? "N mm, mN m, N cm, N m or kN m" :
+             quantity == Quantity::force  ? "mN, N or kN" :
+             quantity == Quantity::length ? "um, mm, cm or m" :
+                                            "ms, s or min";
     }
 
 
@@ -65,9 +81,11 @@ namespace Debond
     {
       for (const char *const mark : {" ", ".", "*", "·", "-"})
         boost::erase_all(text, mark);
-      // angles may be shouted; of torques M and m differ
+      // angles and times may be shouted; else M and m differ
       auto found = units().find(boost::to_lower_copy(text));
-      if (found == units().end() || found->second.quantity != Quantity::angle)
+      if (found == units().end() ||
+          (found->second.quantity != Quantity::angle &&
+           found->second.quantity != Quantity::time))
         found = units().find(text);
       return found == units().end() ? nullptr : &found->second;
     }
@@ -349,11 +367,26 @@ namespace Debond
 
 
 
+    /** A choice of columns, for messages: "1 [deg], 2 [N m]". */
+    std::string
+    example_of(const std::vector<MeasuredColumn> &columns)
+    {
+      const char *const        unit[] = {"deg", "N m", "N", "mm", "s"};
+      std::vector<std::string> items;
+      for (const MeasuredColumn &column : columns)
+        items.push_back(std::to_string(items.size() + 1) + " [" +
+                        unit[static_cast<unsigned int>(column.quantity)] + "]");
+      return boost::join(items, ", ");
+    }
+
+
+
     /** The column called as in this program's tables, else the only one with a
-     *  unit of its quantity. */
+     *  unit of its quantity. @p example: of a choice. */
     FoundColumn
     recognised_column(const Table          &table,
                       const MeasuredColumn &column,
+                      const std::string    &example,
                       const std::string    &choice_entry,
                       const FileRefusal    &refuse)
     {
@@ -372,9 +405,9 @@ namespace Debond
                units_of(column.quantity) + ": " + table.described() +
                "; say which, as in " +
                (choice_entry.rfind("--", 0) == 0 ?
-                  choice_entry + " \"1 [deg], 2 [N m]\"" :
+                  choice_entry + " \"" + example + "\"" :
                   "'set " + choice_entry.substr(choice_entry.rfind('/') + 2) +
-                    " = 1 [deg], 2 [N m]'"));
+                    " = " + example + "'"));
       return found[0];
     }
   } // namespace
@@ -412,7 +445,8 @@ namespace Debond
     for (std::size_t i = 0; i < columns.size(); ++i)
       found.push_back(
         choice.empty() ?
-          recognised_column(table, columns[i], choice_entry, refuse) :
+          recognised_column(
+            table, columns[i], example_of(columns), choice_entry, refuse) :
           chosen_column(
             table, choice[i], columns[i].quantity, [&](const std::string &why) {
               throw EntryError(choice_entry,

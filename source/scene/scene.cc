@@ -28,6 +28,19 @@ namespace Debond
            << std::hex << crc.checksum() << "\n";
       return text.str();
     }
+
+
+
+    /** Of all files whose content makes the results. */
+    std::string
+    identities(const Scene &scene)
+    {
+      std::string text = identity_of(scene.interface.bonding.file) +
+                         identity_of(scene.interface.friction->file());
+      for (const ChuckComponentParameters &component : scene.chuck.component)
+        text += identity_of(component.file);
+      return text;
+    }
   } // namespace
 
 
@@ -57,15 +70,14 @@ namespace Debond
       {
         scene.interface.friction =
           create_friction_law(scene.interface.friction_choice);
+        scene.chuck.read_tables();
         scene.check();
       }
     catch (const InputError &error)
       {
         throw scene.with_place(error);
       }
-    scene.completed_parameters = table.text() +
-                                 identity_of(scene.interface.bonding.file) +
-                                 identity_of(scene.interface.friction->file());
+    scene.completed_parameters = table.text() + identities(scene);
     return scene;
   }
 
@@ -76,8 +88,7 @@ namespace Debond
   {
     EntryTable table;
     declare(table);
-    completed_parameters = table.text() + identity_of(interface.bonding.file) +
-                           identity_of(interface.friction->file());
+    completed_parameters = table.text() + identities(*this);
   }
 
 

@@ -9,8 +9,11 @@ namespace Debond
   /** What a column of a measured table holds, and what it is read in. */
   enum class Quantity
   {
-    angle, ///< [deg]
-    moment ///< [N mm]
+    angle,  ///< [deg]
+    moment, ///< [N mm]
+    force,  ///< [N]
+    length, ///< [mm]
+    time    ///< [s]; a column called "time" needs no unit
   };
 
   /** A column that is asked for. */
@@ -22,7 +25,7 @@ namespace Debond
 
   /**
    * Reads columns of a table as instruments, spreadsheets and this program
-   * write them, in degrees and N mm, with a row for each of the file.
+   * write them, in the units of Quantity, with a row for each of the file.
    *
    * Items are separated by semicolons, tabs, commas or blanks, numbers have a
    * point or, where commas do not separate, a comma. Numbers begin with the

@@ -3,8 +3,10 @@
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 
-#include <cmath>
+#include <algorithm>
+#include <iterator>
 #include <regex>
+#include <tuple>
 
 // Values of the chuck from a CSV file. Over the angle they are those at the
 // angle that the scene prescribes at a time, and so functions of time as all
@@ -198,19 +200,20 @@ namespace Debond
           continue;
         const double first = c.table->first(), last = c.table->last(),
                      rounding = 1e-9 * (last - first);
-        const auto at         = abscissa_over_time(k, radius);
-        for (const double time : times)
-          if (const double x = at(time);
-              x < first - rounding || x > last + rounding)
-            throw EntryError(entry_name(k, "File"),
-                             "the table goes from " + abscissa_of(c) + " = " +
-                               to_text(first) + " to " + to_text(last) +
-                               ", and " +
-                               (c.over_angle ? "Rotation z is " + to_text(x) +
-                                                 " degrees at t = " :
-                                               "Load steps / Times have ") +
-                               to_text(time),
-                             c.file);
+        std::vector<double> asked;
+        std::transform(times.begin(),
+                       times.end(),
+                       std::back_inserter(asked),
+                       abscissa_over_time(k, radius));
+        const auto [least, most] =
+          std::minmax_element(asked.begin(), asked.end());
+        if (*least < first - rounding || *most > last + rounding)
+          throw EntryError(entry_name(k, "File"),
+                           "the table goes from " + abscissa_of(c) + " = " +
+                             to_text(first) + " to " + to_text(last) +
+                             ", the scene from " + to_text(*least) + " to " +
+                             to_text(*most),
+                           c.file);
       }
   }
 } // namespace Debond

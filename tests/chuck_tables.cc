@@ -79,56 +79,59 @@ void
 check_expression(const std::string &what, const Overrides &bodies)
 {
   std::cout << what << std::endl;
-  write("push.csv", "time,chuck_uz_mm\n-1,0.0049\n3,-0.0147\n");
+  write("push.csv", "time,chuck_uz_mm\n0,0\n2,-0.0098\n");
   const Rows pushed =
     run_scene("value",
               scene_text,
-              with(bodies, {z + "Value = -0.0049 * min(t, 1)"}));
+              with(bodies, {z + "Value = -0.0049 * (0.2 + 0.8 * min(t, 1))"}));
   report("  displacement, table of two rows and expression",
-         difference(pushed,
-                    run_scene("file",
-                              scene_text,
-                              with(bodies,
-                                   {z + "File = push.csv",
-                                    z + "Value = max(table, -0.0049)"}))),
+         difference(
+           pushed,
+           run_scene(
+             "file",
+             scene_text,
+             with(bodies,
+                  {z + "File = push.csv",
+                   z + "Value = 0.2 * -0.0049 + 0.8 * max(table, -0.0049)"}))),
          1e-10);
 
   write("force.csv",
         "Winkel [rad];Kraft [kN]\n0;0,04\n0,0523598775598299;0,07\n");
-  const Overrides force = with(bodies, {z + "Control = force"});
-  const Rows      loaded =
-    run_scene("value",
-              scene_text,
-              with(force,
-                   {z + "Value = -(40 + 30 * max(t - 1, 0)) * min(t, 1)"}));
+  const Overrides force  = with(bodies, {z + "Control = force"});
+  const Rows      loaded = run_scene(
+    "value",
+    scene_text,
+    with(force,
+         {z + "Value = -(40 + 30 * max(t - 1, 0)) * (0.2 + 0.8 * min(t, 1))"}));
   report("  force over the angle",
-         difference(loaded,
-                    run_scene("file",
-                              scene_text,
-                              with(force,
-                                   {z + "File = force.csv",
-                                    z + "File over = angle",
-                                    z + "Value = -min(t, 1) * table"}))),
+         difference(
+           loaded,
+           run_scene("file",
+                     scene_text,
+                     with(force,
+                          {z + "File = force.csv",
+                           z + "File over = angle",
+                           z + "Value = -(0.2 + 0.8 * min(t, 1)) * table"}))),
          1e-10);
 
-  write("angle.csv",
-        "time [min];phi [deg]\n0;0\n0,0166666666666667;0\n"
-        "0,0333333333333333;3\n");
-  report("  angle over time",
-         difference(loaded,
-                    run_scene("file",
-                              scene_text,
-                              with(force,
-                                   {z + "File = force.csv",
-                                    z + "File over = angle",
-                                    z + "Value = -min(t, 1) * table",
-                                    twist + "Value = 0",
-                                    twist + "File = angle.csv"}))),
-         1e-10);
+  write("angle.csv", "time [min];phi [deg]\n0;-3\n0,0333333333333333;3\n");
+  report(
+    "  angle over time",
+    difference(loaded,
+               run_scene("file",
+                         scene_text,
+                         with(force,
+                              {z + "File = force.csv",
+                               z + "File over = angle",
+                               z + "Value = -(0.2 + 0.8 * min(t, 1)) * table",
+                               twist + "Value = max(table, 0)",
+                               twist + "File = angle.csv"}))),
+    1e-10);
   write("moment.csv", "time,chuck_Mz_Nmm\n0,-15\n2,15\n");
   const Overrides moment =
     with(bodies,
-         {z + "Value = -0.0049 * min(t, 1)", twist + "Control = moment"});
+         {z + "Value = -0.0049 * (0.2 + 0.8 * min(t, 1))",
+          twist + "Control = moment"});
   report("  moment",
          difference(run_scene("value",
                               scene_text,
@@ -150,7 +153,7 @@ void
 check_rerun()
 {
   std::cout << "the torque.csv of a run" << std::endl;
-  const Overrides   push{z + "Value = -0.0049 * min(t, 1)"};
+  const Overrides   push{z + "Value = -0.0049 * (0.2 + 0.8 * min(t, 1))"};
   const Rows        first = run_scene("first", scene_text, push);
   const std::string file  = "results/first/torque.csv";
   report("  forces in the place of places",
@@ -174,7 +177,7 @@ check_rerun()
 const Overrides growing{z + "Control = force",
                         z + "File = growing.csv",
                         z + "File over = angle",
-                        z + "Value = -min(t, 1) * table"};
+                        z + "Value = -(0.2 + 0.8 * min(t, 1)) * table"};
 
 // The tables of growing.csv over the angle, and of its angles over time.
 void
@@ -249,17 +252,17 @@ check_rings()
                               with(growing,
                                    {"Bone/Material = rigid",
                                               "Implant/Material = rigid",
-                                              "Implant/Cells = 16, 2",
-                                              "Load steps/Steps = 1, 600"}));
+                                              "Implant/Cells = 8, 2",
+                                              "Load steps/Steps = 1, 150"}));
   const Scene         scene = Scene::from_text(scene_text, growing);
   const MonotoneCurve force({0, 0.5, 1, 2, 3}, {30, 33, 42, 70, 75});
-  constexpr double    R = 2.5, eps = 585, dtheta = 1e-3;
-  constexpr unsigned  n_rings = 400;
+  constexpr double    R = 2.5, eps = 585, dtheta = 2e-3;
+  constexpr unsigned  n_rings = 200;
   std::vector<double> gap(n_rings, 0.), slip(n_rings, 0.);
   const auto          law       = scene.interface.friction;
   double              deviation = 0, largest = 0;
   std::size_t         row = 1;
-  for (unsigned int i = 0; i <= 3000; ++i)
+  for (unsigned int i = 0; i <= 1500; ++i)
     {
       const double p      = force(i * dtheta) / (M_PI * R * R);
       double       torque = 0;
@@ -287,10 +290,11 @@ check_rings()
   report("all rows of N(theta) compared", row == rows.size());
   report("  torque and that of rings, relative to the largest",
          deviation / largest,
-         2e-3);
-  const double T_inf = 2. / 3. * 0.4 * 75. * R;
-  std::cout << "  at the end " << rows.back().torque_Nmm / T_inf
-            << " of 2/3 mu_b N R" << std::endl;
+         5e-4);
+  // the bond is left around the axis
+  report("  at the end 2/3 mu_b N R, differs",
+         std::abs(rows.back().torque_Nmm / (2. / 3. * 0.4 * 75. * R) - 1.),
+         2e-2);
 }
 
 

@@ -223,6 +223,16 @@ main()
         set Control = moment
       end
     end)");
+  std::ofstream("force.csv") << "angle_deg,chuck_Fz_N\n0,-20\n1,-30\n3,-70\n";
+  check("A load over the angle, from a file", linear + R"(
+    subsection Chuck
+      subsection Translation z
+        set Control   = force
+        set Value     = min(t, 1) * table
+        set File      = force.csv
+        set File over = angle
+      end
+    end)");
   check("Path following",
         rigid + R"(
     subsection Interface

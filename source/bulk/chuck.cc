@@ -27,6 +27,53 @@ namespace Debond
 
 
 
+  std::string
+  ChuckParameters::column_name(const unsigned int component, const bool of_load)
+  {
+    const bool rotation = is_rotation(component);
+    return std::string("chuck_") +
+           (of_load ? (rotation ? 'M' : 'F') : (rotation ? 'r' : 'u')) +
+           "xyz"[component % 3] +
+           (of_load ? (rotation ? "_Nmm" : "_N") : (rotation ? "_deg" : "_mm"));
+  }
+
+
+
+  namespace
+  {
+    void
+    declare_file(ChuckComponentParameters &component,
+                 const unsigned int        k,
+                 EntryTable               &table)
+    {
+      table.add("File",
+                component.file,
+                Allowed::text("the name of a CSV file"),
+                "Table of values over time or angle, as an instrument or a "
+                "spreadsheet writes it, or the torque.csv of a run, with two "
+                "rows or more and monotone cubics between them; empty: none. "
+                "It has to hold all times, or all angles, of the scene. The "
+                "path is relative to the working directory.");
+      table.add("File over",
+                component.over_angle,
+                Allowed::choice("time | angle"),
+                "What File has values over: the `time', or the `angle' [deg] "
+                "that Rotation z prescribes at that time.");
+      table.add("File columns",
+                component.columns,
+                Allowed::text("two columns, the time or angle and the value"),
+                "Which columns of File are time or angle, and value, each by "
+                "its name there or its number from 1, with a unit where the "
+                "file has none: 1 [deg], force [kN]. Empty: time or angle_deg, "
+                "and " +
+                  ChuckParameters::column_name(k, false) + " or " +
+                  ChuckParameters::column_name(k, true) +
+                  " as Control says, else the only columns with such units.");
+    }
+  } // namespace
+
+
+
   void
   ChuckParameters::declare(EntryTable &table)
   {
@@ -55,12 +102,10 @@ namespace Debond
                               "pi and R [mm]), in ") +
                     (rotation ? "degrees for angle, N mm for moment" :
                                 "mm for displacement, N for force") +
-                    ". Note that sin and cos expect radians: sin(2 * pi * t).");
-        table.add("File",
-                  "",
-                  nullptr,
-                  Allowed::reserved(""),
-                  "Reserved: a CSV table instead of Value.");
+                    ". Note that sin and cos expect radians: sin(2 * pi * t). "
+                    "With File also in table, the value of the table; then "
+                    "the default 0 means table.");
+        declare_file(component[c], c, table);
         table.add(
           "Stiffness",
           component[c].stiffness,
@@ -84,7 +129,7 @@ namespace Debond
     for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
       {
         const auto &component = parameters.component[k];
-        value_functions.push_back(component.value_over_time(radius));
+        value_functions.push_back(parameters.value_over_time(k, radius));
         stiffness[k]  = component.stiffness;
         loaded[k]     = component.loaded;
         compliant[k]  = stiffness[k] > 0.;
@@ -101,9 +146,11 @@ namespace Debond
   Chuck::values(const double time) const
   {
     Vector6 result;
-    for (unsigned int k = 0; k < 6; ++k)
+    for (unsigned int i = 0; i < 6; ++i)
       {
-        const bool is_angle = is_rotation(k) && !loaded[k];
+        // Rotation z first: what is wrong with it is also wrong over its angle
+        const unsigned int k        = (i + ChuckComponent::rotation_z) % 6;
+        const bool         is_angle = is_rotation(k) && !loaded[k];
         try
           {
             result[k] =

@@ -364,7 +364,13 @@ namespace Debond
     output.overwrite_other_results = force;
     std::string identity           = scene_text(entries);
     for (const auto &experiment : all.experiments)
-      identity += identity_of(experiment->measured.file);
+      {
+        // the files that a scene depends on are in comments behind its entries
+        const std::string &text = experiment->scene.completed_parameters;
+        const auto         files = text.find("\n# ");
+        identity += (files == std::string::npos ? "" : text.substr(files + 1)) +
+                    identity_of(experiment->measured.file);
+      }
     if (all.measured.size() == 0)
       throw scene.with_place(
         EntryError("Output / Reference curve",

@@ -1,11 +1,8 @@
 #include <debond/input/csv_table.h>
+#include <debond/input/monotone_curve.h>
 #include <debond/interface/bond_friction.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
-
-#include <boost/math/interpolators/pchip.hpp>
-
-#include <math.h> // pchip expects isnan() outside of any namespace
 
 #include <algorithm>
 
@@ -44,7 +41,7 @@ namespace Debond
         , filename(filename)
         , slip(slip)
         , last(phi.back())
-        , curve(std::vector<double>(slip), std::vector<double>(phi))
+        , curve(slip, phi)
         , integral(slip.size(), 0.)
         , steepest(slip.size(), 0.)
       {
@@ -100,7 +97,7 @@ namespace Debond
       decay(const double g_s, double &slope) const override
       {
         const bool falls = g_s < slip.back();
-        slope            = falls ? curve.prime(g_s) : 0.;
+        slope            = falls ? curve.slope(g_s) : 0.;
         return falls ? curve(g_s) : last;
       }
 
@@ -155,20 +152,20 @@ namespace Debond
       steepest_between(const std::size_t i) const
       {
         const double a = slip[i], h = slip[i + 1] - a;
-        const double left = curve.prime(a), right = curve.prime(a + h);
-        const double middle  = curve.prime(a + 0.5 * h);
+        const double left = curve.slope(a), right = curve.slope(a + h);
+        const double middle  = curve.slope(a + 0.5 * h);
         const double bending = 2. * (left - 2. * middle + right);
         const double vertex =
           bending != 0. ? 0.5 * (left - right + bending) / bending : 0.;
         return -std::min(
-          {left, right, curve.prime(a + std::clamp(vertex, 0., 1.) * h)});
+          {left, right, curve.slope(a + std::clamp(vertex, 0., 1.) * h)});
       }
 
       // The rows and the curve through them, in the distance g_s [mm].
       const std::string         filename;
       const std::vector<double> slip; ///< g_s of the rows [mm]
       const double              last; ///< phi of the last one
-      const boost::math::interpolators::pchip<std::vector<double>> curve;
+      const MonotoneCurve       curve;
 
       std::vector<double> integral; ///< of s, from 0 to each row [mm]
       std::vector<double> steepest; ///< bound from each row on [1/mm]

@@ -27,6 +27,22 @@ namespace Debond
 
 
 
+  namespace
+  {
+    /** Of all files whose content makes the results. */
+    std::string
+    identities(const Scene &scene)
+    {
+      std::string text = identity_of(scene.interface.bonding.file) +
+                         identity_of(scene.interface.friction->file());
+      for (const ChuckComponentParameters &component : scene.chuck.component)
+        text += identity_of(component.file);
+      return text;
+    }
+  } // namespace
+
+
+
   Scene
   Scene::from_entries(const std::vector<SceneEntry> &entries,
                       const std::string             &name)
@@ -52,15 +68,14 @@ namespace Debond
       {
         scene.interface.friction =
           create_friction_law(scene.interface.friction_choice);
+        scene.chuck.read_tables();
         scene.check();
       }
     catch (const InputError &error)
       {
         throw scene.with_place(error);
       }
-    scene.completed_parameters = table.text() +
-                                 identity_of(scene.interface.bonding.file) +
-                                 identity_of(scene.interface.friction->file());
+    scene.completed_parameters = table.text() + identities(scene);
     return scene;
   }
 
@@ -71,8 +86,7 @@ namespace Debond
   {
     EntryTable table;
     declare(table);
-    completed_parameters = table.text() + identity_of(interface.bonding.file) +
-                           identity_of(interface.friction->file());
+    completed_parameters = table.text() + identities(*this);
   }
 
 

@@ -32,17 +32,19 @@ namespace Debond
      *  expressions that cannot be read or have no finite value, and values that
      *  cannot be computed with. */
     bool
-    check_component(const ChuckComponentParameters &component,
-                    const std::string              &entry,
-                    const std::vector<double>      &times,
-                    const double                    radius)
+    check_component(const Scene               &scene,
+                    const unsigned int         c,
+                    const std::vector<double> &times)
     {
-      const double largest = component.loaded ? 1e12 : 1e6;
+      const ChuckComponentParameters &component = scene.chuck.component[c];
+      const double                    largest   = component.loaded ? 1e12 : 1e6;
       try
         {
-          const TimeFunction function    = component.value_over_time(radius);
-          const double       first_value = function(times.front());
-          bool               varies      = false;
+          const TimeFunction function =
+            scene.chuck.value_over_time(c,
+                                        scene.implant.characteristic_radius());
+          const double first_value = function(times.front());
+          bool         varies      = false;
           for (const double time : times)
             {
               const double value = function(time);
@@ -57,8 +59,21 @@ namespace Debond
         }
       catch (const InputError &error)
         {
-          throw EntryError(entry, error.what());
+          throw EntryError(ChuckParameters::entry_name(c, "Value"),
+                           error.what());
         }
+    }
+
+
+
+    /** Also between planned steps, which may be few where they are adaptive. */
+    void
+    check_tables(const Scene &scene)
+    {
+      LoadSteppingParameters dense = scene.load_steps;
+      dense.steps.assign(dense.steps.size(), 1000);
+      scene.chuck.check_tables(dense.planned_times(),
+                               scene.implant.characteristic_radius());
     }
 
 
@@ -67,7 +82,10 @@ namespace Debond
     check_chuck(const Scene &scene)
     {
       const std::vector<double> times = scene.load_steps.sample_times();
-      bool                      moves = false;
+      scene.chuck.check();
+      check_component(scene, ChuckComponent::rotation_z, times);
+      check_tables(scene);
+      bool moves = false;
       for (unsigned int c = 0; c < ChuckParameters::n_components; ++c)
         {
           const ChuckComponentParameters &component = scene.chuck.component[c];
@@ -77,12 +95,8 @@ namespace Debond
                                "it has no effect where the machine prescribes "
                                "a load: it is for Control = ") +
                                (is_rotation(c) ? "angle" : "displacement"));
-          const bool this_moves =
-            check_component(component,
-                            ChuckParameters::entry_name(c, "Value"),
-                            times,
-                            scene.implant.characteristic_radius());
-          moves = moves || this_moves;
+          const bool this_moves = check_component(scene, c, times);
+          moves                 = moves || this_moves;
         }
       if (!moves)
         throw EntryError("",
@@ -195,7 +209,9 @@ namespace Debond
 
     /** The results of an earlier run may be removed before the next begins. */
     void
-    check_bonding_file(const std::string &file, const std::string &directory)
+    check_input_file(const std::string &file,
+                     const std::string &entry,
+                     const std::string &directory)
     {
       namespace fs = std::filesystem;
       std::error_code wrong;
@@ -203,7 +219,7 @@ namespace Debond
           fs::weakly_canonical(file, wrong).parent_path() ==
             fs::weakly_canonical(directory, wrong) &&
           !wrong)
-        throw EntryError("Interface / Bonding / File",
+        throw EntryError(entry,
                          "this file is in the directory that the scene writes "
                          "its results to (Output / Directory): copy it "
                          "elsewhere first");
@@ -250,6 +266,12 @@ namespace Debond
     check_chuck(*this);
     check_path_following(*this);
     check_references(output);
-    check_bonding_file(interface.bonding.file, output.directory);
+    check_input_file(interface.bonding.file,
+                     "Interface / Bonding / File",
+                     output.directory);
+    for (unsigned int c = 0; c < ChuckParameters::n_components; ++c)
+      check_input_file(chuck.component[c].file,
+                       ChuckParameters::entry_name(c, "File"),
+                       output.directory);
   }
 } // namespace Debond

@@ -138,7 +138,9 @@ namespace Debond
       const double end = times.back(), span = end - times.front();
       try
         {
-          for (unsigned int i = 1; i <= 20 && !component.function; ++i)
+          const bool is_expression =
+            !component.function && component.file.empty();
+          for (unsigned int i = 1; i <= 20 && is_expression; ++i)
             if (value_at(end + 0.5 * i * span) != value_at(end))
               return true;
         }
@@ -248,12 +250,16 @@ namespace Debond
         {
           const ChuckComponentParameters &component = scene.chuck.component[k];
           const TimeFunction              value_at =
-            component.value_over_time(scene.implant.characteristic_radius());
+            scene.chuck.value_over_time(k,
+                                        scene.implant.characteristic_radius());
           std::vector<double> values;
           for (const double time : times)
             values.push_back(value_at(time));
           const std::string entry =
-            ChuckParameters::entry_name(k, "Value") + " = " + component.value;
+            component.file.empty() ?
+              ChuckParameters::entry_name(k, "Value") + " = " +
+                component.value :
+              ChuckParameters::entry_name(k, "File") + " = " + component.file;
           note(values == std::vector<double>(values.size(), values[0]) &&
                  changes_later(component, value_at, times),
                entry,

@@ -2,12 +2,14 @@
 #define debond_bulk_chuck_h
 
 #include <debond/input/expression_parser.h>
+#include <debond/input/monotone_curve.h>
 #include <debond/support/accepted_state.h>
 
 #include <Eigen/Geometry>
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -41,19 +43,18 @@ namespace Debond
   struct ChuckComponentParameters
   {
     bool loaded = false; ///< force or moment instead of displacement or angle
-    /** Expression in t (constants pi, R). Units: mm, degrees, N, N mm. */
-    std::string value     = "0";
-    double      stiffness = 0; ///< of the machine [N/mm or N mm/rad]; 0: rigid
+    /** Expression in t (constants pi, R), and in `table` with a file. Units:
+     *  mm, degrees, N, N mm. */
+    std::string              value = "0";
+    std::string              file; ///< with a table of values, or empty
+    bool                     over_angle = false; ///< instead of over time
+    std::vector<std::string> columns;            ///< empty: recognised
+    double stiffness = 0; ///< of the machine [N/mm or N mm/rad]; 0: rigid
+    /** What the file says, over time or over the angle [deg]; null: none. */
+    std::shared_ptr<const MonotoneCurve> table;
     /** Of time, in the same units: if it is set, it counts instead of the
      *  expression. For scenes that a program makes; no entry of a file. */
     std::function<double(double)> function;
-
-    /** The function that counts; @p radius is the `R` of expressions [mm]. */
-    TimeFunction
-    value_over_time(double radius) const
-    {
-      return read_time_function(value, radius, function);
-    }
   };
 
   /** The subsection `Chuck`: Translation x, y, z, Rotation x, y, z. */
@@ -69,8 +70,38 @@ namespace Debond
     static std::string
     entry_name(unsigned int component, const std::string &entry);
 
+    /** "chuck_Fz_N", "chuck_rz_deg" and the like: what is called so in
+     *  torque.csv has the sign of the component's value. @p of_load: force or
+     *  moment instead of displacement or angle. */
+    static std::string
+    column_name(unsigned int component, bool of_load);
+
     void
     declare(EntryTable &table);
+
+    /** Reads the tables of all components that have a file, which scenes made
+     *  by a program must do as well. Throws EntryError. */
+    void
+    read_tables();
+
+    /** What the scene wants of a component, in the units of its value; @p
+     *  radius is the `R` of expressions [mm]. */
+    TimeFunction
+    value_over_time(unsigned int component, double radius) const;
+
+    /** Refuses entries about tables that do not go together. Throws
+     *  EntryError. */
+    void
+    check() const;
+    /** Refuses tables that do not hold what is asked for at @p times. Throws
+     *  EntryError. */
+    void
+    check_tables(const std::vector<double> &times, double radius) const;
+
+  private:
+    /** Time, or angle [deg], that the table of a component is read at. */
+    TimeFunction
+    abscissa_over_time(unsigned int component, double radius) const;
   };
 
   /**

@@ -1,6 +1,7 @@
 #ifndef debond_output_torque_curve_h
 #define debond_output_torque_curve_h
 
+#include <debond/bulk/chuck.h>
 #include <debond/output/curve_comparison.h>
 #include <debond/output/profile_output.h>
 
@@ -101,9 +102,7 @@ namespace Debond
       visit("newton_iterations", newton_iterations);
       visit("energy_defect", energy_defect);
       for (unsigned int k = 0; k < 6; ++k)
-        visit(std::string("chuck_") + "FFFMMM"[k] + "xyzxyz"[k] +
-                (k < 3 ? "_N" : "_Nmm"),
-              chuck_reaction[k]);
+        visit(ChuckParameters::column_name(k, true), chuck_reaction[k]);
       visit("work_Nmm", work_Nmm);
       visit("energy_bulk_Nmm", energy_bulk_Nmm);
       visit("energy_interface_Nmm", energy_interface_Nmm);
@@ -112,9 +111,7 @@ namespace Debond
       visit("energy_defect_bound", energy_defect_bound);
       visit("reaction_defect", reaction_defect);
       for (unsigned int k = 0; k < 6; ++k)
-        visit(std::string("chuck_") + "uuurrr"[k] + "xyzxyz"[k] +
-                (k < 3 ? "_mm" : "_deg"),
-              chuck_position[k]);
+        visit(ChuckParameters::column_name(k, false), chuck_position[k]);
       visit("viscous_work_Nmm", viscous_work_Nmm);
       visit("warnings", warnings);
       visit("machine_angle_deg", machine_angle_deg);

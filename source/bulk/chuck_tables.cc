@@ -1,0 +1,219 @@
+#include <debond/bulk/chuck.h>
+#include <debond/input/measured_table.h>
+#include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
+
+#include <algorithm>
+#include <iterator>
+#include <regex>
+#include <tuple>
+
+// Values of the chuck from a CSV file. Over the angle they are those at the
+// angle that the scene prescribes at a time, and so functions of time as all
+// that the chuck is asked for: nothing has to be kept or taken back.
+namespace Debond
+{
+  namespace
+  {
+    std::string
+    abscissa_of(const ChuckComponentParameters &component)
+    {
+      return component.over_angle ? "angle_deg" : "time";
+    }
+
+
+
+    /** The rows of the file of component @p k: time or angle, and value. */
+    std::vector<std::vector<double>>
+    read_rows(const ChuckComponentParameters &component, const unsigned int k)
+    {
+      const Quantity value =
+        is_rotation(k) ?
+          (component.loaded ? Quantity::moment : Quantity::angle) :
+          (component.loaded ? Quantity::force : Quantity::length);
+      return read_measured_table(
+        component.file,
+        ChuckParameters::entry_name(k, "File"),
+        {{abscissa_of(component),
+          component.over_angle ? Quantity::angle : Quantity::time},
+         {ChuckParameters::column_name(k, component.loaded), value}},
+        component.columns,
+        ChuckParameters::entry_name(k, "File columns"));
+    }
+
+
+
+    /** The same; says if the file could be read over the angle only. */
+    std::vector<std::vector<double>>
+    read_rows_or_hint(const ChuckComponentParameters &component,
+                      const unsigned int              k)
+    {
+      try
+        {
+          return read_rows(component, k);
+        }
+      catch (const EntryError &error)
+        {
+          ChuckComponentParameters other = component;
+          other.over_angle               = true;
+          try
+            {
+              read_rows(other, k);
+            }
+          catch (const EntryError &)
+            {
+              throw error;
+            }
+          throw EntryError(error.entry,
+                           error.why +
+                             "; with File over = angle it is read over the "
+                             "angle",
+                           error.value);
+        }
+    }
+
+
+
+    std::shared_ptr<const MonotoneCurve>
+    read_table(const ChuckComponentParameters &component, const unsigned int k)
+    {
+      const auto expect = [&](const bool is_right, const std::string &why) {
+        if (!is_right)
+          throw EntryError(ChuckParameters::entry_name(k, "File"),
+                           why,
+                           component.file);
+      };
+      std::vector<double> x, values;
+      for (const std::vector<double> &row : read_rows_or_hint(component, k))
+        {
+          // an instrument at rest
+          if (!x.empty() && row[0] == x.back() && row[1] == values.back())
+            continue;
+          expect(x.empty() || row[0] > x.back(),
+                 abscissa_of(component) + " = " + to_text(row[0]) + " after " +
+                   (x.empty() ? "" : to_text(x.back())) +
+                   ": expected rows that ascend, or repeat the one before");
+          x.push_back(row[0]);
+          values.push_back(row[1]);
+        }
+      expect(x.size() >= 2, "expected at least two rows that differ");
+      return std::make_shared<const MonotoneCurve>(x, values);
+    }
+  } // namespace
+
+
+
+  void
+  ChuckParameters::read_tables()
+  {
+    for (unsigned int k = 0; k < n_components; ++k)
+      component[k].table =
+        component[k].file.empty() ? nullptr : read_table(component[k], k);
+  }
+
+
+
+  TimeFunction
+  ChuckParameters::abscissa_over_time(const unsigned int k,
+                                      const double       radius) const
+  {
+    if (component[k].over_angle)
+      return value_over_time(ChuckComponent::rotation_z, radius);
+    return [](const double time) { return time; };
+  }
+
+
+
+  TimeFunction
+  ChuckParameters::value_over_time(const unsigned int k,
+                                   const double       radius) const
+  {
+    const auto &[table, value, function] =
+      std::tie(component[k].table, component[k].value, component[k].function);
+    if (function || !table)
+      return read_time_function(value, radius, function);
+    const TimeFunction of_table =
+      [table = table, at = abscissa_over_time(k, radius)](const double time) {
+        return (*table)(at(time));
+      };
+    if (value == "0")
+      return of_table;
+    return read_time_function(
+      "",
+      radius,
+      [of_table, expression = read_expression("t, table", value, radius)](
+        const double time) {
+        return expression({time, of_table(time)});
+      });
+  }
+
+
+
+  void
+  ChuckParameters::check() const
+  {
+    constexpr auto twist = ChuckComponent::rotation_z;
+    for (unsigned int k = 0; k < n_components; ++k)
+      {
+        const ChuckComponentParameters &c         = component[k];
+        const auto                      refuse_if = [k](const bool         is_so,
+                                   const std::string &entry,
+                                   const std::string &why) {
+          if (is_so)
+            throw EntryError(entry_name(k, entry), why);
+        };
+        const bool has_file = !c.file.empty();
+        const bool has_table =
+          std::regex_search(c.value, std::regex("\\btable\\b"));
+        refuse_if(!has_file && has_table,
+                  "Value",
+                  "table is the value of the table in File, which is empty");
+        refuse_if(has_file && !has_table && c.value != "0",
+                  "Value",
+                  "with File expected an expression in t and table, as min(t, "
+                  "1) * table, or 0 for table");
+        refuse_if(!has_file && c.over_angle, "File over", "there is no File");
+        refuse_if(!has_file && !c.columns.empty(),
+                  "File columns",
+                  "there is no File");
+        refuse_if(c.over_angle && k == twist,
+                  "File over",
+                  "the angle is that of Rotation z itself: expected time");
+        refuse_if(c.over_angle && component[twist].loaded,
+                  "File over",
+                  "for Rotation z a moment is prescribed, and no angle: "
+                  "expected time");
+        refuse_if(has_file && !c.table, "File", "it has not been read");
+      }
+  }
+
+
+
+  void
+  ChuckParameters::check_tables(const std::vector<double> &times,
+                                const double               radius) const
+  {
+    for (unsigned int k = 0; k < n_components; ++k)
+      {
+        const ChuckComponentParameters &c = component[k];
+        if (!c.table)
+          continue;
+        const double first = c.table->first(), last = c.table->last(),
+                     rounding = 1e-9 * (last - first);
+        std::vector<double> asked;
+        std::transform(times.begin(),
+                       times.end(),
+                       std::back_inserter(asked),
+                       abscissa_over_time(k, radius));
+        const auto [least, most] =
+          std::minmax_element(asked.begin(), asked.end());
+        if (*least < first - rounding || *most > last + rounding)
+          throw EntryError(entry_name(k, "File"),
+                           "the table goes from " + abscissa_of(c) + " = " +
+                             to_text(first) + " to " + to_text(last) +
+                             ", the scene from " + to_text(*least) + " to " +
+                             to_text(*most),
+                           c.file);
+      }
+  }
+} // namespace Debond

@@ -186,9 +186,13 @@ namespace Debond
                          workers.size(),
                          [&](const unsigned int i, const unsigned int worker) {
                            Misfit &misfit = *workers[worker];
-                           ends[i]        = minimise(misfit, starts[i], model);
-                           if (model == By::closed_form)
-                             centre(misfit, ends[i]);
+                           if (model == By::scene)
+                             ends[i] = with_chosen_steps(misfit, starts[i]);
+                           else
+                             {
+                               ends[i] = minimise(misfit, starts[i], model);
+                               centre(misfit, ends[i]);
+                             }
                          });
         stop_if_asked();
         return distinct(ends);
@@ -213,6 +217,33 @@ namespace Debond
             if ((end.unknowns - before).norm() <= 1e-8 * before.norm())
               break;
           }
+      }
+
+      /** With the steps that are right where it starts, and again with those
+       *  that are right where it has ended. */
+      static Optimum
+      with_chosen_steps(Misfit &misfit, const Eigen::VectorXd &start)
+      {
+        Optimum         end;
+        Eigen::VectorXd before = start;
+        for (const bool again : {false, true})
+          {
+            try
+              {
+                misfit.choose_steps(&before);
+              }
+            catch (const RunError &error)
+              {
+                end.why = error.what();
+                return end;
+              }
+            end = minimise(misfit, before, By::scene);
+            if (!end.why.empty() || again ||
+                !misfit.experiments.front()->scene.load_steps.adaptive)
+              break;
+            before = end.unknowns;
+          }
+        return end;
       }
 
       std::vector<Optimum>
@@ -366,7 +397,7 @@ namespace Debond
     for (const auto &experiment : all.experiments)
       {
         // the files that a scene depends on are in comments behind its entries
-        const std::string &text = experiment->scene.completed_parameters;
+        const std::string &text  = experiment->scene.completed_parameters;
         const auto         files = text.find("\n# ");
         identity += (files == std::string::npos ? "" : text.substr(files + 1)) +
                     identity_of(experiment->measured.file);
@@ -429,6 +460,9 @@ namespace Debond
       for (const auto &worker : search.workers)
         for (const auto &experiment : worker->experiments)
           experiment->centre_closed_form(best);
+    else
+      for (const auto &worker : search.workers)
+        worker->choose_steps(&best);
     result.at_best = misfit.evaluate(best, model, true);
     if (!result.at_best.failure.empty())
       throw RunError("the best fit cannot be differentiated: " +

@@ -3,6 +3,7 @@
 #include <debond/support/number_text.h>
 
 #include <ceres/ceres.h>
+#include <glog/logging.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -13,9 +14,11 @@ namespace Debond
   namespace
   {
     std::string
-    key_of(const Eigen::VectorXd &unknowns, const bool with_derivatives)
+    key_of(const Eigen::VectorXd &unknowns,
+           const bool             with_derivatives,
+           const std::string     &steps = "")
     {
-      std::string key = with_derivatives ? "d" : "v";
+      std::string key = steps + (with_derivatives ? "d" : "v");
       for (const double value : unknowns)
         key += " " + exact_text(value);
       return key;
@@ -98,13 +101,14 @@ namespace Debond
 
 
   std::optional<Evaluation>
-  EvaluationLog::find(const Eigen::VectorXd &unknowns,
+  EvaluationLog::find(const std::string     &steps,
+                      const Eigen::VectorXd &unknowns,
                       const bool             with_derivatives)
   {
     const std::lock_guard<std::mutex> lock(access);
     for (const bool derivatives : {true, false})
       if (derivatives || !with_derivatives)
-        if (const auto found = known.find(key_of(unknowns, derivatives));
+        if (const auto found = known.find(key_of(unknowns, derivatives, steps));
             found != known.end())
           return found->second;
     return {};
@@ -113,12 +117,14 @@ namespace Debond
 
 
   void
-  EvaluationLog::add(const Eigen::VectorXd &unknowns,
+  EvaluationLog::add(const std::string     &steps,
+                     const Eigen::VectorXd &unknowns,
                      const Evaluation      &evaluation)
   {
     const std::lock_guard<std::mutex> lock(access);
-    const std::string key = key_of(unknowns, evaluation.derivatives.cols() > 0);
-    known[key]            = evaluation;
+    const std::string                 key =
+      key_of(unknowns, evaluation.derivatives.cols() > 0, steps);
+    known[key] = evaluation;
     ++n_evaluations;
     file.append(line_of(key, evaluation));
   }
@@ -165,6 +171,37 @@ namespace Debond
 
 
 
+  void
+  Misfit::choose_steps(const Eigen::VectorXd *const values)
+  {
+    steps = values != nullptr ? key_of(*values, false) + " " : "";
+    for (const auto &experiment : experiments)
+      experiment->choose_steps(values);
+  }
+
+
+
+  // Eq. (19) divides by what has been measured, and leaves out what is less
+  // than a hundredth of the largest; Eq. (50) divides by the largest.
+  Eigen::VectorXd
+  Misfit::weights_of_measure() const
+  {
+    if (measure != MisfitMeasure::e_mp)
+      return weights;
+    Eigen::VectorXd result = weights;
+    Eigen::Index    first  = 0;
+    for (const auto &experiment : experiments)
+      for (Eigen::Index c = 0; c < experiment->measured.values.cols(); ++c)
+        for (const double value : experiment->measured.values.col(c))
+          result[first++] =
+            std::abs(value) > 0.01 * experiment->measured.scale[c] ?
+              1. / std::abs(value) :
+              0.;
+    return result;
+  }
+
+
+
   Evaluation
   Misfit::evaluate(const Eigen::VectorXd &values,
                    const Experiment::By   model,
@@ -172,7 +209,7 @@ namespace Debond
   {
     const bool is_logged = log != nullptr && model == Experiment::By::scene;
     if (is_logged)
-      if (auto known = log->find(values, with_derivatives))
+      if (auto known = log->find(steps, values, with_derivatives))
         {
           n_failures += !known->failure.empty();
           last_failure = known->failure.empty() ? last_failure : known->failure;
@@ -216,7 +253,7 @@ namespace Debond
           }
       }
     if (is_logged)
-      log->add(values, result);
+      log->add(steps, values, result);
     return result;
   }
 
@@ -279,9 +316,7 @@ namespace Debond
         ++n_evaluations;
         if (!at.failure.empty())
           return false;
-        Eigen::VectorXd weights = misfit.weights;
-        if (misfit.measure == MisfitMeasure::e_mp)
-          weights = relative_weights();
+        const Eigen::VectorXd weights = misfit.weights_of_measure();
         const bool squares = misfit.measure == MisfitMeasure::least_squares;
         for (Eigen::Index i = 0; i < at.values.size(); ++i)
           {
@@ -300,17 +335,6 @@ namespace Debond
       mutable unsigned int n_evaluations = 0;
 
     private:
-      /** Eq. (19) divides by what has been measured, and leaves out what is
-       *  less than a hundredth of the largest. */
-      Eigen::VectorXd
-      relative_weights() const
-      {
-        const double largest = misfit.measured.cwiseAbs().maxCoeff();
-        return misfit.measured.unaryExpr([&](const double value) {
-          return std::abs(value) > 0.01 * largest ? 1. / std::abs(value) : 0.;
-        });
-      }
-
       Misfit                         &misfit;
       const Eigen::VectorXd           start;
       const Experiment::By            model;
@@ -355,9 +379,14 @@ namespace Debond
         options.linear_solver_type  = ceres::DENSE_QR;
         options.logging_type        = ceres::SILENT;
         options.max_num_iterations  = 100;
-        options.function_tolerance  = 1e-12;
+        // Closed forms cost nothing. Runs are only as good as their steps; where
+        // the model is right the sum of squares falls to nothing even so.
+        options.function_tolerance =
+          model == Experiment::By::closed_form ? 1e-12 : 1e-6;
         options.gradient_tolerance  = 1e-14;
         options.parameter_tolerance = 1e-10;
+        // what fails is told here, in other words
+        FLAGS_minloglevel = google::FATAL;
         ceres::Solver::Summary summary;
         ceres::Solve(options, &problem, &summary);
         result.converged = summary.termination_type == ceres::CONVERGENCE;

@@ -554,25 +554,54 @@ namespace Debond
 
   namespace
   {
-    /** Derivatives of @p rows, which lie on the curve between rows of a run,
-     *  linear between these. */
-    std::vector<Eigen::Matrix<double, 12, -1>>
-    on_fine_curve(const std::vector<TorqueRow>                     &rows,
-                  const std::vector<TorqueRow>                     &of_run,
-                  const std::vector<Eigen::Matrix<double, 12, -1>> &derivatives)
+    using RowDerivative = Eigen::Matrix<double, 12, -1>;
+
+    /** Derivatives of @p rows, which lie on the curve between rows of a run: on
+     *  cubics whose slopes are those of parabolas through neighbouring rows of
+     *  the same phase, of which @p phases has the ends. */
+    std::vector<RowDerivative>
+    on_fine_curve(const std::vector<TorqueRow>     &rows,
+                  const std::vector<TorqueRow>     &of_run,
+                  const std::vector<RowDerivative> &derivatives,
+                  const std::vector<double>        &phases)
     {
-      std::vector<Eigen::Matrix<double, 12, -1>> result;
-      std::size_t                                end = 0;
+      const std::size_t n      = of_run.size();
+      const auto        secant = [&](const std::size_t i) -> RowDerivative {
+        return (derivatives[i + 1] - derivatives[i]) /
+               (of_run[i + 1].time - of_run[i].time);
+      };
+      const auto slope = [&](const std::size_t i,
+                             const bool        is_begin) -> RowDerivative {
+        const bool is_end =
+          i == 0 || i + 1 == n ||
+          std::find(phases.begin(), phases.end(), of_run[i].time) !=
+            phases.end();
+        if (is_end)
+          return secant(is_begin ? i : i - 1);
+        const double before = of_run[i].time - of_run[i - 1].time,
+                     after  = of_run[i + 1].time - of_run[i].time;
+        return (after * secant(i - 1) + before * secant(i)) / (before + after);
+      };
+      std::vector<RowDerivative> result;
+      std::size_t                end = 0;
       for (const TorqueRow &row : rows)
         {
-          while (end + 1 < of_run.size() && of_run[end].time < row.time)
+          while (end + 1 < n && of_run[end].time < row.time)
             ++end;
-          const std::size_t begin = end > 0 ? end - 1 : 0;
-          const double      width = of_run[end].time - of_run[begin].time;
-          const double      share =
-            width > 0. ? (row.time - of_run[begin].time) / width : 1.;
-          result.push_back((1. - share) * derivatives[begin] +
-                           share * derivatives[end]);
+          if (end == 0 || of_run[end].time == row.time)
+            {
+              result.push_back(derivatives[end]);
+              continue;
+            }
+          const double width = of_run[end].time - of_run[end - 1].time,
+                       s     = (row.time - of_run[end - 1].time) / width;
+          result.push_back(
+            (1. - s) * (1. - s) *
+              ((1. + 2. * s) * derivatives[end - 1] +
+               s * width * slope(end - 1, true)) +
+            s * s *
+              ((3. - 2. * s) * derivatives[end] -
+               (1. - s) * width * slope(end, false)));
         }
       return result;
     }
@@ -580,19 +609,61 @@ namespace Debond
 
 
 
+  // With the bodies of the run before, where they are the same.
+  std::unique_ptr<Simulation>
+  Experiment::simulation_of(const Scene &now)
+  {
+    const bool keep = std::none_of(changes_bodies.begin(),
+                                   changes_bodies.end(),
+                                   [](const bool changes) { return changes; });
+    if (bodies)
+      bodies->return_to_rest();
+    auto simulation =
+      std::make_unique<Simulation>(now, keep ? bodies : nullptr);
+    if (keep)
+      bodies = simulation->system().bodies();
+    return simulation;
+  }
+
+
+
+  void
+  Experiment::choose_steps(const Eigen::VectorXd *const values)
+  {
+    ends_of_steps.clear();
+    if (values == nullptr || scene.model != ModelKind::finite_elements ||
+        !scene.load_steps.adaptive)
+      return;
+    // finer than for the curve alone: unknowns are told apart by less
+    Scene now = scene_at(*values);
+    now.load_steps.tolerance *= 0.1;
+    const auto simulation = simulation_of(now);
+    simulation->run();
+    const auto &phases = scene.load_steps.times;
+    ends_of_steps.resize(phases.size() - 1);
+    for (const TorqueRow &row : simulation->rows())
+      if (row.step > 0)
+        ends_of_steps[std::lower_bound(phases.begin(), phases.end(), row.time) -
+                      phases.begin() - 1]
+          .push_back(row.time);
+  }
+
+
+
   PredictedCurves
   Experiment::predict_by_run(const Eigen::VectorXd &values,
                              const bool             with_derivatives)
   {
-    const bool  keep = std::none_of(changes_bodies.begin(),
-                                   changes_bodies.end(),
-                                   [](const bool changes) { return changes; });
-    const Scene now  = scene_at(values);
-    if (bodies)
-      bodies->return_to_rest();
-    Simulation simulation(now, keep ? bodies : nullptr);
-    if (keep)
-      bodies = simulation.system().bodies();
+    Scene now = scene_at(values);
+    if (!ends_of_steps.empty())
+      {
+        now.load_steps.adaptive = false;
+        now.load_steps.ends     = ends_of_steps;
+        for (std::size_t i = 0; i < ends_of_steps.size(); ++i)
+          now.load_steps.steps[i] = ends_of_steps[i].size();
+      }
+    const auto  run        = simulation_of(now);
+    Simulation &simulation = *run;
 
     std::vector<SceneVariation> variations;
     std::vector<unsigned int>   varied;
@@ -602,6 +673,8 @@ namespace Debond
         if (changes_model[j])
           {
             variations.push_back(variation(values, j));
+            variations.back().plus.load_steps =
+              variations.back().minus.load_steps = now.load_steps;
             varied.push_back(j);
           }
         else
@@ -622,14 +695,17 @@ namespace Debond
                 row.position.col(v);
             }
         }
-    if (!now.load_steps.adaptive)
+    if (!now.load_steps.draws_curve())
       return at_measured_rows(simulation.rows(),
                               derivatives,
                               now.calibration,
                               rig);
     const auto fine = fine_curve(simulation.rows());
     if (with_derivatives)
-      derivatives = on_fine_curve(fine, simulation.rows(), derivatives);
+      derivatives = on_fine_curve(fine,
+                                  simulation.rows(),
+                                  derivatives,
+                                  now.load_steps.times);
     return at_measured_rows(fine, derivatives, now.calibration, rig);
   }
 

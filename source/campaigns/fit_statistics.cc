@@ -4,11 +4,13 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
+#include <Eigen/QR>
 #include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 namespace Debond
 {
@@ -75,6 +77,9 @@ namespace Debond
               covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
       }
 
+    if (misfit.measure != MisfitMeasure::least_squares)
+      bootstrap(misfit, at_best.values);
+
     // over the noise, and back to the unit of the curve; flat directions do not
     // move it
     sd_of_values.resize(n);
@@ -92,6 +97,64 @@ namespace Debond
                    jacobian.row(i).dot(finite * jacobian.row(i).transpose()))) /
         misfit.weights[i];
     band = quantile * sd_of_values;
+  }
+
+
+
+  // Neighbouring residuals hang together, so that blocks of them are drawn. The
+  // sum of sqrt(r^2 + d^2) is made small by least squares with the weights
+  // 1 / sqrt(r^2 + d^2) of the solution before.
+  void
+  FitStatistics::bootstrap(const Misfit &misfit, const Eigen::VectorXd &values)
+  {
+    constexpr unsigned int n_samples = 200, n_iterations = 30;
+    const Eigen::VectorXd  weights = misfit.weights_of_measure();
+    const Eigen::VectorXd  residual =
+      weights.cwiseProduct(misfit.measured - values);
+    const Eigen::MatrixXd J =
+      weights.cwiseQuotient(misfit.weights).asDiagonal() * jacobian;
+    const Eigen::Index n = residual.size(), p = J.cols();
+    const Eigen::Index block =
+      std::max<Eigen::Index>(1, std::lround(std::cbrt(double(n))));
+    std::mt19937 generator(misfit.experiments.front()->scene.calibration.seed);
+    std::vector<std::vector<double>> samples(p);
+    for (unsigned int sample = 0; sample < n_samples; ++sample)
+      {
+        Eigen::VectorXd drawn(n);
+        for (Eigen::Index i = 0; i < n; i += block)
+          {
+            const Eigen::Index from = generator() % (n - block + 1);
+            for (Eigen::Index k = 0; k < block && i + k < n; ++k)
+              drawn[i + k] = residual[from + k];
+          }
+        Eigen::VectorXd change = Eigen::VectorXd::Zero(p);
+        for (unsigned int iteration = 0; iteration < n_iterations; ++iteration)
+          {
+            const Eigen::VectorXd root =
+              (drawn - J * change).unaryExpr([](const double r) {
+                return 1. / std::sqrt(std::hypot(r, 1e-3));
+              });
+            change = (root.asDiagonal() * J)
+                       .completeOrthogonalDecomposition()
+                       .solve(root.cwiseProduct(drawn));
+          }
+        for (Eigen::Index j = 0; j < p; ++j)
+          samples[j].push_back(change[j]);
+      }
+    for (Eigen::Index j = 0; j < p; ++j)
+      if (is_free[j] && std::isfinite(half_widths[j]))
+        {
+          std::sort(samples[j].begin(), samples[j].end());
+          const Unknown &u    = misfit.unknowns.list[j];
+          const double   best = u.to_search(unknowns[j].best);
+          const auto     end  = [&](const double share) {
+            const double searched =
+              best + samples[j][std::lround(share * (n_samples - 1))];
+            return u.logarithmic ? std::exp(searched) : searched;
+          };
+          unknowns[j].lower = end(0.025);
+          unknowns[j].upper = end(0.975);
+        }
   }
 
 

@@ -288,7 +288,7 @@ namespace Debond
   Simulation::end_of_step(const Step &step)
   {
     StepState end = state();
-    if (scene.load_steps.adaptive && step.time == step.whole_time)
+    if (scene.load_steps.draws_curve() && step.time == step.whole_time)
       {
         rates              = coupled_system.rates();
         end.force_rates    = rates.forces;
@@ -482,7 +482,7 @@ namespace Debond
         row.chuck_reaction[k] = reaction[k];
         row.chuck_position[k] = q[k] * (is_rotation(k) ? 180. / M_PI : 1.);
       }
-    if (row.step > 0 && scene.load_steps.adaptive)
+    if (row.step > 0 && scene.load_steps.draws_curve())
       set_rates(row);
     if (sensitivities)
       all_derivatives.push_back(sensitivities->of_row());

@@ -184,6 +184,8 @@ namespace Debond
                                        const unsigned int step_in_phase) const
   {
     const double begin = times[phase], end = times[phase + 1];
+    if (!ends.empty() && step_in_phase > 0)
+      return ends[phase][step_in_phase - 1];
     return step_in_phase == steps[phase] ?
              end :
              begin + (end - begin) * step_in_phase / steps[phase];

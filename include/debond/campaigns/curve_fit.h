@@ -30,9 +30,14 @@ namespace Debond
     EvaluationLog(const std::string &filename, bool begins_anew);
 
     std::optional<Evaluation>
-    find(const Eigen::VectorXd &unknowns, bool with_derivatives);
+    find(const std::string     &steps,
+         const Eigen::VectorXd &unknowns,
+         bool                   with_derivatives);
+    /** @p steps: what tells the steps from those of other evaluations. */
     void
-    add(const Eigen::VectorXd &unknowns, const Evaluation &evaluation);
+    add(const std::string     &steps,
+        const Eigen::VectorXd &unknowns,
+        const Evaluation      &evaluation);
 
     unsigned int n_evaluations = 0; ///< of this file
 
@@ -60,6 +65,10 @@ namespace Debond
              Experiment::By         model,
              bool                   with_derivatives);
 
+    /** See Experiment. */
+    void
+    choose_steps(const Eigen::VectorXd *values);
+
     /** Differences between @p values and what has been measured, over the
      *  standard deviation of the noise; where that is unknown over the largest
      *  measured value of the curve. */
@@ -68,6 +77,9 @@ namespace Debond
     {
       return (values - measured).cwiseProduct(weights);
     }
+    /** By what differences are multiplied in the measure that is made small. */
+    Eigen::VectorXd
+    weights_of_measure() const;
     /** The noise is known. */
     bool
     has_noise() const
@@ -85,6 +97,7 @@ namespace Debond
 
   private:
     EvaluationLog *log;
+    std::string    steps; ///< the unknowns that have chosen them
     bool           noise_is_known = false;
   };
 

@@ -18,6 +18,7 @@
 namespace Debond
 {
   struct BodyPair;
+  class Simulation;
 
   /** What is computed where something has been measured: curve after curve,
    *  each with its rows, and by column the derivatives with respect to the
@@ -91,6 +92,12 @@ namespace Debond
     PredictedCurves
     predict(const Eigen::VectorXd &values, By model, bool with_derivatives);
 
+    /** Of a scene with adaptive steps: from now on runs take the steps that one
+     *  with these unknowns chooses, so that curves change smoothly with the
+     *  unknowns. Without any: each run chooses its own. */
+    void
+    choose_steps(const Eigen::VectorXd *values);
+
     /** For one that has not been done: rows over all of its load. */
     void
     propose_rows();
@@ -126,6 +133,8 @@ namespace Debond
     predict_by_disk(const Eigen::VectorXd &values, bool with_derivatives);
     PredictedCurves
     predict_by_differences(const Eigen::VectorXd &values);
+    std::unique_ptr<Simulation>
+    simulation_of(const Scene &scene);
     PredictedCurves
     predict_by_run(const Eigen::VectorXd &values, bool with_derivatives);
 
@@ -159,9 +168,10 @@ namespace Debond
       changes_bodies;
     bool has_elastic_bodies;
     /** Why runs of the scene are not differentiated, but compared; or empty. */
-    std::string               why_differences;
-    Foundation                centre;
-    std::shared_ptr<BodyPair> bodies, linear_bodies;
+    std::string                      why_differences;
+    Foundation                       centre;
+    std::shared_ptr<BodyPair>        bodies, linear_bodies;
+    std::vector<std::vector<double>> ends_of_steps; ///< of each phase
   };
 } // namespace Debond
 #endif

@@ -76,6 +76,11 @@ namespace Debond
     Eigen::VectorXd half_widths;
 
   private:
+    /** Intervals for what is no sum of squares: fits to residuals that are
+     * drawn anew block by block, with curves that are straight in the unknowns.
+     */
+    void
+    bootstrap(const Misfit &misfit, const Eigen::VectorXd &values);
     void
     judge_unknowns(const Misfit &misfit, const Eigen::VectorXd &best);
     void

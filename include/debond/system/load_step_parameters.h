@@ -37,6 +37,18 @@ namespace Debond
     /** Mean sliding distance at which the path ends [mm]; 0: the radius. */
     double path_ends_at_slip = 0;
 
+    /** Ends of the planned steps of each phase, if they are not even: those that
+     *  another run has chosen. For scenes that a program makes; no entry of a
+     *  file. The curve between them is drawn as with adaptive steps. */
+    std::vector<std::vector<double>> ends;
+
+    /** Whether the curve between rows is known. */
+    bool
+    draws_curve() const
+    {
+      return adaptive || !ends.empty();
+    }
+
     /** Else each accepted step is a row. */
     bool
     rows_are_planned() const

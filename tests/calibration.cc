@@ -80,10 +80,11 @@ measure(const std::string &filename,
 std::string
 calibration_of(const std::string &file, const std::string &entries)
 {
+  static unsigned int n = 0;
   return "subsection Calibration\n" + entries +
          "end\n"
          "subsection Output\n  set Directory = results/" +
-         file + "-fit\n  set Reference curve = " + file + "\nend\n";
+         std::to_string(++n) + "\n  set Reference curve = " + file + "\nend\n";
 }
 
 
@@ -111,8 +112,9 @@ calibrate(const std::string &name, const std::string &text, const bool show)
   while (show && std::getline(lines, line))
     if (line.find("could not be computed") == std::string::npos)
       std::cout << "  " << line << '\n';
-  return nlohmann::ordered_json::parse(
-    std::ifstream(directory + "/calibration.json"));
+  std::ifstream file(directory + "/calibration.json");
+  return file ? nlohmann::ordered_json::parse(file) :
+                nlohmann::ordered_json();
 }
 
 
@@ -183,8 +185,7 @@ check_exact_curves()
                  "{{0.0049||0.0098}}",
                  calibration_of("{{clean.csv||double.csv}}",
                                 "  set Angle offset = "
-                                "{{0||<<0 in -1..1>>}}\n")
-                   .replace(0, 0, "")),
+                                "{{0||<<0 in -1..1>>}}\n")),
       false),
     {{"Interface / Friction coefficient broken", 0.4},
      {a_s, 0.022},

@@ -413,6 +413,12 @@ namespace Debond
     result.directory = directory.path();
     set_number_of_threads(1); // a search for each thread
     Search search(unknowns, experiments.size(), name, n_threads, log);
+    for (const auto &experiment : all.experiments)
+      if (const unsigned int n = experiment->measured.n_left_out; n > 0)
+        out << n << " rows of " << experiment->measured.file
+            << " are not in the windows, stay where the row before was, or are "
+               "beyond what the scene comes to"
+            << std::endl;
     out << all.measured.size() << " measured values, " << unknowns.list.size()
         << " unknowns" << std::endl;
 

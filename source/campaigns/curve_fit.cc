@@ -376,11 +376,11 @@ namespace Debond
                                            unknown.to_search(unknown.upper));
           }
         ceres::Solver::Options options;
-        options.linear_solver_type  = ceres::DENSE_QR;
-        options.logging_type        = ceres::SILENT;
-        options.max_num_iterations  = 100;
-        // Closed forms cost nothing. Runs are only as good as their steps; where
-        // the model is right the sum of squares falls to nothing even so.
+        options.linear_solver_type = ceres::DENSE_QR;
+        options.logging_type       = ceres::SILENT;
+        options.max_num_iterations = 100;
+        // Closed forms cost nothing. Runs are only as good as their steps;
+        // where the model is right the sum of squares falls to nothing even so.
         options.function_tolerance =
           model == Experiment::By::closed_form ? 1e-12 : 1e-6;
         options.gradient_tolerance  = 1e-14;

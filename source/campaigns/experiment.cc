@@ -255,6 +255,43 @@ namespace Debond
 
 
 
+  // Where the scene is led along `over`, as far as it prescribes that; rows of
+  // a measured curve beyond it mean nothing. While the offset of the rig is an
+  // unknown some may come to lie beyond, for which the curve goes on straight.
+  std::pair<double, double>
+  Experiment::reach() const
+  {
+    double       least = std::numeric_limits<double>::infinity(), most = -least;
+    const auto  &rig      = scene.calibration;
+    const double rounding = 1e-9;
+    if (over.kind == CurveColumn::reaction ||
+        (over.kind == CurveColumn::position &&
+         scene.chuck.component[over.component].loaded))
+      return {most, least};
+    const Chuck chuck(scene.chuck,
+                      Eigen::Vector3d::Zero(),
+                      scene.implant.characteristic_radius());
+    for (const double time : scene.load_steps.sample_times())
+      {
+        const double place =
+          over.kind == CurveColumn::time ?
+            time :
+            chuck.values(time)[over.component] *
+              (is_rotation(over.component) ? 1. / degree : 1.);
+        least = std::min(least, place);
+        most  = std::max(most, place);
+      }
+    const double turned =
+      over.kind == CurveColumn::position && over.component == twist ?
+        rig.angle_offset + rig.slack :
+        0.;
+    const double margin = rounding * (most - least);
+    // before it begins to turn the curve is known: there is no load
+    return {least - margin - std::abs(turned), most + margin + turned};
+  }
+
+
+
   // Rows in windows only. What the scene does not come to is left out, too, if
   // that can be told from what it prescribes.
   void
@@ -286,12 +323,7 @@ namespace Debond
       all[i] = table[i][0];
     const auto branch = branches_of(all, 0.05);
 
-    double least = -std::numeric_limits<double>::infinity(), most = -least;
-    if (over.kind == CurveColumn::time)
-      {
-        least = scene.load_steps.times.front();
-        most  = scene.load_steps.times.back();
-      }
+    const auto [least, most] = reach();
     std::vector<std::size_t> used;
     for (std::size_t i = 0; i < table.size(); ++i)
       {
@@ -310,7 +342,10 @@ namespace Debond
                          std::to_string(table.size()) + " rows, " + over.name +
                          " from " + to_text(all.minCoeff(), 4) + " to " +
                          to_text(all.maxCoeff(), 4) +
-                         ", is in Calibration / Windows and the scene's times");
+                         ", is in Calibration / Windows and what the scene "
+                         "comes to, " +
+                         to_text(least, 4) + " to " + to_text(most, 4));
+    measured.n_left_out = table.size() - used.size();
     measured.over.resize(used.size());
     measured.values.resize(used.size(), columns.size());
     for (std::size_t i = 0; i < used.size(); ++i)
@@ -425,7 +460,7 @@ namespace Debond
   //   dy = (1 - s) (dy_a - m dx_a) + s (dy_b - m dx_b),   m = (y_b - y_a) /
   //                                                           (x_b - x_a).
   //
-  // Beside the ends of a branch the curve goes on as it ends.
+  // Before the beginning of a branch the curve stays as it begins.
   PredictedCurves
   Experiment::at_measured_rows(
     const std::vector<TorqueRow>                     &rows,
@@ -498,10 +533,10 @@ namespace Debond
           ++end;
         const unsigned int begin = end > first ? end - 1 : end;
         const double       width = x[end] - x[begin];
-        const double share     = sign * (place - x[end]) >= 0. || width == 0. ?
-                                   1. :
-                                   std::max(0., (place - x[begin]) / width);
-        const bool   is_beside = share == 1. || share == 0.;
+        // beyond the end the curve goes on straight
+        const double share =
+          width == 0. ? 1. : std::max(0., (place - x[begin]) / width);
+        const bool is_beside = share == 0.;
         for (unsigned int c = 0; c < columns.size(); ++c)
           {
             const CurveColumn &column = columns[c];
@@ -595,13 +630,12 @@ namespace Debond
             }
           const double width = of_run[end].time - of_run[end - 1].time,
                        s     = (row.time - of_run[end - 1].time) / width;
-          result.push_back(
-            (1. - s) * (1. - s) *
-              ((1. + 2. * s) * derivatives[end - 1] +
-               s * width * slope(end - 1, true)) +
-            s * s *
-              ((3. - 2. * s) * derivatives[end] -
-               (1. - s) * width * slope(end, false)));
+          result.push_back((1. - s) * (1. - s) *
+                             ((1. + 2. * s) * derivatives[end - 1] +
+                              s * width * slope(end - 1, true)) +
+                           s * s *
+                             ((3. - 2. * s) * derivatives[end] -
+                              (1. - s) * width * slope(end, false)));
         }
       return result;
     }

@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Debond
@@ -57,8 +58,9 @@ namespace Debond
     std::string      file;   ///< empty: nothing has been measured yet
     std::vector<int> branch; ///< of each row, between turning points
     Eigen::VectorXd  over;
-    Eigen::MatrixXd  values; ///< rows x curves
-    Eigen::VectorXd  scale;  ///< of each curve: its largest magnitude
+    Eigen::MatrixXd  values;         ///< rows x curves
+    Eigen::VectorXd  scale;          ///< of each curve: its largest magnitude
+    unsigned int     n_left_out = 0; ///< rows that are not fitted
   };
 
   /**
@@ -109,6 +111,8 @@ namespace Debond
     Measurement              measured;
 
   private:
+    std::pair<double, double>
+    reach() const;
     void
     read_measurement();
     const Scene &

@@ -3,6 +3,7 @@
 #include <debond/interface/bonding_pattern.h>
 #include <debond/scene/reference_data.h>
 #include <debond/scene/scene.h>
+#include <debond/scene/scene_variation.h>
 #include <debond/support/number_text.h>
 
 #include <cmath>
@@ -251,5 +252,6 @@ namespace Debond
     check_path_following(*this);
     check_references(output);
     check_bonding_file(interface.bonding.file, output.directory);
+    check_sensitivities(*this);
   }
 } // namespace Debond

@@ -100,7 +100,9 @@ namespace
     show("too few numbers", in("Bone", "set Size = 12, 5"));
     show("broken whole number", in("Bone", "set Cells = 15, 15, 2.5"));
     show("unknown choice", in("Bone", "set Material = steel"));
-    show("later version", "set Task = calibrate\n" + turning);
+    show("unknown task", "set Task = optimise\n" + turning);
+    show("unknown in a scene that is simulated",
+         "subsection Bone\n  set Young modulus = <<18000 in 1..2>>\nend\n" + turning);
     show("study", in("Bone", "set Young modulus = {{18000|21000}}"));
     show("wrong override", turning, {"Interface/Penalty stiffness=-1"});
     show("override without a value", turning, {"Interface/Penalty stiffness"});

@@ -12,6 +12,7 @@
 #include <debond/support/number_text.h>
 
 #include <cstdlib>
+#include <fstream>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -266,6 +267,19 @@ main()
         coin,
         sideways + "Interface/Viscosity=20" + "Interface/Friction starts at=1",
         {law[1], law[4], law[5], law[9], {"Interface/Viscosity", 20}});
+  std::ofstream("sensitivities.csv")
+    << "slip_mm,phi\n0,1\n0.01,0.9\n0.02,0.5\n0.03,0.1\n0.05,0\n";
+  check("Law from a table, in divided steps",
+        coin,
+        {"Interface/Friction law=table",
+         "Interface/Friction table=sensitivities.csv",
+         "Load steps/Times=0, 1, 3",
+         "Load steps/Steps=1, 3"},
+        {law[0],
+         law[1],
+         law[4],
+         law[6],
+         {"Chuck/Rotation z/Value", 9.5, " * max(t - 1, 0)"}});
   check("Tilted, and lifted in part",
         coin,
         sideways + "Chuck/Rotation y/Value=0.25 * sin(pi * max(t - 1, 0))",

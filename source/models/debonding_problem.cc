@@ -112,6 +112,7 @@ namespace Debond
                  simulation.system().interface,
                  simulation.system().chuck)
       {
+        simulation.differentiate(variations_of(scene));
         if (checkpoint != nullptr)
           restore(*checkpoint);
         else
@@ -304,6 +305,11 @@ namespace Debond
                       {"largest_bonded_patch_mm2", bonding.largest_patch},
                       {"jumps", released.n_jumps()},
                       {"released_energy_Nm", 1e-3 * released.total()}});
+        if (!scene.output.sensitivities.empty())
+          write_file(directory.file("sensitivities.csv"),
+                     sensitivity_table(scene,
+                                       simulation.rows(),
+                                       simulation.row_derivatives()));
         report.finish(simulation.rows(), settings, facts);
         if (!converged)
           return;

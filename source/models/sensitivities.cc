@@ -1,3 +1,4 @@
+#include <debond/input/csv_table.h>
 #include <debond/models/sensitivities.h>
 #include <debond/support/input_error.h>
 
@@ -195,7 +196,7 @@ namespace Debond
   void
   Sensitivities::advance()
   {
-    constexpr double   tolerance = 1e-9;
+    constexpr double   tolerance = 1e-8;
     const auto        &unknown   = system.configuration.chuck_unknowns;
     const unsigned int n_v       = system.n_unknowns() - unknown.size();
     Eigen::MatrixXd    moved =
@@ -253,5 +254,69 @@ namespace Debond
         row.torque[j] = chuck.axis(spin).dot(row.reaction.col(j).tail<3>()) +
                         chuck.axis_rate(spin, positions.col(j)).dot(moment);
       }
+  }
+
+
+
+  std::vector<RowDerivatives>
+  differences(const std::vector<SceneVariation> &variations,
+              const std::vector<std::array<std::vector<TorqueRow>, 2>> &rows)
+  {
+    using Numbers                 = Eigen::Map<const Chuck::Vector6>;
+    const unsigned int          n = variations.size();
+    std::vector<RowDerivatives> result(n > 0 ? rows[0][0].size() : 0);
+    for (unsigned int i = 0; i < result.size(); ++i)
+      {
+        result[i].reaction.resize(6, n);
+        result[i].position.resize(6, n);
+        result[i].torque.resize(n);
+        for (unsigned int j = 0; j < n; ++j)
+          {
+            const TorqueRow &plus = rows[j][0][i], &minus = rows[j][1][i];
+            const double     width    = variations[j].width;
+            result[i].reaction.col(j) = (Numbers(plus.chuck_reaction.data()) -
+                                         Numbers(minus.chuck_reaction.data())) /
+                                        width;
+            result[i].position.col(j) = (Numbers(plus.chuck_position.data()) -
+                                         Numbers(minus.chuck_position.data())) /
+                                        width;
+            result[i].torque[j] = (plus.torque_Nmm - minus.torque_Nmm) / width;
+          }
+      }
+    return result;
+  }
+
+
+
+  std::string
+  sensitivity_table(const Scene                       &scene,
+                    const std::vector<TorqueRow>      &rows,
+                    const std::vector<RowDerivatives> &derivatives)
+  {
+    // what there is of a row: the columns of torque.csv with these names
+    std::vector<std::string> of_row{"torque_Nmm", "force_N"};
+    TorqueRow().for_each_column([&](const std::string &name, double) {
+      if (name.rfind("chuck_", 0) == 0)
+        of_row.push_back(name);
+    });
+    std::vector<std::string> names{"time", "angle_deg"};
+    for (const std::string &entry : scene.output.sensitivities)
+      for (const std::string &name : of_row)
+        names.push_back("d " + name + " / d " + entry);
+    std::string table = csv_line(names);
+    for (unsigned int i = 0; i < derivatives.size(); ++i)
+      {
+        const RowDerivatives &row = derivatives[i];
+        std::vector<double>   values{rows[i].time, rows[i].angle_deg};
+        for (unsigned int j = 0; j < row.torque.size(); ++j)
+          {
+            values.insert(values.end(), {row.torque[j], -row.reaction(2, j)});
+            for (const auto *six : {&row.reaction, &row.position})
+              for (unsigned int k = 0; k < 6; ++k)
+                values.push_back((*six)(k, j));
+          }
+        table += csv_line(values);
+      }
+    return table;
   }
 } // namespace Debond

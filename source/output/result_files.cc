@@ -16,7 +16,8 @@ namespace Debond
     namespace fs = std::filesystem;
     static const std::regex rung("rung-[0-9]+"),
       file("(summary|repetition-[0-9]+)\\.json|checkpoint-[12]|"
-           "(torque|curve|curve_at|auto|bonding|profiles|friction_law)\\.csv|"
+           "(torque|curve|curve_at|auto|bonding|profiles|friction_law|"
+           "sensitivities)\\.csv|"
            "(bulk|interface)(-[0-9]+\\.vtu|\\.pvd)");
     const fs::directory_iterator entries(directory);
     for (const fs::path &path :

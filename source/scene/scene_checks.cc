@@ -3,6 +3,7 @@
 #include <debond/interface/bonding_pattern.h>
 #include <debond/scene/reference_data.h>
 #include <debond/scene/scene.h>
+#include <debond/scene/scene_variation.h>
 #include <debond/support/number_text.h>
 
 #include <cmath>
@@ -273,5 +274,6 @@ namespace Debond
       check_input_file(chuck.component[c].file,
                        ChuckParameters::entry_name(c, "File"),
                        output.directory);
+    check_sensitivities(*this);
   }
 } // namespace Debond

@@ -2,6 +2,7 @@
 #define debond_models_sensitivities_h
 
 #include <debond/interface/interface_sensitivity.h>
+#include <debond/output/torque_curve.h>
 #include <debond/scene/scene_variation.h>
 #include <debond/support/serialization.h>
 #include <debond/system/coupled_system.h>
@@ -101,5 +102,19 @@ namespace Debond
     InterfaceSensitivity   interface;
     RowDerivatives         row;
   };
+
+
+
+  /** The derivatives of rows by differences of the rows at p + h and p - h,
+   *  given for each variation. */
+  std::vector<RowDerivatives>
+  differences(const std::vector<SceneVariation> &variations,
+              const std::vector<std::array<std::vector<TorqueRow>, 2>> &rows);
+
+  /** The text of sensitivities.csv. */
+  std::string
+  sensitivity_table(const Scene                       &scene,
+                    const std::vector<TorqueRow>      &rows,
+                    const std::vector<RowDerivatives> &derivatives);
 } // namespace Debond
 #endif

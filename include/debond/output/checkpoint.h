@@ -41,7 +41,7 @@ namespace Debond
   {
   public:
     /** To be raised when the state of any class has other members. */
-    static constexpr unsigned int format = 3;
+    static constexpr unsigned int format = 4;
 
     explicit CheckpointFiles(const ResultDirectory &directory);
 

@@ -4,6 +4,7 @@
 #include <debond/scene/scene.h>
 
 #include <string>
+#include <vector>
 
 namespace Debond
 {
@@ -22,5 +23,14 @@ namespace Debond
    *  changes, which ..."); empty: it can. */
   std::string
   why_not_differentiable(const Scene &scene, const SceneVariation &variation);
+
+  /** By the entries of `Output / Sensitivities`: numbers by themselves, a
+   *  `Value` of the chuck by a factor, which is 1. Throws EntryError. */
+  std::vector<SceneVariation>
+  variations_of(const Scene &scene);
+
+  /** Refuses sensitivities that cannot be had. Throws EntryError. */
+  void
+  check_sensitivities(const Scene &scene);
 } // namespace Debond
 #endif

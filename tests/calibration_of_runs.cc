@@ -28,9 +28,9 @@ scene_text(const std::string &entries, const std::string &more)
          "end\n"
          "subsection Chuck\n"
          "  subsection Translation z\n    set Value = -0.0049 * min(t, 1)\n  end\n"
-         "  subsection Rotation z\n    set Value = 4 * max(t - 1, 0)\n  end\n"
+         "  subsection Rotation z\n    set Value = 10 * max(t - 1, 0)\n  end\n"
          "end\n"
-         "subsection Load steps\n  set Steps = 1, 40\nend\n" +
+         "subsection Load steps\n  set Steps = 1, 200\nend\n" +
          more;
 }
 

@@ -146,22 +146,27 @@ namespace Debond
                   const unsigned int n_best,
                   const By           model)
       {
-        const auto          starts = starts_of(unknowns, n_starts);
-        std::vector<double> costs(starts.size());
+        const auto            starts = starts_of(unknowns, n_starts);
+        std::vector<double>   costs(starts.size());
+        std::vector<Failures> failed(starts.size());
         for_each_at_once(starts.size(),
                          workers.size(),
                          [&](const unsigned int i, const unsigned int worker) {
                            if (interrupting_signal() != 0)
                              return;
-                           Misfit          &misfit = *workers[worker];
+                           Misfit &misfit  = *workers[worker];
+                           misfit.failures = {};
                            const Evaluation at =
                              misfit.evaluate(starts[i], model, false);
+                           failed[i] = misfit.failures;
                            costs[i] =
                              at.failure.empty() ?
                                misfit.residuals(at.values).squaredNorm() :
                                std::numeric_limits<double>::infinity();
                          });
         stop_if_asked();
+        for (const Failures &more : failed)
+          failures.add(more);
         std::vector<unsigned int> order(starts.size());
         std::iota(order.begin(), order.end(), 0);
         std::stable_sort(order.begin(),
@@ -190,17 +195,29 @@ namespace Debond
                              ends[i] = with_chosen_steps(misfit, starts[i]);
                            else
                              {
+                               centre_at(misfit, unknowns.starts());
                                ends[i] = minimise(misfit, starts[i], model);
                                centre(misfit, ends[i]);
                              }
                          });
         stop_if_asked();
+        for (const Optimum &end : ends)
+          failures.add(end.failures);
         return distinct(ends);
       }
 
       std::vector<std::unique_ptr<Misfit>> workers;
+      Failures                             failures; ///< in the order of starts
 
     private:
+      static void
+      centre_at(Misfit &misfit, const Eigen::VectorXd &values)
+      {
+        for (const auto &experiment : misfit.experiments)
+          if (!experiment->measured.file.empty())
+            experiment->centre_closed_form(values);
+      }
+
       /** The closed form has the stiffness of the place that it was centred at:
        *  there, until the fit stays there. */
       static void
@@ -210,9 +227,7 @@ namespace Debond
         for (unsigned int i = 0; end.why.empty() && i < most; ++i)
           {
             const Eigen::VectorXd before = end.unknowns;
-            for (const auto &experiment : misfit.experiments)
-              if (!experiment->measured.file.empty())
-                experiment->centre_closed_form(before);
+            centre_at(misfit, before);
             end = minimise(misfit, before, By::closed_form);
             if ((end.unknowns - before).norm() <= 1e-8 * before.norm())
               break;
@@ -261,12 +276,11 @@ namespace Debond
           if (end.why.empty() &&
               std::none_of(
                 result.begin(), result.end(), [&](const Optimum &other) {
-                  return workers.front()
-                           ->residuals(end.values)
-                           .isApprox(workers.front()->residuals(other.values),
-                                     1e-3) ||
-                         (end.values - other.values).norm() <
-                           1e-4 * other.values.norm();
+                  const Eigen::VectorXd apart = end.values - other.values;
+                  const double          by_noise =
+                    apart.cwiseProduct(workers.front()->weights).norm();
+                  return by_noise < 0.05 * std::sqrt(2. * end.cost) ||
+                         apart.norm() < 1e-4 * other.values.norm();
                 }))
             result.push_back(end);
         return result;
@@ -438,8 +452,10 @@ namespace Debond
     if (no_closed_form.empty() && !result.by_closed_form &&
         !result.optima.empty())
       {
-        out << "Closed form: " << result.optima.size() << " optima, the best "
-            << "after " << to_text(clock.wall_time(), 2) << " s" << std::endl;
+        out << "Closed form: " << result.optima.size()
+            << (result.optima.size() == 1 ? " optimum, after " :
+                                            " optima, after ")
+            << to_text(clock.wall_time(), 2) << " s" << std::endl;
         std::vector<Eigen::VectorXd> starts;
         for (const Optimum &optimum : result.optima)
           if (optimum.cost <= 4. * result.optima.front().cost + 1e-12 &&
@@ -447,17 +463,12 @@ namespace Debond
             starts.push_back(optimum.unknowns);
         result.optima = search.follow(starts, By::scene);
       }
-    for (const auto &worker : search.workers)
-      {
-        result.n_failures += worker->n_failures;
-        if (!worker->last_failure.empty())
-          result.last_failure = worker->last_failure;
-      }
+    result.failures      = search.failures;
     result.n_evaluations = log.n_evaluations;
     if (result.optima.empty())
       throw RunError("nothing was found: no unknowns that were tried give a "
                      "curve. The last reason: " +
-                     result.last_failure);
+                     result.failures.last);
 
     const By model  = result.by_closed_form ? By::closed_form : By::scene;
     Misfit  &misfit = search.first();

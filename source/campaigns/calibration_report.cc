@@ -78,8 +78,8 @@ namespace Debond
       return {{"version", DEBOND_VERSION},
               {"seconds", calibration.seconds},
               {"evaluations", calibration.n_evaluations},
-              {"failures", calibration.n_failures},
-              {"last_failure", calibration.last_failure},
+              {"failures", calibration.failures.n},
+              {"last_failure", calibration.failures.last},
               {"measured_values", misfit.measured.size()},
               {"noise_is_known", misfit.has_noise()},
               {"residual_sd", statistics.s},
@@ -247,10 +247,10 @@ namespace Debond
             << " ends at one of its bounds: the best value may lie beyond\n";
     for (const std::string &warning : statistics.warnings)
       out << "warning: " << warning << '\n';
-    if (calibration.n_failures > 0)
-      out << "warning: " << calibration.n_failures
+    if (calibration.failures.n > 0)
+      out << "warning: " << calibration.failures.n
           << " curves that were tried could not be computed, the last for: "
-          << calibration.last_failure << '\n';
+          << calibration.failures.last << '\n';
     for (const Calibration::Candidate &candidate : calibration.candidates)
       {
         out << "Experiment " << candidate.experiment + 1
@@ -261,10 +261,16 @@ namespace Debond
                          then = candidate.half_widths[j];
             out << (j == 0 ? " " : ", ");
             if (std::isfinite(now))
-              out << to_text(then / now, 2) << " times as wide for ";
+              out << to_text(then / now, 2) << " times as wide for "
+                  << list[j].name;
+            else if (std::isfinite(then))
+              out << "+-"
+                  << to_text(then *
+                               list[j].per_search(statistics.unknowns[j].best),
+                             2)
+                  << " for " << list[j].name;
             else
-              out << (std::isfinite(then) ? "finite for " : "no better for ");
-            out << list[j].name;
+              out << "no better for " << list[j].name;
           }
         out << '\n';
       }

@@ -211,8 +211,8 @@ namespace Debond
     if (is_logged)
       if (auto known = log->find(steps, values, with_derivatives))
         {
-          n_failures += !known->failure.empty();
-          last_failure = known->failure.empty() ? last_failure : known->failure;
+          if (!known->failure.empty())
+            failures.add({1, known->failure});
           return *known;
         }
     Evaluation result;
@@ -222,8 +222,7 @@ namespace Debond
     const auto fail = [&](const std::string &why) {
       result = {why, {}, {}};
       result.derivatives.resize(0, with_derivatives ? values.size() : 0);
-      last_failure = why;
-      ++n_failures;
+      failures.add({1, why});
     };
     Eigen::Index first = 0;
     for (const auto &experiment : experiments)
@@ -313,7 +312,6 @@ namespace Debond
         const bool            derivatives =
           jacobians != nullptr && jacobians[0] != nullptr;
         const Evaluation at = misfit.evaluate(values, model, derivatives);
-        ++n_evaluations;
         if (!at.failure.empty())
           return false;
         const Eigen::VectorXd weights = misfit.weights_of_measure();
@@ -332,7 +330,6 @@ namespace Debond
         return true;
       }
 
-      mutable unsigned int n_evaluations = 0;
 
     private:
       Misfit                         &misfit;
@@ -358,6 +355,7 @@ namespace Debond
           free.push_back(j);
           searched.push_back(misfit.unknowns.list[j].to_search(start[j]));
         }
+    misfit.failures = {};
     Optimum result;
     result.unknowns = start;
     if (!free.empty())
@@ -392,10 +390,9 @@ namespace Debond
         result.converged = summary.termination_type == ceres::CONVERGENCE;
         if (!summary.IsSolutionUsable())
           result.why =
-            misfit.last_failure.empty() ? summary.message : misfit.last_failure;
-        result.unknowns      = residuals->unknowns_at(searched.data());
-        result.n_evaluations = residuals->n_evaluations;
-        result.cost          = summary.final_cost;
+            misfit.failures.n == 0 ? summary.message : misfit.failures.last;
+        result.unknowns = residuals->unknowns_at(searched.data());
+        result.cost     = summary.final_cost;
       }
     if (result.why.empty())
       {
@@ -405,6 +402,7 @@ namespace Debond
         if (at.failure.empty() && free.empty())
           result.cost = 0.5 * misfit.residuals(at.values).squaredNorm();
       }
+    result.failures = misfit.failures;
     return result;
   }
 } // namespace Debond

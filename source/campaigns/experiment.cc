@@ -245,6 +245,9 @@ namespace Debond
           BondingPatternKind::homogeneous &&
         scene.interface.bonding_of_law().pattern != BondingPatternKind::disk)
       why_no_closed_form = "closed forms know homogeneous bonding and the disk";
+    for (const SceneEntry &entry : before)
+      if (entry.full_name() == "Implant / Radius")
+        why_no_closed_form = "the radius is an unknown";
     if (over.kind != CurveColumn::position || over.component != twist)
       why_no_closed_form = "closed forms know curves over the angle";
     for (const CurveColumn &column : columns)
@@ -785,13 +788,19 @@ namespace Debond
   void
   Experiment::centre_closed_form(const Eigen::VectorXd &values)
   {
+    // searches begin there again and again
+    if (begin.unknowns.size() > 0 && begin.unknowns == values)
+      {
+        centre = begin;
+        return;
+      }
     centre                            = {values,
                                          Eigen::Vector2d::Zero(),
                                          Eigen::MatrixXd::Zero(2, values.size())};
     const ClosedFormParameters &given = scene.closed_form;
     if (!has_elastic_bodies ||
         (given.torsional_stiffness > 0. && given.normal_stiffness > 0.))
-      return;
+      return; // no compliance of bodies
     centre.compliance = exact_compliance(values);
     for (Eigen::Index j = 0; j < values.size(); ++j)
       if (changes_stiffness[j])
@@ -806,6 +815,8 @@ namespace Debond
               .log() /
             (other[j] - values[j]);
         }
+    if (begin.unknowns.size() == 0)
+      begin = centre;
   }
 
 

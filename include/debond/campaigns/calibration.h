@@ -36,8 +36,8 @@ namespace Debond
     };
     std::vector<ProfilePoint> profiles;
 
-    unsigned int n_evaluations = 0, n_failures = 0; ///< of the scene's model
-    std::string  last_failure;
+    unsigned int n_evaluations = 0; ///< of the scene's model
+    Failures     failures;
     double       seconds = 0;
   };
 

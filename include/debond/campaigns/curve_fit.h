@@ -21,6 +21,20 @@ namespace Debond
     Eigen::MatrixXd derivatives; ///< by unknown
   };
 
+  /** Curves that could not be computed. */
+  struct Failures
+  {
+    unsigned int n = 0;
+    std::string  last; ///< why
+
+    void
+    add(const Failures &more)
+    {
+      n += more.n;
+      last = more.n > 0 ? more.last : last;
+    }
+  };
+
   /** Evaluations of the scene's own model that have been done: each is done
    *  once, and a calibration that was interrupted finds them in its file. */
   class EvaluationLog
@@ -92,8 +106,7 @@ namespace Debond
     /** Of all experiments that have been measured. */
     Eigen::VectorXd measured, weights;
     MisfitMeasure   measure;
-    unsigned int    n_failures = 0;
-    std::string     last_failure;
+    Failures        failures; ///< since it was cleared
 
   private:
     EvaluationLog *log;
@@ -110,7 +123,7 @@ namespace Debond
     double          cost      = 0; ///< half the sum of squares
     bool            converged = false;
     std::string     why; ///< there is none; else empty
-    unsigned int    n_evaluations = 0;
+    Failures        failures;
     Eigen::VectorXd values; ///< predicted
   };
 

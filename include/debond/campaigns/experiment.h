@@ -172,9 +172,9 @@ namespace Debond
       changes_bodies;
     bool has_elastic_bodies;
     /** Why runs of the scene are not differentiated, but compared; or empty. */
-    std::string                      why_differences;
-    Foundation                       centre;
-    std::shared_ptr<BodyPair>        bodies, linear_bodies;
+    std::string               why_differences;
+    Foundation                begin, centre; ///< the first one, and that now
+    std::shared_ptr<BodyPair> bodies, linear_bodies;
     std::vector<std::vector<double>> ends_of_steps; ///< of each phase
   };
 } // namespace Debond

@@ -1,6 +1,7 @@
 #include <debond/interface/contact_interface.h>
 #include <debond/interface/local_motion.h>
 
+#include <algorithm>
 #include <tuple>
 
 namespace Debond
@@ -241,6 +242,116 @@ namespace Debond
 
 
 
+  LaneSums
+  zero_lanes(const InterfaceConfiguration &configuration)
+  {
+    LaneSums sums;
+    for (const Side side : both_sides)
+      sums[side].setZero(3 * n_lanes,
+                         configuration.side[side].positions.cols());
+    return sums;
+  }
+
+
+
+  void
+  set_lane(LaneSums &lanes, const unsigned int lane, const NodalSums &sums)
+  {
+    for (const Side side : both_sides)
+      for (unsigned int c = 0; c < 3; ++c)
+        lanes[side].row(c * n_lanes + lane) = sums[side].row(c);
+  }
+
+
+
+  NodalSums
+  get_lane(const LaneSums &lanes, const unsigned int lane)
+  {
+    NodalSums sums;
+    for (const Side side : both_sides)
+      {
+        sums[side].resize(3, lanes[side].cols());
+        for (unsigned int c = 0; c < 3; ++c)
+          sums[side].row(c) = lanes[side].row(c * n_lanes + lane);
+      }
+    return sums;
+  }
+
+
+
+  Lanes<3>
+  interpolate_place(const SurfaceBasis &basis, const LaneNet &moved)
+  {
+    Lanes<3> result = Lanes<3>::Zero();
+    for (unsigned int a = 0; a < basis.size; ++a)
+      result += basis.N[a] * Eigen::Map<const Lanes<3>>(
+                               moved.col(basis.control_point[a]).data());
+    return result;
+  }
+
+
+
+  Lanes<9>
+  interpolate_tangents(const SurfaceBasis &basis, const LaneNet &moved)
+  {
+    Lanes<9> result = Lanes<9>::Zero();
+    for (unsigned int a = 0; a < basis.size; ++a)
+      {
+        const Eigen::Map<const Lanes<3>> p(
+          moved.col(basis.control_point[a]).data());
+        result.leftCols<3>() += basis.N[a] * p;
+        result.middleCols<3>(3) += basis.N_1[a] * p;
+        result.rightCols<3>() += basis.N_2[a] * p;
+      }
+    return result;
+  }
+
+
+
+  // As for one change above.
+  Lanes<ContactPointResult::n_w>
+  local_motion(const SlavePoint &point, const Side slave, const LaneSums &moved)
+  {
+    const LaneNet                 &master = moved[other(slave)];
+    Lanes<ContactPointResult::n_w> dw;
+    dw.leftCols<3>()    = interpolate_place(point.basis, moved[slave]);
+    dw.middleCols<9>(3) = interpolate_tangents(point.trial.basis, master);
+    dw.rightCols<7>().setZero();
+    if (point.trial.state.status != PointStatus::slip)
+      return dw;
+    const Lanes<9> old = interpolate_tangents(point.trial.old_basis, master);
+    const Eigen::Vector2d &gap = point.accepted.gap;
+    dw.middleCols<3>(12)       = old.leftCols<3>();
+    dw.middleCols<3>(15) =
+      gap[0] * old.middleCols<3>(3) + gap[1] * old.rightCols<3>();
+    return dw;
+  }
+
+
+
+  void
+  spread_change(const SlavePoint &point,
+                const Side        slave,
+                const Lanes<3>   &dt,
+                const Lanes<2>   &dxi,
+                LaneSums         &sums)
+  {
+    const Vector3d t    = point.JxW * point.trial.traction;
+    const Lanes<3> by_1 = dxi.col(0) * t.transpose(),
+                   by_2 = dxi.col(1) * t.transpose();
+    const auto at       = [](LaneNet &net, const unsigned int control_point) {
+      return Eigen::Map<Lanes<3>>(net.col(control_point).data());
+    };
+    for (unsigned int a = 0; a < point.basis.size; ++a)
+      at(sums[slave], point.basis.control_point[a]) += point.basis.N[a] * dt;
+    const SurfaceBasis &basis = point.trial.basis;
+    for (unsigned int b = 0; b < basis.size; ++b)
+      at(sums[other(slave)], basis.control_point[b]) -=
+        basis.N[b] * dt + basis.N_1[b] * by_1 + basis.N_2[b] * by_2;
+  }
+
+
+
   // Points are independent, so the matrix is a sum of dense blocks. The chuck
   // moves all control points of the implant at once: what that does to w of a
   // point is found as for any other motion of the control points.
@@ -309,6 +420,51 @@ namespace Debond
                     configuration,
                     1.,
                     result);
+  }
+
+
+
+  // For several directions at once, as a solver for several right-hand sides
+  // has them.
+  void
+  ContactInterface::apply_tangent(const InterfaceConfiguration &configuration,
+                                  const Eigen::MatrixXd        &directions,
+                                  Eigen::MatrixXd              &result) const
+  {
+    for (unsigned int begin = 0; begin < directions.cols(); begin += n_lanes)
+      {
+        const unsigned int n =
+          std::min<unsigned int>(n_lanes, directions.cols() - begin);
+        LaneSums moved = zero_lanes(configuration);
+        Lanes<6> chuck = Lanes<6>::Zero();
+        for (unsigned int lane = 0; lane < n; ++lane)
+          {
+            const Eigen::VectorXd direction = directions.col(begin + lane);
+            set_lane(moved, lane, nodal_motion(direction, configuration));
+            for (const auto &[component, number] : configuration.chuck_unknowns)
+              chuck(lane, component) = direction[number];
+          }
+        const auto change = [&](const unsigned int q, LaneSums &sums) {
+          const SlavePoint &point = points[q];
+          if (point.trial.state.status == PointStatus::open)
+            return;
+          auto dw = local_motion(point, slave, moved);
+          dw.col(18) += chuck * point.trial.turn_by_chuck;
+          spread_change(point,
+                        slave,
+                        point.JxW * (dw * point.trial.dt.transpose()),
+                        dw * point.trial.dxi.transpose(),
+                        sums);
+        };
+        const LaneSums  sums = sum_lanes(points.size(), configuration, change);
+        Eigen::VectorXd column;
+        for (unsigned int lane = 0; lane < n; ++lane)
+          {
+            column = result.col(begin + lane);
+            add_in_unknowns(get_lane(sums, lane), configuration, 1., column);
+            result.col(begin + lane) = column;
+          }
+      }
   }
 
 

@@ -29,7 +29,9 @@ namespace Debond
     std::vector<InterfaceMotion>           start)
     : interface(interface)
     , accepted(std::move(start))
-    , histories(variations.size() * interface.points.size())
+    , histories(accepted.size(),
+                std::vector<History>(interface.points.size(), History::Zero()))
+    , changes(accepted.size(), std::vector<Change>(interface.points.size()))
   {
     for (const InterfaceVariation &variation : variations)
       {
@@ -73,28 +75,30 @@ namespace Debond
 
     /** How the closest point xi of a surface moves with the surface and with x:
      *  a_alpha . (x - y) = 0, on a border of the patch along it only. */
-    Vector2d
+    Lanes<2>
     motion_of_projection(const Vector2d        &xi,
                          const SurfaceGeometry &y,
                          const Vector3d        &x,
-                         const SurfaceGeometry &dy,
-                         const Vector3d        &dx)
+                         const Lanes<9>        &dy,
+                         const Lanes<3>        &dx)
     {
       const Matrix<double, 3, 2> a   = tangents(y);
       const Vector3d             gap = x - y.y;
       Eigen::Matrix2d            by_xi;
       by_xi << gap.dot(y.a11), gap.dot(y.a12), gap.dot(y.a12), gap.dot(y.a22);
       by_xi -= a.transpose() * a;
-      Vector2d h = tangents(dy).transpose() * gap + a.transpose() * (dx - dy.y);
+      Lanes<2> h = (dx - dy.leftCols<3>()) * a;
+      h.col(0) += dy.middleCols<3>(3) * gap;
+      h.col(1) += dy.rightCols<3>() * gap;
       for (unsigned int d = 0; d < 2; ++d)
         if (xi[d] == 0. || xi[d] == 1.)
           {
             by_xi.row(d).setZero();
             by_xi(d, d) = 1.;
-            h[d]        = 0.;
+            h.col(d).setZero();
           }
-      const Vector2d motion = -by_xi.inverse() * h;
-      return motion.allFinite() ? motion : Vector2d(Vector2d::Zero());
+      const Lanes<2> motion = -h * by_xi.inverse().transpose();
+      return motion.allFinite() ? motion : Lanes<2>(Lanes<2>::Zero());
     }
   } // namespace
 
@@ -103,13 +107,23 @@ namespace Debond
   /** What a step asks of all points. */
   struct InterfaceSensitivity::Step
   {
-    const InterfaceSensitivity         &of;
-    const ContactInterface             &interface;
-    const Side                          slave;
-    const MasterSurface                 master, old_master;
-    const InterfaceConfiguration       &configuration;
-    const RigidMotion                   rigid;
-    const std::vector<InterfaceMotion> &motions;
+    const ContactInterface       &interface;
+    const InterfaceConfiguration &configuration;
+    const Side                    slave;
+    const MasterSurface           master;
+    const RigidMotion             rigid;
+    const bool                    turns; ///< the way of points that slide
+
+    Step(const ContactInterface       &interface,
+         const InterfaceConfiguration &configuration)
+      : interface(interface)
+      , configuration(configuration)
+      , slave(interface.slave)
+      , master(interface.master(configuration))
+      , rigid({interface.accepted_frame, interface.accepted_centre},
+              Place::of_implant(configuration))
+      , turns(interface.law.slip_direction == SlipDirection::integrated)
+    {}
   };
 
 
@@ -118,71 +132,81 @@ namespace Debond
    */
   struct InterfaceSensitivity::PointStep
   {
-    const Step             &step;
-    const unsigned int      q;
-    const SlavePoint       &point;
-    const bool              slips;
-    const ContactPointState start;
-    const Vector3d          old_x, x;
-    ContactPointMode        mode;
-    SurfaceGeometry         old_y;   ///< at xi_hat^n, where that is now
-    SurfaceGeometry         y;       ///< at xi_hat
-    SurfaceGeometry         start_y; ///< at xi_hat^n, where that was
-    SurfaceBasis            start_basis;
-    PointData               by_data;
-    FrictionCoefficient     begin, end; ///< of the law
+    const SlavePoint &point;
+    const bool        slips;
+    const Vector3d    x;
+    SurfaceGeometry   y; ///< at xi_hat
 
-    PointStep(const Step &step, unsigned int q);
-    History
-    start_history(unsigned int j) const;
-    double
-    difference(unsigned int j, double distance) const;
-    double
-    distance() const
+    PointStep(const Step &step, const SlavePoint &point)
+      : point(point)
+      , slips(point.trial.state.status == PointStatus::slip)
+      , x(interpolate(point.basis,
+                      step.configuration.side[step.slave].positions))
     {
-      return mode.frictionless ? 0. : point.trial.state.slip - start.slip;
+      SurfaceBasis basis;
+      step.master.surface->evaluate(point.trial.state.xi, basis, true);
+      contract(basis, *step.master.positions, true, y);
     }
   };
 
 
 
-  InterfaceSensitivity::PointStep::PointStep(const Step        &step,
-                                             const unsigned int q)
-    : step(step)
-    , q(q)
-    , point(step.interface.points[q])
-    , slips(point.trial.state.status == PointStatus::slip)
+  /** The same, with what the step begins with. */
+  struct InterfaceSensitivity::PointStart : InterfaceSensitivity::PointStep
+  {
+    const Step               &step;
+    const ContactPointState   start;
+    const Vector3d            old_x;
+    ContactPointMode          mode;
+    SurfaceBasis              old_basis;
+    SurfaceGeometry           old_y; ///< at xi_hat^n, where that is now
+    PointData                 by_data;
+    FrictionCoefficient       begin, end; ///< of the law
+    double                    distance = 0.;
+    RigidMotion::TurnGradient by_turn;
+
+    PointStart(const Step &step, const SlavePoint &point);
+    History
+    history(const History &accepted, const InterfaceMotion &moved) const;
+    double
+    difference(const Parameter &parameter,
+               unsigned int     q,
+               double           distance) const;
+    Lanes<1>
+    turn(const Block &block) const;
+  };
+
+
+
+  InterfaceSensitivity::PointStart::PointStart(const Step       &step,
+                                               const SlavePoint &point)
+    : PointStep(step, point)
+    , step(step)
     , start(point.accepted.has_partner ?
               point.accepted :
               step.interface.entry(point, step.configuration))
     , old_x(
         interpolate(point.basis, step.interface.accepted_positions[step.slave]))
-    , x(interpolate(point.basis, step.configuration.side[step.slave].positions))
     , mode(step.interface.mode_now)
+    , old_y(y)
   {
-    if (step.interface.law.slip_direction == SlipDirection::integrated)
-      mode.turn = step.rigid.turn_of_way(old_x, step.slave);
-    const ContactPointLaw &law    = step.interface.law;
-    const MasterSurface   &master = step.master;
-    SurfaceBasis           basis;
-    master.surface->evaluate(start.xi, start_basis, true);
-    contract(start_basis, *master.positions, true, old_y);
-    if (start.status == PointStatus::open)
-      contract(start_basis, *step.old_master.positions, true, start_y);
-    y = old_y;
+    const ContactPointLaw &law = step.interface.law;
+    step.master.surface->evaluate(start.xi, old_basis, true);
     if (slips)
-      {
-        master.surface->evaluate(point.trial.state.xi, basis, true);
-        contract(basis, *master.positions, true, y);
-      }
+      contract(old_basis, *step.master.positions, true, old_y);
+    if (step.turns)
+      mode.turn = step.rigid.turn_of_way(old_x, step.slave);
+    if (slips && step.turns)
+      by_turn = step.rigid.gradient_of_turn(old_x, step.slave);
     by_data = differentiate_by_data(
-      law, start, point.phi_0, x, master, mode, point.trial);
-    if (mode.frictionless)
+      law, start, point.phi_0, x, step.master, mode, point.trial);
+    if (mode.frictionless || !slips)
       return;
     const FrictionState state =
       friction_state(start, point.phi_0, mode.duration);
-    begin = law.friction->coefficient(state, 0.);
-    end   = law.friction->coefficient(state, std::max(0., distance()));
+    distance = std::max(0., point.trial.state.slip - start.slip);
+    begin    = law.friction->coefficient(state, 0.);
+    end      = law.friction->coefficient(state, distance);
   }
 
 
@@ -190,34 +214,36 @@ namespace Debond
   // An open point has its xi_hat^n from its projection, and no other history
   // than its sliding distance.
   InterfaceSensitivity::History
-  InterfaceSensitivity::PointStep::start_history(const unsigned int j) const
+  InterfaceSensitivity::PointStart::history(const History         &accepted,
+                                            const InterfaceMotion &moved) const
   {
-    History history = step.of.histories[q * step.motions.size() + j];
     if (start.status != PointStatus::open)
-      return history;
-    const NodalSums &moved = step.of.accepted[j].surfaces;
-    SurfaceGeometry  dy;
-    contract(start_basis, moved[other(step.slave)], false, dy);
-    history.xi =
-      motion_of_projection(start.xi,
-                           start_y,
-                           old_x,
-                           dy,
-                           interpolate(point.basis, moved[step.slave]));
-    history.pressure = 0.;
-    history.gap.setZero();
-    return history;
+      return accepted;
+    SurfaceGeometry start_y;
+    contract(old_basis,
+             step.interface.accepted_positions[other(step.slave)],
+             true,
+             start_y);
+    History result       = History::Zero();
+    result.col(at_slip)  = accepted.col(at_slip);
+    result.leftCols<2>() = motion_of_projection(
+      start.xi,
+      start_y,
+      old_x,
+      interpolate_tangents(old_basis, moved.surfaces[other(step.slave)]),
+      interpolate_place(point.basis, moved.surfaces[step.slave]));
+    return result;
   }
 
 
 
   // dmu/dp after a given distance from a given state.
   double
-  InterfaceSensitivity::PointStep::difference(const unsigned int j,
-                                              const double       distance) const
+  InterfaceSensitivity::PointStart::difference(const Parameter   &parameter,
+                                               const unsigned int q,
+                                               const double distance) const
   {
-    const Parameter &parameter = step.of.parameters[j];
-    const auto       mu        = [&](const unsigned int sign) {
+    const auto mu = [&](const unsigned int sign) {
       return parameter.law[sign]
         .friction
         ->coefficient(friction_state(start,
@@ -231,101 +257,139 @@ namespace Debond
 
 
 
-  /** What becomes of a point with a parameter: traction, xi_hat, and the rest
-   *  of its history. */
-  struct InterfaceSensitivity::PointChange
+  /** n_lanes parameters: how they move both ends of the step. */
+  struct InterfaceSensitivity::Block
   {
-    PointChange(const PointStep &at, unsigned int j);
-    History
-    history() const;
+    const unsigned int     first_parameter;
+    const InterfaceMotion &old, &given;
+    bool                   is_at_rest; ///< by what is given
+    Lanes<3>               axis, turn; ///< of RigidMotion
 
-    Vector3d traction;
-    Vector2d xi;
-
-  private:
-    void
-    find_data();
-
-    const PointStep                        &at;
-    const History                           start;
-    LocalVector                             dw;
-    Matrix<double, PointData::n_columns, 1> data;
-    double                                  slip;
+    Block(const unsigned int     number,
+          const RigidMotion     &rigid,
+          const InterfaceMotion &old,
+          const InterfaceMotion &given)
+      : first_parameter(number * n_lanes)
+      , old(old)
+      , given(given)
+      , is_at_rest(given.surfaces[Side::implant].isZero(0.))
+      , turn(given.spin - old.spin * rigid.turn.transpose())
+    {
+      for (unsigned int lane = 0; lane < n_lanes; ++lane)
+        axis.row(lane) = rigid.change_of_axis(turn.row(lane).transpose());
+    }
   };
+
+
+
+  Lanes<1>
+  InterfaceSensitivity::PointStart::turn(const Block &block) const
+  {
+    return interpolate_place(point.basis, block.old.surfaces[step.slave]) *
+             by_turn.x +
+           block.old.shift * by_turn.old_centre +
+           block.given.shift * by_turn.centre + block.axis * by_turn.axis +
+           block.turn * by_turn.turn + block.given.spin * by_turn.frame;
+  }
+
+
+
+  // What the law is at p + h and p - h, and what its limits make of the
+  // history.
+  void
+  InterfaceSensitivity::set_data(const PointStart  &at,
+                                 const unsigned int q,
+                                 const unsigned int first_parameter,
+                                 const History     &start,
+                                 Change            &change) const
+  {
+    const bool   rubs  = at.slips && !at.mode.frictionless;
+    const double eps_t = interface.law.tangential_penalty,
+                 old_p = at.start.pressure;
+    change.data.setZero();
+    for (unsigned int lane = 0;
+         lane < n_lanes && first_parameter + lane < parameters.size();
+         ++lane)
+      {
+        const Parameter &parameter = parameters[first_parameter + lane];
+        const auto       per_unit  = [&](const auto &value) {
+          return (value(parameter.law[0]) - value(parameter.law[1])) /
+                 parameter.width;
+        };
+        auto data                 = change.data.row(lane);
+        data[PointData::pressure] = per_unit([&](const ContactPointLaw &law) {
+          return law.normal->respond(at.point.trial.normal_gap, at.start)
+            .pressure;
+        });
+        data[PointData::eps_t]    = per_unit(
+          [](const ContactPointLaw &law) { return law.tangential_penalty; });
+        if (!rubs)
+          continue;
+        const double slip = start(lane, at_slip);
+        const double old_mu =
+          at.difference(parameter, q, 0.) + at.begin.dmu * slip;
+        data[PointData::old_mu] = old_mu;
+        data[PointData::old_limit] =
+          (old_mu * old_p + at.begin.mu * start(lane, at_pressure) -
+           at.begin.mu * old_p / eps_t * data[PointData::eps_t]) /
+          eps_t;
+        data[PointData::mu] =
+          at.difference(parameter, q, at.distance) + at.end.dmu * slip;
+        data[PointData::viscous] = per_unit([&](const ContactPointLaw &law) {
+          return viscous_stiffness(law, at.mode);
+        });
+      }
+  }
 
 
 
   // The history moves xi_hat^n. While the point sticks that is where master
   // point and tangents are; once it slides it is where it came from, and what
   // it brings along of the gap.
-  InterfaceSensitivity::PointChange::PointChange(const PointStep   &at,
-                                                 const unsigned int j)
-    : at(at)
-    , start(at.start_history(j))
+  InterfaceSensitivity::Change
+  InterfaceSensitivity::change_at_rest(const PointStart  &at,
+                                       const unsigned int q,
+                                       const Block       &block) const
   {
-    const Step            &step   = at.step;
-    const InterfaceMotion &motion = step.motions[j], &old = step.of.accepted[j];
     const ContactPointResult  &trial = at.point.trial;
     const Matrix<double, 3, 2> a     = tangents(at.old_y);
-    const Matrix<double, 6, 2> by_xi = tangents_by_xi(at.old_y);
-    double                     turn  = 0.;
-    if (at.slips &&
-        step.interface.law.slip_direction == SlipDirection::integrated)
-      turn = step.rigid.change_of_turn(at.old_x,
-                                       interpolate(at.point.basis,
-                                                   old.surfaces[step.slave]),
-                                       step.slave,
-                                       old.implant,
-                                       motion.implant);
-    dw = local_motion(at.point, step.slave, motion.surfaces, turn);
-    const Matrix<double, 6, 1> turned = by_xi * start.xi;
+    const History              start =
+      at.history(histories[block.first_parameter / n_lanes][q], block.old);
+    Change change;
+    if (block.is_at_rest)
+      change.dw.setZero();
+    else
+      change.dw = local_motion(at.point, interface.slave, block.given.surfaces);
+    const Lanes<2> xi     = start.middleCols<2>(at_xi);
+    const Lanes<3> moved  = xi * a.transpose();
+    const Lanes<6> turned = xi * tangents_by_xi(at.old_y).transpose();
     if (at.slips)
       {
-        dw.segment<3>(12) += a * start.xi;
-        dw.segment<3>(15) += a * start.gap +
-                             at.start.gap[0] * turned.head<3>() +
-                             at.start.gap[1] * turned.tail<3>();
+        change.dw.middleCols<3>(12) += moved;
+        change.dw.middleCols<3>(15) +=
+          start.middleCols<2>(at_gap) * a.transpose() +
+          at.start.gap[0] * turned.leftCols<3>() +
+          at.start.gap[1] * turned.rightCols<3>();
+        if (at.step.turns)
+          change.dw.col(18) += at.turn(block);
       }
     else
       {
-        dw.segment<3>(3) += a * start.xi;
-        dw.segment<6>(6) += turned;
+        change.dw.middleCols<3>(3) += moved;
+        change.dw.middleCols<6>(6) += turned;
       }
-
-    // What the law is at p + h and p - h, and what its limits make of the
-    // history.
-    const Parameter       &parameter = step.of.parameters[j];
-    const ContactPointLaw &law       = step.interface.law;
-    const auto             per_unit  = [&](const auto &value) {
-      return (value(parameter.law[0]) - value(parameter.law[1])) /
-             parameter.width;
-    };
-    data.setZero();
-    data[PointData::pressure] = per_unit([&](const ContactPointLaw &varied) {
-      return varied.normal->respond(trial.normal_gap, at.start).pressure;
-    });
-    data[PointData::eps_t]    = per_unit(
-      [](const ContactPointLaw &varied) { return varied.tangential_penalty; });
+    set_data(at, q, block.first_parameter, start, change);
+    change.traction = change.dw * trial.dt.transpose() +
+                      change.data * at.by_data.dt.transpose();
+    change.xi = xi;
+    if (at.slips)
+      change.xi = change.dw * trial.dxi.transpose() +
+                  change.data * at.by_data.dxi.transpose();
+    change.slip = start.col(at_slip);
     if (at.slips && !at.mode.frictionless)
-      {
-        const double old_p = at.start.pressure, eps_t = law.tangential_penalty;
-        const double old_mu = at.difference(j, 0.) + at.begin.dmu * start.slip;
-        data[PointData::old_mu] = old_mu;
-        data[PointData::old_limit] =
-          (old_mu * old_p + at.begin.mu * start.pressure -
-           at.begin.mu * old_p / eps_t * data[PointData::eps_t]) /
-          eps_t;
-        data[PointData::mu] = at.difference(j, std::max(0., at.distance())) +
-                              at.end.dmu * start.slip;
-        data[PointData::viscous] = per_unit([&](const ContactPointLaw &varied) {
-          return viscous_stiffness(varied, at.mode);
-        });
-      }
-    traction = trial.dt * dw + at.by_data.dt * data;
-    xi = at.slips ? Vector2d(trial.dxi * dw + at.by_data.dxi * data) : start.xi;
-    slip = start.slip;
-    if (at.slips && !at.mode.frictionless)
-      slip += trial.dslip.dot(dw.transpose()) + at.by_data.dslip.dot(data);
+      change.slip += change.dw * trial.dslip.transpose() +
+                     change.data * at.by_data.dslip.transpose();
+    return change;
   }
 
 
@@ -334,43 +398,48 @@ namespace Debond
   // t_t / eps_t while the point slides and else x - y: with the tangents A, the
   // parts c solve A^T A c = A^T G.
   InterfaceSensitivity::History
-  InterfaceSensitivity::PointChange::history() const
+  InterfaceSensitivity::history(const PointStep &at, const Change &change) const
   {
     const ContactPointResult &trial = at.point.trial;
-    const ContactPointLaw    &law   = at.step.interface.law;
-    const MasterNormal        normal(at.y, at.step.master.outward_sign);
-    const Vector3d            g  = at.x - at.y.y;
-    Matrix<double, 6, 1>      da = dw.segment<6>(6);
-    Vector3d                  dy = dw.segment<3>(3);
+    const ContactPointLaw    &law   = interface.law;
+    const SurfaceGeometry    &y     = at.y;
+    const MasterNormal        normal(
+      y, interface.mesh[interface.master_side()]->outward_sign());
+    const Matrix<double, 3, 2> A  = tangents(y);
+    const Vector3d             g  = at.x - y.y;
+    Lanes<6>                   da = change.dw.middleCols<6>(6);
+    Lanes<3> dg = change.dw.leftCols<3>() - change.dw.middleCols<3>(3);
     if (at.slips)
       {
-        da += tangents_by_xi(at.y) * xi;
-        dy += tangents(at.y) * xi;
+        da += change.xi * tangents_by_xi(y).transpose();
+        dg -= change.xi * A.transpose();
       }
-    const Vector3d dn = normal.derivative() * da;
-    const Vector3d dg = dw.head<3>() - dy;
+    const Lanes<3> dn = da * normal.derivative().transpose();
     History        result;
-    result.xi   = xi;
-    result.slip = slip;
-    result.pressure =
-      data[PointData::pressure] -
-      law.normal->respond(trial.normal_gap, at.start).stiffness *
-        (normal.n.dot(dg) + g.dot(dn));
-    Vector3d G = g, dG = dg;
+    result.middleCols<2>(at_xi) = change.xi;
+    result.col(at_slip)         = change.slip;
+    result.col(at_pressure) =
+      change.data.col(PointData::pressure) -
+      law.normal->respond(trial.normal_gap, trial.state).stiffness *
+        (dg * normal.n + dn * g);
+    Vector3d G  = g;
+    Lanes<3> dG = dg;
     if (at.slips)
       {
         const double eps_t = law.tangential_penalty;
         G                  = trial.tangential_traction / eps_t;
-        dG                 = (traction + result.pressure * normal.n +
-              trial.state.pressure * dn - data[PointData::eps_t] * G) /
+        dG = (change.traction + result.col(at_pressure) * normal.n.transpose() +
+              trial.state.pressure * dn -
+              change.data.col(PointData::eps_t) * G.transpose()) /
              eps_t;
       }
-    const Matrix<double, 3, 2> A = tangents(at.y);
-    Matrix<double, 3, 2>       dA;
-    dA << da.head<3>(), da.tail<3>();
-    const Vector2d &c = trial.state.gap;
-    result.gap        = (A.transpose() * A).inverse() *
-                 (dA.transpose() * (G - A * c) + A.transpose() * (dG - dA * c));
+    const Eigen::Vector2d &c    = trial.state.gap;
+    const Vector3d         rest = G - A * c;
+    dG -= c[0] * da.leftCols<3>() + c[1] * da.rightCols<3>();
+    Lanes<2> right = dG * A;
+    right.col(0) += da.leftCols<3>() * rest;
+    right.col(1) += da.rightCols<3>() * rest;
+    result.middleCols<2>(at_gap) = right * (A.transpose() * A).inverse();
     return result;
   }
 
@@ -378,78 +447,99 @@ namespace Debond
 
   // One pass over the points for all parameters, since most of the work at a
   // point is the same for each of them. Sums as in evaluate(): threads change
-  // no digit. An open point keeps the derivative of its sliding distance.
-  std::vector<NodalSums>
-  InterfaceSensitivity::sum_changes(const InterfaceConfiguration &configuration,
-                                    const std::vector<InterfaceMotion> &motions,
-                                    std::vector<History> *advanced) const
+  // no digit.
+  template <typename Work>
+  std::vector<LaneSums>
+  InterfaceSensitivity::sum_over_closed_points(
+    const InterfaceConfiguration &configuration,
+    const Work                   &work) const
   {
-    MasterSurface old_master = interface.master(configuration);
-    old_master.positions =
-      &interface.accepted_positions[interface.master_side()];
-    const Step                                   step{*this,
-                    interface,
-                    interface.slave,
-                    interface.master(configuration),
-                    old_master,
-                    configuration,
-                    RigidMotion({interface.accepted_frame,
-                                                                   interface.accepted_centre},
-                                Place::of_implant(configuration)),
-                    motions};
-    const unsigned int                           n = parameters.size();
-    std::array<std::vector<NodalSums>, n_chunks> sums;
+    const unsigned int                          n = accepted.size();
+    std::array<std::vector<LaneSums>, n_chunks> sums;
     for_each_chunk(interface.points.size(),
                    [&](const unsigned int chunk,
                        const unsigned int first,
                        const unsigned int last) {
-                     sums[chunk].assign(n, zero_sums(configuration));
+                     sums[chunk].assign(n, zero_lanes(configuration));
                      for (unsigned int q = first; q < last; ++q)
                        if (interface.points[q].trial.state.status !=
                            PointStatus::open)
-                         {
-                           const PointStep at(step, q);
-                           for (unsigned int j = 0; j < n; ++j)
-                             {
-                               const PointChange change(at, j);
-                               spread_change(at.point,
-                                             step.slave,
-                                             at.point.JxW * change.traction,
-                                             change.xi,
-                                             sums[chunk][j]);
-                               if (advanced)
-                                 (*advanced)[q * n + j] = change.history();
-                             }
-                         }
+                         work(q, sums[chunk]);
                    });
     for (unsigned int chunk = 1; chunk < n_chunks; ++chunk)
-      for (unsigned int j = 0; j < n; ++j)
+      for (unsigned int b = 0; b < n; ++b)
         for (const Side side : both_sides)
-          sums[0][j][side] += sums[chunk][j][side];
+          sums[0][b][side] += sums[chunk][b][side];
     return std::move(sums[0]);
   }
 
 
 
-  std::vector<NodalSums>
-  InterfaceSensitivity::forces(
-    const InterfaceConfiguration       &configuration,
-    const std::vector<InterfaceMotion> &motions) const
+  std::vector<LaneSums>
+  InterfaceSensitivity::forces(const InterfaceConfiguration &configuration,
+                               std::vector<InterfaceMotion>  given_now)
   {
-    return sum_changes(configuration, motions, nullptr);
+    given = std::move(given_now);
+    const Step         step(interface, configuration);
+    std::vector<Block> blocks;
+    for (unsigned int b = 0; b < given.size(); ++b)
+      blocks.emplace_back(b, step.rigid, accepted[b], given[b]);
+    return sum_over_closed_points(
+      configuration, [&](const unsigned int q, std::vector<LaneSums> &sums) {
+        const PointStart at(step, interface.points[q]);
+        for (unsigned int b = 0; b < blocks.size(); ++b)
+          {
+            Change &change = changes[b][q];
+            change         = change_at_rest(at, q, blocks[b]);
+            spread_change(at.point,
+                          step.slave,
+                          at.point.JxW * change.traction,
+                          change.xi,
+                          sums[b]);
+          }
+      });
   }
 
 
 
-  std::vector<NodalSums>
+  // An open point keeps the derivative of its sliding distance; it has no other
+  // history.
+  std::vector<LaneSums>
   InterfaceSensitivity::advance(const InterfaceConfiguration &configuration,
-                                std::vector<InterfaceMotion>  motions)
+                                const std::vector<InterfaceMotion> &response,
+                                const std::vector<Lanes<6>>        &chuck)
   {
-    std::vector<History>   advanced = histories;
-    std::vector<NodalSums> result =
-      sum_changes(configuration, motions, &advanced);
-    histories = std::move(advanced);
-    accepted  = std::move(motions);
-    return result;
+    const Step step(interface, configuration);
+    const auto sums = sum_over_closed_points(
+      configuration, [&](const unsigned int q, std::vector<LaneSums> &sums) {
+        const PointStep           at(step, interface.points[q]);
+        const ContactPointResult &trial = at.point.trial;
+        for (unsigned int b = 0; b < response.size(); ++b)
+          {
+            Change &change = changes[b][q];
+            auto dw = local_motion(at.point, step.slave, response[b].surfaces);
+            dw.col(18) += chuck[b] * trial.turn_by_chuck;
+            change.dw += dw;
+            change.traction += dw * trial.dt.transpose();
+            change.xi += dw * trial.dxi.transpose();
+            if (at.slips && !interface.mode_now.frictionless)
+              change.slip += dw * trial.dslip.transpose();
+            spread_change(at.point,
+                          step.slave,
+                          at.point.JxW * change.traction,
+                          change.xi,
+                          sums[b]);
+            histories[b][q] = history(at, change);
+          }
+      });
+    for (unsigned int b = 0; b < response.size(); ++b)
+      {
+        for (const Side side : both_sides)
+          accepted[b].surfaces[side] =
+            given[b].surfaces[side] + response[b].surfaces[side];
+        accepted[b].shift = given[b].shift + response[b].shift;
+        accepted[b].spin  = given[b].spin + response[b].spin;
+      }
+    return sums;
   }
 } // namespace Debond

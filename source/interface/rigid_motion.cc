@@ -65,61 +65,62 @@ namespace Debond
   //
   //   J^-1 psi = psi - a x psi / 2 + c a x (a x psi),
   //   c = 1 / t^2 - (1 + cos t) / (2 t sin t).
-  RigidMotion::Way
-  RigidMotion::change_of_way(const Vector3d    &x,
-                             const Vector3d    &dx,
-                             const Side         slave,
-                             const PlaceChange &old_change,
-                             const PlaceChange &change) const
+  Vector3d
+  RigidMotion::change_of_axis(const Vector3d &spin) const
   {
     const double t = axis.norm();
     const double c =
       t < 0.01 ? 1. / 12. + t * t / 720. :
                  1. / (t * t) - (1. + std::cos(t)) / (2. * t * std::sin(t));
-    const Vector3d psi        = change.spin - turn * old_change.spin,
-                   by         = axis.cross(psi);
-    const Vector3d d_axis     = psi - 0.5 * by + c * axis.cross(by);
-    const Vector3d d_centre   = change.shift - old_change.shift;
-    const auto     d_velocity = [&](const Vector3d &r, const Vector3d &dr) {
-      return Vector3d(d_centre + d_axis.cross(r) + axis.cross(dr));
-    };
-    const Vector3d r = x - old_centre, dr = dx - old_change.shift;
-    const Vector3d d_first = d_velocity(r, dr);
-    if (slave == Side::implant)
-      {
-        const Vector3d turned = turn * r;
-        return {Vector3d::Zero(),
-                d_first,
-                d_velocity(turned, psi.cross(turned) + turn * dr)};
-      }
-    return {-change.spin.cross(implant_axis),
-            psi.cross(way(x, slave).first) + turn * d_first,
-            d_velocity(x - centre, dx - change.shift)};
+    const Vector3d by = axis.cross(spin);
+    return spin - 0.5 * by + c * axis.cross(by);
   }
 
 
 
-  double
-  RigidMotion::change_of_turn(const Vector3d    &x,
-                              const Vector3d    &dx,
-                              const Side         slave,
-                              const PlaceChange &old_change,
-                              const PlaceChange &change) const
+  // Backwards: from the angle to sine and cosine, to the two velocities and n,
+  // and to what these are made of.
+  RigidMotion::TurnGradient
+  RigidMotion::gradient_of_turn(const Vector3d &x, const Side slave) const
   {
     const auto [n, first, last] = way(x, slave);
-    const auto [dn, d_first, d_last] =
-      change_of_way(x, dx, slave, old_change, change);
-    const Vector3d normal = first.cross(last);
-    const double   sine   = n.dot(normal),
-                 cosine   = first.dot(last) - n.dot(first) * n.dot(last),
-                 square   = sine * sine + cosine * cosine;
+    const Vector3d normal       = first.cross(last);
+    const double   f_n = n.dot(first), l_n = n.dot(last), sine = n.dot(normal),
+                 cosine = first.dot(last) - f_n * l_n,
+                 square = sine * sine + cosine * cosine;
+    TurnGradient by;
     if (!(std::sqrt(square) > 1e-12 * first.norm() * last.norm()))
-      return 0.;
-    const double d_sine =
-      dn.dot(normal) + n.dot(d_first.cross(last) + first.cross(d_last));
-    const double d_cosine = d_first.dot(last) + first.dot(d_last) -
-                            (dn.dot(first) + n.dot(d_first)) * n.dot(last) -
-                            n.dot(first) * (dn.dot(last) + n.dot(d_last));
-    return (cosine * d_sine - sine * d_cosine) / square;
+      return by;
+    const double   by_sine = cosine / square, by_cosine = -sine / square;
+    const Vector3d by_first =
+                     by_sine * last.cross(n) + by_cosine * (last - l_n * n),
+                   by_last =
+                     by_sine * n.cross(first) + by_cosine * (first - f_n * n),
+                   by_n =
+                     by_sine * normal - by_cosine * (l_n * first + f_n * last);
+
+    // the first velocity is turned, or the lever arm of the last one
+    const bool     is_bone = slave == Side::bone;
+    const Vector3d r       = x - old_centre;
+    const Vector3d by_velocity =
+      is_bone ? Vector3d(turn.transpose() * by_first) : by_first;
+    const Vector3d arm    = is_bone ? Vector3d(x - centre) : Vector3d(turn * r);
+    const Vector3d by_arm = by_last.cross(axis), by_r = by_velocity.cross(axis),
+                   by_centre = by_velocity + by_last;
+    by.axis                  = r.cross(by_velocity) + arm.cross(by_last);
+    if (is_bone)
+      {
+        by.x          = by_r + by_arm;
+        by.old_centre = -by_centre - by_r;
+        by.centre     = by_centre - by_arm;
+        by.turn       = first.cross(by_first);
+        by.frame      = -implant_axis.cross(by_n);
+        return by;
+      }
+    by.x          = by_r + turn.transpose() * by_arm;
+    by.old_centre = -by_centre - by.x;
+    by.centre     = by_centre;
+    by.turn       = (turn * r).cross(by_arm);
+    return by;
   }
 } // namespace Debond

@@ -32,6 +32,15 @@ namespace Debond
 
 
 
+    /** How the frame of the implant turns in space. */
+    Eigen::Vector3d
+    spin_of(const Chuck &chuck, const Chuck::Vector6 &q)
+    {
+      return q[3] * chuck.axis(3) + q[4] * chuck.axis(4) + q[5] * chuck.axis(5);
+    }
+
+
+
     /** The configuration with all six components of the chuck as unknowns, the
      *  last ones. */
     InterfaceConfiguration
@@ -128,14 +137,19 @@ namespace Debond
   Sensitivities::motions(const Eigen::MatrixXd &unknowns) const
   {
     const InterfaceConfiguration moving = with_whole_chuck(system);
-    std::vector<InterfaceMotion> result(unknowns.cols());
-    for (unsigned int j = 0; j < unknowns.cols(); ++j)
+    const unsigned int           n      = unknowns.cols();
+    std::vector<InterfaceMotion> result((n + n_lanes - 1) / n_lanes);
+    for (InterfaceMotion &motion : result)
+      motion.surfaces = zero_lanes(moving);
+    for (unsigned int j = 0; j < n; ++j)
       {
-        const Chuck::Vector6 q  = unknowns.col(j).tail<6>();
-        result[j].surfaces      = nodal_motion(unknowns.col(j), moving);
-        result[j].implant.shift = q.head<3>();
-        for (unsigned int k = 3; k < 6; ++k)
-          result[j].implant.spin += q[k] * system.chuck.axis(k);
+        InterfaceMotion      &motion = result[j / n_lanes];
+        const unsigned int    lane   = j % n_lanes;
+        const Eigen::VectorXd column = unknowns.col(j);
+        const Chuck::Vector6  q      = column.tail<6>();
+        set_lane(motion.surfaces, lane, nodal_motion(column, moving));
+        motion.shift.row(lane) = q.head<3>();
+        motion.spin.row(lane)  = spin_of(system.chuck, q);
       }
     return result;
   }
@@ -147,8 +161,8 @@ namespace Debond
   // with the forces of the contact. The load of the machine is k (value - q),
   // or the value itself.
   Eigen::MatrixXd
-  Sensitivities::right_hand_sides(const std::vector<NodalSums> &forces,
-                                  const Eigen::MatrixXd        &given) const
+  Sensitivities::right_hand_sides(const std::vector<LaneSums> &forces,
+                                  const Eigen::MatrixXd       &given) const
   {
     const auto                  &unknown = system.configuration.chuck_unknowns;
     const InterfaceConfiguration moving  = with_whole_chuck(system);
@@ -169,7 +183,10 @@ namespace Debond
         for (const Side side : both_sides)
           internal[side] =
             -parameter.stiffening[side] * system.interface.force(side);
-        add_in_unknowns(forces[j], moving, 1., change);
+        add_in_unknowns(get_lane(forces[j / n_lanes], j % n_lanes),
+                        moving,
+                        1.,
+                        change);
         add_in_unknowns(internal, bodies, 1., change);
         tangent.add_geometric_part(given.col(j), change);
         result.col(j).head(n_v) = change.head(n_v);
@@ -203,18 +220,21 @@ namespace Debond
       given_motions(system.time(), [this](const unsigned int k) {
         return system.chuck.is_prescribed(k);
       });
-    const Eigen::MatrixXd response =
-      -system.solve_all(right_hand_sides(interface.forces(system.configuration,
-                                                          motions(moved)),
-                                         moved),
-                        tolerance);
-    moved.topRows(n_v) = response.topRows(n_v);
+    const auto forces = interface.forces(system.configuration, motions(moved));
+    const Eigen::MatrixXd solution =
+      -system.solve_all(right_hand_sides(forces, moved), tolerance);
+
+    Eigen::MatrixXd response = Eigen::MatrixXd::Zero(n_v + 6, moved.cols());
+    response.topRows(n_v)    = solution.topRows(n_v);
     for (const auto &[k, number] : unknown)
-      moved.row(n_v + k) = response.row(number);
-    const auto all_motions = motions(moved);
-    set_row(all_motions,
-            interface.advance(system.configuration, all_motions),
-            moved.bottomRows<6>());
+      response.row(n_v + k) = solution.row(number);
+    moved += response;
+    auto                  motion = motions(response);
+    std::vector<Lanes<6>> chuck(motion.size(), Lanes<6>::Zero());
+    for (unsigned int j = 0; j < moved.cols(); ++j)
+      chuck[j / n_lanes].row(j % n_lanes) =
+        response.col(j).tail<6>().transpose();
+    set_row(moved, interface.advance(system.configuration, motion, chuck));
   }
 
 
@@ -223,36 +243,39 @@ namespace Debond
   // sum df_A and sum (dr_A x f_A + r_A x df_A). The torque is b . M about the
   // implant's own axis b.
   void
-  Sensitivities::set_row(const std::vector<InterfaceMotion> &motions,
-                         const std::vector<NodalSums>       &forces,
-                         const Eigen::MatrixXd              &positions)
+  Sensitivities::set_row(const Eigen::MatrixXd       &moved,
+                         const std::vector<LaneSums> &forces)
   {
     using Eigen::Vector3d;
-    constexpr auto    spin  = ChuckComponent::rotation_z;
-    const Chuck      &chuck = system.chuck;
-    const ControlNet &f     = system.interface.force(Side::implant);
-    const ControlNet  arm =
+    constexpr auto               spin   = ChuckComponent::rotation_z;
+    const Chuck                 &chuck  = system.chuck;
+    const InterfaceConfiguration moving = with_whole_chuck(system);
+    const ControlNet            &f      = system.interface.force(Side::implant);
+    const ControlNet             arm =
       system.configuration.side[Side::implant].positions.colwise() -
       chuck.centre();
     const Vector3d moment = system.chuck_resultant().tail<3>();
     row.reaction.setZero(6, parameters.size());
     row.torque.resize(parameters.size());
-    row.position = positions;
+    row.position = moved.bottomRows<6>();
     row.position.bottomRows<3>() *= 180. / M_PI;
     for (unsigned int j = 0; j < parameters.size(); ++j)
       {
-        const InterfaceMotion &motion = motions[j];
+        const Eigen::VectorXd column = moved.col(j);
+        const Chuck::Vector6  q      = column.tail<6>();
+        const ControlNet      dx =
+          nodal_motion(column, moving)[Side::implant].colwise() - q.head<3>();
+        const ControlNet df =
+          get_lane(forces[j / n_lanes], j % n_lanes)[Side::implant];
         for (unsigned int A = 0; A < f.cols(); ++A)
           {
-            const Vector3d df = forces[j][Side::implant].col(A),
-                           dr = motion.surfaces[Side::implant].col(A) -
-                                motion.implant.shift;
-            row.reaction.col(j).head<3>() += df;
+            const Vector3d change = df.col(A), moved_arm = dx.col(A);
+            row.reaction.col(j).head<3>() += change;
             row.reaction.col(j).tail<3>() +=
-              dr.cross(f.col(A)) + arm.col(A).cross(df);
+              moved_arm.cross(f.col(A)) + arm.col(A).cross(change);
           }
         row.torque[j] = chuck.axis(spin).dot(row.reaction.col(j).tail<3>()) +
-                        chuck.axis_rate(spin, positions.col(j)).dot(moment);
+                        chuck.axis_rate(spin, q).dot(moment);
       }
   }
 

@@ -156,6 +156,25 @@ namespace Debond
 
 
 
+  // The same for several at once; nobody asks for that along a path.
+  Eigen::MatrixXd
+  CoupledTangent::interface_products(const Eigen::MatrixXd &X) const
+  {
+    if (path.follow)
+      return SplitMatrix::interface_products(X);
+    Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(X.rows(), X.cols());
+    interface.apply_tangent(configuration, X, Y);
+    for (unsigned int j = 0; j < X.cols(); ++j)
+      {
+        Eigen::VectorXd y = Y.col(j);
+        add_geometric_part(X.col(j), y);
+        Y.col(j) = y;
+      }
+    return Y;
+  }
+
+
+
   // (B + C) x, B = diag(S_bone, S_implant, 0). Needed only where a
   // factorisation is the preconditioner; with B^-1 there is no product with B.
   Eigen::VectorXd

@@ -158,59 +158,106 @@ namespace Debond
 
 
 
-  // One right-hand side after the other by the method of generalised conjugate
-  // residuals, which minimises |b - A x| over all directions z so far. Their
-  // images q = A z are kept orthonormal, and are of use to all right-hand sides
-  // that follow: these begin with what the directions of the others do for
-  // them, and as C B^-1 is compact little is left. False if it takes too many.
+  // By the method of generalised conjugate residuals, for as many right-hand
+  // sides at once as products are cheap for. It minimises |b - A x| over all
+  // directions z so far, whichever residual they are from: their images q = A z
+  // are kept orthonormal, and each right-hand side begins with what those
+  // before do for it. As C B^-1 is compact, little is left after a few. False
+  // if it takes too many.
   bool
   DenseSolver::iterate_all(const SplitMatrix     &A,
                            const Eigen::MatrixXd &B,
                            const double           relative_tolerance,
                            Eigen::MatrixXd       &X) const
   {
-    const unsigned int n = B.rows();
-    const unsigned int max_directions =
-      !A.can_be_assembled() ?
-        n :
-        std::min<unsigned int>(n, affordable_iterations(n) * (1 + B.cols()));
-    Eigen::MatrixXd Q(n, max_directions), Z(n, max_directions);
+    constexpr unsigned int at_once        = 8;
+    const unsigned int     n              = B.rows();
+    const unsigned int     max_directions = std::min<unsigned int>(
+      n, A.can_be_assembled() ? affordable_iterations(n) * (1 + B.cols()) : n);
+    Eigen::MatrixXd Q(n, max_directions), Z(n, max_directions), R = B;
     unsigned int    n_directions = 0;
     X.setZero(n, B.cols());
-    for (unsigned int j = 0; j < B.cols(); ++j)
+    for (unsigned int begin = 0; begin < B.cols(); begin += at_once)
       {
-        Eigen::VectorXd       r         = B.col(j);
-        const double          tolerance = relative_tolerance * r.norm();
-        const Eigen::VectorXd known = Q.leftCols(n_directions).transpose() * r;
-        r -= Q.leftCols(n_directions) * known;
-        X.col(j) = Z.leftCols(n_directions) * known;
-        while (r.norm() > tolerance)
+        const unsigned int width =
+          std::min<unsigned int>(at_once, B.cols() - begin);
+        auto       r         = R.middleCols(begin, width);
+        auto       x         = X.middleCols(begin, width);
+        const auto take_away = [&](const unsigned int first) {
+          const unsigned int    m    = n_directions - first;
+          const Eigen::MatrixXd part = Q.middleCols(first, m).transpose() * r;
+          r -= Q.middleCols(first, m) * part;
+          x += Z.middleCols(first, m) * part;
+        };
+        take_away(0);
+        while (true)
           {
-            if (n_directions == max_directions)
+            Eigen::MatrixXd left(n, width);
+            unsigned int    n_left = 0;
+            for (unsigned int j = 0; j < width; ++j)
+              if (const double tolerance =
+                    relative_tolerance * B.col(begin + j).norm();
+                  r.col(j).norm() > tolerance)
+                left.col(n_left++) = r.col(j).normalized();
+            if (n_left == 0)
+              break;
+            left.conservativeResize(n, n_left);
+            const unsigned int first = n_directions;
+            if (!add_directions(A, left, Q, Z, n_directions))
               return false;
-            Eigen::VectorXd z = is_factorised ? lu.solve(r).eval() :
-                                                A.solve_bulk(r),
-                            q = is_factorised ?
-                                  A.product(z) :
-                                  Eigen::VectorXd(r + A.interface_product(z));
-            for (unsigned int i = 0; i < n_directions; ++i)
-              {
-                const double part = Q.col(i).dot(q);
-                q -= part * Q.col(i);
-                z -= part * Z.col(i);
-              }
-            const double length = q.norm();
-            if (!(length > 0.))
-              return false;
-            Q.col(n_directions) = q / length;
-            Z.col(n_directions) = z / length;
-            const double part   = Q.col(n_directions).dot(r);
-            r -= part * Q.col(n_directions);
-            X.col(j) += part * Z.col(n_directions);
-            ++n_directions;
+            take_away(first);
           }
       }
     return true;
+  }
+
+
+
+  // Twice against the old ones, by which orthogonality is good to the last
+  // digits, then against each other. What is nothing but a combination of
+  // others is left out; without anything new there is no way on.
+  bool
+  DenseSolver::add_directions(const SplitMatrix     &A,
+                              const Eigen::MatrixXd &residuals,
+                              Eigen::MatrixXd       &Q,
+                              Eigen::MatrixXd       &Z,
+                              unsigned int          &n_directions) const
+  {
+    Eigen::MatrixXd z = residuals, q = residuals;
+    if (is_factorised)
+      z = lu.solve(residuals);
+    else
+      for (unsigned int j = 0; j < z.cols(); ++j)
+        z.col(j) = A.solve_bulk(residuals.col(j));
+    if (is_factorised)
+      for (unsigned int j = 0; j < z.cols(); ++j)
+        q.col(j) = A.product(z.col(j));
+    else
+      q += A.interface_products(z);
+    const unsigned int first = n_directions;
+    for (unsigned int repetition = 0; repetition < 2; ++repetition)
+      {
+        const Eigen::MatrixXd part = Q.leftCols(first).transpose() * q;
+        q -= Q.leftCols(first) * part;
+        z -= Z.leftCols(first) * part;
+      }
+    for (unsigned int j = 0; j < z.cols() && n_directions < Q.cols(); ++j)
+      {
+        const double before = q.col(j).norm();
+        for (unsigned int i = first; i < n_directions; ++i)
+          {
+            const double part = Q.col(i).dot(q.col(j));
+            q.col(j) -= part * Q.col(i);
+            z.col(j) -= part * Z.col(i);
+          }
+        const double length = q.col(j).norm();
+        if (!(length > 1e-6 * before))
+          continue;
+        Q.col(n_directions) = q.col(j) / length;
+        Z.col(n_directions) = z.col(j) / length;
+        ++n_directions;
+      }
+    return n_directions > first;
   }
 
 

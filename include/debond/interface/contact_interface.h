@@ -170,6 +170,11 @@ namespace Debond
     apply_tangent(const InterfaceConfiguration &configuration,
                   const Eigen::VectorXd        &direction,
                   Eigen::VectorXd              &result) const;
+    /** The same for several, each in a column. */
+    void
+    apply_tangent(const InterfaceConfiguration &configuration,
+                  const Eigen::MatrixXd        &directions,
+                  Eigen::MatrixXd              &result) const;
 
     /** Accepts the last evaluate(): history, and the works it sums up. Open
      *  points are projected anew in the accepted configuration. */

@@ -2,6 +2,7 @@
 #define debond_interface_interface_sensitivity_h
 
 #include <debond/interface/contact_interface.h>
+#include <debond/interface/local_motion.h>
 #include <debond/interface/rigid_motion.h>
 
 #include <vector>
@@ -15,19 +16,20 @@ namespace Debond
     double              width; ///< 2 h
   };
 
-  /** How both surfaces [mm] and the chuck move with a parameter, per its unit.
-   */
+  /** How both surfaces [mm] and the implant as a whole move with n_lanes
+   *  parameters, per their units. */
   struct InterfaceMotion
   {
-    NodalSums   surfaces;
-    PlaceChange implant;
+    LaneSums surfaces;
+    Lanes<3> shift = Lanes<3>::Zero(); ///< of the chuck's centre [mm]
+    Lanes<3> spin  = Lanes<3>::Zero(); ///< of its frame, in space [rad]
 
     /** See serialization.h. */
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &surfaces &implant.shift &implant.spin;
+      archive &surfaces &shift &spin;
     }
   };
 
@@ -45,22 +47,27 @@ namespace Debond
   {
   public:
     /** After initialise() of the @p interface, which must outlive this object,
-     *  and before its first commit(). @p start: how it was placed. */
+     *  and before its first commit(). @p start: how it was placed. A motion is
+     *  that of the first n_lanes parameters, of the next, ... */
     InterfaceSensitivity(const ContactInterface                &interface,
                          const std::vector<InterfaceVariation> &variations,
                          std::vector<InterfaceMotion>           start);
 
     /** Changes of the nodal forces of the last evaluate() with each parameter
-     *  [N per unit of the parameter], if all else moves by @p motions. */
-    std::vector<NodalSums>
-    forces(const InterfaceConfiguration       &configuration,
-           const std::vector<InterfaceMotion> &motions) const;
+     *  [N per unit of the parameter], by the history, the law and @p given
+     *  motions. */
+    std::vector<LaneSums>
+    forces(const InterfaceConfiguration &configuration,
+           std::vector<InterfaceMotion>  given);
 
-    /** The same, and makes the derivatives of the trial state those that the
-     *  next step begins with. To be called before commit(). */
-    std::vector<NodalSums>
-    advance(const InterfaceConfiguration &configuration,
-            std::vector<InterfaceMotion>  motions);
+    /** The changes of these forces if the unknowns follow by @p response as
+     *  well, and of the chuck's components by @p chuck; makes the derivatives
+     *  of this state those that the next step begins with. To be called after
+     *  forces() and before commit(). */
+    std::vector<LaneSums>
+    advance(const InterfaceConfiguration       &configuration,
+            const std::vector<InterfaceMotion> &response,
+            const std::vector<Lanes<6>>        &chuck);
 
     /** See serialization.h. */
     template <class Archive>
@@ -71,20 +78,17 @@ namespace Debond
     }
 
   private:
-    /** Derivative of what a step keeps of a point. */
-    struct History
+    /** Columns of the derivative of what a step keeps of a point: xi_hat, gap,
+     *  pressure and g_s of its state. */
+    enum
     {
-      Eigen::Vector2d xi = Eigen::Vector2d::Zero(), gap = xi; ///< as the state
-      double          pressure = 0, slip = 0;
-
-      /** See serialization.h. */
-      template <class Archive>
-      void
-      serialize(Archive &archive, const unsigned int)
-      {
-        archive &xi &gap &pressure &slip;
-      }
+      at_xi       = 0,
+      at_gap      = 2,
+      at_pressure = 4,
+      at_slip     = 5,
+      n_history   = 6
     };
+    using History = Lanes<n_history>;
 
     /** A parameter's interface at p + h and p - h. */
     struct Parameter
@@ -95,20 +99,46 @@ namespace Debond
       bool                               changes_friction;
     };
 
+    /** A closed point, with the unknowns at rest. */
+    struct Change
+    {
+      Lanes<ContactPointResult::n_w> dw;
+      Lanes<PointData::n_columns>    data;
+      Lanes<3>                       traction;
+      Lanes<2>                       xi;
+      Lanes<1>                       slip;
+    };
     struct Step;
     struct PointStep;
-    struct PointChange;
+    struct PointStart;
+    struct Block;
 
-    std::vector<NodalSums>
-    sum_changes(const InterfaceConfiguration       &configuration,
-                const std::vector<InterfaceMotion> &motions,
-                std::vector<History>               *advanced) const;
+    void
+    set_data(const PointStart &at,
+             unsigned int      q,
+             unsigned int      first_parameter,
+             const History    &start,
+             Change           &change) const;
+    Change
+    change_at_rest(const PointStart &at,
+                   unsigned int      q,
+                   const Block      &block) const;
+    History
+    history(const PointStep &at, const Change &change) const;
+    template <typename Work>
+    std::vector<LaneSums>
+    sum_over_closed_points(const InterfaceConfiguration &configuration,
+                           const Work                   &work) const;
 
     const ContactInterface      &interface;
     std::vector<Parameter>       parameters;
     std::vector<InterfaceMotion> accepted;
-    /** Of all parameters at the first point, at the second, ... */
-    std::vector<History> histories;
+    /** Of the first n_lanes parameters at all points, of the next, ... */
+    std::vector<std::vector<History>> histories;
+
+    // from forces() to advance()
+    std::vector<InterfaceMotion>     given;
+    std::vector<std::vector<Change>> changes;
   };
 } // namespace Debond
 #endif

@@ -24,5 +24,64 @@ namespace Debond
                 const Eigen::Vector3d &dt,
                 const Eigen::Vector2d &dxi,
                 NodalSums             &sums);
+
+
+
+  /** @name Several changes at once
+   *  What a point costs is to fetch what belongs to it; to multiply several
+   *  changes with that costs little more than one. A row for each change. */
+  //@{
+  constexpr unsigned int n_lanes = 8;
+  template <int N>
+  using Lanes = Eigen::Matrix<double, n_lanes, N>;
+
+  /** Like NodalSums: a column is a Lanes<3>. */
+  using LaneNet  = Eigen::Matrix<double, 3 * n_lanes, Eigen::Dynamic>;
+  using LaneSums = std::array<LaneNet, 2>;
+
+  LaneSums
+  zero_lanes(const InterfaceConfiguration &configuration);
+  void
+  set_lane(LaneSums &lanes, unsigned int lane, const NodalSums &sums);
+  NodalSums
+  get_lane(const LaneSums &lanes, unsigned int lane);
+
+  /** What work(q, sums) adds up to, as sum_in_chunks() does it. */
+  template <typename Work>
+  LaneSums
+  sum_lanes(const unsigned int            n,
+            const InterfaceConfiguration &configuration,
+            const Work                   &work)
+  {
+    std::array<LaneSums, n_chunks> sums;
+    for_each_chunk(n,
+                   [&](const unsigned int chunk,
+                       const unsigned int first,
+                       const unsigned int end) {
+                     sums[chunk] = zero_lanes(configuration);
+                     for (unsigned int q = first; q < end; ++q)
+                       work(q, sums[chunk]);
+                   });
+    for (unsigned int chunk = 1; chunk < n_chunks; ++chunk)
+      for (const Side side : both_sides)
+        sums[0][side] += sums[chunk][side];
+    return std::move(sums[0]);
+  }
+
+  /** Of a point of a surface: its place, or that and the tangents. */
+  Lanes<3>
+  interpolate_place(const SurfaceBasis &basis, const LaneNet &moved);
+  Lanes<9>
+  interpolate_tangents(const SurfaceBasis &basis, const LaneNet &moved);
+
+  Lanes<ContactPointResult::n_w>
+  local_motion(const SlavePoint &point, Side slave, const LaneSums &moved);
+  void
+  spread_change(const SlavePoint &point,
+                Side              slave,
+                const Lanes<3>   &dt,
+                const Lanes<2>   &dxi,
+                LaneSums         &sums);
+  //@}
 } // namespace Debond
 #endif

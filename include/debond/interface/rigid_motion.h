@@ -15,15 +15,6 @@ namespace Debond
     of_implant(const InterfaceConfiguration &configuration);
   };
 
-  /** A small motion of a place, in space. */
-  struct PlaceChange
-  {
-    Eigen::Vector3d shift = Eigen::Vector3d::Zero(); ///< of the centre [mm]
-    Eigen::Vector3d spin  = Eigen::Vector3d::Zero(); ///< of the frame [rad]
-  };
-
-
-
   /** How the implant moves in a step, as a rigid body whose centre goes
    *  straight while it turns evenly. */
   struct RigidMotion
@@ -36,13 +27,20 @@ namespace Debond
     double
     turn_of_way(const Eigen::Vector3d &x, Side slave) const;
 
-    /** How that angle changes if the point and both places move a little. */
-    double
-    change_of_turn(const Eigen::Vector3d &x,
-                   const Eigen::Vector3d &dx,
-                   Side                   slave,
-                   const PlaceChange     &old_change,
-                   const PlaceChange     &change) const;
+    /** Derivatives of that angle. */
+    struct TurnGradient
+    {
+      Eigen::Vector3d x          = Eigen::Vector3d::Zero(); ///< by the point
+      Eigen::Vector3d old_centre = x, centre = x;
+      Eigen::Vector3d axis = x, turn = x; ///< by `axis', by the spin of `turn'
+      Eigen::Vector3d frame = x;          ///< by the spin of the frame
+    };
+    TurnGradient
+    gradient_of_turn(const Eigen::Vector3d &x, Side slave) const;
+
+    /** How `axis' changes if `turn' spins a little. */
+    Eigen::Vector3d
+    change_of_axis(const Eigen::Vector3d &spin) const;
 
     Eigen::Matrix3d turn;               ///< from beginning to end
     Eigen::Vector3d axis;               ///< of the turn, times its angle [rad]
@@ -51,19 +49,13 @@ namespace Debond
 
   private:
     /** Velocities over the master at both ends of the step, times its duration
-     *  [mm], and the master's axis; and how all of them change. */
+     *  [mm], and the master's axis. */
     struct Way
     {
       Eigen::Vector3d n, first, last;
     };
     Way
     way(const Eigen::Vector3d &x, Side slave) const;
-    Way
-    change_of_way(const Eigen::Vector3d &x,
-                  const Eigen::Vector3d &dx,
-                  Side                   slave,
-                  const PlaceChange     &old_change,
-                  const PlaceChange     &change) const;
   };
 } // namespace Debond
 #endif

@@ -90,12 +90,10 @@ namespace Debond
     Eigen::MatrixXd
     given_motions(double time, const Follows &follows) const;
     Eigen::MatrixXd
-    right_hand_sides(const std::vector<NodalSums> &forces,
-                     const Eigen::MatrixXd        &given) const;
+    right_hand_sides(const std::vector<LaneSums> &forces,
+                     const Eigen::MatrixXd       &given) const;
     void
-    set_row(const std::vector<InterfaceMotion> &motions,
-            const std::vector<NodalSums>       &forces,
-            const Eigen::MatrixXd              &positions);
+    set_row(const Eigen::MatrixXd &moved, const std::vector<LaneSums> &forces);
 
     const CoupledSystem   &system;
     std::vector<Parameter> parameters;

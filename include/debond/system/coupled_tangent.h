@@ -75,6 +75,8 @@ namespace Debond
     product(const Eigen::VectorXd &x) const override;
     Eigen::VectorXd
     interface_product(const Eigen::VectorXd &x) const override;
+    Eigen::MatrixXd
+    interface_products(const Eigen::MatrixXd &X) const override;
     bool
     can_be_assembled() const override;
     bool

@@ -18,6 +18,15 @@ namespace Debond
     /** C x. */
     virtual Eigen::VectorXd
     interface_product(const Eigen::VectorXd &x) const = 0;
+    /** C X. */
+    virtual Eigen::MatrixXd
+    interface_products(const Eigen::MatrixXd &X) const
+    {
+      Eigen::MatrixXd result(X.rows(), X.cols());
+      for (unsigned int j = 0; j < X.cols(); ++j)
+        result.col(j) = interface_product(X.col(j));
+      return result;
+    }
     /** Whether B has an inverse. */
     virtual bool
     bulk_is_regular() const = 0;
@@ -85,6 +94,12 @@ namespace Debond
     }
 
   private:
+    bool
+    add_directions(const SplitMatrix     &A,
+                   const Eigen::MatrixXd &residuals,
+                   Eigen::MatrixXd       &Q,
+                   Eigen::MatrixXd       &Z,
+                   unsigned int          &n_directions) const;
     bool
     iterate_all(const SplitMatrix     &A,
                 const Eigen::MatrixXd &B,

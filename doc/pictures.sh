@@ -7,6 +7,7 @@
 #   stability       those of doc/stability.md (two minutes)
 #   convergence     that of doc/verification.md (some minutes)
 #   ensemble        those of doc/partial_bonding.md (ten minutes)
+#   calibration     that of doc/calibration.md (a minute)
 #   step_error      that of friction that turns in doc/speed_and_accuracy.md (ten minutes; CalculiX, if it is there)
 #   work_precision  those of doc/speed_and_accuracy.md, and its tables (20 minutes on a quiet machine)
 #   all             all of these
@@ -45,6 +46,10 @@ bodies() {
 
 make_pictures() {
   case $1 in
+    calibration)
+      "$DEBOND" prm/calibrate/data_set_1.prm --force && gnuplot -e "dir='output/calibrate/data_set_1'" doc/plot_calibration.gp
+      cp output/calibrate/data_set_1/fit.png doc/images/calibration_data_set_1.png
+      ;;
     geometry) gnuplot doc/geometry.gp && gnuplot doc/towing.gp && publish output/geometry output/towing ;;
     bodies) bodies ;;
     paper) doc/paper/reproduce.sh $figures && publish_figures $figures ;;
@@ -55,7 +60,7 @@ make_pictures() {
     ensemble | work_precision) "doc/studies/$1.sh" --publish ;;
     all)
       local name
-      for name in geometry bodies paper stability convergence ensemble step_error work_precision; do make_pictures $name; done
+      for name in geometry bodies paper stability convergence ensemble calibration step_error work_precision; do make_pictures $name; done
       ;;
     *)
       echo "pictures.sh: unknown name '$1'; the names stand at the top of this script" >&2

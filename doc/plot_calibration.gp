@@ -30,7 +30,10 @@ set origin 0, 0.33
 set size 1, 0.67
 set bmargin 0.5
 set format x ""
-set key bottom right
+set key top right
+set offsets graph 0, graph 0, graph 0.05, graph 0
+stats data using (column(curve . "_measured")) nooutput
+if (STATS_min > -0.02 * STATS_max) { set yrange [0:*] }
 set ylabel label
 set title system("sed -n 's/^ *set Title *= *//p' " . dir . "/parameters.prm") noenhanced
 plot data using over:(column(curve . "_lower_95")):(column(curve . "_upper_95")) \
@@ -39,6 +42,7 @@ plot data using over:(column(curve . "_lower_95")):(column(curve . "_upper_95"))
      data using over:(column(curve . "_measured")) with points pointtype 6 pointsize 0.7 linecolor rgb "#c03028" title "measured"
 
 unset title
+set yrange [*:*]
 set origin 0, 0
 set size 1, 0.33
 set tmargin 0.5

@@ -109,12 +109,13 @@ calibrate(const std::string &name, const std::string &text, const bool show)
     }
   std::istringstream lines(out.str());
   std::string        line;
+  // words, and no numbers that are rounding
   while (show && std::getline(lines, line))
-    if (line.find("could not be computed") == std::string::npos)
-      std::cout << "  " << line << '\n';
+    if (line.rfind("warning: the curves", 0) == 0 ||
+        line.rfind("Experiment", 0) == 0)
+      std::cout << "  " << line.substr(0, line.find_first_of("(+")) << '\n';
   std::ifstream file(directory + "/calibration.json");
-  return file ? nlohmann::ordered_json::parse(file) :
-                nlohmann::ordered_json();
+  return file ? nlohmann::ordered_json::parse(file) : nlohmann::ordered_json();
 }
 
 

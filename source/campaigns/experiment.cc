@@ -70,8 +70,7 @@ namespace Debond
       throw EntryError(entry,
                        "there is no such curve: expected time, angle_deg, "
                        "torque_Nmm or a column of torque.csv that begins with "
-                       "chuck_, not '" +
-                         shortened(name) + "'");
+                       "chuck_");
   }
 
 
@@ -108,12 +107,29 @@ namespace Debond
 
   namespace
   {
+    CurveColumn
+    column_of(const Scene       &scene,
+              const std::string &name,
+              const std::string &entry)
+    {
+      try
+        {
+          return {name, calibration + entry};
+        }
+      catch (const InputError &error)
+        {
+          throw scene.with_place(error);
+        }
+    }
+
+
+
     std::vector<CurveColumn>
-    columns_of(const CalibrationParameters &parameters)
+    columns_of(const Scene &scene)
     {
       std::vector<CurveColumn> columns;
-      for (const std::string &name : parameters.curves)
-        columns.emplace_back(name, calibration + "Curves");
+      for (const std::string &name : scene.calibration.curves)
+        columns.push_back(column_of(scene, name, "Curves"));
       return columns;
     }
 
@@ -170,8 +186,8 @@ namespace Debond
                          const std::string &name)
     : scene(
         Scene::from_entries(unknowns.entries(number, unknowns.starts()), name))
-    , columns(columns_of(scene.calibration))
-    , over(scene.calibration.over, calibration + "Over")
+    , columns(columns_of(scene))
+    , over(column_of(scene, scene.calibration.over, "Over"))
     , unknowns(unknowns)
     , number(number)
     , varying(without_reference(unknowns.entries(number, unknowns.starts())),
@@ -705,8 +721,8 @@ namespace Debond
     std::vector<SceneVariation> variations;
     std::vector<unsigned int>   varied;
     Eigen::MatrixXd             rig = Eigen::MatrixXd::Zero(4, values.size());
-    if (with_derivatives)
-      for (Eigen::Index j = 0; j < values.size(); ++j)
+    for (Eigen::Index j = 0; with_derivatives && j < values.size(); ++j)
+      {
         if (changes_model[j])
           {
             variations.push_back(variation(values, j));
@@ -716,6 +732,7 @@ namespace Debond
           }
         else
           rig.col(j) = rig_derivative(values, j);
+      }
     simulation.differentiate(variations);
     simulation.run();
 

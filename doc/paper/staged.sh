@@ -64,4 +64,4 @@ for set in "${@:-1}"; do
       "$interface/Sliding threshold=<<a_s: 0.04 in 0.002..0.2 log>>" "$interface/Transition factor=<<b_s: 0.74 in 0.05..5 log>>"
     echo "| $set | at once | $mu | $(value once d) | $(value once mu_ub) | $(value once a_s) | $(value once b_s) | $(value once eps_t) | $(value once e_mp) |"
   done
-done | awk -F'|' 'NR < 3 { print; next } { printf "|%s|%s|%s| %.2f | %.3f | %.1f | %.2f | %.0f | %.3f |\n", $2, $3, $4, 1000 * $5, $6, 1000 * $7, $8, $9, 100 * $10 }'
+done | awk -F'|' '{ printf "|%s|%s|%s| %.2f | %.3f | %.1f | %.2f | %.0f | %.3f |\n", $2, $3, $4, 1000 * $5, $6, 1000 * $7, $8, $9, 100 * $10 }'

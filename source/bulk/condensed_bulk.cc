@@ -153,6 +153,11 @@ namespace Debond
       {
         return condensation.schur_solve(b);
       }
+      Eigen::MatrixXd
+      solve_all(const Eigen::MatrixXd &B) const override
+      {
+        return condensation.schur_solve_all(B);
+      }
       // A condensed bulk couples every unknown with every other one. It has S
       // as a matrix, if at the price of n_c^3 work.
       bool

@@ -452,8 +452,8 @@ namespace Debond
           dw.col(18) += chuck * point.trial.turn_by_chuck;
           spread_change(point,
                         slave,
-                        point.JxW * (dw * point.trial.dt.transpose()),
-                        dw * point.trial.dxi.transpose(),
+                        point.JxW * dw.lazyProduct(point.trial.dt.transpose()),
+                        dw.lazyProduct(point.trial.dxi.transpose()),
                         sums);
         };
         const LaneSums  sums = sum_lanes(points.size(), configuration, change);

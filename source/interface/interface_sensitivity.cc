@@ -379,12 +379,12 @@ namespace Debond
         change.dw.middleCols<6>(6) += turned;
       }
     set_data(at, q, block.first_parameter, start, change);
-    change.traction = change.dw * trial.dt.transpose() +
-                      change.data * at.by_data.dt.transpose();
+    change.traction = change.dw.lazyProduct(trial.dt.transpose()) +
+                      change.data.lazyProduct(at.by_data.dt.transpose());
     change.xi = xi;
     if (at.slips)
-      change.xi = change.dw * trial.dxi.transpose() +
-                  change.data * at.by_data.dxi.transpose();
+      change.xi = change.dw.lazyProduct(trial.dxi.transpose()) +
+                  change.data.lazyProduct(at.by_data.dxi.transpose());
     change.slip = start.col(at_slip);
     if (at.slips && !at.mode.frictionless)
       change.slip += change.dw * trial.dslip.transpose() +
@@ -520,8 +520,8 @@ namespace Debond
             auto dw = local_motion(at.point, step.slave, response[b].surfaces);
             dw.col(18) += chuck[b] * trial.turn_by_chuck;
             change.dw += dw;
-            change.traction += dw * trial.dt.transpose();
-            change.xi += dw * trial.dxi.transpose();
+            change.traction += dw.lazyProduct(trial.dt.transpose());
+            change.xi += dw.lazyProduct(trial.dxi.transpose());
             if (at.slips && !interface.mode_now.frictionless)
               change.slip += dw * trial.dslip.transpose();
             spread_change(at.point,

@@ -30,7 +30,7 @@ namespace Debond
 
 
 
-  RigidMotion::Way
+  inline RigidMotion::Way
   RigidMotion::way(const Vector3d &x, const Side slave) const
   {
     const auto velocity = [&](const Vector3d &r) {

@@ -213,7 +213,7 @@ namespace Debond
   void
   Sensitivities::advance()
   {
-    constexpr double   tolerance = 1e-8;
+    constexpr double   tolerance = 1e-7;
     const auto        &unknown   = system.configuration.chuck_unknowns;
     const unsigned int n_v       = system.n_unknowns() - unknown.size();
     Eigen::MatrixXd    moved =

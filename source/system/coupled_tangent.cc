@@ -218,6 +218,18 @@ namespace Debond
 
 
 
+  Eigen::MatrixXd
+  CoupledTangent::solve_bulk_all(const Eigen::MatrixXd &B) const
+  {
+    Eigen::MatrixXd X = B;
+    for_each_bulk([&](const Bulk &bulk, const int first, const int n) {
+      X.middleRows(first, n) = bulk.solve_all(B.middleRows(first, n));
+    });
+    return X;
+  }
+
+
+
   // The same as a matrix, for a factorisation where the bulk alone is no good
   // preconditioner: with a loaded chuck, or an interface that is stiff against
   // the bodies.

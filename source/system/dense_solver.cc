@@ -227,8 +227,7 @@ namespace Debond
     if (is_factorised)
       z = lu.solve(residuals);
     else
-      for (unsigned int j = 0; j < z.cols(); ++j)
-        z.col(j) = A.solve_bulk(residuals.col(j));
+      z = A.solve_bulk_all(residuals);
     if (is_factorised)
       for (unsigned int j = 0; j < z.cols(); ++j)
         q.col(j) = A.product(z.col(j));

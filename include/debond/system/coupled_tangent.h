@@ -86,6 +86,8 @@ namespace Debond
     }
     Eigen::VectorXd
     solve_bulk(const Eigen::VectorXd &b) const override;
+    Eigen::MatrixXd
+    solve_bulk_all(const Eigen::MatrixXd &B) const override;
     void
     assemble(Eigen::MatrixXd &matrix) const override;
 

@@ -33,6 +33,15 @@ namespace Debond
     /** B^-1 b. */
     virtual Eigen::VectorXd
     solve_bulk(const Eigen::VectorXd &b) const = 0;
+    /** B^-1 X. */
+    virtual Eigen::MatrixXd
+    solve_bulk_all(const Eigen::MatrixXd &X) const
+    {
+      Eigen::MatrixXd result(X.rows(), X.cols());
+      for (unsigned int j = 0; j < X.cols(); ++j)
+        result.col(j) = solve_bulk(X.col(j));
+      return result;
+    }
     /** Whether A can be written: a part of it may exist as products only. */
     virtual bool
     can_be_assembled() const

@@ -140,7 +140,7 @@ check_intervals()
   const auto            entries = study_variants(read_scene_text(
     scene_text(five, output_of("noise", "  set Noise = 0.02\n")), "scene"));
   const Unknowns        unknowns(entries);
-  Misfit                misfit(unknowns, 1, "scene", nullptr);
+  Misfit                misfit(unknowns, 1, "scene");
   const Eigen::VectorXd clean = misfit.measured;
   const Eigen::VectorXd start =
     Eigen::Map<const Eigen::VectorXd>(true_values.data(), 5);

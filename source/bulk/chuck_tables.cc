@@ -27,16 +27,13 @@ namespace Debond
     std::vector<std::vector<double>>
     read_rows(const ChuckComponentParameters &component, const unsigned int k)
     {
-      const Quantity value =
-        is_rotation(k) ?
-          (component.loaded ? Quantity::moment : Quantity::angle) :
-          (component.loaded ? Quantity::force : Quantity::length);
       return read_measured_table(
         component.file,
         ChuckParameters::entry_name(k, "File"),
         {{abscissa_of(component),
           component.over_angle ? Quantity::angle : Quantity::time},
-         {ChuckParameters::column_name(k, component.loaded), value}},
+         {ChuckParameters::column_name(k, component.loaded),
+          ChuckParameters::quantity(k, component.loaded)}},
         component.columns,
         ChuckParameters::entry_name(k, "File columns"));
     }

@@ -114,13 +114,12 @@ namespace Debond
       Search(const Unknowns    &unknowns,
              const unsigned int n_experiments,
              const std::string &name,
-             const unsigned int n_threads,
-             EvaluationLog     &log)
+             const unsigned int n_threads)
         : unknowns(unknowns)
       {
         for (unsigned int i = 0; i < n_threads; ++i)
           workers.push_back(
-            std::make_unique<Misfit>(unknowns, n_experiments, name, &log));
+            std::make_unique<Misfit>(unknowns, n_experiments, name));
       }
 
       Misfit &
@@ -146,27 +145,14 @@ namespace Debond
                   const unsigned int n_best,
                   const By           model)
       {
-        const auto            starts = starts_of(unknowns, n_starts);
-        std::vector<double>   costs(starts.size());
-        std::vector<Failures> failed(starts.size());
-        for_each_at_once(starts.size(),
-                         workers.size(),
-                         [&](const unsigned int i, const unsigned int worker) {
-                           if (interrupting_signal() != 0)
-                             return;
-                           Misfit &misfit  = *workers[worker];
-                           misfit.failures = {};
-                           const Evaluation at =
-                             misfit.evaluate(starts[i], model, false);
-                           failed[i] = misfit.failures;
-                           costs[i] =
-                             at.failure.empty() ?
-                               misfit.residuals(at.values).squaredNorm() :
-                               std::numeric_limits<double>::infinity();
-                         });
-        stop_if_asked();
-        for (const Failures &more : failed)
-          failures.add(more);
+        const auto          starts = starts_of(unknowns, n_starts);
+        std::vector<double> costs(starts.size());
+        on_workers(starts.size(), [&](const unsigned int i, Misfit &misfit) {
+          const Evaluation at = misfit.evaluate(starts[i], model, false);
+          costs[i]            = at.failure.empty() ?
+                                  misfit.residuals(at.values).squaredNorm() :
+                                  std::numeric_limits<double>::infinity();
+        });
         std::vector<unsigned int> order(starts.size());
         std::iota(order.begin(), order.end(), 0);
         std::stable_sort(order.begin(),
@@ -187,29 +173,61 @@ namespace Debond
       follow(const std::vector<Eigen::VectorXd> &starts, const By model)
       {
         std::vector<Optimum> ends(starts.size());
-        for_each_at_once(starts.size(),
-                         workers.size(),
-                         [&](const unsigned int i, const unsigned int worker) {
-                           Misfit &misfit = *workers[worker];
-                           if (model == By::scene)
-                             ends[i] = with_chosen_steps(misfit, starts[i]);
-                           else
-                             {
-                               centre_at(misfit, unknowns.starts());
-                               ends[i] = minimise(misfit, starts[i], model);
-                               centre(misfit, ends[i]);
-                             }
-                         });
-        stop_if_asked();
-        for (const Optimum &end : ends)
-          failures.add(end.failures);
+        on_workers(starts.size(), [&](const unsigned int i, Misfit &misfit) {
+          if (model == By::scene)
+            ends[i] = with_chosen_steps(misfit, starts[i]);
+          else
+            {
+              centre_at(misfit, unknowns.starts());
+              ends[i] = minimise(misfit, starts[i], model);
+              centre(misfit, ends[i]);
+            }
+        });
         return distinct(ends);
+      }
+
+      /** Makes the closed form exact there, or takes the steps that are right
+       *  there. */
+      static void
+      settle(Misfit &misfit, const Eigen::VectorXd &values, const By model)
+      {
+        if (model == By::closed_form)
+          centre_at(misfit, values);
+        else
+          misfit.choose_steps(&values);
+      }
+
+      void
+      keep_in(EvaluationLog &log)
+      {
+        for (const auto &worker : workers)
+          worker->keep_in(log);
       }
 
       std::vector<std::unique_ptr<Misfit>> workers;
       Failures                             failures; ///< in the order of starts
 
     private:
+      /** work(i, misfit) for i < n, and counts what fails. */
+      template <typename Work>
+      void
+      on_workers(const unsigned int n, const Work &work)
+      {
+        std::vector<Failures> failed(n);
+        for_each_at_once(n,
+                         workers.size(),
+                         [&](const unsigned int i, const unsigned int worker) {
+                           if (interrupting_signal() != 0)
+                             return;
+                           workers[worker]->failures = {};
+                           work(i, *workers[worker]);
+                           failed[i] = workers[worker]->failures;
+                         });
+        stop_if_asked();
+        for (const Failures &more : failed)
+          failures.add(more);
+      }
+
       static void
       centre_at(Misfit &misfit, const Eigen::VectorXd &values)
       {
@@ -303,7 +321,6 @@ namespace Debond
           if (!experiment.measured.file.empty())
             continue;
           stop_if_asked();
-          experiment.propose_rows();
           const PredictedCurves curves =
             experiment.predict(best,
                                experiment.why_no_closed_form.empty() ?
@@ -312,15 +329,11 @@ namespace Debond
                                true);
           const Eigen::Index n        = experiment.measured.over.size();
           Eigen::MatrixXd    jacobian = curves.derivatives;
-          const auto        &noise    = experiment.scene.calibration.noise;
           for (std::size_t c = 0; c < experiment.columns.size(); ++c)
-            {
-              const double known = noise[std::min(c, noise.size() - 1)];
-              const double scale =
-                curves.values.segment(c * n, n).cwiseAbs().maxCoeff();
-              jacobian.middleRows(c * n, n) /=
-                scale * (misfit.has_noise() && known > 0. ? known : 1.);
-            }
+            jacobian.middleRows(c * n, n) /= Measurement::sd_of(
+              experiment.scene.calibration,
+              c,
+              curves.values.segment(c * n, n).cwiseAbs().maxCoeff());
           for (std::size_t j = 0; j < misfit.unknowns.list.size(); ++j)
             jacobian.col(j) *= misfit.unknowns.list[j].per_search(best[j]);
           calibration.candidates.push_back(
@@ -385,6 +398,107 @@ namespace Debond
 
 
 
+  namespace
+  {
+    /** What the results of a calibration belong to. */
+    std::string
+    identity_of_calibration(const std::vector<SceneEntry> &entries,
+                            const Misfit                  &misfit)
+    {
+      std::string identity = scene_text(entries);
+      for (const auto &experiment : misfit.experiments)
+        {
+          // the files that a scene depends on are in comments behind it
+          const std::string &text  = experiment->scene.completed_parameters;
+          const auto         files = text.find("\n# ");
+          identity +=
+            (files == std::string::npos ? "" : text.substr(files + 1)) +
+            identity_of(experiment->measured.file);
+        }
+      return identity;
+    }
+
+
+
+    /** Refuses what could not be searched for. */
+    void
+    check_what_is_measured(const Misfit &misfit)
+    {
+      const Scene &scene = misfit.experiments.front()->scene;
+      if (misfit.measured.size() == 0)
+        throw scene.with_place(
+          EntryError("Output / Reference curve",
+                     "a calibration needs a measured curve"));
+      for (const auto &experiment : misfit.experiments)
+        experiment->check_bounds();
+    }
+
+
+
+    /** With the closed form where there is one, and from there with the
+     *  scene's own model. */
+    void
+    find_optima(Calibration &result, Search &search, std::ostream &out)
+    {
+      const dealii::Timer clock;
+      const Scene        &scene     = search.first().experiments.front()->scene;
+      const unsigned int  n_starts  = scene.calibration.starts;
+      const bool          is_closed = search.why_no_closed_form().empty();
+      result.by_closed_form = scene.model == ModelKind::foundation && is_closed;
+      const bool is_slow =
+        scene.model == ModelKind::finite_elements && !is_closed;
+      result.optima =
+        search.from_starts(n_starts,
+                           is_slow ? n_followed_slowly : n_followed,
+                           is_closed ? By::closed_form : By::scene);
+      if (is_closed && !result.by_closed_form && !result.optima.empty())
+        {
+          out << "Closed form: " << result.optima.size()
+              << (result.optima.size() == 1 ? " optimum, after " :
+                                              " optima, after ")
+              << to_text(clock.wall_time(), 2) << " s" << std::endl;
+          std::vector<Eigen::VectorXd> starts;
+          for (const Optimum &optimum : result.optima)
+            if (optimum.cost <= 4. * result.optima.front().cost + 1e-12 &&
+                starts.size() < n_followed_slowly)
+              starts.push_back(optimum.unknowns);
+          result.optima = search.follow(starts, By::scene);
+        }
+      result.failures = search.failures;
+      if (result.optima.empty())
+        throw RunError("nothing was found: no unknowns that were tried give a "
+                       "curve. The last reason: " +
+                       result.failures.last);
+    }
+
+
+
+    /** What the best fit says of the unknowns. */
+    void
+    judge(Calibration &result, Search &search)
+    {
+      const By model  = result.by_closed_form ? By::closed_form : By::scene;
+      Misfit  &misfit = search.first();
+      const Eigen::VectorXd &best = result.optima.front().unknowns;
+      const bool             profiles =
+        misfit.experiments.front()->scene.calibration.profiles;
+      for (const auto &worker : search.workers)
+        if (worker == search.workers.front() || profiles)
+          search.settle(*worker, best, model);
+      result.at_best = misfit.evaluate(best, model, true);
+      if (!result.at_best.failure.empty())
+        throw RunError("the best fit cannot be differentiated: " +
+                       result.at_best.failure);
+      result.statistics =
+        std::make_unique<FitStatistics>(misfit, best, result.at_best);
+      judge_candidates(result, misfit, model);
+      if (profiles)
+        find_profiles(result, search, model);
+    }
+  } // namespace
+
+
+
   void
   run_calibration(const std::vector<SceneEntry> &entries,
                   const std::string             &name,
@@ -403,93 +517,33 @@ namespace Debond
                        "calibrate",
                        name);
     // reads all that is to be read, and refuses, before anything is written
-    const Misfit     all(unknowns, experiments.size(), name, nullptr);
-    const Scene     &scene         = all.experiments.front()->scene;
+    set_number_of_threads(1); // a search for each thread
+    Search        search(unknowns, experiments.size(), name, n_threads);
+    const Misfit &misfit = search.first();
+    check_what_is_measured(misfit);
+    const Scene     &scene         = misfit.experiments.front()->scene;
     OutputParameters output        = scene.output;
     output.overwrite_other_results = force;
-    std::string identity           = scene_text(entries);
-    for (const auto &experiment : all.experiments)
-      {
-        // the files that a scene depends on are in comments behind its entries
-        const std::string &text  = experiment->scene.completed_parameters;
-        const auto         files = text.find("\n# ");
-        identity += (files == std::string::npos ? "" : text.substr(files + 1)) +
-                    identity_of(experiment->measured.file);
-      }
-    if (all.measured.size() == 0)
-      throw scene.with_place(
-        EntryError("Output / Reference curve",
-                   "a calibration needs a measured curve"));
-    const ResultDirectory directory(output, identity);
+    const ResultDirectory directory(output,
+                                    identity_of_calibration(entries, misfit));
     EvaluationLog         log(directory.file("evaluations.jsonl"), force);
+    search.keep_in(log);
 
-    Calibration result;
-    result.directory = directory.path();
-    set_number_of_threads(1); // a search for each thread
-    Search search(unknowns, experiments.size(), name, n_threads, log);
-    for (const auto &experiment : all.experiments)
+    for (const auto &experiment : misfit.experiments)
       if (const unsigned int n = experiment->measured.n_left_out; n > 0)
         out << n << " rows of " << experiment->measured.file
             << " are not in the windows, stay where the row before was, or are "
                "beyond what the scene comes to"
             << std::endl;
-    out << all.measured.size() << " measured values, " << unknowns.list.size()
-        << " unknowns" << std::endl;
+    out << misfit.measured.size() << " measured values, "
+        << unknowns.list.size() << " unknowns" << std::endl;
 
-    const std::string no_closed_form = search.why_no_closed_form();
-    result.by_closed_form =
-      scene.model == ModelKind::foundation && no_closed_form.empty();
-    const unsigned int n_starts = scene.calibration.starts;
-    if (no_closed_form.empty())
-      result.optima = search.from_starts(n_starts, n_followed, By::closed_form);
-    else
-      result.optima =
-        search.from_starts(n_starts,
-                           scene.model == ModelKind::finite_elements ?
-                             n_followed_slowly :
-                             n_followed,
-                           By::scene);
-    if (no_closed_form.empty() && !result.by_closed_form &&
-        !result.optima.empty())
-      {
-        out << "Closed form: " << result.optima.size()
-            << (result.optima.size() == 1 ? " optimum, after " :
-                                            " optima, after ")
-            << to_text(clock.wall_time(), 2) << " s" << std::endl;
-        std::vector<Eigen::VectorXd> starts;
-        for (const Optimum &optimum : result.optima)
-          if (optimum.cost <= 4. * result.optima.front().cost + 1e-12 &&
-              starts.size() < n_followed_slowly)
-            starts.push_back(optimum.unknowns);
-        result.optima = search.follow(starts, By::scene);
-      }
-    result.failures      = search.failures;
+    Calibration result;
+    result.directory = directory.path();
+    find_optima(result, search, out);
+    judge(result, search);
     result.n_evaluations = log.n_evaluations;
-    if (result.optima.empty())
-      throw RunError("nothing was found: no unknowns that were tried give a "
-                     "curve. The last reason: " +
-                     result.failures.last);
-
-    const By model  = result.by_closed_form ? By::closed_form : By::scene;
-    Misfit  &misfit = search.first();
-    const Eigen::VectorXd &best = result.optima.front().unknowns;
-    if (result.by_closed_form)
-      for (const auto &worker : search.workers)
-        for (const auto &experiment : worker->experiments)
-          experiment->centre_closed_form(best);
-    else
-      for (const auto &worker : search.workers)
-        worker->choose_steps(&best);
-    result.at_best = misfit.evaluate(best, model, true);
-    if (!result.at_best.failure.empty())
-      throw RunError("the best fit cannot be differentiated: " +
-                     result.at_best.failure);
-    result.statistics =
-      std::make_unique<FitStatistics>(misfit, best, result.at_best);
-    judge_candidates(result, misfit, model);
-    if (scene.calibration.profiles)
-      find_profiles(result, search, model);
-    result.seconds = clock.wall_time();
+    result.seconds       = clock.wall_time();
     report(result, misfit, out);
     if (result.statistics->e_rel > scene.calibration.largest_misfit)
       throw RunError(
@@ -509,7 +563,8 @@ namespace Debond
   {
     const auto     experiments = experiments_of(entries);
     const Unknowns unknowns(experiments);
-    Misfit         misfit(unknowns, experiments.size(), name, nullptr);
+    Misfit         misfit(unknowns, experiments.size(), name);
+    check_what_is_measured(misfit);
     for (const Unknown &u : unknowns.list)
       out << u.name << ": from " << to_text(u.start, 6) << ", between "
           << to_text(u.lower, 6) << " and " << to_text(u.upper, 6)

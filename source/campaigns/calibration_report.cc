@@ -68,12 +68,13 @@ namespace Debond
         flat.push_back(text_of(direction, misfit.unknowns));
       for (const Calibration::Candidate &candidate : calibration.candidates)
         {
-          nlohmann::ordered_json shrink;
+          nlohmann::ordered_json widths;
           for (std::size_t j = 0; j < list.size(); ++j)
-            shrink[list[j].name] =
-              candidate.half_widths[j] / statistics.half_widths[j];
+            widths[list[j].name] =
+              candidate.half_widths[j] *
+              list[j].per_search(statistics.unknowns[j].best);
           candidates.push_back({{"experiment", candidate.experiment + 1},
-                                {"interval_ratio", shrink}});
+                                {"half_widths", widths}});
         }
       return {{"version", DEBOND_VERSION},
               {"seconds", calibration.seconds},

@@ -131,37 +131,31 @@ namespace Debond
 
 
 
-  Misfit::Misfit(const Unknowns      &unknowns,
-                 const unsigned int   n_experiments,
-                 const std::string   &name,
-                 EvaluationLog *const log)
+  Misfit::Misfit(const Unknowns    &unknowns,
+                 const unsigned int n_experiments,
+                 const std::string &name)
     : unknowns(unknowns)
-    , log(log)
   {
     std::vector<double> all, all_weights;
     for (unsigned int i = 0; i < n_experiments; ++i)
       {
         experiments.push_back(std::make_unique<Experiment>(unknowns, i, name));
-        const Experiment            &own        = *experiments.back();
-        const CalibrationParameters &parameters = own.scene.calibration;
-        if (own.measured.file.empty())
+        const Scene       &scene = experiments.back()->scene;
+        const Measurement &own   = experiments.back()->measured;
+        if (own.file.empty())
           continue;
-        for (std::size_t c = 0; c < own.columns.size(); ++c)
-          {
-            const double noise =
-              parameters.noise[std::min(c, parameters.noise.size() - 1)];
-            if (!all.empty() && (noise > 0.) != noise_is_known)
-              throw EntryError("Calibration / Noise",
-                               "either all curves of all experiments have a "
-                               "known noise, or none: 0");
-            noise_is_known = noise > 0.;
-            for (const double value : own.measured.values.col(c))
-              {
-                all.push_back(value);
-                all_weights.push_back(
-                  1. / (own.measured.scale[c] * (noise > 0. ? noise : 1.)));
-              }
-          }
+        const bool is_known = has_known_noise(scene.calibration);
+        if (!all.empty() && is_known != noise_is_known)
+          throw scene.with_place(
+            EntryError("Calibration / Noise",
+                       "either all curves of all experiments have a known "
+                       "noise, or none: 0"));
+        noise_is_known = is_known;
+        const auto add = [](std::vector<double> &list, const auto &numbers) {
+          list.insert(list.end(), numbers.begin(), numbers.end());
+        };
+        add(all, own.values.reshaped());
+        add(all_weights, own.sd.cwiseInverse().eval().reshaped());
       }
     measured = Eigen::Map<Eigen::VectorXd>(all.data(), all.size());
     weights =
@@ -355,7 +349,6 @@ namespace Debond
           free.push_back(j);
           searched.push_back(misfit.unknowns.list[j].to_search(start[j]));
         }
-    misfit.failures = {};
     Optimum result;
     result.unknowns = start;
     if (!free.empty())
@@ -402,7 +395,6 @@ namespace Debond
         if (at.failure.empty() && free.empty())
           result.cost = 0.5 * misfit.residuals(at.values).squaredNorm();
       }
-    result.failures = misfit.failures;
     return result;
   }
 } // namespace Debond

@@ -1,7 +1,7 @@
 #include <debond/campaigns/experiment.h>
-#include <debond/input/measured_table.h>
 #include <debond/models/closed_form_solution.h>
 #include <debond/models/simulation.h>
+#include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 
 #include <boost/algorithm/string/predicate.hpp>
@@ -25,96 +25,14 @@ namespace Debond
 
 
 
-    Quantity
-    quantity_of(const CurveColumn &column)
-    {
-      const bool turns = is_rotation(column.component);
-      switch (column.kind)
-        {
-          case CurveColumn::time:
-            return Quantity::time;
-          case CurveColumn::reaction:
-            return turns ? Quantity::moment : Quantity::force;
-          default:
-            return turns ? Quantity::angle : Quantity::length;
-        }
-    }
-  } // namespace
-
-
-
-  CurveColumn::CurveColumn(const std::string &given, const std::string &entry)
-    : name(given)
-  {
-    if (name == "time")
-      return;
-    if (name == "torque_Nmm" || name == "angle_deg")
-      {
-        kind      = name == "angle_deg" ? position : reaction;
-        component = twist;
-        return;
-      }
-    TorqueRow    row;
-    unsigned int n = 0; // reactions come first, then positions
-    row.for_each_column([&](const std::string &other, const auto &) {
-      if (!boost::starts_with(other, "chuck_"))
-        return;
-      if (other == name)
-        {
-          kind      = n < 6 ? reaction : position;
-          component = n % 6;
-        }
-      ++n;
-    });
-    if (kind == time)
-      throw EntryError(entry,
-                       "there is no such curve: expected time, angle_deg, "
-                       "torque_Nmm or a column of torque.csv that begins with "
-                       "chuck_");
-  }
-
-
-
-  double
-  CurveColumn::of(const TorqueRow &row) const
-  {
-    return kind == time     ? row.time :
-           kind == reaction ? row.chuck_reaction[component] :
-                              row.chuck_position[component];
-  }
-
-
-
-  std::string
-  CurveColumn::unit() const
-  {
-    switch (quantity_of(*this))
-      {
-        case Quantity::angle:
-          return "deg";
-        case Quantity::moment:
-          return "N mm";
-        case Quantity::force:
-          return "N";
-        case Quantity::length:
-          return "mm";
-        default:
-          return "";
-      }
-  }
-
-
-
-  namespace
-  {
-    CurveColumn
-    column_of(const Scene       &scene,
-              const std::string &name,
-              const std::string &entry)
+    /** As a member of a constructor: errors say where the scene has it. */
+    template <typename Make>
+    auto
+    placed(const Scene &scene, const Make &make)
     {
       try
         {
-          return {name, calibration + entry};
+          return make();
         }
       catch (const InputError &error)
         {
@@ -127,10 +45,12 @@ namespace Debond
     std::vector<CurveColumn>
     columns_of(const Scene &scene)
     {
-      std::vector<CurveColumn> columns;
-      for (const std::string &name : scene.calibration.curves)
-        columns.push_back(column_of(scene, name, "Curves"));
-      return columns;
+      return placed(scene, [&] {
+        std::vector<CurveColumn> columns;
+        for (const std::string &name : scene.calibration.curves)
+          columns.emplace_back(name, calibration + "Curves");
+        return columns;
+      });
     }
 
 
@@ -144,39 +64,6 @@ namespace Debond
         entries,
         {"Task=simulate", "Output/Reference curve=", "Output/Console=quiet"});
     }
-
-
-
-    /** Between which turning points each value lies, 0 before the first. A
-     *  curve turns where it goes back by more than @p least of its range. */
-    std::vector<int>
-    branches_of(const Eigen::VectorXd &over, const double least)
-    {
-      std::vector<int> branch(over.size(), 0);
-      if (over.size() == 0)
-        return branch;
-      const double tolerance = least * (over.maxCoeff() - over.minCoeff());
-      int          direction = 0, n = 0;
-      Eigen::Index extreme = 0;
-      for (Eigen::Index i = 0; i < over.size(); ++i)
-        {
-          const double moved = over[i] - over[extreme];
-          if (direction == 0 && std::abs(moved) > tolerance)
-            direction = moved > 0. ? 1 : -1;
-          if (direction * moved >= 0.)
-            extreme = direction == 0 ? extreme : i;
-          else if (std::abs(moved) > tolerance)
-            {
-              ++n;
-              for (Eigen::Index k = extreme + 1; k < i; ++k)
-                branch[k] = n;
-              direction = -direction;
-              extreme   = i;
-            }
-          branch[i] = n;
-        }
-      return branch;
-    }
   } // namespace
 
 
@@ -187,7 +74,12 @@ namespace Debond
     : scene(
         Scene::from_entries(unknowns.entries(number, unknowns.starts()), name))
     , columns(columns_of(scene))
-    , over(column_of(scene, scene.calibration.over, "Over"))
+    , over(placed(scene,
+                  [&] {
+                    return CurveColumn(scene.calibration.over,
+                                       calibration + "Over");
+                  }))
+    , measured(placed(scene, [&] { return Measurement(scene, columns, over); }))
     , unknowns(unknowns)
     , number(number)
     , varying(without_reference(unknowns.entries(number, unknowns.starts())),
@@ -195,27 +87,46 @@ namespace Debond
     , has_elastic_bodies(scene.bone.material != Material::rigid ||
                          scene.implant.material != Material::rigid)
   {
-    try
-      {
-        read_measurement();
-      }
-    catch (const InputError &error)
-      {
-        throw scene.with_place(error);
-      }
-    // Values that are not allowed within the bounds show now, and not in the
-    // middle of a search.
-    const Eigen::VectorXd starts = unknowns.starts();
-    for (Eigen::Index j = 0; j < starts.size(); ++j)
+    if (scene.model == ModelKind::automatic)
+      throw scene.with_place(
+        EntryError("Model",
+                   "a calibration compares curves of one model: choose it"));
+    find_changes();
+    why_no_closed_form = find_why_no_closed_form();
+  }
+
+
+
+  // Values that are not allowed within the bounds show now, and not in the
+  // middle of a search.
+  void
+  Experiment::check_bounds()
+  {
+    for (std::size_t j = 0; j < unknowns.list.size(); ++j)
       for (const double bound :
            {unknowns.list[j].lower, unknowns.list[j].upper})
         {
-          Eigen::VectorXd at_bound = starts;
+          Eigen::VectorXd at_bound = unknowns.starts();
           at_bound[j]              = bound;
           scene_at(at_bound).check();
+          const std::string why = is_differentiated && changes[j].model ?
+                                    why_no_derivative(at_bound, j) :
+                                    "";
+          if (!why.empty())
+            unknowns.list[j].entry.refuse("at the bound " + to_text(bound) +
+                                          " " + why);
         }
-    // What an unknown changes shows in the entries that hold it.
-    const auto before = unknowns.varied_entries(number, starts);
+  }
+
+
+
+  // What an unknown changes shows in the entries that hold it.
+  void
+  Experiment::find_changes()
+  {
+    const Eigen::VectorXd starts = unknowns.starts();
+    const auto            before = unknowns.varied_entries(number, starts);
+    is_differentiated            = scene.model == ModelKind::finite_elements;
     for (Eigen::Index j = 0; j < starts.size(); ++j)
       {
         Eigen::VectorXd other = starts;
@@ -223,188 +134,60 @@ namespace Debond
         other[j] =
           0.5 * (starts[j] + (starts[j] < u.upper ? u.upper : u.lower));
         const auto after = unknowns.varied_entries(number, other);
-        bool       model = false, bulk = false, penalty = false, law = false;
+        Changes    change;
         for (std::size_t e = 0; e < before.size(); ++e)
           if (before[e].value != after[e].value)
             {
               const std::string entry       = before[e].full_name();
-              const auto        starts_with = [&](const char *const text) {
+              const auto        starts_with = [&](const std::string &text) {
                 return boost::starts_with(entry, text);
               };
-              model = model || !starts_with(calibration.c_str());
-              bulk  = bulk || starts_with("Bone /") || starts_with("Implant");
               const bool is_penalty =
-                entry.find("enalty stiffness") != std::string::npos;
-              penalty = penalty || is_penalty;
-              law     = law || (starts_with("Interface /") && !is_penalty &&
-                            !starts_with("Interface / Bonding"));
+                           entry.find("enalty stiffness") != std::string::npos,
+                         is_bulk =
+                           starts_with("Bone /") || starts_with("Implant /");
+              change.model     = change.model || !starts_with(calibration);
+              change.stiffness = change.stiffness || is_bulk || is_penalty;
+              change.law =
+                change.law || (starts_with("Interface /") && !is_penalty &&
+                               !starts_with("Interface / Bonding"));
+              keeps_bodies = keeps_bodies && !is_bulk;
             }
-        changes_model.push_back(model);
-        changes_law.push_back(law);
-        changes_bodies.push_back(bulk);
-        changes_stiffness.push_back(bulk || penalty);
+        changes.push_back(change);
+        if (is_differentiated && change.model)
+          is_differentiated = why_no_derivative(starts, j).empty();
       }
-    for (Eigen::Index j = 0; j < starts.size(); ++j)
-      if (why_differences.empty() && changes_model[j])
-        why_differences =
-          why_not_differentiable(varying.with(before), variation(starts, j));
+  }
+
+
+
+  std::string
+  Experiment::find_why_no_closed_form() const
+  {
     Scene as_foundation = scene;
     as_foundation.model = ModelKind::foundation;
-    why_no_closed_form  = Debond::why_no_closed_form(as_foundation);
-    if (why_no_closed_form.empty() && scene.load_steps.follow_path)
-      why_no_closed_form = "the scene follows a path";
-    if (why_no_closed_form.empty() &&
-        scene.chuck.component[twist].stiffness > 0.)
-      why_no_closed_form = "the machine is compliant";
-    if (why_no_closed_form.empty() &&
-        scene.interface.bonding_of_law().pattern !=
-          BondingPatternKind::homogeneous &&
-        scene.interface.bonding_of_law().pattern != BondingPatternKind::disk)
-      why_no_closed_form = "closed forms know homogeneous bonding and the disk";
-    for (const SceneEntry &entry : before)
+    std::string why     = Debond::why_no_closed_form(as_foundation);
+    if (!why.empty())
+      return why;
+    if (scene.load_steps.follow_path)
+      return "the scene follows a path";
+    if (scene.chuck.component[twist].stiffness > 0.)
+      return "the machine is compliant";
+    const BondingPatternKind pattern = scene.interface.bonding_of_law().pattern;
+    if (pattern != BondingPatternKind::homogeneous &&
+        pattern != BondingPatternKind::disk)
+      return "closed forms know homogeneous bonding and the disk";
+    for (const SceneEntry &entry :
+         unknowns.varied_entries(number, unknowns.starts()))
       if (entry.full_name() == "Implant / Radius")
-        why_no_closed_form = "the radius is an unknown";
-    if (over.kind != CurveColumn::position || over.component != twist)
-      why_no_closed_form = "closed forms know curves over the angle";
+        return "the radius is an unknown";
+    if (!over.is(CurveColumn::position, twist))
+      return "closed forms know curves over the angle";
     for (const CurveColumn &column : columns)
-      if (column.kind != CurveColumn::reaction ||
-          (column.component != twist && column.component != push))
-        why_no_closed_form = "closed forms know torque and axial force";
-  }
-
-
-
-  // Where the scene is led along `over`, as far as it prescribes that; rows of
-  // a measured curve beyond it mean nothing. While the offset of the rig is an
-  // unknown some may come to lie beyond, for which the curve goes on straight.
-  std::pair<double, double>
-  Experiment::reach() const
-  {
-    double       least = std::numeric_limits<double>::infinity(), most = -least;
-    const auto  &rig      = scene.calibration;
-    const double rounding = 1e-9;
-    if (over.kind == CurveColumn::reaction ||
-        (over.kind == CurveColumn::position &&
-         scene.chuck.component[over.component].loaded))
-      return {most, least};
-    const Chuck chuck(scene.chuck,
-                      Eigen::Vector3d::Zero(),
-                      scene.implant.characteristic_radius());
-    for (const double time : scene.load_steps.sample_times())
-      {
-        const double place =
-          over.kind == CurveColumn::time ?
-            time :
-            chuck.values(time)[over.component] *
-              (is_rotation(over.component) ? 1. / degree : 1.);
-        least = std::min(least, place);
-        most  = std::max(most, place);
-      }
-    const double turned =
-      over.kind == CurveColumn::position && over.component == twist ?
-        rig.angle_offset + rig.slack :
-        0.;
-    const double margin = rounding * (most - least);
-    // before it begins to turn the curve is known: there is no load
-    return {least - margin - std::abs(turned), most + margin + turned};
-  }
-
-
-
-  // Rows in windows only. What the scene does not come to is left out, too, if
-  // that can be told from what it prescribes.
-  void
-  Experiment::read_measurement()
-  {
-    const CalibrationParameters &parameters = scene.calibration;
-    if (parameters.windows.size() % 2 != 0)
-      throw EntryError(calibration + "Windows",
-                       "expected pairs of bounds, an even number of them");
-    if (parameters.noise.size() != 1 &&
-        parameters.noise.size() != columns.size())
-      throw EntryError(calibration + "Noise",
-                       "expected one number, or one for each of Curves");
-    measured.file  = scene.output.reference_curve;
-    measured.scale = Eigen::VectorXd::Zero(columns.size());
-    measured.values.resize(0, columns.size());
-    if (measured.file.empty())
-      return;
-    std::vector<MeasuredColumn> wanted{{over.name, quantity_of(over)}};
-    for (const CurveColumn &column : columns)
-      wanted.push_back({column.name, quantity_of(column)});
-    const auto      table = read_measured_table(measured.file,
-                                           "Output / Reference curve",
-                                           wanted,
-                                           scene.output.reference_columns,
-                                           "Output / Reference columns");
-    Eigen::VectorXd all(table.size());
-    for (std::size_t i = 0; i < table.size(); ++i)
-      all[i] = table[i][0];
-    const auto branch = branches_of(all, 0.05);
-
-    const auto [least, most] = reach();
-    std::vector<std::size_t> used;
-    for (std::size_t i = 0; i < table.size(); ++i)
-      {
-        const auto &windows = parameters.windows;
-        bool        inside  = windows.empty();
-        for (std::size_t w = 0; w < windows.size(); w += 2)
-          inside = inside || (all[i] >= windows[w] && all[i] <= windows[w + 1]);
-        // of rows at the same place, as while it is pressed, the last one
-        const bool stays = i + 1 < table.size() && all[i + 1] == all[i];
-        if (inside && !stays && all[i] >= least && all[i] <= most)
-          used.push_back(i);
-      }
-    if (used.empty())
-      throw EntryError("Output / Reference curve",
-                       measured.file + ": none of its " +
-                         std::to_string(table.size()) + " rows, " + over.name +
-                         " from " + to_text(all.minCoeff(), 4) + " to " +
-                         to_text(all.maxCoeff(), 4) +
-                         ", is in Calibration / Windows and what the scene "
-                         "comes to, " +
-                         to_text(least, 4) + " to " + to_text(most, 4));
-    measured.n_left_out = table.size() - used.size();
-    measured.over.resize(used.size());
-    measured.values.resize(used.size(), columns.size());
-    for (std::size_t i = 0; i < used.size(); ++i)
-      {
-        measured.over[i] = all[used[i]];
-        measured.branch.push_back(branch[used[i]]);
-        for (std::size_t c = 0; c < columns.size(); ++c)
-          measured.values(i, c) = table[used[i]][c + 1];
-      }
-    // of the whole file, so that a window changes no weight
-    for (std::size_t c = 0; c < columns.size(); ++c)
-      {
-        for (const auto &row : table)
-          measured.scale[c] = std::max(measured.scale[c], std::abs(row[c + 1]));
-        if (measured.scale[c] == 0.)
-          throw EntryError("Output / Reference curve",
-                           measured.file + ": all of " + columns[c].name +
-                             " is zero");
-      }
-  }
-
-
-
-  void
-  Experiment::propose_rows()
-  {
-    constexpr unsigned int n     = 200;
-    const auto            &steps = scene.load_steps;
-    Eigen::Vector2d        ends(steps.times.front(), steps.times.back());
-    if (over.kind != CurveColumn::time)
-      {
-        const Chuck chuck(scene.chuck,
-                          Eigen::Vector3d::Zero(),
-                          scene.implant.characteristic_radius());
-        for (const unsigned int end : {0u, 1u})
-          ends[end] = chuck.values(ends[end])[over.component] *
-                      (is_rotation(over.component) ? 1. / degree : 1.);
-      }
-    measured.over   = Eigen::VectorXd::LinSpaced(n, ends[0], ends[1]);
-    measured.branch = std::vector<int>(n, 0);
+      if (!column.is(CurveColumn::reaction, twist) &&
+          !column.is(CurveColumn::reaction, push))
+        return "closed forms know torque and axial force";
+    return "";
   }
 
 
@@ -444,6 +227,17 @@ namespace Debond
                           ends[1][j] - ends[0][j]};
     result.plus.calibration = result.minus.calibration = scene.calibration;
     return result;
+  }
+
+
+
+  std::string
+  Experiment::why_no_derivative(const Eigen::VectorXd &values,
+                                const unsigned int     j)
+  {
+    Scene now       = scene_at(values);
+    now.calibration = scene.calibration;
+    return why_not_differentiable(now, variation(values, j));
   }
 
 
@@ -490,8 +284,7 @@ namespace Debond
     const unsigned int n_rows = rows.size(), n_measured = measured.over.size();
     const bool         differentiate = !row_derivatives.empty();
     const unsigned int n_unknowns    = differentiate ? unknowns.list.size() : 0;
-    const bool         over_angle =
-      over.kind == CurveColumn::position && over.component == twist;
+    const bool         over_angle    = over.is(CurveColumn::position, twist);
 
     Eigen::VectorXd x(n_rows);
     Eigen::MatrixXd dx        = Eigen::MatrixXd::Zero(n_rows, n_unknowns);
@@ -563,8 +356,7 @@ namespace Debond
                          y_b          = column.of(rows[end]);
             const double slope =
               width == 0. || is_beside ? 0. : (y_b - y_a) / width;
-            const bool is_torque =
-              column.kind == CurveColumn::reaction && column.component == twist;
+            const bool is_torque  = column.is(CurveColumn::reaction, twist);
             const unsigned int at = c * n_measured + q;
             result.values[at]     = (1. - share) * y_a + share * y_b +
                                 (is_torque ? rig.torque_offset : 0.);
@@ -593,7 +385,7 @@ namespace Debond
   {
     if (model == By::closed_form)
       return predict_by_disk(values, with_derivatives);
-    if (with_derivatives && !why_differences.empty())
+    if (with_derivatives && !is_differentiated)
       return predict_by_differences(values);
     if (scene.model == ModelKind::finite_elements)
       return predict_by_run(values, with_derivatives);
@@ -610,51 +402,26 @@ namespace Debond
   {
     using RowDerivative = Eigen::Matrix<double, 12, -1>;
 
-    /** Derivatives of @p rows, which lie on the curve between rows of a run: on
-     *  cubics whose slopes are those of parabolas through neighbouring rows of
-     *  the same phase, of which @p phases has the ends. */
+    /** Derivatives of @p rows, which lie on the curve between rows of a run:
+     *  straight lines in time. They lead the search and give intervals; what is
+     *  fitted is the curve itself. */
     std::vector<RowDerivative>
     on_fine_curve(const std::vector<TorqueRow>     &rows,
                   const std::vector<TorqueRow>     &of_run,
-                  const std::vector<RowDerivative> &derivatives,
-                  const std::vector<double>        &phases)
+                  const std::vector<RowDerivative> &derivatives)
     {
-      const std::size_t n      = of_run.size();
-      const auto        secant = [&](const std::size_t i) -> RowDerivative {
-        return (derivatives[i + 1] - derivatives[i]) /
-               (of_run[i + 1].time - of_run[i].time);
-      };
-      const auto slope = [&](const std::size_t i,
-                             const bool        is_begin) -> RowDerivative {
-        const bool is_end =
-          i == 0 || i + 1 == n ||
-          std::find(phases.begin(), phases.end(), of_run[i].time) !=
-            phases.end();
-        if (is_end)
-          return secant(is_begin ? i : i - 1);
-        const double before = of_run[i].time - of_run[i - 1].time,
-                     after  = of_run[i + 1].time - of_run[i].time;
-        return (after * secant(i - 1) + before * secant(i)) / (before + after);
-      };
       std::vector<RowDerivative> result;
       std::size_t                end = 0;
       for (const TorqueRow &row : rows)
         {
-          while (end + 1 < n && of_run[end].time < row.time)
+          while (end + 1 < of_run.size() && of_run[end].time < row.time)
             ++end;
-          if (end == 0 || of_run[end].time == row.time)
-            {
-              result.push_back(derivatives[end]);
-              continue;
-            }
-          const double width = of_run[end].time - of_run[end - 1].time,
-                       s     = (row.time - of_run[end - 1].time) / width;
-          result.push_back((1. - s) * (1. - s) *
-                             ((1. + 2. * s) * derivatives[end - 1] +
-                              s * width * slope(end - 1, true)) +
-                           s * s *
-                             ((3. - 2. * s) * derivatives[end] -
-                              (1. - s) * width * slope(end, false)));
+          const std::size_t begin = end == 0 ? 0 : end - 1;
+          const double      width = of_run[end].time - of_run[begin].time;
+          const double      share =
+            width == 0. ? 1. : (row.time - of_run[begin].time) / width;
+          result.push_back((1. - share) * derivatives[begin] +
+                           share * derivatives[end]);
         }
       return result;
     }
@@ -666,14 +433,10 @@ namespace Debond
   std::unique_ptr<Simulation>
   Experiment::simulation_of(const Scene &now)
   {
-    const bool keep = std::none_of(changes_bodies.begin(),
-                                   changes_bodies.end(),
-                                   [](const bool changes) { return changes; });
     if (bodies)
       bodies->return_to_rest();
-    auto simulation =
-      std::make_unique<Simulation>(now, keep ? bodies : nullptr);
-    if (keep)
+    auto simulation = std::make_unique<Simulation>(now, bodies);
+    if (keeps_bodies)
       bodies = simulation->system().bodies();
     return simulation;
   }
@@ -723,20 +486,18 @@ namespace Debond
     Eigen::MatrixXd             rig = Eigen::MatrixXd::Zero(4, values.size());
     for (Eigen::Index j = 0; with_derivatives && j < values.size(); ++j)
       {
-        if (changes_model[j])
-          {
-            variations.push_back(variation(values, j));
-            variations.back().plus.load_steps =
-              variations.back().minus.load_steps = now.load_steps;
-            varied.push_back(j);
-          }
-        else
-          rig.col(j) = rig_derivative(values, j);
+        rig.col(j) = rig_derivative(values, j);
+        if (!changes[j].model)
+          continue;
+        variations.push_back(variation(values, j));
+        variations.back().plus.load_steps = variations.back().minus.load_steps =
+          now.load_steps;
+        varied.push_back(j);
       }
     simulation.differentiate(variations);
     simulation.run();
 
-    std::vector<Eigen::Matrix<double, 12, -1>> derivatives;
+    std::vector<RowDerivative> derivatives;
     if (with_derivatives)
       for (std::size_t i = 0; i < simulation.rows().size(); ++i)
         {
@@ -756,10 +517,7 @@ namespace Debond
                               rig);
     const auto fine = fine_curve(simulation.rows());
     if (with_derivatives)
-      derivatives = on_fine_curve(fine,
-                                  simulation.rows(),
-                                  derivatives,
-                                  now.load_steps.times);
+      derivatives = on_fine_curve(fine, simulation.rows(), derivatives);
     return at_measured_rows(fine, derivatives, now.calibration, rig);
   }
 
@@ -787,11 +545,8 @@ namespace Debond
   Eigen::Vector2d
   Experiment::exact_compliance(const Eigen::VectorXd &values)
   {
-    const Scene &now  = scene_at(values);
-    const bool   keep = std::none_of(changes_bodies.begin(),
-                                   changes_bodies.end(),
-                                   [](const bool changes) { return changes; });
-    if (!keep)
+    const Scene &now = scene_at(values);
+    if (!keeps_bodies)
       linear_bodies.reset();
     const FoundationStiffness stiffness =
       foundation_stiffness(now, &linear_bodies);
@@ -820,7 +575,7 @@ namespace Debond
       return; // no compliance of bodies
     centre.compliance = exact_compliance(values);
     for (Eigen::Index j = 0; j < values.size(); ++j)
-      if (changes_stiffness[j])
+      if (changes[j].stiffness)
         {
           const Unknown  &u     = unknowns.list[j];
           Eigen::VectorXd other = values;
@@ -887,7 +642,7 @@ namespace Debond
             rig_derivatives.col(j) = rig_derivative(values, j);
             std::array<TorsionModel::Disk, 2> ends{{disk, disk}};
             const auto                        places = moved(values, j, 1e-5);
-            if (changes_model[j])
+            if (changes[j].model)
               for (const unsigned int end : {0u, 1u})
                 ends[end] = disk_of(scene_at(places[end]), places[end]);
             const double  width = places[1][j] - places[0][j];
@@ -898,7 +653,7 @@ namespace Debond
             if (disk.bonded_radius < disk.radius)
               by.bonded_radius =
                 (ends[1].bonded_radius - ends[0].bonded_radius) / width;
-            if (changes_law[j])
+            if (changes[j].law)
               {
                 by.plus  = ends[1].friction;
                 by.minus = ends[0].friction;

@@ -392,7 +392,7 @@ namespace Debond
       spread(point.basis, f, sums[slave]);
       spread(result.basis, -f, sums[master_side()]);
     };
-    forces = sum_in_chunks(points.size(), configuration, update);
+    forces = sum_in_chunks(points.size(), zero_sums(configuration), update);
     // One point without a solution is enough to fail the iteration: a traction
     // that is guessed would converge to something. The first one in order is
     // remembered for the message, whichever thread has met it.
@@ -472,7 +472,7 @@ namespace Debond
       spread(point.basis, f, sums[slave]);
       spread(point.trial.basis, -f, sums[master_side()]);
     };
-    return sum_in_chunks(points.size(), configuration, update);
+    return sum_in_chunks(points.size(), zero_sums(configuration), update);
   }
 
 

@@ -416,7 +416,9 @@ namespace Debond
                     point.trial.dxi * dw,
                     sums);
     };
-    add_in_unknowns(sum_in_chunks(points.size(), configuration, change),
+    add_in_unknowns(sum_in_chunks(points.size(),
+                                  zero_sums(configuration),
+                                  change),
                     configuration,
                     1.,
                     result);
@@ -456,7 +458,8 @@ namespace Debond
                         dw.lazyProduct(point.trial.dxi.transpose()),
                         sums);
         };
-        const LaneSums  sums = sum_lanes(points.size(), configuration, change);
+        const LaneSums sums =
+          sum_in_chunks(points.size(), zero_lanes(configuration), change);
         Eigen::VectorXd column;
         for (unsigned int lane = 0; lane < n; ++lane)
           {

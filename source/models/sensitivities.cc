@@ -38,22 +38,6 @@ namespace Debond
     {
       return q[3] * chuck.axis(3) + q[4] * chuck.axis(4) + q[5] * chuck.axis(5);
     }
-
-
-
-    /** The configuration with all six components of the chuck as unknowns, the
-     *  last ones. */
-    InterfaceConfiguration
-    with_whole_chuck(const CoupledSystem &system)
-    {
-      InterfaceConfiguration moving = system.configuration;
-      const unsigned int     n_v =
-        system.n_unknowns() - moving.chuck_unknowns.size();
-      moving.chuck_unknowns.clear();
-      for (unsigned int k = 0; k < 6; ++k)
-        moving.chuck_unknowns.emplace_back(k, n_v + k);
-      return moving;
-    }
   } // namespace
 
 
@@ -110,8 +94,9 @@ namespace Debond
 
 
 
-  // A column for each parameter: the unknowns of with_whole_chuck(), of which
-  // those components of the chuck move that follow what the scene says.
+  // A column for each parameter: the unknowns of
+  // CoupledSystem::with_whole_chuck(), of which those components of the chuck
+  // move that follow what the scene says.
   template <typename Follows>
   Eigen::MatrixXd
   Sensitivities::given_motions(const double time, const Follows &follows) const
@@ -136,7 +121,7 @@ namespace Debond
   std::vector<InterfaceMotion>
   Sensitivities::motions(const Eigen::MatrixXd &unknowns) const
   {
-    const InterfaceConfiguration moving = with_whole_chuck(system);
+    const InterfaceConfiguration moving = system.with_whole_chuck();
     const unsigned int           n      = unknowns.cols();
     std::vector<InterfaceMotion> result((n + n_lanes - 1) / n_lanes);
     for (InterfaceMotion &motion : result)
@@ -165,7 +150,7 @@ namespace Debond
                                   const Eigen::MatrixXd       &given) const
   {
     const auto                  &unknown = system.configuration.chuck_unknowns;
-    const InterfaceConfiguration moving  = with_whole_chuck(system);
+    const InterfaceConfiguration moving  = system.with_whole_chuck();
     InterfaceConfiguration       bodies  = system.configuration;
     bodies.chuck_unknowns.clear();
     const PathEquation   no_path;
@@ -249,7 +234,7 @@ namespace Debond
     using Eigen::Vector3d;
     constexpr auto               spin   = ChuckComponent::rotation_z;
     const Chuck                 &chuck  = system.chuck;
-    const InterfaceConfiguration moving = with_whole_chuck(system);
+    const InterfaceConfiguration moving = system.with_whole_chuck();
     const ControlNet            &f      = system.interface.force(Side::implant);
     const ControlNet             arm =
       system.configuration.side[Side::implant].positions.colwise() -

@@ -158,6 +158,12 @@ namespace Debond
                 "largest value of the curve: of each curve, or one for all. 0: "
                 "unknown, the same for all curves and taken from what the fit "
                 "leaves.");
+      table.add("Noise columns",
+                calibration.noise_columns,
+                Allowed::text("columns of the file"),
+                "Columns of the measured file, by name or number, that hold "
+                "the standard deviation of each row, one for each of Curves; "
+                "instead of Noise.");
       declare_rig(calibration, table);
       table.add("Measure",
                 calibration.measure,

@@ -624,6 +624,19 @@ namespace Debond
 
 
 
+  InterfaceConfiguration
+  CoupledSystem::with_whole_chuck() const
+  {
+    InterfaceConfiguration moving = configuration;
+    const unsigned int     n_v = unknowns - configuration.chuck_unknowns.size();
+    moving.chuck_unknowns.clear();
+    for (unsigned int k = 0; k < 6; ++k)
+      moving.chuck_unknowns.emplace_back(k, n_v + k);
+    return moving;
+  }
+
+
+
   // What follows from the tangent when the step ends a little later. The chuck
   // moves on, loads grow, and, where friction depends on the speed, the step
   // takes longer; equilibrium says how the unknowns z follow:
@@ -637,11 +650,8 @@ namespace Debond
   CoupledSystem::Rates
   CoupledSystem::rates()
   {
-    InterfaceConfiguration moving = configuration;
-    const unsigned int     n_v = unknowns - configuration.chuck_unknowns.size();
-    moving.chuck_unknowns.clear();
-    for (unsigned int k = 0; k < 6; ++k)
-      moving.chuck_unknowns.emplace_back(k, n_v + k);
+    const InterfaceConfiguration moving = with_whole_chuck();
+    const unsigned int n_v = unknowns - configuration.chuck_unknowns.size();
     interface.differentiate_turns(moving);
     const PathEquation   no_path;
     const CoupledTangent whole(body, interface, moving, no_path);

@@ -10,12 +10,14 @@
 //   check_scene SCENE.prm DIRECTORY    results go there; exit code 0 only if
 //                                      all expectations are met
 
+#include <debond/campaigns/calibration.h>
 #include <debond/campaigns/run_scene.h>
 #include <debond/campaigns/study.h>
 #include <debond/input/parameter_loop.h>
 #include <debond/scene/scene.h>
 #include <debond/support/runtime.h>
 
+#include <algorithm>
 #include <exception>
 #include <iostream>
 #include <sstream>
@@ -54,6 +56,15 @@ namespace
       Debond::with_overrides(Debond::read_scene_file(scene_file),
                              overrides_of(scene_text)),
       more_overrides);
+    if (Debond::is_calibration(entries))
+      {
+        std::ostringstream log;
+        Debond::run_calibration(entries, scene_file, 2, true, log);
+        return {read_calibration(
+          std::find_if(entries.begin(), entries.end(), [](const auto &entry) {
+            return entry.full_name() == "Output / Directory";
+          })->value)};
+      }
     if (!Debond::varied_entries(entries).empty())
       {
         std::ostringstream log;

@@ -1,5 +1,7 @@
 #include "expectations.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -146,6 +148,35 @@ namespace Expectations
     return {directory,
             read_table(directory + "/torque.csv"),
             read_summary(directory + "/summary.json")};
+  }
+
+
+
+  Results
+  read_calibration(const std::string &directory)
+  {
+    const auto json =
+      nlohmann::json::parse(contents_of(directory + "/calibration.json"));
+    Results results{directory, {}, {}};
+    // what cannot be told is infinite, for which JSON has null
+    const auto number = [](const nlohmann::json &value) {
+      return value.is_null() ? HUGE_VAL : value.get<double>();
+    };
+    for (const auto &[name, unknown] : json.at("unknowns").items())
+      {
+        results.summary[name] = number(unknown.at("value"));
+        results.summary[name + "_width"] =
+          number(unknown.at("upper_95")) - number(unknown.at("lower_95"));
+        if (unknown.at("upper_95").is_null())
+          results.summary[name + "_width"] = HUGE_VAL;
+      }
+    for (const char *const measure : {"e_mp", "e_rel"})
+      results.summary[measure] = number(json.at("curves").at(0).at(measure));
+    for (const auto &candidate : json.at("candidates"))
+      for (const auto &[name, width] : candidate.at("half_widths").items())
+        results.summary[name + "_after_experiment_" +
+                        candidate.at("experiment").dump()] = number(width);
+    return results;
   }
 
 

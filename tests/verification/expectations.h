@@ -65,6 +65,12 @@ namespace Expectations
   Results
   read_results(const std::string &directory);
 
+  /** The results of a calibration: best values of unknowns under their names,
+   *  widths of their 95 % intervals as NAME_width, half widths with a candidate
+   *  as NAME_after_experiment_2, the first curve's e_mp and e_rel. */
+  Results
+  read_calibration(const std::string &directory);
+
   /** The results of each variant of a study: the numbers in its row of
    * study.csv and its torque curve. */
   std::vector<Results>

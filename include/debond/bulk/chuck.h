@@ -15,6 +15,8 @@
 
 namespace Debond
 {
+  enum class Quantity;
+
   class EntryTable;
 
   /** The six motions of the chuck, and the forces and moments conjugate to
@@ -75,6 +77,8 @@ namespace Debond
      *  moment instead of displacement or angle. */
     static std::string
     column_name(unsigned int component, bool of_load);
+    static Quantity
+    quantity(unsigned int component, bool of_load);
 
     void
     declare(EntryTable &table);

@@ -68,11 +68,17 @@ namespace Debond
   class Misfit
   {
   public:
-    /** @p log may be null. */
     Misfit(const Unknowns    &unknowns,
            unsigned int       n_experiments,
-           const std::string &name,
-           EvaluationLog     *log);
+           const std::string &name);
+
+    /** Keeps evaluations of the scene's own model there, and takes from it what
+     *  is known. */
+    void
+    keep_in(EvaluationLog &where)
+    {
+      log = &where;
+    }
 
     Evaluation
     evaluate(const Eigen::VectorXd &unknowns,
@@ -109,7 +115,7 @@ namespace Debond
     Failures        failures; ///< since it was cleared
 
   private:
-    EvaluationLog *log;
+    EvaluationLog *log = nullptr;
     std::string    steps; ///< the unknowns that have chosen them
     bool           noise_is_known = false;
   };
@@ -122,8 +128,7 @@ namespace Debond
     Eigen::VectorXd unknowns;
     double          cost      = 0; ///< half the sum of squares
     bool            converged = false;
-    std::string     why; ///< there is none; else empty
-    Failures        failures;
+    std::string     why;    ///< there is none; else empty
     Eigen::VectorXd values; ///< predicted
   };
 

@@ -1,10 +1,10 @@
 #ifndef debond_campaigns_experiment_h
 #define debond_campaigns_experiment_h
 
+#include <debond/campaigns/measurement.h>
 #include <debond/campaigns/unknowns.h>
 #include <debond/models/foundation.h>
 #include <debond/models/torsion_curve.h>
-#include <debond/output/torque_curve.h>
 #include <debond/scene/scene_variation.h>
 #include <debond/scene/varying_scene.h>
 
@@ -28,39 +28,6 @@ namespace Debond
   {
     Eigen::VectorXd values;
     Eigen::MatrixXd derivatives; ///< no columns if they were not asked for
-  };
-
-  /** A column of torque.csv whose derivatives are known: the time, a reaction
-   *  or a position of the chuck. */
-  struct CurveColumn
-  {
-    enum Kind
-    {
-      time,
-      reaction,
-      position
-    };
-    std::string  name;
-    Kind         kind      = time;
-    unsigned int component = 0;
-
-    /** Throws EntryError that names the @p entry of the scene. */
-    CurveColumn(const std::string &name, const std::string &entry);
-    double
-    of(const TorqueRow &row) const;
-    std::string
-    unit() const;
-  };
-
-  /** What has been measured: rows in the order of the file. */
-  struct Measurement
-  {
-    std::string      file;   ///< empty: nothing has been measured yet
-    std::vector<int> branch; ///< of each row, between turning points
-    Eigen::VectorXd  over;
-    Eigen::MatrixXd  values;         ///< rows x curves
-    Eigen::VectorXd  scale;          ///< of each curve: its largest magnitude
-    unsigned int     n_left_out = 0; ///< rows that are not fitted
   };
 
   /**
@@ -100,9 +67,9 @@ namespace Debond
     void
     choose_steps(const Eigen::VectorXd *values);
 
-    /** For one that has not been done: rows over all of its load. */
+    /** Throws InputError where a bound of an unknown is not allowed. */
     void
-    propose_rows();
+    check_bounds();
 
     /** At the starts of the unknowns. */
     const Scene              scene;
@@ -111,10 +78,10 @@ namespace Debond
     Measurement              measured;
 
   private:
-    std::pair<double, double>
-    reach() const;
     void
-    read_measurement();
+    find_changes();
+    std::string
+    find_why_no_closed_form() const;
     const Scene &
     scene_at(const Eigen::VectorXd &values);
     /** The unknown @p j moved by a @p part of itself to both sides, but not
@@ -123,6 +90,9 @@ namespace Debond
     moved(const Eigen::VectorXd &values, unsigned int j, double part) const;
     SceneVariation
     variation(const Eigen::VectorXd &values, unsigned int j);
+    /** Of a run by the unknown @p j; empty: there is one. */
+    std::string
+    why_no_derivative(const Eigen::VectorXd &values, unsigned int j);
     /** Of the numbers of the rig. */
     Eigen::Vector4d
     rig_derivative(const Eigen::VectorXd &values, unsigned int j);
@@ -167,12 +137,16 @@ namespace Debond
     const unsigned int number;
     VaryingScene       varying;
     /** Whether an unknown changes more than the rig, the friction law, what
-     *  stiffness bodies and interface have, the bodies. */
-    std::vector<bool> changes_model, changes_law, changes_stiffness,
-      changes_bodies;
-    bool has_elastic_bodies;
-    /** Why runs of the scene are not differentiated, but compared; or empty. */
-    std::string               why_differences;
+     *  stiffness bodies and interface have. */
+    struct Changes
+    {
+      bool model = false, law = false, stiffness = false;
+    };
+    std::vector<Changes> changes;
+    bool                 keeps_bodies = true; ///< no unknown changes them
+    /** Runs of the scene are differentiated exactly, not compared. */
+    bool                      is_differentiated = false;
+    bool                      has_elastic_bodies;
     Foundation                begin, centre; ///< the first one, and that now
     std::shared_ptr<BodyPair> bodies, linear_bodies;
     std::vector<std::vector<double>> ends_of_steps; ///< of each phase

@@ -52,20 +52,18 @@ namespace Debond
                   double                        factor,
                   Eigen::VectorXd              &result);
 
-  /** What work(q, sums) adds up to over q in [0, n), formed in parts as
-   *  for_each_chunk() says. */
-  template <typename Work>
-  NodalSums
-  sum_in_chunks(const unsigned int            n,
-                const InterfaceConfiguration &configuration,
-                const Work                   &work)
+  /** What work(q, sums) adds up to over q in [0, n), from @p zero on, formed in
+   *  parts as for_each_chunk() says. */
+  template <typename Sums, typename Work>
+  Sums
+  sum_in_chunks(const unsigned int n, const Sums &zero, const Work &work)
   {
-    std::array<NodalSums, n_chunks> sums;
+    std::array<Sums, n_chunks> sums;
     for_each_chunk(n,
                    [&](const unsigned int chunk,
                        const unsigned int first,
                        const unsigned int end) {
-                     sums[chunk] = zero_sums(configuration);
+                     sums[chunk] = zero;
                      for (unsigned int q = first; q < end; ++q)
                        work(q, sums[chunk]);
                    });

@@ -46,28 +46,6 @@ namespace Debond
   NodalSums
   get_lane(const LaneSums &lanes, unsigned int lane);
 
-  /** What work(q, sums) adds up to, as sum_in_chunks() does it. */
-  template <typename Work>
-  LaneSums
-  sum_lanes(const unsigned int            n,
-            const InterfaceConfiguration &configuration,
-            const Work                   &work)
-  {
-    std::array<LaneSums, n_chunks> sums;
-    for_each_chunk(n,
-                   [&](const unsigned int chunk,
-                       const unsigned int first,
-                       const unsigned int end) {
-                     sums[chunk] = zero_lanes(configuration);
-                     for (unsigned int q = first; q < end; ++q)
-                       work(q, sums[chunk]);
-                   });
-    for (unsigned int chunk = 1; chunk < n_chunks; ++chunk)
-      for (const Side side : both_sides)
-        sums[0][side] += sums[chunk][side];
-    return std::move(sums[0]);
-  }
-
   /** Of a point of a surface: its place, or that and the tangents. */
   Lanes<3>
   interpolate_place(const SurfaceBasis &basis, const LaneNet &moved);

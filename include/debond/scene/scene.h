@@ -69,7 +69,8 @@ namespace Debond
     std::vector<double>      windows; ///< pairs of bounds in `over`; empty: all
     /** Standard deviation over the largest measured value, of each curve or of
      *  all; 0: from the residuals. */
-    std::vector<double> noise{0.};
+    std::vector<double>      noise{0.};
+    std::vector<std::string> noise_columns; ///< of the file, instead of noise
     double              angle_offset       = 0; ///< [deg]
     double              slack              = 0; ///< [deg]
     double              machine_compliance = 0; ///< [deg/(N mm)]

@@ -212,6 +212,10 @@ namespace Debond
      *  Not along a path. */
     Rates
     rates();
+    /** The configuration with all six components of the chuck as unknowns, the
+     *  last ones. */
+    InterfaceConfiguration
+    with_whole_chuck() const;
     /** By how much chuck_forces() in the state of the last evaluate() would
      *  differ after steps of half the @p duration, by way of the cubic through
      *  both ends with these rates; without those at the beginning, of the

@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <random>
 #include <sstream>
 
@@ -187,6 +188,111 @@ check_differences()
 
 
 
+/** Rigid bodies that are turned to and fro, seen through a rig: the formulas of
+ *  Experiment, written down anew. */
+void
+check_reversal()
+{
+  const auto scene = [](const std::string &interface, const std::string &more) {
+    return "subsection Bone\n  set Cells = 8, 8, 2\n  set Material = rigid\nend\n"
+           "subsection Implant\n  set Cells = 2, 2\n  set Material = rigid\nend\n"
+           "subsection Interface\n  set Quadrature points = 4\n" +
+           interface +
+           "end\n"
+           "subsection Chuck\n"
+           "  subsection Translation z\n    set Value = -0.0049 * min(t, 1)\n  end\n"
+           "  subsection Rotation z\n"
+           "    set Value = 4 * max(t - 1, 0) - 7 * max(t - 2, 0)\n  end\n"
+           "end\n"
+           "subsection Load steps\n  set Times = 0, 1, 2, 3\n"
+           "  set Steps = 1, 80, 80\nend\n" +
+           more;
+  };
+  Simulation simulation(Scene::from_text(scene(truth, "")));
+  simulation.run();
+  constexpr double offset = 0.3, slack = 0.4, compliance = 0.01;
+  std::ofstream    file("reversal.csv");
+  file << "angle_deg,torque_Nmm\n" << std::setprecision(15);
+  for (const TorqueRow &row : simulation.rows())
+    if (row.step > 1)
+      file << row.angle_deg + offset + (row.torque_Nmm >= 0. ? slack : 0.) +
+                compliance * row.torque_Nmm
+           << ',' << row.torque_Nmm << '\n';
+  file.close();
+  const auto result = calibrate(
+    scene("  set Friction coefficient unbroken = <<mu_ub: 0.5 in 0.4..0.8>>\n"
+          "  set Sliding threshold = 0.022\n"
+          "  set Transition factor = 0.74\n"
+          "  set Penalty stiffness = 585\n"
+          "  set Tangential penalty stiffness = 400\n",
+          "subsection Calibration\n"
+          "  set Angle offset       = <<offset: 0.2 in 0..1>>\n"
+          "  set Slack              = <<slack: 0.3 in 0..1>>\n"
+          "  set Machine compliance = <<compliance: 0.005 in 0..0.05>>\n"
+          "  set Starts             = 1\n"
+          "end\n"
+          "subsection Output\n  set Directory = results/reversal\n"
+          "  set Reference curve = reversal.csv\nend\n"),
+    "reversal",
+    1,
+    true);
+  const std::vector<std::pair<std::string, double>> expected{{"mu_ub", 0.58},
+                                                             {"offset", offset},
+                                                             {"slack", slack},
+                                                             {"compliance",
+                                                              compliance}};
+  for (const auto &[name, value] : expected)
+    report("to and fro: " + name,
+           std::abs(result["unknowns"][name]["value"].get<double>() / value -
+                    1.),
+           1e-4);
+}
+
+
+
+/** Pressed and lifted: force over depth, of a column that is not the torque. */
+void
+check_press()
+{
+  const auto scene = [](const std::string &eps_n, const std::string &more) {
+    return "subsection Bone\n  set Cells = 8, 8, 2\n  set Material = linear\nend\n"
+           "subsection Implant\n  set Cells = 2, 2\n  set Material = linear\nend\n"
+           "subsection Interface\n  set Quadrature points = 4\n"
+           "  set Penalty stiffness = " +
+           eps_n +
+           "\nend\n"
+           "subsection Chuck\n"
+           "  subsection Translation z\n"
+           "    set Value = -0.005 * min(t, 1) + 0.006 * max(t - 1, 0)\n  end\n"
+           "  subsection Rotation z\n    set Value = 0\n  end\n"
+           "end\n"
+           "subsection Load steps\n  set Times = 0, 1, 2\n"
+           "  set Steps = 10, 12\nend\n" +
+           more;
+  };
+  Simulation simulation(Scene::from_text(scene("585", "")));
+  simulation.run();
+  std::ofstream("press.csv") << torque_table(simulation.rows());
+  const auto result =
+    calibrate(scene("<<eps_n: 1000 in 100..5000 log>>",
+                    "subsection Calibration\n"
+                    "  set Curves = chuck_Fz_N\n  set Over   = chuck_uz_mm\n"
+                    "end\n"
+                    "subsection Output\n  set Directory = results/press\n"
+                    "  set Reference curve = press.csv\nend\n"),
+              "press",
+              1,
+              true);
+  report("force over depth: eps_n",
+         std::abs(result["unknowns"]["eps_n"]["value"].get<double>() / 585. -
+                  1.),
+         1e-4);
+  report("rows of press and lift",
+         result["measured_values"].get<unsigned int>() == 23);
+}
+
+
+
 int
 main()
 {
@@ -199,4 +305,6 @@ main()
   check_interrupted();
   check_intervals();
   check_differences();
+  check_reversal();
+  check_press();
 }

@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
-# The paper's procedure of Section 4.1, stage by stage, for several mu_b, against the stand-ins for the measured curves:
-# doc/paper/staged.sh [SET...], a table as Table 4. Each stage is a calibration that begins with the scene that the one
-# before has fitted.
+# The paper's procedure of Section 4.1, stage by stage, against the stand-ins for the measured curves. Each stage is a
+# calibration that begins with the scene that the one before has fitted.
+#   doc/paper/staged.sh [1 | 2 | patterns]...
+# 1, 2: the data set, for several mu_b, a table as Table 4. patterns: data set 1, mu_b = 0.40, the four patterns of the
+# initial bonding, as Table 6.
 #   1. the initial slope, theta <= theta_lin: the tangential stiffness (the paper: E_b, which hardly changes the slope)
 #   2. 9 to 10 degrees, where the paper takes all to be debonded: the depth d, with Coulomb's law and mu_b
-#   3. where the torque is largest: mu_ub, with Coulomb's law
+#   3. where the torque is largest: mu_ub, with a bond that does not break
 #   4. the whole curve: a_s and b_s, by the mean of Eq. (19)
 # Last, all at once: least squares of the whole curve in all five. Results go to output/paper/staged.
 set -euo pipefail
@@ -29,39 +31,63 @@ print(result['curves'][0][sys.argv[2]] if sys.argv[2] == 'e_mp' else result['unk
     "$here/$1/calibration.json" "$2"
 }
 
+# row LABEL MU PROCEDURE D MU_UB FALL SLOPE: the last two are the stages that found a_s, b_s and eps_t
+row() {
+  awk -v label="$1" -v mu="$2" -v what="$3" -v d="$4" -v mu_ub="$5" -v a_s="$(value "$6" a_s)" -v b_s="$(value "$6" b_s)" \
+    -v eps_t="$(value "$7" eps_t)" -v e_mp="$(value "$6" e_mp)" 'BEGIN {
+    printf "| %s | %s | %s | %.2f | %.3f | %.1f | %.2f | %.0f | %.3f |\n", label, what, mu, 1000 * d, mu_ub, 1000 * a_s, b_s, eps_t, 100 * e_mp }'
+}
+
 interface=Interface
 push="Chuck/Translation z/Value"
+
+# fit LABEL SET MU OPTIONS...: the stages, and all at once
+fit() {
+  local label=$1 set=$2 mu=$3
+  shift 3
+  here="output/paper/staged/$label-$mu"
+  mkdir -p "$here"
+  log=$here/log
+  local peak linear depth eps_n young
+  if [[ $set == 1 ]]; then
+    peak="0.9, 1.13" linear=0.13 depth=0.0049 eps_n=622 young=18000
+  else
+    peak="1, 1.33" linear=0.11 depth=0.0051 eps_n=710 young=21000
+  fi
+  # stages begin with numbers of about the right size: d goes with 1 / mu_b
+  local guess mu_guess
+  guess=$(python3 -c "print($depth * 0.4 / $mu)")
+  mu_guess=$(python3 -c "print(1.46 * $mu)")
+  local unknown_depth="$push=-<<d: $guess in 0.0005..0.03 log>> * min(t, 1)"
+  local unknown_mu="$interface/Friction coefficient unbroken=<<mu_ub: $mu_guess in 0.1..3>>"
+  local unknown_eps="$interface/Tangential penalty stiffness=<<eps_t: 400 in 100..3000 log>>"
+  local unknown_law=("$interface/Sliding threshold=<<a_s: 0.04 in 0.002..0.2 log>>" "$interface/Transition factor=<<b_s: 0.74 in 0.05..5 log>>")
+  local base=("Output/Reference curve=prm/paper/data/closed_form_b_data_set_$set.csv" "$interface/Penalty stiffness=$eps_n"
+              "Bone/Young modulus=$young" "$interface/Friction coefficient broken=$mu" "$@")
+  stage slope prm/coin_mode3_fast.prm "${base[@]}" "$push=-$guess * min(t, 1)" "$interface/Friction law=coulomb" \
+    "$interface/Friction coefficient broken=$mu_guess" "$unknown_eps" "Calibration/Windows=0, $linear"
+  stage load "$here/slope/fitted.prm" "$interface/Friction coefficient broken=$mu" "$unknown_depth" "Calibration/Windows=9, 10"
+  stage peak "$here/load/fitted.prm" "$interface/Friction law=modified coulomb" "$unknown_mu" \
+    "$interface/Sliding threshold=0.3" "Calibration/Windows=$peak"
+  stage fall "$here/peak/fitted.prm" "${unknown_law[@]}" "Calibration/Windows=" "Calibration/Measure=e_mp"
+  row "$label" "$mu" staged "$(value load d)" "$(value peak mu_ub)" fall slope
+  stage once prm/coin_mode3_fast.prm "${base[@]}" "$unknown_depth" "$unknown_mu" "$unknown_eps" "${unknown_law[@]}"
+  row "$label" "$mu" "at once" "$(value once d)" "$(value once mu_ub)" once once
+}
+
 echo "| set | procedure | mu_b | d [um] | mu_ub | a_s [um] | b_s | eps_t [MPa/mm] | e_mp [%] |"
 echo "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"
-for set in "${@:-1}"; do
-  if [[ $set == 1 ]]; then
-    peak="0.9, 1.13" linear=0.13 depth=0.0049 eps_n=622
-  else
-    peak="1, 1.33" linear=0.11 depth=0.0051 eps_n=710
+for what in "${@:-1}"; do
+  if [[ $what != patterns ]]; then
+    for mu in $mu_b; do fit "$what" "$what" "$mu"; done
+    continue
   fi
-  for mu in $mu_b; do
-    here=output/paper/staged/$set-$mu
-    mkdir -p "$here"
-    log=$here/log
-    # stages begin with numbers of about the right size: d goes with 1 / mu_b
-    guess=$(python3 -c "print($depth * 0.4 / $mu)")
-    unknown_depth="$push=-<<d: $guess in 0.0005..0.03 log>> * min(t, 1)"
-    base=("Output/Reference curve=prm/paper/data/closed_form_b_data_set_$set.csv" "$interface/Penalty stiffness=$eps_n"
-          "Bone/Young modulus=$([[ $set == 1 ]] && echo 18000 || echo 21000)" "$interface/Friction coefficient broken=$mu")
-    stage slope prm/coin_mode3_fast.prm "${base[@]}" "$push=-$guess * min(t, 1)" "$interface/Friction law=coulomb" \
-      "$interface/Friction coefficient broken=$(python3 -c "print(1.46 * $mu)")" \
-      "$interface/Tangential penalty stiffness=<<eps_t: 400 in 100..3000 log>>" "Calibration/Windows=0, $linear"
-    stage load "$here/slope/fitted.prm" "$interface/Friction coefficient broken=$mu" "$unknown_depth" "Calibration/Windows=9, 10"
-    stage peak "$here/load/fitted.prm" "$interface/Friction coefficient broken=<<mu_ub: $(python3 -c "print(1.46 * $mu)") in 0.1..3>>" \
-      "Calibration/Windows=$peak"
-    stage fall "$here/load/fitted.prm" "$interface/Friction law=modified coulomb" \
-      "$interface/Friction coefficient unbroken=$(value peak mu_ub)" "Calibration/Windows=" "Calibration/Measure=e_mp" \
-      "$interface/Sliding threshold=<<a_s: 0.04 in 0.002..0.2 log>>" "$interface/Transition factor=<<b_s: 0.74 in 0.05..5 log>>"
-    echo "| $set | staged | $mu | $(value load d) | $(value peak mu_ub) | $(value fall a_s) | $(value fall b_s) | $(value slope eps_t) | $(value fall e_mp) |"
-    stage once prm/coin_mode3_fast.prm "${base[@]}" "$unknown_depth" \
-      "$interface/Friction coefficient unbroken=<<mu_ub: $(python3 -c "print(1.46 * $mu)") in 0.1..3>>" \
-      "$interface/Tangential penalty stiffness=<<eps_t: 400 in 100..3000 log>>" \
-      "$interface/Sliding threshold=<<a_s: 0.04 in 0.002..0.2 log>>" "$interface/Transition factor=<<b_s: 0.74 in 0.05..5 log>>"
-    echo "| $set | at once | $mu | $(value once d) | $(value once mu_ub) | $(value once a_s) | $(value once b_s) | $(value once eps_t) | $(value once e_mp) |"
-  done
-done | awk -F'|' '{ printf "|%s|%s|%s| %.2f | %.3f | %.1f | %.2f | %.0f | %.3f |\n", $2, $3, $4, 1000 * $5, $6, 1000 * $7, $8, $9, 100 * $10 }'
+  # elements of the implant as in the paper; without a closed form the search begins at the guess
+  bonding=$interface/Bonding
+  mesh=("Implant/Cells=20, 2" "$interface/Quadrature points=3" "Calibration/Starts=1")
+  part=("$bonding/Bonded fraction=0.55" "$bonding/Resolution=element")
+  fit "1, homogeneous" 1 0.40 "${mesh[@]}"
+  fit "1, (b)" 1 0.40 "${mesh[@]}" "$bonding/Pattern=image" "$bonding/File=prm/paper/data/bonding_pattern_b.png" "$bonding/Threshold=0.5"
+  fit "1, (c)" 1 0.40 "${mesh[@]}" "${part[@]}" "$bonding/Pattern=disk"
+  fit "1, (d)" 1 0.40 "${mesh[@]}" "${part[@]}" "$bonding/Pattern=random" "$bonding/Seed=1"
+done

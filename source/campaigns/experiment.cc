@@ -296,12 +296,15 @@ namespace Debond
         (column.kind == CurveColumn::position ? 6 : 0) + column.component);
     };
     const CurveColumn torque("torque_Nmm", "");
+    double            rounding = 0.;
+    for (const TorqueRow &row : rows)
+      rounding = std::max(rounding, 1e-9 * std::abs(torque.of(row)));
     for (unsigned int i = 0; i < n_rows; ++i)
       {
         x[i]                = over.of(rows[i]);
         dx.row(i)           = of_column(over, i);
         const double T      = torque.of(rows[i]);
-        const double caught = T >= 0. ? 1. : 0.;
+        const double caught = T >= -rounding ? 1. : 0.;
         if (over_angle)
           {
             x[i] += rig.angle_offset + caught * rig.slack +
@@ -478,15 +481,17 @@ namespace Debond
         for (std::size_t i = 0; i < ends_of_steps.size(); ++i)
           now.load_steps.steps[i] = ends_of_steps[i].size();
       }
-    const auto  run        = simulation_of(now);
-    Simulation &simulation = *run;
+    const CalibrationParameters rig = now.calibration;
+    now.calibration                 = scene.calibration; // no part of the run
+    const auto  run                 = simulation_of(now);
+    Simulation &simulation          = *run;
 
     std::vector<SceneVariation> variations;
     std::vector<unsigned int>   varied;
-    Eigen::MatrixXd             rig = Eigen::MatrixXd::Zero(4, values.size());
+    Eigen::MatrixXd rig_derivatives = Eigen::MatrixXd::Zero(4, values.size());
     for (Eigen::Index j = 0; with_derivatives && j < values.size(); ++j)
       {
-        rig.col(j) = rig_derivative(values, j);
+        rig_derivatives.col(j) = rig_derivative(values, j);
         if (!changes[j].model)
           continue;
         variations.push_back(variation(values, j));
@@ -513,12 +518,12 @@ namespace Debond
     if (!now.load_steps.draws_curve())
       return at_measured_rows(simulation.rows(),
                               derivatives,
-                              now.calibration,
-                              rig);
+                              rig,
+                              rig_derivatives);
     const auto fine = fine_curve(simulation.rows());
     if (with_derivatives)
       derivatives = on_fine_curve(fine, simulation.rows(), derivatives);
-    return at_measured_rows(fine, derivatives, now.calibration, rig);
+    return at_measured_rows(fine, derivatives, rig, rig_derivatives);
   }
 
 

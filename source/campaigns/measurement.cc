@@ -192,10 +192,20 @@ namespace Debond
     /** Rows in windows only. What the scene does not come to is left out, too,
      *  if that can be told from what it prescribes. */
     std::vector<std::size_t>
-    used_rows(const Scene           &scene,
-              const CurveColumn     &over,
-              const Eigen::VectorXd &places)
+    used_rows(const Scene                    &scene,
+              const std::vector<CurveColumn> &columns,
+              const CurveColumn              &over,
+              const Eigen::MatrixXd          &table)
     {
+      constexpr auto        twist  = ChuckComponent::rotation_z;
+      const Eigen::VectorXd places = table.col(0);
+      // where the implant is while the machine shows that place
+      Eigen::VectorXd implant = places;
+      if (over.is(CurveColumn::position, twist))
+        for (std::size_t c = 0; c < columns.size(); ++c)
+          if (columns[c].is(CurveColumn::reaction, twist))
+            implant -= scene.calibration.machine_compliance * table.col(c + 1);
+
       const auto &windows      = scene.calibration.windows;
       const auto [least, most] = reach_of(scene, over);
       std::vector<std::size_t> used;
@@ -208,7 +218,7 @@ namespace Debond
           // of rows at the same place, as while it is pressed, the last one
           const bool stays =
             i + 1 < places.size() && places[i + 1] == places[i];
-          if (inside && !stays && places[i] >= least && places[i] <= most)
+          if (inside && !stays && implant[i] >= least && implant[i] <= most)
             used.push_back(i);
         }
       if (used.empty())
@@ -296,7 +306,7 @@ namespace Debond
     for (std::size_t i = 0; i < table.size(); ++i)
       all.row(i) =
         Eigen::Map<const Eigen::RowVectorXd>(table[i].data(), wanted.size());
-    const auto used      = used_rows(scene, along, all.col(0));
+    const auto used      = used_rows(scene, columns, along, all);
     const auto in_branch = branches_of(all.col(0), 0.05);
     n_left_out           = table.size() - used.size();
     over.resize(used.size());

@@ -1,18 +1,24 @@
-# Pictures of a calibration, DIR/fit.png: what has been measured, the fit with its 95 % band, and below it the residuals.
+# Pictures of a calibration. DIR/fit.png: what has been measured, the fit with its 95 % band, and below it the residuals, of
+# all experiments that have been done. DIR/correlations.png: which unknowns can stand in for each other.
 #
 #   gnuplot -e "dir='output/calibrate/data_set_1'" doc/plot_calibration.gp
 #
-# Of several experiments the first; another one: file='fit-2.csv'. Another curve than the torque: curve='chuck_Fz_N',
-# label='Axial force [N]'.
+# One of several experiments: files='fit-2.csv'. Another curve than the torque: curve='chuck_Fz_N', label='Axial force [N]'.
 
 if (!exists("dir")) {
   print "usage: gnuplot -e \"dir='output/calibrate/data_set_1'\" doc/plot_calibration.gp"
   exit status 1
 }
-if (!exists("file")) { file = (system("test -s '" . dir . "/fit.csv' && echo yes") eq "yes" ? "fit.csv" : "fit-1.csv") }
 if (!exists("curve")) { curve = "torque_Nmm" }
 if (!exists("label")) { label = "Torque {/:Italic T} [N mm]" }
-data = dir . "/" . file
+if (!exists("files")) { files = system("cd '" . dir . "' && grep -l '" . curve . "_measured' fit*.csv") }
+data(i) = dir . "/" . word(files, i)
+measured = curve . "_measured"
+fitted = curve . "_fitted"
+array points_of = ["#c03028", "#2e8b3d", "#8a5fbf", "#b07a00"]
+array lines_of = ["#08519c", "#0b5d1e", "#4a2a80", "#6b4a00"]
+colour(i) = (i - 1) % 4 + 1
+name(i) = words(files) > 1 ? sprintf(" %d", i) : ""
 
 set terminal pngcairo size 1200, 900 enhanced font "Sans,16" linewidth 1.5
 set output dir . "/fit.png"
@@ -23,7 +29,7 @@ set grid linetype 1 linecolor rgb "#dddddd" linewidth 0.7
 set border linecolor rgb "#555555"
 set lmargin 11
 set xrange [*:*] noextend
-over = system("head -1 '" . data . "' | cut -d, -f1")
+over = system("head -1 '" . data(1) . "' | cut -d, -f1")
 
 set multiplot
 set origin 0, 0.33
@@ -32,14 +38,21 @@ set bmargin 0.5
 set format x ""
 set key top right
 set offsets graph 0, graph 0, graph 0.05, graph 0
-stats data using (column(curve . "_measured")) nooutput
-if (STATS_min > -0.02 * STATS_max) { set yrange [0:*] }
+least = 0
+most = 0
+do for [i = 1:words(files)] {
+  stats data(i) using (column(measured)) nooutput
+  least = least < STATS_min ? least : STATS_min
+  most = most > STATS_max ? most : STATS_max
+}
+if (least > -0.02 * most) { set yrange [0:*] }
 set ylabel label
 set title system("sed -n 's/^ *set Title *= *//p' " . dir . "/parameters.prm") noenhanced
-plot data using over:(column(curve . "_lower_95")):(column(curve . "_upper_95")) \
-       with filledcurves linecolor rgb "#9ecae1" title "95 % band of the fit", \
-     data using over:(column(curve . "_fitted")) with lines linecolor rgb "#08519c" title "fit", \
-     data using over:(column(curve . "_measured")) with points pointtype 6 pointsize 0.7 linecolor rgb "#c03028" title "measured"
+plot for [i = 1:words(files)] data(i) using over:(column(curve . "_lower_95")):(column(curve . "_upper_95")) \
+       with filledcurves linecolor rgb "#9ecae1" title i == 1 ? "95 % band of the fit" : "", \
+     for [i = 1:words(files)] data(i) using over:(column(fitted)) with lines linecolor rgb lines_of[colour(i)] title "fit" . name(i), \
+     for [i = 1:words(files)] data(i) using over:(column(measured)) \
+       with points pointtype 6 pointsize 0.7 linecolor rgb points_of[colour(i)] title "measured" . name(i)
 
 unset title
 set yrange [*:*]
@@ -50,7 +63,29 @@ set bmargin 3.5
 set format x "%g"
 set xlabel over eq "angle_deg" ? "Rotation angle {/:Italic θ} [°]" : over
 set ylabel "measured - fit"
+set ytics font ",12"
 set xzeroaxis linetype 1 linecolor rgb "#08519c"
-plot data using over:(column(curve . "_measured") - column(curve . "_fitted")) \
-       with points pointtype 6 pointsize 0.7 linecolor rgb "#c03028" notitle
+plot for [i = 1:words(files)] data(i) using over:(column(measured) - column(fitted)) \
+       with points pointtype 6 pointsize 0.7 linecolor rgb points_of[colour(i)] notitle
 unset multiplot
+
+reset
+matrix = dir . "/correlations.csv"
+n = int(system("tail -n +2 '" . matrix . "' | wc -l"))
+if (n > 1) {
+  set datafile separator comma
+  longest = int(system("head -1 '" . matrix . "' | tr , '\\n' | wc -L"))
+  set terminal pngcairo size 250 + 110 * n + 8 * longest, 200 + 100 * n + 4 * longest enhanced font "Sans,16"
+  set bmargin 3 + 0.25 * longest
+  set output dir . "/correlations.png"
+  set title "Correlations of unknowns"
+  set palette defined (-1 "#2166ac", 0 "#f7f7f7", 1 "#b2182b")
+  set cbrange [-1:1]
+  set xrange [-0.5:n - 0.5]
+  set yrange [n - 0.5:-0.5]
+  set xtics rotate by 30 right noenhanced
+  set ytics noenhanced
+  unset key
+  plot matrix matrix rowheaders columnheaders using 1:2:3 with image, \
+       "" matrix rowheaders columnheaders using 1:2:(sprintf("%.2f", $3)) with labels
+}

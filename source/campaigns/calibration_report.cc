@@ -168,6 +168,26 @@ namespace Debond
 
 
 
+    /** A row and a column for each unknown. */
+    void
+    write_correlations(const Calibration &calibration, const Misfit &misfit)
+    {
+      std::vector<std::string> header{"unknown"};
+      for (const Unknown &unknown : misfit.unknowns.list)
+        header.push_back(unknown.name);
+      std::string text = csv_line(header);
+      for (std::size_t j = 0; j < misfit.unknowns.list.size(); ++j)
+        {
+          std::vector<std::string> row{header[j + 1]};
+          for (const double value : calibration.statistics->correlations.row(j))
+            row.push_back(to_text(value, 4));
+          text += csv_line(row);
+        }
+      write_file(calibration.directory + "/correlations.csv", text);
+    }
+
+
+
     /** Scenes that run, with what has been found. */
     void
     write_scenes(const Calibration &calibration, const Misfit &misfit)
@@ -206,6 +226,7 @@ namespace Debond
          std::ostream      &out)
   {
     write_curves(calibration, misfit);
+    write_correlations(calibration, misfit);
     write_scenes(calibration, misfit);
     if (!calibration.profiles.empty())
       write_profiles(calibration, misfit);
@@ -279,6 +300,8 @@ namespace Debond
         out << '\n';
       }
     out << "Results are in " << calibration.directory
-        << "/calibration.json, the fitted scene is fitted.prm" << std::endl;
+        << "/calibration.json, the fitted scene is "
+        << numbered("fitted", ".prm", 0, misfit.experiments.size())
+        << std::endl;
   }
 } // namespace Debond

@@ -263,17 +263,23 @@ namespace Debond
                                  const Eigen::VectorXd &values)
   {
     Eigen::Index first = 0;
-    for (const auto &experiment : misfit.experiments)
+    for (std::size_t e = 0; e < misfit.experiments.size(); ++e)
       {
-        const Measurement &measured = experiment->measured;
-        const Eigen::Index n        = measured.over.size();
+        const auto        &experiment = misfit.experiments[e];
+        const Measurement &measured   = experiment->measured;
+        const Eigen::Index n          = measured.over.size();
+        const std::string  which =
+          misfit.experiments.size() == 1 ?
+             "" :
+             " (experiment " + std::to_string(e + 1) + ")";
         if (measured.file.empty())
           continue;
         for (std::size_t c = 0; c < experiment->columns.size(); ++c, first += n)
           {
             const Eigen::VectorXd m          = measured.values.col(c),
                                   difference = values.segment(first, n) - m;
-            CurveMisfit  curve{experiment->columns[c].name, 0., 0., 0., 0.};
+            CurveMisfit curve{
+              experiment->columns[c].name + which, 0., 0., 0., 0.};
             const double largest = measured.scale[c];
             unsigned int used    = 0;
             for (Eigen::Index i = 0; i < n; ++i)

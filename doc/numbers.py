@@ -25,6 +25,7 @@ os.chdir(os.path.join(os.path.dirname(os.path.abspath(__file__)), '..'))
 BLOCK = re.compile(r'(<!-- numbers: (\w+) -->)(.*?)(<!-- end -->)', re.S)
 NUMBER = re.compile(r'(?<![\w.])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?')
 MAIN, REFERENCE = 'prm/coin_mode3.prm', 'Output/Reference curve=prm/studies/data/work_precision_torque.csv'
+STAND_IN = 'prm/paper/data/closed_form_b_data_set_%d.csv'
 LINEAR = ('Bone/Material=linear', 'Implant/Material=linear')
 LAYERED = ('Bone/Layer grading=1.5', 'Implant/Layer grading=1.5')
 ADAPTIVE = ('Load steps/Steps=1, 10', 'Load steps/Adaptive=true')
@@ -498,6 +499,42 @@ def table_4():
                           '%.2f' % row['T_max_Nmm'], '%.2f' % row['T_inf_Nmm'],
                           '-' if mu == .4 else small(off, 0) if off < 1e-3 else '%.1f %%' % (100 * off)])
     return table(['set', 'mu_b', 'd [um]', 'mu_ub', 'p: paper', 'p: ours', 'T_max [N mm]', 'T_inf [N mm]', 'difference'], lines)
+
+
+@numbers('seconds')
+def calibration_fits():
+    """The calibrated scenes beside fits of four numbers, with b_s as printed, and of five."""
+    names = ('eps_n', 'eps_t', 'mu_ub', 'a_s', 'b_s')
+    scenes = {1: (622, 305, .586, .042, .74), 2: (710, 403, .546, .052, 1.86)}
+    lines = []
+    for data_set, scene in scenes.items():
+        e_mp = run('prm/paper/data_set_%d_calibrated.prm' % data_set, 'Output/Reference curve=%s' % STAND_IN % data_set)['e_mp']
+        rows = [('calibrated scene', dict(zip(names, scene)), e_mp)]
+        for what, changes in (('four numbers', ('Interface/Transition factor=%g' % scene[4],)), ('five numbers', ())):
+            path = 'prm/calibrate/data_set_%d.prm' % data_set
+            debond(path, directory_of(path, changes), *changes)
+            with open(directory_of(path, changes) + '/calibration.json', encoding='utf-8') as text:
+                result = json.load(text)
+            found = {name: unknown['value'] for name, unknown in result['unknowns'].items()}
+            rows.append((what, {'b_s': scene[4], **found}, result['curves'][0]['e_mp']))
+        lines += [[data_set, what, '%.0f, %.0f' % (of['eps_n'], of['eps_t']), '%.3f' % of['mu_ub'], '%.1f' % (1000 * of['a_s']),
+                   '%.2f' % of['b_s'], '%.2f' % (100 * e_mp)] for what, of, e_mp in rows]
+    return table(['set', 'what', 'eps_n, eps_t [MPa/mm]', 'mu_ub', 'a_s [um]', 'b_s', 'e_mp [%]'], lines)
+
+
+def staged_table(*what):
+    return '\n' + subprocess.run(['doc/paper/staged.sh', *what], env={**os.environ, 'DEBOND': os.path.abspath(options.debond)},
+                                 check=True, capture_output=True, text=True).stdout
+
+
+@numbers('minutes')
+def staged():
+    return staged_table('1', '2')
+
+
+@numbers('minutes')
+def staged_patterns():
+    return staged_table('patterns')
 
 
 LAYERS = {(2, 1.): '2 (the paper) | 1', (2, 1.5): '2 | 1.5', (4, 1.): '4 | 1', (4, 1.5): '4 | 1.5', (8, 1.): '8 | 1', (8, 1.5): '8 | 1.5'}

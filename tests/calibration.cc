@@ -191,10 +191,11 @@ check_exact_curves()
                  "{{0.0049||0.0098}}",
                  calibration_of("{{clean.csv||double.csv}}",
                                 "  set Angle offset = "
-                                "{{0||<<0 in -1..1>>}}\n")),
+                                "{{<<0 in -1..1>>||<<0 in -1..1>>}}\n")),
       false),
     {{"Interface / Friction coefficient broken", 0.4},
      {a_s, 0.022},
+     {"Calibration / Angle offset (experiment 1)", 0.},
      {"Calibration / Angle offset (experiment 2)", -0.1}});
 }
 
@@ -506,6 +507,9 @@ check_what_cannot_be_told()
               scene_text(products, depth, calibration_of("clean.csv", "")),
               true);
   std::cout << "and what the axial force would tell:\n";
+  report("correlation of -1",
+         std::abs(result["correlations"]["mu_b | depth"].get<double>() + 1.),
+         1e-6);
   result = calibrate("candidate",
                      scene_text(products,
                                 depth,

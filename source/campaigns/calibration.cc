@@ -191,10 +191,11 @@ namespace Debond
       static void
       settle(Misfit &misfit, const Eigen::VectorXd &values, const By model)
       {
-        if (model == By::closed_form)
-          centre_at(misfit, values);
-        else
+        if (model == By::scene)
           misfit.choose_steps(&values);
+        for (const auto &experiment : misfit.experiments)
+          if (experiment->why_no_closed_form.empty())
+            experiment->centre_closed_form(values);
       }
 
       void
@@ -297,7 +298,7 @@ namespace Debond
                   const Eigen::VectorXd apart = end.values - other.values;
                   const double          by_noise =
                     apart.cwiseProduct(workers.front()->weights).norm();
-                  return by_noise < 0.05 * std::sqrt(2. * end.cost) ||
+                  return by_noise < 0.2 * std::sqrt(2. * end.cost) ||
                          apart.norm() < 1e-4 * other.values.norm();
                 }))
             result.push_back(end);
@@ -321,12 +322,23 @@ namespace Debond
           if (!experiment.measured.file.empty())
             continue;
           stop_if_asked();
-          const PredictedCurves curves =
-            experiment.predict(best,
-                               experiment.why_no_closed_form.empty() ?
-                                 model :
-                                 By::scene,
-                               true);
+          PredictedCurves curves;
+          try
+            {
+              curves =
+                experiment.predict(best,
+                                   experiment.why_no_closed_form.empty() ?
+                                     model :
+                                     By::scene,
+                                   true);
+            }
+          catch (const RunError &error)
+            {
+              calibration.statistics->warnings.push_back(
+                "experiment " + std::to_string(i + 1) +
+                ", not done yet, could not be computed: " + error.what());
+              continue;
+            }
           const Eigen::Index n        = experiment.measured.over.size();
           Eigen::MatrixXd    jacobian = curves.derivatives;
           for (std::size_t c = 0; c < experiment.columns.size(); ++c)
@@ -352,7 +364,8 @@ namespace Debond
       const Unknowns        &unknowns = search.first().unknowns;
       const Optimum         &best     = calibration.optima.front();
       const FitStatistics   &known    = *calibration.statistics;
-      calibration.profiles.resize(n * unknowns.list.size());
+      std::vector<std::vector<Calibration::ProfilePoint>> profiles(
+        unknowns.list.size());
       for_each_at_once(
         unknowns.list.size(),
         search.workers.size(),
@@ -362,6 +375,8 @@ namespace Debond
                        reach    = 2. * known.half_widths[j];
           const double begin = std::max(u.to_search(u.lower), centre - reach),
                        end   = std::min(u.to_search(u.upper), centre + reach);
+          if (known.half_widths[j] == 0.) // at its bound
+            return;
           std::vector<bool> fixed(unknowns.list.size(), false);
           fixed[j] = true;
           for (unsigned int i = 0; i < n; ++i)
@@ -370,16 +385,20 @@ namespace Debond
               start[j] = u.from_search(begin + (end - begin) * i / (n - 1));
               const Optimum other =
                 minimise(*search.workers[worker], start, model, fixed);
-              calibration.profiles[j * n + i] = {j,
-                                                 start[j],
-                                                 2. * (other.cost - best.cost) /
-                                                   (known.s * known.s),
-                                                 other.unknowns};
-              if (!other.why.empty())
-                calibration.profiles[j * n + i].chi_squared = NAN;
+              profiles[j].push_back(
+                {j,
+                 start[j],
+                 2. * (other.cost - best.cost) / (known.s * known.s),
+                 other.unknowns});
+              if (!other.why.empty() || !other.converged)
+                profiles[j].back().chi_squared = NAN;
             }
         });
       stop_if_asked();
+      for (const auto &points : profiles)
+        calibration.profiles.insert(calibration.profiles.end(),
+                                    points.begin(),
+                                    points.end());
     }
   } // namespace
 
@@ -405,7 +424,7 @@ namespace Debond
     identity_of_calibration(const std::vector<SceneEntry> &entries,
                             const Misfit                  &misfit)
     {
-      std::string identity = scene_text(entries);
+      std::string identity = DEBOND_VERSION "\n" + scene_text(entries);
       for (const auto &experiment : misfit.experiments)
         {
           // the files that a scene depends on are in comments behind it
@@ -429,6 +448,21 @@ namespace Debond
         throw scene.with_place(
           EntryError("Output / Reference curve",
                      "a calibration needs a measured curve"));
+      if (!misfit.has_noise() &&
+          misfit.measured.size() <= Eigen::Index(misfit.unknowns.list.size()))
+        throw scene.with_place(
+          EntryError("Output / Reference curve",
+                     std::to_string(misfit.measured.size()) +
+                       " measured values for " +
+                       std::to_string(misfit.unknowns.list.size()) +
+                       " unknowns do not tell how well they fit: give more, or "
+                       "Calibration / Noise"));
+      if (scene.calibration.profiles &&
+          misfit.measure != MisfitMeasure::least_squares)
+        throw scene.with_place(
+          EntryError("Calibration / Profiles",
+                     "profiles are those of Measure = least squares",
+                     "true"));
       for (const auto &experiment : misfit.experiments)
         experiment->check_bounds();
     }
@@ -489,6 +523,10 @@ namespace Debond
       if (!result.at_best.failure.empty())
         throw RunError("the best fit cannot be differentiated: " +
                        result.at_best.failure);
+      // with the steps that are right here
+      if (misfit.measure == MisfitMeasure::least_squares)
+        result.optima.front().cost =
+          0.5 * misfit.residuals(result.at_best.values).squaredNorm();
       result.statistics =
         std::make_unique<FitStatistics>(misfit, best, result.at_best);
       judge_candidates(result, misfit, model);

@@ -35,13 +35,15 @@ namespace Debond
       for (std::size_t j = 0; j < list.size(); ++j)
         {
           const FittedUnknown &one = statistics.unknowns[j];
-          unknowns[list[j].name]   = {{"value", one.best},
-                                      {"lower_95", one.lower},
-                                      {"upper_95", one.upper},
-                                      {"at_bound", one.at_bound},
-                                      {"start", list[j].start},
-                                      {"bounds", {list[j].lower, list[j].upper}},
-                                      {"logarithmic", list[j].logarithmic}};
+          // JSON has null for what is not known
+          const double unknown_if = one.at_bound ? NAN : 0.;
+          unknowns[list[j].name]  = {{"value", one.best},
+                                     {"lower_95", one.lower + unknown_if},
+                                     {"upper_95", one.upper + unknown_if},
+                                     {"at_bound", one.at_bound},
+                                     {"start", list[j].start},
+                                     {"bounds", {list[j].lower, list[j].upper}},
+                                     {"logarithmic", list[j].logarithmic}};
           for (std::size_t i = 0; i < j; ++i)
             correlations[list[i].name + " | " + list[j].name] =
               statistics.correlations(i, j);
@@ -273,8 +275,9 @@ namespace Debond
     for (const std::string &warning : statistics.warnings)
       out << "warning: " << warning << '\n';
     if (calibration.failures.n > 0)
-      out << "warning: " << calibration.failures.n
-          << " curves that were tried could not be computed, the last for: "
+      out << calibration.failures.n
+          << " curves that were tried could not be computed, which the search "
+             "went around; the last for: "
           << calibration.failures.last << '\n';
     for (const Calibration::Candidate &candidate : calibration.candidates)
       {
@@ -285,7 +288,9 @@ namespace Debond
             const double now  = statistics.half_widths[j],
                          then = candidate.half_widths[j];
             out << (j == 0 ? " " : ", ");
-            if (std::isfinite(now))
+            if (statistics.unknowns[j].at_bound)
+              out << "unknown for " << list[j].name << ", at its bound";
+            else if (std::isfinite(now))
               out << to_text(then / now, 2) << " times as wide for "
                   << list[j].name;
             else if (std::isfinite(then))

@@ -136,30 +136,45 @@ namespace Debond
                  const std::string &name)
     : unknowns(unknowns)
   {
-    std::vector<double> all, all_weights;
+    std::vector<double>                         all, all_weights, all_scales;
+    std::vector<std::pair<const Scene *, bool>> candidates_noise;
+    const auto refuse = [](const Scene &scene) {
+      throw scene.with_place(
+        EntryError("Calibration / Noise",
+                   "either all curves of all experiments have a known noise, "
+                   "or none: 0; tests that have not been done need it here"));
+    };
     for (unsigned int i = 0; i < n_experiments; ++i)
       {
         experiments.push_back(std::make_unique<Experiment>(unknowns, i, name));
-        const Scene       &scene = experiments.back()->scene;
-        const Measurement &own   = experiments.back()->measured;
+        const Scene       &scene    = experiments.back()->scene;
+        const Measurement &own      = experiments.back()->measured;
+        const bool         is_known = has_known_noise(scene.calibration);
         if (own.file.empty())
-          continue;
-        const bool is_known = has_known_noise(scene.calibration);
+          {
+            // for a test that has not been done the file says nothing
+            candidates_noise.emplace_back(&scene,
+                                          scene.calibration.noise[0] > 0.);
+            continue;
+          }
         if (!all.empty() && is_known != noise_is_known)
-          throw scene.with_place(
-            EntryError("Calibration / Noise",
-                       "either all curves of all experiments have a known "
-                       "noise, or none: 0"));
+          refuse(scene);
         noise_is_known = is_known;
         const auto add = [](std::vector<double> &list, const auto &numbers) {
           list.insert(list.end(), numbers.begin(), numbers.end());
         };
         add(all, own.values.reshaped());
+        for (const double scale : own.scale)
+          all_scales.insert(all_scales.end(), own.over.size(), scale);
         add(all_weights, own.sd.cwiseInverse().eval().reshaped());
       }
+    for (const auto &[scene, is_known] : candidates_noise)
+      if (!all.empty() && is_known != noise_is_known)
+        refuse(*scene);
     measured = Eigen::Map<Eigen::VectorXd>(all.data(), all.size());
     weights =
       Eigen::Map<Eigen::VectorXd>(all_weights.data(), all_weights.size());
+    scales  = Eigen::Map<Eigen::VectorXd>(all_scales.data(), all_scales.size());
     measure = experiments.front()->scene.calibration.measure;
   }
 
@@ -321,11 +336,36 @@ namespace Debond
                   slope * weights[i] * at.derivatives(i, free[j]) *
                   misfit.unknowns.list[free[j]].per_search(values[free[j]]);
           }
+        if (derivatives)
+          hold_at_bounds(values, residuals, jacobians[0]);
         return true;
       }
 
 
     private:
+      /** An unknown at its bound that would go on beyond it stays: without its
+       *  column steps along the others are as long as they can be. */
+      void
+      hold_at_bounds(const Eigen::VectorXd &values,
+                     const double *const    residuals,
+                     double *const          jacobian) const
+      {
+        using Rows = Eigen::
+          Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+        const Eigen::Index                      n = misfit.measured.size();
+        Eigen::Map<Rows>                        J(jacobian, n, free.size());
+        const Eigen::Map<const Eigen::VectorXd> r(residuals, n);
+        for (std::size_t j = 0; j < free.size(); ++j)
+          {
+            const Unknown &u     = misfit.unknowns.list[free[j]];
+            const double   slope = J.col(j).dot(r), value = values[free[j]],
+                         near = 1e-9 * (u.upper - u.lower);
+            if ((value - u.lower < near && slope > 0.) ||
+                (u.upper - value < near && slope < 0.))
+              J.col(j).setZero();
+          }
+      }
+
       Misfit                         &misfit;
       const Eigen::VectorXd           start;
       const Experiment::By            model;

@@ -1,4 +1,5 @@
 #include <debond/campaigns/experiment.h>
+#include <debond/input/allowed_values.h>
 #include <debond/models/closed_form_solution.h>
 #include <debond/models/simulation.h>
 #include <debond/support/input_error.h>
@@ -55,6 +56,32 @@ namespace Debond
 
 
 
+    /** By how much the rig may show more than the implant has turned, within
+     *  the bounds of the unknowns. */
+    double
+    largest_shift(const Unknowns    &unknowns,
+                  const unsigned int number,
+                  const Scene       &scene)
+    {
+      Eigen::VectorXd lower = unknowns.starts(), upper = lower;
+      for (Eigen::Index j = 0; j < lower.size(); ++j)
+        {
+          lower[j] = unknowns.list[j].lower;
+          upper[j] = unknowns.list[j].upper;
+        }
+      double offset = scene.calibration.angle_offset,
+             slack  = scene.calibration.slack;
+      for (const auto &values : {lower, upper})
+        for (const SceneEntry &entry : unknowns.varied_entries(number, values))
+          for (double *const part : {&offset, &slack})
+            if (entry.full_name() ==
+                calibration + (part == &offset ? "Angle offset" : "Slack"))
+              *part = std::max(*part, read_number(entry.value).value_or(*part));
+      return offset + slack;
+    }
+
+
+
     /** What the scene predicts needs neither the measured curve nor a
      *  directory. */
     std::vector<SceneEntry>
@@ -79,7 +106,14 @@ namespace Debond
                     return CurveColumn(scene.calibration.over,
                                        calibration + "Over");
                   }))
-    , measured(placed(scene, [&] { return Measurement(scene, columns, over); }))
+    , measured(
+        placed(scene,
+               [&] {
+                 return Measurement(scene,
+                                    columns,
+                                    over,
+                                    largest_shift(unknowns, number, scene));
+               }))
     , unknowns(unknowns)
     , number(number)
     , varying(without_reference(unknowns.entries(number, unknowns.starts())),
@@ -266,6 +300,77 @@ namespace Debond
 
 
 
+  namespace
+  {
+    using RowDerivative = Experiment::RowDerivative;
+
+    double
+    rounding_of_torque(const std::vector<TorqueRow> &rows)
+    {
+      double largest = 0.;
+      for (const TorqueRow &row : rows)
+        largest = std::max(largest, std::abs(row.torque_Nmm));
+      return 1e-9 * largest;
+    }
+
+
+
+    /** Where the torque T changes its sign the slack is passed at rest: adds a
+     *  row just before and one just after, at the share s = T_a / (T_a - T_b)
+     *  of a step. */
+    void
+    add_rows_without_torque(std::vector<TorqueRow>     &rows,
+                            std::vector<RowDerivative> &derivatives)
+    {
+      const double rounding = rounding_of_torque(rows);
+      for (std::size_t i = 1; i < rows.size(); ++i)
+        {
+          const TorqueRow a = rows[i - 1], b = rows[i];
+          const double    T_a = a.torque_Nmm, T_b = b.torque_Nmm;
+          if (!(T_a * T_b < 0.) || std::abs(T_a) < 2. * rounding ||
+              std::abs(T_b) < 2. * rounding)
+            continue;
+          const double share = T_a / (T_a - T_b);
+          const auto   mean  = [&](const double x, const double y) {
+            return (1. - share) * x + share * y;
+          };
+          TorqueRow between = b;
+          between.time      = mean(a.time, b.time);
+          for (unsigned int k = 0; k < 6; ++k)
+            {
+              between.chuck_reaction[k] =
+                mean(a.chuck_reaction[k], b.chuck_reaction[k]);
+              between.chuck_position[k] =
+                mean(a.chuck_position[k], b.chuck_position[k]);
+            }
+          TorqueRow before = between, after = between;
+          before.torque_Nmm = std::copysign(2. * rounding, T_a);
+          after.torque_Nmm  = std::copysign(2. * rounding, T_b);
+          rows.insert(rows.begin() + i, {before, after});
+          if (!derivatives.empty())
+            {
+              const RowDerivative d_a = derivatives[i - 1],
+                                  d_b = derivatives[i];
+              Eigen::Matrix<double, 13, 1> change;
+              for (unsigned int k = 0; k < 6; ++k)
+                {
+                  change[k]     = b.chuck_reaction[k] - a.chuck_reaction[k];
+                  change[6 + k] = b.chuck_position[k] - a.chuck_position[k];
+                }
+              change[12] = T_b - T_a;
+              const RowDerivative d =
+                (1. - share) * d_a + share * d_b +
+                change * (T_a * d_b.row(12) - T_b * d_a.row(12)) /
+                  std::pow(T_a - T_b, 2);
+              derivatives.insert(derivatives.begin() + i, {d, d});
+            }
+          i += 2;
+        }
+    }
+  } // namespace
+
+
+
   // The rows are joined by straight lines, seen from where the instruments
   // stand. A row of the measured curve lies on the line of its branch that
   // crosses its place x, at the share s = (x - x_a) / (x_b - x_a), and
@@ -275,12 +380,13 @@ namespace Debond
   //
   // Before the beginning of a branch the curve stays as it begins.
   PredictedCurves
-  Experiment::at_measured_rows(
-    const std::vector<TorqueRow>                     &rows,
-    const std::vector<Eigen::Matrix<double, 12, -1>> &row_derivatives,
-    const CalibrationParameters                      &rig,
-    const Eigen::MatrixXd                            &rig_derivatives) const
+  Experiment::at_measured_rows(std::vector<TorqueRow>       rows,
+                               std::vector<RowDerivative>   row_derivatives,
+                               const CalibrationParameters &rig,
+                               const Eigen::MatrixXd &rig_derivatives) const
   {
+    if (rig.slack != 0.)
+      add_rows_without_torque(rows, row_derivatives);
     const unsigned int n_rows = rows.size(), n_measured = measured.over.size();
     const bool         differentiate = !row_derivatives.empty();
     const unsigned int n_unknowns    = differentiate ? unknowns.list.size() : 0;
@@ -293,18 +399,19 @@ namespace Debond
       if (column.kind == CurveColumn::time || n_unknowns == 0)
         return Eigen::RowVectorXd::Zero(n_unknowns);
       return row_derivatives[i].row(
-        (column.kind == CurveColumn::position ? 6 : 0) + column.component);
+        column.about_own_axis                ? 12 :
+        column.kind == CurveColumn::position ? 6 + column.component :
+                                               column.component);
     };
     const CurveColumn torque("torque_Nmm", "");
-    double            rounding = 0.;
-    for (const TorqueRow &row : rows)
-      rounding = std::max(rounding, 1e-9 * std::abs(torque.of(row)));
+    const double      rounding = rounding_of_torque(rows);
     for (unsigned int i = 0; i < n_rows; ++i)
       {
         x[i]                = over.of(rows[i]);
         dx.row(i)           = of_column(over, i);
-        const double T      = torque.of(rows[i]);
-        const double caught = T >= -rounding ? 1. : 0.;
+        const double exact  = torque.of(rows[i]),
+                     T      = std::abs(exact) > rounding ? exact : 0.;
+        const double caught = T >= 0. ? 1. : 0.;
         if (over_angle)
           {
             x[i] += rig.angle_offset + caught * rig.slack +
@@ -317,7 +424,7 @@ namespace Debond
           }
       }
 
-    const std::vector<int> branch = branches_of(x, 1e-9);
+    const std::vector<int> branch = branches_of(x, measured.least_turn);
     if (n_measured > 0 && branch.back() < measured.branch.back())
       throw EntryError("Output / Reference curve",
                        measured.file + " turns back " +
@@ -343,8 +450,10 @@ namespace Debond
         unsigned int end   = first;
         while (end < last && sign * x[end] < sign * place)
           ++end;
-        // rows that do not move along x belong to the end of the push-in
-        while (end < last && x[end + 1] == x[end])
+        // of rows that stay in a place, as while it is pressed, the last one
+        const double stay = sign * place <= sign * x[first] ? x[first] : place;
+        while (end < last && x[end + 1] == x[end] &&
+               std::abs(x[end] - stay) <= 1e-9 * std::abs(stay))
           ++end;
         const unsigned int begin = end > first ? end - 1 : end;
         const double       width = x[end] - x[begin];
@@ -403,8 +512,6 @@ namespace Debond
 
   namespace
   {
-    using RowDerivative = Eigen::Matrix<double, 12, -1>;
-
     /** Derivatives of @p rows, which lie on the curve between rows of a run:
      *  straight lines in time. They lead the search and give intervals; what is
      *  fitted is the curve itself. */
@@ -507,12 +614,13 @@ namespace Debond
       for (std::size_t i = 0; i < simulation.rows().size(); ++i)
         {
           derivatives.emplace_back(
-            Eigen::Matrix<double, 12, -1>::Zero(12, values.size()));
+            RowDerivative::Zero(RowDerivative::RowsAtCompileTime,
+                                values.size()));
           for (std::size_t v = 0; v < varied.size(); ++v)
             {
               const auto &row = simulation.row_derivatives()[i];
               derivatives[i].col(varied[v]) << row.reaction.col(v),
-                row.position.col(v);
+                row.position.col(v), row.torque[v];
             }
         }
     if (!now.load_steps.draws_curve())
@@ -682,21 +790,22 @@ namespace Debond
       std::reverse(in_order.begin(), in_order.end());
     const TorsionCurve curve = torsion_curve(disk, in_order, variations);
 
-    const double           area = M_PI * disk.radius * disk.radius;
-    std::vector<TorqueRow> rows(in_order.size());
-    std::vector<Eigen::Matrix<double, 12, -1>> derivatives(
+    const double               area = M_PI * disk.radius * disk.radius;
+    std::vector<TorqueRow>     rows(in_order.size());
+    std::vector<RowDerivative> derivatives(
       with_derivatives ? rows.size() : 0,
-      Eigen::Matrix<double, 12, -1>::Zero(12, values.size()));
+      RowDerivative::Zero(RowDerivative::RowsAtCompileTime, values.size()));
     for (std::size_t i = 0; i < rows.size(); ++i)
       {
         rows[i].chuck_reaction[push]  = -disk.pressure * area;
-        rows[i].chuck_reaction[twist] = curve.torque[i];
+        rows[i].chuck_reaction[twist] = rows[i].torque_Nmm = curve.torque[i];
         rows[i].chuck_position[twist] = in_order[i] / degree;
         if (!with_derivatives)
           continue;
         for (Eigen::Index j = 0; j < values.size(); ++j)
           derivatives[i](push, j) = -variations[j].pressure * area;
-        derivatives[i].row(twist) = curve.derivative.row(i);
+        derivatives[i].row(twist) = derivatives[i].row(12) =
+          curve.derivative.row(i);
       }
     return at_measured_rows(rows, derivatives, rig, rig_derivatives);
   }

@@ -18,6 +18,25 @@ namespace Debond
   {
     constexpr double infinite = std::numeric_limits<double>::infinity();
 
+
+
+    /** Of each curve the values that count. */
+    std::vector<std::vector<Eigen::Index>>
+    curves_with_weight(const Misfit &misfit, const Eigen::VectorXd &weights)
+    {
+      std::vector<std::vector<Eigen::Index>> result;
+      Eigen::Index                           at = 0;
+      for (const auto &experiment : misfit.experiments)
+        for (const auto &curve : experiment->measured.values.colwise())
+          {
+            result.emplace_back();
+            for (Eigen::Index i = 0; i < curve.size(); ++i, ++at)
+              if (weights[at] > 0.)
+                result.back().push_back(at);
+          }
+      return result;
+    }
+
     /** Where an unknown that is searched as it is gets a relative change from:
      *  itself, or a part of its range if it is about zero. */
     double
@@ -39,10 +58,12 @@ namespace Debond
     jacobian = misfit.weights.asDiagonal() * at_best.derivatives;
     for (std::size_t j = 0; j < list.size(); ++j)
       {
-        const Unknown &u    = list[j];
-        const double   near = 1e-6 * (u.upper - u.lower);
-        FittedUnknown  one{best[j], best[j], best[j], false};
-        one.at_bound = best[j] - u.lower < near || u.upper - best[j] < near;
+        const Unknown &u  = list[j];
+        const double   at = u.to_search(best[j]), lower = u.to_search(u.lower),
+                     upper = u.to_search(u.upper),
+                     near  = 1e-6 * (upper - lower);
+        FittedUnknown one{best[j], best[j], best[j], false};
+        one.at_bound = at - lower < near || upper - at < near;
         unknowns.push_back(one);
         is_free.push_back(!one.at_bound);
         jacobian.col(j) *= is_free[j] ? u.per_search(best[j]) : 0.;
@@ -56,12 +77,12 @@ namespace Debond
     judge_unknowns(misfit, best);
     judge_residuals(misfit, at_best.values);
 
-    const Eigen::MatrixXd covariance = covariance_of(jacobian);
+    const Covariance covariance = covariance_of(jacobian);
     half_widths.resize(list.size());
     correlations = Eigen::MatrixXd::Identity(list.size(), list.size());
     for (std::size_t j = 0; j < list.size(); ++j)
       {
-        half_widths[j] = quantile * std::sqrt(covariance(j, j));
+        half_widths[j] = covariance.half_width(j, quantile);
         if (!is_free[j])
           half_widths[j] = 0.;
         for (const double sign : {-1., 1.})
@@ -74,7 +95,8 @@ namespace Debond
         for (std::size_t i = 0; i < list.size(); ++i)
           if (i != j && is_free[i] && is_free[j])
             correlations(i, j) =
-              covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
+              covariance.whole(i, j) /
+              std::sqrt(covariance.whole(i, i) * covariance.whole(j, j));
       }
 
     if (misfit.measure != MisfitMeasure::least_squares)
@@ -83,25 +105,19 @@ namespace Debond
     // over the noise, and back to the unit of the curve; flat directions do not
     // move it
     sd_of_values.resize(n);
-    Eigen::MatrixXd finite = covariance;
-    for (Eigen::Index j = 0; j < finite.cols(); ++j)
-      if (!std::isfinite(finite(j, j)))
-        {
-          finite.row(j).setZero();
-          finite.col(j).setZero();
-        }
     for (Eigen::Index i = 0; i < n; ++i)
       sd_of_values[i] =
-        std::sqrt(
-          std::max(0.,
-                   jacobian.row(i).dot(finite * jacobian.row(i).transpose()))) /
+        std::sqrt(std::max(0.,
+                           jacobian.row(i).dot(covariance.finite *
+                                               jacobian.row(i).transpose()))) /
         misfit.weights[i];
     band = quantile * sd_of_values;
   }
 
 
 
-  // Neighbouring residuals hang together, so that blocks of them are drawn. The
+  // Neighbouring residuals of a curve hang together, so that blocks of them are
+  // drawn, from the same curve. The
   // sum of sqrt(r^2 + d^2) is made small by least squares with the weights
   // 1 / sqrt(r^2 + d^2) of the solution before.
   void
@@ -114,18 +130,23 @@ namespace Debond
     const Eigen::MatrixXd J =
       weights.cwiseQuotient(misfit.weights).asDiagonal() * jacobian;
     const Eigen::Index n = residual.size(), p = J.cols();
-    const Eigen::Index block =
-      std::max<Eigen::Index>(1, std::lround(std::cbrt(double(n))));
+    const auto         parts = curves_with_weight(misfit, weights);
     std::mt19937 generator(misfit.experiments.front()->scene.calibration.seed);
     std::vector<std::vector<double>> samples(p);
     for (unsigned int sample = 0; sample < n_samples; ++sample)
       {
-        Eigen::VectorXd drawn(n);
-        for (Eigen::Index i = 0; i < n; i += block)
+        Eigen::VectorXd drawn = Eigen::VectorXd::Zero(n);
+        for (const auto &rows : parts)
           {
-            const Eigen::Index from = generator() % (n - block + 1);
-            for (Eigen::Index k = 0; k < block && i + k < n; ++k)
-              drawn[i + k] = residual[from + k];
+            const std::size_t block = std::max<std::size_t>(
+              1, std::lround(std::cbrt(double(rows.size()))));
+            for (std::size_t i = 0; i < rows.size(); i += block)
+              {
+                const std::size_t from =
+                  generator() % (rows.size() - block + 1);
+                for (std::size_t k = 0; k < block && i + k < rows.size(); ++k)
+                  drawn[rows[i + k]] = residual[rows[from + k]];
+              }
           }
         Eigen::VectorXd change = Eigen::VectorXd::Zero(p);
         for (unsigned int iteration = 0; iteration < n_iterations; ++iteration)
@@ -184,8 +205,7 @@ namespace Debond
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinV);
     const auto                             &sigma   = svd.singularValues();
     const double                            largest = sigma[0];
-    flat_limit          = std::max(1e-6 * largest, s);
-    const double weight = misfit.weights.maxCoeff();
+    flat_limit = std::max(1e-6 * largest, s);
     for (Eigen::Index k = 0; k < sigma.size(); ++k)
       if (sigma[k] < flat_limit)
         {
@@ -195,45 +215,57 @@ namespace Debond
           Eigen::Index most;
           const double size = direction.changes.cwiseAbs().maxCoeff(&most);
           direction.changes /= direction.changes[most];
-          direction.effect =
-            (scaled * svd.matrixV().col(k)).cwiseAbs().maxCoeff() / size /
-            weight;
+          direction.effect = (scaled * svd.matrixV().col(k))
+                               .cwiseQuotient(misfit.weights)
+                               .cwiseQuotient(misfit.scales)
+                               .cwiseAbs()
+                               .maxCoeff() /
+                             size;
           flat.push_back(direction);
         }
   }
 
 
 
-  // (J^T J)^-1 s^2 from the singular values, infinite for what has a part in a
-  // flat direction.
-  Eigen::MatrixXd
+  // Of fewer rows than unknowns the singular values that are missing are zero.
+  FitStatistics::Covariance
   FitStatistics::covariance_of(const Eigen::MatrixXd &J) const
   {
-    Eigen::VectorXd scale(J.cols());
-    for (Eigen::Index j = 0; j < J.cols(); ++j)
+    const Eigen::Index n = J.cols();
+    Eigen::VectorXd    scale(n);
+    for (Eigen::Index j = 0; j < n; ++j)
       scale[j] = J.col(j).norm() > 0. ? J.col(j).norm() : 1.;
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(
-      J * scale.cwiseInverse().asDiagonal(), Eigen::ComputeThinV);
-    const auto       &V       = svd.matrixV();
-    Eigen::MatrixXd   result  = Eigen::MatrixXd::Zero(J.cols(), J.cols());
-    const double      largest = svd.singularValues()[0];
-    std::vector<bool> unbounded(J.cols(), false);
-    for (Eigen::Index k = 0; k < V.cols(); ++k)
+    Eigen::MatrixXd scaled   = Eigen::MatrixXd::Zero(std::max(J.rows(), n), n);
+    scaled.topRows(J.rows()) = J * scale.cwiseInverse().asDiagonal();
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinV);
+    const auto                             &V       = svd.matrixV();
+    const double                            largest = svd.singularValues()[0];
+    Covariance                              result{Eigen::MatrixXd::Zero(n, n),
+                      Eigen::MatrixXd::Zero(n, n),
+                      std::vector<bool>(n, true)};
+    for (Eigen::Index k = 0; k < n; ++k)
       {
-        const double sigma = svd.singularValues()[k];
-        if (sigma > 1e-7 * largest)
-          result += V.col(k) * V.col(k).transpose() * std::pow(s / sigma, 2);
-        else
-          for (Eigen::Index j = 0; j < J.cols(); ++j)
-            unbounded[j] =
-              unbounded[j] || (is_free[j] && std::abs(V(j, k)) > 1e-3);
+        const double          sigma = svd.singularValues()[k];
+        const bool            told  = sigma > 1e-7 * largest;
+        const Eigen::VectorXd v  = scale.cwiseInverse().cwiseProduct(V.col(k));
+        const double          sd = s / std::max(sigma, 1e-10 * largest);
+        result.whole += sd * sd * v * v.transpose();
+        if (told)
+          result.finite += sd * sd * v * v.transpose();
+        for (Eigen::Index j = 0; j < n && !told; ++j)
+          if (is_free[j] && std::abs(V(j, k)) > 1e-3)
+            result.is_bounded[j] = false;
       }
-    result = scale.cwiseInverse().asDiagonal() * result *
-             scale.cwiseInverse().asDiagonal();
-    for (Eigen::Index j = 0; j < J.cols(); ++j)
-      if (unbounded[j])
-        result(j, j) = infinite;
     return result;
+  }
+
+
+
+  double
+  FitStatistics::Covariance::half_width(const unsigned int j,
+                                        const double       quantile) const
+  {
+    return is_bounded[j] ? quantile * std::sqrt(finite(j, j)) : infinite;
   }
 
 
@@ -246,10 +278,10 @@ namespace Debond
     for (Eigen::Index j = 0; j < both.cols(); ++j)
       if (!is_free[j])
         both.col(j).setZero();
-    const Eigen::MatrixXd covariance = covariance_of(both);
-    Eigen::VectorXd       result(both.cols());
+    const Covariance covariance = covariance_of(both);
+    Eigen::VectorXd  result(both.cols());
     for (Eigen::Index j = 0; j < both.cols(); ++j)
-      result[j] = is_free[j] ? quantile * std::sqrt(covariance(j, j)) : 0.;
+      result[j] = is_free[j] ? covariance.half_width(j, quantile) : 0.;
     return result;
   }
 
@@ -312,6 +344,17 @@ namespace Debond
                 " times");
           }
       }
+    const auto by_rms = [](const CurveMisfit &a, const CurveMisfit &b) {
+      return a.rms < b.rms;
+    };
+    const auto [least, most] =
+      std::minmax_element(curves.begin(), curves.end(), by_rms);
+    if (!misfit.has_noise() && most->rms > 3. * least->rms && most->rms > 1e-5)
+      warnings.push_back(
+        "residuals of " + most->name + " are " +
+        to_text(most->rms / least->rms, 2) + " times those of " + least->name +
+        ", over the largest values: the intervals take one noise for all; "
+        "give Calibration / Noise for each curve");
     if (!misfit.has_noise())
       return;
     const double freedom = std::max<double>(

@@ -45,8 +45,9 @@ namespace Debond
               (is_torque && name == "torque_Nmm") ||
               (is_angle && name == "angle_deg"))
             {
-              kind      = one;
-              component = k;
+              kind           = one;
+              component      = k;
+              about_own_axis = name == "torque_Nmm";
             }
         }
     if (kind == time)
@@ -62,6 +63,7 @@ namespace Debond
   CurveColumn::of(const TorqueRow &row) const
   {
     return kind == time     ? row.time :
+           about_own_axis   ? row.torque_Nmm :
            kind == reaction ? row.chuck_reaction[component] :
                               row.chuck_position[component];
   }
@@ -165,12 +167,42 @@ namespace Debond
 
 
 
+    /** Measured places are not smooth: what goes back by less than a twentieth
+     *  of the range is no turn, unless the scene turns by less. */
+    double
+    least_turn_of(const Scene &scene, const CurveColumn &over)
+    {
+      constexpr double usual = 0.05, part = 0.4;
+      const auto       places =
+        places_of(scene, over, scene.load_steps.sample_times());
+      if (places.empty())
+        return usual;
+      const Eigen::VectorXd all =
+        Eigen::Map<const Eigen::VectorXd>(places.data(), places.size());
+      const double range  = all.maxCoeff() - all.minCoeff();
+      const auto   branch = branches_of(all, 1e-9);
+      double       least  = usual;
+      Eigen::Index begin  = 0;
+      for (Eigen::Index i = 1; i < all.size() && branch.back() > 0; ++i)
+        if (i + 1 == all.size() || branch[i + 1] != branch[i])
+          {
+            least =
+              std::min(least, part * std::abs(all[i] - all[begin]) / range);
+            begin = i;
+          }
+      return least;
+    }
+
+
+
     // Rows of a measured curve beyond what the scene is led to mean nothing.
     // While the offset of the rig is an unknown some may come to lie beyond,
     // for which the curve goes on straight. Before the implant begins to turn
     // the curve is known: there is no load.
     std::pair<double, double>
-    reach_of(const Scene &scene, const CurveColumn &over)
+    reach_of(const Scene       &scene,
+             const CurveColumn &over,
+             const double       largest_shift)
     {
       constexpr double rounding = 1e-9, infinite = HUGE_VAL;
       const auto       places =
@@ -182,7 +214,7 @@ namespace Debond
       const double margin = rounding * (*most - *least);
       const double turned =
         over.is(CurveColumn::position, ChuckComponent::rotation_z) ?
-          scene.calibration.angle_offset + scene.calibration.slack :
+          largest_shift :
           0.;
       return {*least - margin - std::abs(turned), *most + margin + turned};
     }
@@ -195,7 +227,9 @@ namespace Debond
     used_rows(const Scene                    &scene,
               const std::vector<CurveColumn> &columns,
               const CurveColumn              &over,
-              const Eigen::MatrixXd          &table)
+              const Eigen::MatrixXd          &table,
+              const std::vector<int>         &branch,
+              const double                    largest_shift)
     {
       constexpr auto        twist  = ChuckComponent::rotation_z;
       const Eigen::VectorXd places = table.col(0);
@@ -207,7 +241,7 @@ namespace Debond
             implant -= scene.calibration.machine_compliance * table.col(c + 1);
 
       const auto &windows      = scene.calibration.windows;
-      const auto [least, most] = reach_of(scene, over);
+      const auto [least, most] = reach_of(scene, over, largest_shift);
       std::vector<std::size_t> used;
       for (Eigen::Index i = 0; i < places.size(); ++i)
         {
@@ -218,7 +252,11 @@ namespace Debond
           // of rows at the same place, as while it is pressed, the last one
           const bool stays =
             i + 1 < places.size() && places[i + 1] == places[i];
-          if (inside && !stays && implant[i] >= least && implant[i] <= most)
+          // the one at a turn may belong to either side of it
+          const bool turns =
+            i + 1 < places.size() && i > 0 && branch[i + 1] != branch[i];
+          if (inside && !stays && !turns && implant[i] >= least &&
+              implant[i] <= most)
             used.push_back(i);
         }
       if (used.empty())
@@ -273,7 +311,8 @@ namespace Debond
 
   Measurement::Measurement(const Scene                    &scene,
                            const std::vector<CurveColumn> &columns,
-                           const CurveColumn              &along)
+                           const CurveColumn              &along,
+                           const double                    largest_shift)
     : file(scene.output.reference_curve)
     , values(0, columns.size())
     , scale(Eigen::VectorXd::Zero(columns.size()))
@@ -286,6 +325,12 @@ namespace Debond
         parameters.noise.size() != columns.size())
       throw EntryError("Calibration / Noise",
                        "expected one number, or one for each of Curves");
+    const auto &noise = parameters.noise;
+    if (std::count(noise.begin(), noise.end(), 0.) % noise.size() != 0)
+      throw EntryError("Calibration / Noise",
+                       "either that of all curves is known, or that of none: "
+                       "0");
+    least_turn = least_turn_of(scene, along);
     if (file.empty())
       {
         propose_rows(scene, along);
@@ -306,9 +351,10 @@ namespace Debond
     for (std::size_t i = 0; i < table.size(); ++i)
       all.row(i) =
         Eigen::Map<const Eigen::RowVectorXd>(table[i].data(), wanted.size());
-    const auto used      = used_rows(scene, columns, along, all);
-    const auto in_branch = branches_of(all.col(0), 0.05);
-    n_left_out           = table.size() - used.size();
+    const auto in_branch = branches_of(all.col(0), least_turn);
+    const auto used =
+      used_rows(scene, columns, along, all, in_branch, largest_shift);
+    n_left_out = table.size() - used.size();
     over.resize(used.size());
     values.resize(used.size(), columns.size());
     for (std::size_t i = 0; i < used.size(); ++i)
@@ -353,6 +399,6 @@ namespace Debond
                        "what a test that has not been done is drawn over must "
                        "be prescribed by its scene");
     over   = Eigen::Map<const Eigen::VectorXd>(kept.data(), kept.size());
-    branch = branches_of(over, 0.05);
+    branch = branches_of(over, least_turn);
   }
 } // namespace Debond

@@ -92,12 +92,9 @@ namespace Debond
           const SceneEntry &entry = experiments[i].entries[e];
           if (!has_unknown(entry))
             continue;
-          const bool is_shared =
-            std::all_of(experiments.begin(),
-                        experiments.end(),
-                        [&](const StudyVariant &other) {
-                          return other.entries[e].value == entry.value;
-                        });
+          const auto &own = experiments[i].varied;
+          const bool  is_shared =
+            std::find(own.begin(), own.end(), e) == own.end();
           Varied      item{entry, {}, {}, {}, {}};
           std::string rest = entry.value;
           for (auto begin = rest.find("<<"); begin != std::string::npos;
@@ -175,6 +172,9 @@ namespace Debond
             item.expressions.emplace_back();
             if (item.unknowns[m] >= 0)
               continue;
+            if (read_number(item.marks[m]))
+              item.entry.refuse("<<" + item.marks[m] +
+                                ">> has no bounds: " + what_is_expected);
             try
               {
                 item.expressions[m] = read_expression(names, item.marks[m], 0.);

@@ -218,13 +218,14 @@ namespace Debond
             std::count_if(choices.begin(), choices.end(), is_changed) >
               factors_at_once)
           continue;
-        StudyVariant variant{entries, {}};
+        StudyVariant variant{entries, {}, {}};
         auto         choice = choices.begin();
-        for (SceneEntry &entry : variant.entries)
-          if (is_varied(entry))
+        for (std::size_t e = 0; e < entries.size(); ++e)
+          if (is_varied(entries[e]))
             {
-              entry.value = choice->values[choice->index(i)];
-              variant.values.push_back(entry.value);
+              variant.entries[e].value = choice->values[choice->index(i)];
+              variant.values.push_back(variant.entries[e].value);
+              variant.varied.push_back(e);
               ++choice;
             }
         variants.push_back(std::move(variant));

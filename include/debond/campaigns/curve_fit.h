@@ -111,8 +111,10 @@ namespace Debond
     std::vector<std::unique_ptr<Experiment>> experiments;
     /** Of all experiments that have been measured. */
     Eigen::VectorXd measured, weights;
-    MisfitMeasure   measure;
-    Failures        failures; ///< since it was cleared
+    Eigen::VectorXd
+                  scales; ///< the largest magnitude of the curve of each value
+    MisfitMeasure measure;
+    Failures      failures; ///< since it was cleared
 
   private:
     EvaluationLog *log = nullptr;

@@ -43,6 +43,10 @@ namespace Debond
   class Experiment
   {
   public:
+    /** Of TorqueRow::chuck_reaction, chuck_position and torque_Nmm, by column
+     *  with respect to the unknowns. */
+    using RowDerivative = Eigen::Matrix<double, 13, Eigen::Dynamic>;
+
     /** Experiment @p number of @p unknowns. Throws InputError. */
     Experiment(const Unknowns    &unknowns,
                unsigned int       number,
@@ -98,11 +102,10 @@ namespace Debond
     rig_derivative(const Eigen::VectorXd &values, unsigned int j);
     /** Rows of a curve that may turn back -> the measured rows. */
     PredictedCurves
-    at_measured_rows(
-      const std::vector<TorqueRow>                     &rows,
-      const std::vector<Eigen::Matrix<double, 12, -1>> &row_derivatives,
-      const CalibrationParameters                      &rig,
-      const Eigen::MatrixXd                            &rig_derivatives) const;
+    at_measured_rows(std::vector<TorqueRow>       rows,
+                     std::vector<RowDerivative>   row_derivatives,
+                     const CalibrationParameters &rig,
+                     const Eigen::MatrixXd       &rig_derivatives) const;
     PredictedCurves
     predict_by_disk(const Eigen::VectorXd &values, bool with_derivatives);
     PredictedCurves

@@ -85,7 +85,18 @@ namespace Debond
     judge_unknowns(const Misfit &misfit, const Eigen::VectorXd &best);
     void
     judge_residuals(const Misfit &misfit, const Eigen::VectorXd &values);
-    Eigen::MatrixXd
+    /** s^2 (J^T J)^-1, from the singular values. */
+    struct Covariance
+    {
+      Eigen::MatrixXd finite; ///< without what the curves do not tell
+      /** With a variance for that, too, that is far larger than all others. */
+      Eigen::MatrixXd   whole;
+      std::vector<bool> is_bounded; ///< whether the curves tell an unknown
+
+      double
+      half_width(unsigned int j, double quantile) const;
+    };
+    Covariance
     covariance_of(const Eigen::MatrixXd &jacobian) const;
 
     Eigen::MatrixXd   jacobian; ///< by what is searched, over noise

@@ -24,6 +24,7 @@ namespace Debond
     std::string  name;
     Kind         kind      = time;
     unsigned int component = 0;
+    bool about_own_axis    = false; ///< torque_Nmm: of the implant, not along z
 
     /** Throws EntryError that names the @p entry of the scene. */
     CurveColumn(const std::string &name, const std::string &entry);
@@ -43,18 +44,23 @@ namespace Debond
   {
     std::string      file;   ///< empty: nothing has been measured yet
     std::vector<int> branch; ///< of each row, between turning points
-    Eigen::VectorXd  over;   ///< where
-    Eigen::MatrixXd  values; ///< rows x curves
-    Eigen::VectorXd  scale;  ///< of each curve: its largest magnitude
+    /** By which part of its range a curve goes back where it turns. */
+    double          least_turn = 0.05;
+    Eigen::VectorXd over;   ///< where
+    Eigen::MatrixXd values; ///< rows x curves
+    Eigen::VectorXd scale;  ///< of each curve: its largest magnitude
     /** Standard deviations of the noise of values; `scale` if not known. */
     Eigen::MatrixXd sd;
     unsigned int    n_left_out = 0; ///< rows that are not fitted
 
     /** Of the subsection `Calibration`: `Curves` over `Over`. Without a file:
-     *  places over all of the load, and no values. Throws EntryError. */
+     *  places over all of the load, and no values. The rig may show
+     *  @p largest_shift [deg] more than the implant has turned. Throws
+     *  EntryError. */
     Measurement(const Scene                    &scene,
                 const std::vector<CurveColumn> &columns,
-                const CurveColumn              &over);
+                const CurveColumn              &over,
+                double                          largest_shift);
 
     /** The standard deviation of noise that is given relative to the largest
      *  value of curve @p c, which is @p scale. */

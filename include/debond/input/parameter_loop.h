@@ -15,6 +15,7 @@ namespace Debond
     std::vector<SceneEntry> entries;
     /** The values of the varied entries, in the order of varied_entries(). */
     std::vector<std::string> values;
+    std::vector<std::size_t> varied; ///< their places in `entries`
   };
 
   /** The entries that hold several values, `{{` and what follows, in the order

@@ -501,7 +501,7 @@ def table_4():
     return table(['set', 'mu_b', 'd [um]', 'mu_ub', 'p: paper', 'p: ours', 'T_max [N mm]', 'T_inf [N mm]', 'difference'], lines)
 
 
-@numbers('seconds')
+@numbers('minutes')
 def calibration_fits():
     """The calibrated scenes beside fits of four numbers, with b_s as printed, and of five."""
     names = ('eps_n', 'eps_t', 'mu_ub', 'a_s', 'b_s')
@@ -522,19 +522,10 @@ def calibration_fits():
     return table(['set', 'what', 'eps_n, eps_t [MPa/mm]', 'mu_ub', 'a_s [um]', 'b_s', 'e_mp [%]'], lines)
 
 
-def staged_table(*what):
-    return '\n' + subprocess.run(['doc/paper/staged.sh', *what], env={**os.environ, 'DEBOND': os.path.abspath(options.debond)},
-                                 check=True, capture_output=True, text=True).stdout
-
-
 @numbers('minutes')
 def staged():
-    return staged_table('1', '2')
-
-
-@numbers('minutes')
-def staged_patterns():
-    return staged_table('patterns')
+    return '\n' + subprocess.run(['doc/paper/staged.sh', '1', '2'], env={**os.environ, 'DEBOND': os.path.abspath(options.debond)},
+                                 check=True, capture_output=True, text=True).stdout
 
 
 LAYERS = {(2, 1.): '2 (the paper) | 1', (2, 1.5): '2 | 1.5', (4, 1.): '4 | 1', (4, 1.5): '4 | 1.5', (8, 1.): '8 | 1', (8, 1.5): '8 | 1.5'}

@@ -270,8 +270,9 @@ namespace Debond
         out << "warning: " << list[j].name
             << " ends at one of its bounds: the best value may lie beyond\n";
     if (!calibration.optima.front().converged)
-      out << "warning: the search has not converged; it ended after 100 steps, "
-             "or where no step made the residuals smaller\n";
+      out
+        << "warning: the search has not converged: it ended after 100 steps with "
+           "closed forms, 30 with runs, or where no step helped\n";
     for (const std::string &warning : statistics.warnings)
       out << "warning: " << warning << '\n';
     if (calibration.failures.n > 0)

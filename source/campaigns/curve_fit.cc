@@ -409,7 +409,9 @@ namespace Debond
         ceres::Solver::Options options;
         options.linear_solver_type = ceres::DENSE_QR;
         options.logging_type       = ceres::SILENT;
-        options.max_num_iterations = 100;
+        // near unknowns that give no curve steps of runs become many and small
+        options.max_num_iterations =
+          model == Experiment::By::closed_form ? 100 : 30;
         // Closed forms cost nothing. Runs are only as good as their steps;
         // where the model is right the sum of squares falls to nothing even so.
         // Magnitudes are made smaller in many small steps that mean nothing.

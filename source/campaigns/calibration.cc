@@ -193,9 +193,10 @@ namespace Debond
       {
         if (model == By::scene)
           misfit.choose_steps(&values);
-        for (const auto &experiment : misfit.experiments)
-          if (experiment->why_no_closed_form.empty())
-            experiment->centre_closed_form(values);
+        else
+          for (const auto &experiment : misfit.experiments)
+            if (experiment->why_no_closed_form.empty())
+              experiment->centre_closed_form(values);
       }
 
       void

@@ -66,9 +66,9 @@ namespace Debond
     /** What a user has to know. */
     std::vector<std::string> warnings;
 
-    /** The 95 % intervals, relative to now, if another experiment with these
-     *  derivatives over standard deviations were done, too: of each unknown;
-     *  0 where it makes a finite interval of an infinite one. */
+    /** Half widths of the 95 % intervals, as searched, if another experiment
+     *  with these derivatives over standard deviations were done, too;
+     *  infinite where neither tells, 0 for an unknown at its bound. */
     Eigen::VectorXd
     intervals_with(const Eigen::MatrixXd &derivatives) const;
 

@@ -1,13 +1,15 @@
 // Static condensation by sparse Cholesky factorisation agrees with dense
 // algebra for few, many, scattered, all and no condensed unknowns in any order,
-// and refuses matrices that are not positive definite.
+// in threads, and refuses matrices that are not positive definite.
 
 #include <debond/bulk/condensation.h>
 
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <atomic>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "checks.h"
@@ -195,6 +197,31 @@ check(const std::string &name, const MatrixXd &K)
 
 
 
+/** Whether two threads, at the same time, find what one finds, to the last
+ *  bit. */
+bool
+same_in_threads(const SymmetricSparseMatrix &K, const std::vector<int> &c)
+{
+  const auto complement = [&] {
+    Condensation condensation;
+    return condensation.factorise(K, c) ? condensation.schur_complement() :
+                                          MatrixXd();
+  };
+  const MatrixXd   alone = complement();
+  std::atomic<int> n_same{0};
+  const int        n       = 30;
+  const auto       several = [&] {
+    for (int i = 0; i < n; ++i)
+      n_same += complement() == alone;
+  };
+  std::thread one(several), other(several);
+  one.join();
+  other.join();
+  return n_same == 2 * n;
+}
+
+
+
 int
 main()
 {
@@ -213,6 +240,12 @@ main()
          deviation.S + deviation.forward + deviation.backward +
            deviation.extend,
          1e-13);
+
+  std::vector<int> face;
+  for (int k = 0; k < 81; ++k)
+    face.push_back(k);
+  report("The same in two threads, to the last bit",
+         same_in_threads(sparse(lattice(9)), face));
 
   std::cout << "Not positive definite" << std::endl;
   const std::vector<int> condensed{1, 2, 300, 340};

@@ -6,6 +6,7 @@
 #include <Eigen/CholmodSupport>
 
 #include <algorithm>
+#include <mutex>
 
 // Static condensation by a sparse Cholesky factorisation: how a body of many
 // unknowns becomes the small matrix S that the contact face feels, station 9 of
@@ -200,10 +201,14 @@ namespace Debond
     // METIS is asked about K_ii because it would not keep c last in K. The
     // symbolic factor is only needed for its permutation; it is released at the
     // end of the block.
+    // METIS draws its random numbers from the one sequence of the C library,
+    // which it begins anew: two threads would take numbers from each other.
     permutation.clear();
     if (!interior.empty())
       {
-        Cholmod symbolic;
+        static std::mutex                 one_at_a_time;
+        const std::lock_guard<std::mutex> lock(one_at_a_time);
+        Cholmod                           symbolic;
         symbolic.analyse(interior_block(K, interior_index, interior), nullptr);
         for (unsigned int k = 0; k < interior.size(); ++k)
           permutation.push_back(interior[symbolic.permutation()[k]]);

@@ -40,6 +40,7 @@ namespace Debond
       std::vector<std::thread>        threads;
       for (unsigned int worker = 0; worker < n_workers; ++worker)
         threads.emplace_back([&, worker] {
+          factorise_on_one_thread();
           try
             {
               for (unsigned int i = next++; i < n; i = next++)

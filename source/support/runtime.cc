@@ -40,11 +40,18 @@ namespace Debond
   set_number_of_threads(const unsigned int n)
   {
     dealii::MultithreadInfo::set_thread_limit(n);
-    // CHOLMOD divides small loops among four threads, however few processors
-    // there are: that costs a quarter of a factorisation. Each thread that
-    // factorises has to say so.
-    omp_set_max_active_levels(0);
+    factorise_on_one_thread();
     openblas_set_num_threads(1);
+  }
+
+
+
+  // CHOLMOD divides small loops among four threads, however few processors
+  // there are: that costs a quarter of a factorisation.
+  void
+  factorise_on_one_thread()
+  {
+    omp_set_max_active_levels(0);
   }
 
 

@@ -23,6 +23,10 @@ namespace Debond
   void
   set_number_of_threads(unsigned int n);
 
+  /** For each thread that does not belong to the pool and factorises. */
+  void
+  factorise_on_one_thread();
+
   /** Parts that a loop is divided into. Their number does not depend on the
    *  number of threads: sums that are formed part by part, and then added in
    *  the order of the parts, are the same to the last digit for any number of

@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -139,6 +140,9 @@ check(const std::string            &name,
                           (2. * h)) /
                  T_max);
         }
+      // a comparison of few rows, or of nothing, is none
+      if (2 * compared < base.rows.size() || largest < 1e-5)
+        deviation = std::numeric_limits<double>::quiet_NaN();
       if (std::getenv("SHOW"))
         std::cout << "    " << parameters[j].entry << " " << largest << " "
                   << deviation << " rows " << compared << " of "
@@ -217,8 +221,11 @@ main()
   const Overrides sideways{
     "Chuck/Translation x/Value=0.03 * max(t - 1, 0) * (2 - t)",
     "Load steps/Steps=3, 14"};
-  check("Rigid bodies", coin, rigid, law);
-  check("Rigid bodies, sideways", coin, rigid + sideways, law);
+  // whose Young's moduli change nothing
+  auto law_alone = law;
+  law_alone.erase(law_alone.begin() + 6, law_alone.begin() + 8);
+  check("Rigid bodies", coin, rigid, law_alone);
+  check("Rigid bodies, sideways", coin, rigid + sideways, law_alone);
   check("Linear bodies", coin, {}, law);
   check("Linear bodies, sideways", coin, sideways, law);
   check("Bone as slave", coin, sideways + "Interface/Slave=bone", law);

@@ -446,6 +446,12 @@ namespace Debond
     check_what_is_measured(const Misfit &misfit)
     {
       const Scene &scene = misfit.experiments.front()->scene;
+      if (misfit.unknowns.list.empty())
+        throw scene.with_place(EntryError(
+          "Task",
+          "a calibration needs unknowns: write <<START in LOWER..UPPER>> in "
+          "the place of numbers that are to be found",
+          "calibrate"));
       if (misfit.measured.size() == 0)
         throw scene.with_place(
           EntryError("Output / Reference curve",
@@ -549,13 +555,6 @@ namespace Debond
     const dealii::Timer clock;
     const auto          experiments = experiments_of(entries);
     const Unknowns      unknowns(experiments);
-    if (unknowns.list.empty())
-      throw EntryError("Task",
-                       "a calibration needs unknowns: write "
-                       "<<START in LOWER..UPPER>> in the place of numbers that "
-                       "are to be found",
-                       "calibrate",
-                       name);
     // reads all that is to be read, and refuses, before anything is written
     set_number_of_threads(1); // a search for each thread
     Search        search(unknowns, experiments.size(), name, n_threads);
@@ -591,8 +590,32 @@ namespace Debond
         "leave e_rel = " +
         to_text(100. * result.statistics->e_rel, 3) +
         " %, more than Calibration / Largest misfit, " +
-        to_text(100. * scene.calibration.largest_misfit, 3) + " %");
+        to_text(100. * scene.calibration.largest_misfit, 3) + " %" +
+        (misfit.measured.dot(result.optima.front().values) < 0. ?
+           "; the measured values have the opposite sign: turn the load or the "
+           "values round" :
+           ""));
   }
+
+
+
+  namespace
+  {
+    std::string
+    ranges_of(const Experiment &experiment)
+    {
+      std::string text;
+      for (std::size_t c = 0; c < experiment.columns.size(); ++c)
+        {
+          const CurveColumn &column = experiment.columns[c];
+          const auto         values = experiment.measured.values.col(c);
+          text += column.name + " from " + to_text(values.minCoeff(), 6) +
+                  " to " + to_text(values.maxCoeff(), 6) + " " + column.unit() +
+                  "; ";
+        }
+      return text;
+    }
+  } // namespace
 
 
 
@@ -619,7 +642,7 @@ namespace Debond
               << experiment->over.name << " from "
               << to_text(measured.over.minCoeff(), 6) << " to "
               << to_text(measured.over.maxCoeff(), 6) << ' '
-              << experiment->over.unit() << "; "
+              << experiment->over.unit() << "; " << ranges_of(*experiment)
               << (experiment->why_no_closed_form.empty() ?
                     "searched with the closed form first" :
                     "no closed form: " + experiment->why_no_closed_form)

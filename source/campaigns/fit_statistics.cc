@@ -309,13 +309,16 @@ namespace Debond
         for (std::size_t c = 0; c < experiment->columns.size(); ++c, first += n)
           {
             const Eigen::VectorXd m          = measured.values.col(c),
-                                  difference = values.segment(first, n) - m;
+                                  difference = values.segment(first, n) - m,
+                                  by_noise   = difference.cwiseQuotient(
+                                    measured.sd.col(c));
             CurveMisfit curve{
               experiment->columns[c].name + which, 0., 0., 0., 0.};
             const double largest = measured.scale[c];
             unsigned int used    = 0;
             for (Eigen::Index i = 0; i < n; ++i)
-              if (std::abs(m[i]) > 0.01 * largest)
+              if (std::abs(m[i]) > 0.01 * largest &&
+                  measured.sd(i, c) <= largest)
                 {
                   curve.e_mp += std::abs(difference[i] / m[i]);
                   curve.e_rel += std::abs(difference[i]) / largest;
@@ -326,8 +329,8 @@ namespace Debond
             curve.rms = difference.norm() / std::sqrt(double(n)) / largest;
             if (n > 2 && curve.rms > 1e-9)
               curve.correlation =
-                difference.head(n - 1).dot(difference.tail(n - 1)) /
-                difference.squaredNorm();
+                by_noise.head(n - 1).dot(by_noise.tail(n - 1)) /
+                by_noise.squaredNorm();
             curves.push_back(curve);
             e_rel = std::max(e_rel, curve.e_rel);
             if (curve.correlation * std::sqrt(double(n)) > 4. &&

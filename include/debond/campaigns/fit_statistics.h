@@ -28,11 +28,13 @@ namespace Debond
   /** How far computed curves are from measured ones. */
   struct CurveMisfit
   {
-    std::string name;  ///< of the column
-    double      e_mp;  ///< Eq. (19), rows above a hundredth of the largest
-    double      e_rel; ///< Eq. (50), same rows
-    double      rms;   ///< over the largest measured value
-    /** Correlation of neighbouring residuals. */
+    std::string name; ///< of the column
+    /** Eq. (19), rows above a hundredth of the largest value, and with a noise
+     *  that is not above it. */
+    double e_mp;
+    double e_rel; ///< Eq. (50), same rows
+    double rms;   ///< over the largest measured value
+    /** Correlation of neighbouring residuals, over their noise. */
     double correlation;
   };
 

@@ -188,6 +188,39 @@ check_differences()
 
 
 
+/** A bond that breaks too fast for the closed form, not for the bodies. */
+void
+check_without_closed_form()
+{
+  const auto scene = [](const std::string &a_s, const std::string &more) {
+    return scene_text("  set Friction coefficient unbroken = 1\n"
+                      "  set Sliding threshold = " +
+                        a_s +
+                        "\n"
+                        "  set Transition factor = 0.3\n"
+                        "  set Penalty stiffness = 585\n"
+                        "  set Tangential penalty stiffness = 2000\n",
+                      more);
+  };
+  Simulation simulation(Scene::from_text(scene("0.0025", "")));
+  simulation.run();
+  std::ofstream("fast.csv") << torque_table(simulation.rows());
+  const auto result =
+    calibrate(scene("<<a_s: 0.0024 in 0.0023..0.0026>>",
+                    "subsection Calibration\n  set Starts = 1\nend\n"
+                    "subsection Output\n  set Directory = results/fast\n"
+                    "  set Reference curve = fast.csv\nend\n"),
+              "fast",
+              1,
+              true);
+  report("no closed form at any start: a_s",
+         std::abs(result["unknowns"]["a_s"]["value"].get<double>() / 0.0025 -
+                  1.),
+         1e-4);
+}
+
+
+
 /** Rigid bodies that are turned. */
 std::string
 turning_scene(const std::string &rotation,
@@ -353,6 +386,7 @@ main()
   check_interrupted();
   check_intervals();
   check_differences();
+  check_without_closed_form();
   check_reversal();
   check_small_turn();
   check_press();

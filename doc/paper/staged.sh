@@ -62,7 +62,7 @@ fit() {
   local unknown_depth="$push=-<<d: $guess in 0.0005..0.03 log>> * min(t, 1)"
   local unknown_mu="$interface/Friction coefficient unbroken=<<mu_ub: $mu_guess in 0.1..3>>"
   local unknown_eps="$interface/Tangential penalty stiffness=<<eps_t: 400 in 100..3000 log>>"
-  local unknown_law=("$interface/Sliding threshold=<<a_s: 0.04 in 0.002..0.2 log>>" "$interface/Transition factor=<<b_s: 0.74 in 0.05..5 log>>")
+  local unknown_law=("$interface/Sliding threshold=<<a_s: 0.1 in 0.002..0.2 log>>" "$interface/Transition factor=<<b_s: 0.74 in 0.05..5 log>>")
   local base=("Output/Reference curve=prm/paper/data/closed_form_b_data_set_$set.csv" "$interface/Penalty stiffness=$eps_n"
               "Bone/Young modulus=$young" "$interface/Friction coefficient broken=$mu" "$@")
   stage slope prm/coin_mode3_fast.prm "${base[@]}" "$push=-$guess * min(t, 1)" "$interface/Friction law=coulomb" \

@@ -478,7 +478,8 @@ namespace Debond
 
 
     /** With the closed form where there is one, and from there with the
-     *  scene's own model. */
+     *  scene's own model: with that alone where the closed form says no to
+     *  all starts. */
     void
     find_optima(Calibration &result, Search &search, std::ostream &out)
     {
@@ -487,12 +488,9 @@ namespace Debond
       const unsigned int  n_starts  = scene.calibration.starts;
       const bool          is_closed = search.why_no_closed_form().empty();
       result.by_closed_form = scene.model == ModelKind::foundation && is_closed;
-      const bool is_slow =
-        scene.model == ModelKind::finite_elements && !is_closed;
-      result.optima =
-        search.from_starts(n_starts,
-                           is_slow ? n_followed_slowly : n_followed,
-                           is_closed ? By::closed_form : By::scene);
+      if (is_closed)
+        result.optima =
+          search.from_starts(n_starts, n_followed, By::closed_form);
       if (is_closed && !result.by_closed_form && !result.optima.empty())
         {
           out << "Closed form: " << result.optima.size()
@@ -506,6 +504,13 @@ namespace Debond
               starts.push_back(optimum.unknowns);
           result.optima = search.follow(starts, By::scene);
         }
+      else if (!result.by_closed_form)
+        result.optima =
+          search.from_starts(n_starts,
+                             scene.model == ModelKind::finite_elements ?
+                               n_followed_slowly :
+                               n_followed,
+                             By::scene);
       result.failures = search.failures;
       if (result.optima.empty())
         throw RunError("nothing was found: no unknowns that were tried give a "

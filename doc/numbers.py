@@ -522,10 +522,19 @@ def calibration_fits():
     return table(['set', 'what', 'eps_n, eps_t [MPa/mm]', 'mu_ub', 'a_s [um]', 'b_s', 'e_mp [%]'], lines)
 
 
+def staged_table(*what):
+    return '\n' + subprocess.run(['doc/paper/staged.sh', *what], env={**os.environ, 'DEBOND': os.path.abspath(options.debond)},
+                                 check=True, capture_output=True, text=True).stdout
+
+
 @numbers('minutes')
 def staged():
-    return '\n' + subprocess.run(['doc/paper/staged.sh', '1', '2'], env={**os.environ, 'DEBOND': os.path.abspath(options.debond)},
-                                 check=True, capture_output=True, text=True).stdout
+    return staged_table('1', '2')
+
+
+@numbers('minutes')
+def staged_patterns():
+    return staged_table('patterns')
 
 
 LAYERS = {(2, 1.): '2 (the paper) | 1', (2, 1.5): '2 | 1.5', (4, 1.): '4 | 1', (4, 1.5): '4 | 1.5', (8, 1.): '8 | 1', (8, 1.5): '8 | 1.5'}

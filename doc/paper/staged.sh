@@ -40,6 +40,7 @@ row() {
 
 interface=Interface
 measure=e_mp
+sharpest=0.05
 push="Chuck/Translation z/Value"
 
 # fit LABEL SET MU OPTIONS...: the stages, and all at once
@@ -62,7 +63,7 @@ fit() {
   local unknown_depth="$push=-<<d: $guess in 0.0005..0.03 log>> * min(t, 1)"
   local unknown_mu="$interface/Friction coefficient unbroken=<<mu_ub: $mu_guess in 0.1..3>>"
   local unknown_eps="$interface/Tangential penalty stiffness=<<eps_t: 400 in 100..3000 log>>"
-  local unknown_law=("$interface/Sliding threshold=<<a_s: 0.1 in 0.002..0.2 log>>" "$interface/Transition factor=<<b_s: 0.74 in 0.05..5 log>>")
+  local unknown_law=("$interface/Sliding threshold=<<a_s: 0.1 in 0.002..0.2 log>>" "$interface/Transition factor=<<b_s: 0.74 in $sharpest..5 log>>")
   local base=("Output/Reference curve=prm/paper/data/closed_form_b_data_set_$set.csv" "$interface/Penalty stiffness=$eps_n"
               "Bone/Young modulus=$young" "$interface/Friction coefficient broken=$mu" "$@")
   stage slope prm/coin_mode3_fast.prm "${base[@]}" "$push=-$guess * min(t, 1)" "$interface/Friction law=coulomb" \
@@ -86,6 +87,7 @@ for what in "${@:-1}"; do
   # elements of the implant as in the paper; without a closed form the search begins at the guess
   bonding=$interface/Bonding
   measure="least squares" # of these runs of seconds the mean of Eq. (19) takes some 70
+  sharpest=0.2 # a fall that is more sudden goes in jumps, with steps without number
   mesh=("Implant/Cells=20, 2" "$interface/Quadrature points=3" "Calibration/Starts=1")
   part=("$bonding/Bonded fraction=0.55" "$bonding/Resolution=element")
   fit "1, homogeneous" 1 0.40 "${mesh[@]}"

@@ -16,10 +16,23 @@
 
 using namespace Debond;
 
-// Up to 13 nodes.
-constexpr int n_seeds = 39;
+// Up to 27 nodes.
+constexpr int n_seeds = 81;
 using First           = Sacado::Fad::SFad<double, n_seeds>;
 using Number          = Sacado::Fad::SFad<First, n_seeds>;
+
+/** The three quadratic splines M on a span between the knots @p u[2] and
+ *  @p u[3] at x, and their derivatives, by the recursion of Cox and de Boor. */
+std::array<Eigen::Vector2d, 3>
+quadratic_splines(const std::array<double, 6> &u, const double x)
+{
+  const double left = (u[3] - x) / (u[3] - u[2]), right = 1. - left;
+  const double a = (x - u[1]) / (u[3] - u[1]), b = (u[4] - x) / (u[4] - u[2]);
+  const double slope = 2. / (u[3] - u[1]), next = 2. / (u[4] - u[2]);
+  return {{{(1. - a) * left, -slope * left},
+           {a * left + b * right, slope * left - next * right},
+           {(1. - b) * right, next * right}}};
+}
 
 /** Derivatives of all shape functions of a cell with respect to its local
  *  coordinates at a point of [-1,1]^3, the interpolation of the theory. */
@@ -30,7 +43,7 @@ local_gradients(const BodyMesh        &mesh,
 {
   const double near = 0.5 * (1. - point[2]), far = 0.5 * (1. + point[2]);
   std::vector<Eigen::Vector3d> dN;
-  if (cell.enriched)
+  if (cell.enriched || mesh.has_splines())
     {
       const auto   bounds = mesh.surface().element_bounds(cell.surface_element);
       const double h_1    = 0.5 * (bounds[1][0] - bounds[0][0]);
@@ -41,6 +54,21 @@ local_gradients(const BodyMesh        &mesh,
                                           bounds[0][1] + h_2 * (1. + point[1])},
                                          basis,
                                          false);
+      if (mesh.has_splines())
+        {
+          const auto           &ends = mesh.depth().breakpoints();
+          const int             last = ends.size() - 1, layer = cell.layer;
+          std::array<double, 6> u;
+          for (int i = 0; i < 6; ++i)
+            u[i] = ends[std::clamp(layer - 2 + i, 0, last)];
+          const double h = u[3] - u[2];
+          for (const Eigen::Vector2d &M : quadratic_splines(u, u[2] + far * h))
+            for (unsigned int a = 0; a < basis.size; ++a)
+              dN.emplace_back(M[0] * basis.N_1[a] * h_1,
+                              M[0] * basis.N_2[a] * h_2,
+                              M[1] * 0.5 * h * basis.N[a]);
+          return dN;
+        }
       for (unsigned int a = 0; a < basis.size; ++a)
         dN.emplace_back(near * basis.N_1[a] * h_1,
                         near * basis.N_2[a] * h_2,
@@ -321,7 +349,13 @@ main()
   check("Block, small strains", bone, Side::bone, 1e-3);
   check("Coin, large strains", coin, Side::implant, 0.04);
   check("Coin, small strains", coin, Side::implant, 1e-3);
-  bone.contact_surface = SurfaceKind::bilinear;
+  bone.element = coin.element = ElementKind::spline;
+  bone.cells                  = {{2, 2, 3}};
+  check("Block, splines", bone, Side::bone, 0.06);
+  check("Coin, splines", coin, Side::implant, 0.04);
+  bone.element = coin.element = ElementKind::trilinear;
+  bone.cells                  = {{2, 1, 2}};
+  bone.contact_surface        = SurfaceKind::bilinear;
   check("Block, bilinear", bone, Side::bone, 0.06);
   coin.contact_surface = SurfaceKind::bilinear;
   check("Coin, bilinear", coin, Side::implant, 0.04);

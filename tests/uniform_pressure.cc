@@ -52,7 +52,8 @@ press(const std::vector<std::string> &overrides)
     }
   result.mean /= area;
   for (const auto &point : points)
-    grow(result.deviation, std::abs(point.trial.state.pressure / result.mean - 1));
+    grow(result.deviation,
+         std::abs(point.trial.state.pressure / result.mean - 1));
   return result;
 }
 
@@ -89,16 +90,17 @@ check_matching()
 {
   for (const std::string slave : {"implant", "bone"})
     for (const std::string material : {"linear", "neo-hookean"})
-      for (const std::string surface : {"nurbs", "bilinear"})
+      for (const std::string surface : {"nurbs", "bilinear", "spline"})
         {
           std::cout << "slave " << slave << ", " << material << ", " << surface
                     << std::endl;
-          const Pressure pressure =
-            press({"Interface/Slave=" + slave,
-                   "Bone/Material=" + material,
-                   "Implant/Material=" + material,
-                   "Bone/Contact surface=" + surface,
-                   "Implant/Contact surface=" + surface});
+          const std::string entry =
+            surface == "spline" ? "/Element=" : "/Contact surface=";
+          const Pressure pressure = press({"Interface/Slave=" + slave,
+                                           "Bone/Material=" + material,
+                                           "Implant/Material=" + material,
+                                           "Bone" + entry + surface,
+                                           "Implant" + entry + surface});
           report("  deviation from uniform pressure",
                  pressure.deviation,
                  1e-10);

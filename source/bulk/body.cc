@@ -87,7 +87,7 @@ namespace Debond
     is_contact   = contact;
     unknown_dofs = own_bulk->set_contact(contact);
     unknown_numbers.assign(unknown_numbers.size(), -1);
-    const unsigned int first = 3 * body_mesh.n_vertices();
+    const unsigned int first = 3 * body_mesh.n_inner_nodes();
     for (unsigned int k = 0; k < unknown_dofs.size(); ++k)
       if (unknown_dofs[k] >= first)
         unknown_numbers[unknown_dofs[k] - first] = k;
@@ -139,7 +139,7 @@ namespace Debond
   Eigen::Map<const ControlNet>
   Body::contact_displacement() const
   {
-    return Eigen::Map<const ControlNet>(&v[3 * body_mesh.n_vertices()],
+    return Eigen::Map<const ControlNet>(&v[3 * body_mesh.n_inner_nodes()],
                                         3,
                                         is_contact.size());
   }

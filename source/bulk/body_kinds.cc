@@ -37,7 +37,7 @@ namespace Debond
         Residual              result;
         result.condensed         = own_bulk->product(v_c);
         result.energy            = 0.5 * v_c.dot(result.condensed);
-        const unsigned int first = 3 * body_mesh.n_vertices();
+        const unsigned int first = 3 * body_mesh.n_inner_nodes();
         // Forces on control points that are no unknowns are left out: there is
         // no contact, as CoupledSystem extends the unknowns before.
         for (unsigned int k = 0; k < n_unknowns(); ++k)

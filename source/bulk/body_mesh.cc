@@ -20,12 +20,11 @@ namespace Debond
         NurbsSurface::cap(parameters.radius,
                           parameters.cap_radius,
                           parameters.cells[0]) :
-        NurbsSurface::rectangle(parameters.size[0],
-                                parameters.size[1],
-                                parameters.cells[0],
-                                parameters.cells[1],
-                                2,
-                                parameters.lateral_grading);
+        NurbsSurface::rectangle(
+          parameters.size[0],
+          parameters.size[1],
+          KnotVector::from_breakpoints(2, parameters.lateral_fractions(0)),
+          KnotVector::from_breakpoints(2, parameters.lateral_fractions(1)));
     return parameters.contact_surface == SurfaceKind::nurbs ?
              exact :
              exact.bilinear_interpolant();
@@ -33,10 +32,29 @@ namespace Debond
 
 
 
+  namespace
+  {
+    /** Layer k of n ends at the fraction (k/n)^g of the depth. */
+    KnotVector
+    make_layers(const BodyParameters &parameters)
+    {
+      const unsigned int  n = parameters.cells[2];
+      std::vector<double> fractions;
+      for (unsigned int k = 0; k <= n; ++k)
+        fractions.push_back(
+          std::pow(static_cast<double>(k) / n, parameters.layer_grading));
+      return KnotVector::from_breakpoints(
+        parameters.element == ElementKind::spline ? 2 : 1, fractions);
+    }
+  } // namespace
+
+
+
   BodyMesh::BodyMesh(const BodyParameters &parameters, const Side side)
     : body_parameters(parameters)
     , body_side(side)
     , contact_surface(make_contact_surface(parameters))
+    , layer_knots(make_layers(parameters))
   {
     make_grid();
     number_nodes();
@@ -89,25 +107,32 @@ namespace Debond
 
 
 
-  // Layer k of n ends at z_0 + (-+ H - z_0) (k/n)^g, z_0 = 0 on a flat face.
+  // Below a point X_0 of the contact face a node is at the fraction f of its
+  // layer or level at z_0 + (-+ H - z_0) f; z_0 = 0 on a flat face. For splines
+  // f are Greville abscissae: the map is linear in the depth, and the sides of
+  // a disk are those of a cylinder.
   void
   BodyMesh::number_nodes()
   {
-    const auto  &breaks_1 = contact_surface.knots(0).breakpoints();
-    const auto  &breaks_2 = contact_surface.knots(1).breakpoints();
-    const double end      = -outward_sign() * body_parameters.thickness();
-    for (const auto &index : lattice)
-      {
-        const double fraction =
-          std::pow(double(index[2]) / body_parameters.cells[2],
-                   body_parameters.layer_grading);
-        Eigen::Vector3d X =
-          contact_surface.point({breaks_1[index[0]], breaks_2[index[1]]});
-        X[2] += (end - X[2]) * fraction;
-        reference_positions.push_back(X);
-      }
-    for (unsigned int A = 0; A < contact_surface.n_control_points(); ++A)
-      reference_positions.push_back(contact_surface.control_points().col(A));
+    const std::vector<double> fractions = layer_knots.greville_abscissae();
+    const double end  = -outward_sign() * body_parameters.thickness();
+    const auto   push = [&](Eigen::Vector3d X, const unsigned int level) {
+      X[2] += (end - X[2]) * fractions[level];
+      reference_positions.push_back(X);
+    };
+    const ControlNet &control_points = contact_surface.control_points();
+    if (has_splines())
+      for (unsigned int level = 1; level < fractions.size(); ++level)
+        for (unsigned int A = 0; A < control_points.cols(); ++A)
+          push(control_points.col(A), level);
+    else
+      for (const auto &index : lattice)
+        push(contact_surface.point(
+               {contact_surface.knots(0).breakpoints()[index[0]],
+                contact_surface.knots(1).breakpoints()[index[1]]}),
+             index[2]);
+    for (unsigned int A = 0; A < control_points.cols(); ++A)
+      push(control_points.col(A), 0);
   }
 
 
@@ -120,22 +145,50 @@ namespace Debond
       (contact_surface.degree() + 1) * (contact_surface.degree() + 1);
     for (Cell &info : bulk_cells)
       {
-        const auto &corner = lattice[info.vertices.front()];
-        info.enriched =
-          is_tied(info.vertices.front()) || is_tied(info.vertices.back());
-        if (info.enriched)
+        const auto &first    = lattice[info.vertices.front()],
+                   &last     = lattice[info.vertices.back()];
+        info.layer           = std::min(first[2], last[2]);
+        info.enriched        = info.layer == 0;
+        info.surface_element = first[0] + body_parameters.cells[0] * first[1];
+        const auto control_points =
+          contact_surface.element_control_points(info.surface_element);
+        const auto add_level = [&](const unsigned int first_node) {
+          for (unsigned int a = 0; a < n_functions; ++a)
+            info.nodes.push_back(first_node + control_points[a]);
+        };
+        if (has_splines())
           {
-            info.surface_element =
-              corner[0] + body_parameters.cells[0] * corner[1];
-            const auto control_points =
-              contact_surface.element_control_points(info.surface_element);
-            for (unsigned int a = 0; a < n_functions; ++a)
-              info.nodes.push_back(control_point_node(control_points[a]));
+            const unsigned int level =
+              layer_knots.first_basis_function(info.layer);
+            for (unsigned int k = level; k <= level + layer_knots.degree(); ++k)
+              add_level(k == 0 ? control_point_node(0) :
+                                 (k - 1) * contact_surface.n_control_points());
+            continue;
           }
+        if (info.enriched)
+          add_level(control_point_node(0));
         for (const unsigned int vertex : info.vertices)
           if (!is_tied(vertex))
             info.nodes.push_back(vertex);
       }
+  }
+
+
+
+  BodyMesh::Place
+  BodyMesh::place_of(const unsigned int node) const
+  {
+    const auto        &n   = body_parameters.cells;
+    const unsigned int n_1 = contact_surface.knots(0).n_basis_functions(),
+                       n_2 = contact_surface.knots(1).n_basis_functions();
+    const bool is_inner    = node < n_inner_nodes();
+    if (is_inner && !has_splines())
+      return {lattice[node], n};
+    const unsigned int in_level =
+      is_inner ? node % (n_1 * n_2) : node - n_inner_nodes();
+    return {
+      {{in_level % n_1, in_level / n_1, is_inner ? 1 + node / (n_1 * n_2) : 0}},
+      {{n_1 - 1, n_2 - 1, layer_knots.n_basis_functions() - 1}}};
   }
 
 
@@ -145,17 +198,10 @@ namespace Debond
   void
   BodyMesh::make_constraints()
   {
-    const auto        &n = body_parameters.cells;
-    const unsigned int n_cp[]{contact_surface.knots(0).n_basis_functions(),
-                              contact_surface.knots(1).n_basis_functions()};
     fixed.assign(3 * n_nodes(), false);
     for (unsigned int node = 0; node < n_nodes(); ++node)
       {
-        const bool                  is_vertex = node < n_vertices();
-        const unsigned int          A         = node - n_vertices();
-        std::array<unsigned int, 3> index{{A % n_cp[0], A / n_cp[0], 0}};
-        if (is_vertex)
-          index = lattice[node];
+        const auto [index, last] = place_of(node);
         if (is_tied(node))
           {
             const Eigen::Vector2d xi(
@@ -165,12 +211,9 @@ namespace Debond
             continue;
           }
         for (unsigned int c = 0; c < 3; ++c)
-          {
-            const unsigned int last = is_vertex ? n[c] : n_cp[c % 2] - 1;
-            fixed[3 * node + c]     = (is_vertex && index[2] == n[2]) ||
-                                  (body_side == Side::bone && c < 2 &&
-                                   (index[c] == 0 || index[c] == last));
-          }
+          fixed[3 * node + c] =
+            index[2] == last[2] || (body_side == Side::bone && c < 2 &&
+                                    (index[c] == 0 || index[c] == last[c]));
       }
   }
 

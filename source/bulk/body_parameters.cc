@@ -18,6 +18,35 @@ namespace Debond
 
 
 
+  // Towards the rim, at both sides of it, as far as the middle and the sides of
+  // the block: the pressure has a kink or a singularity there.
+  std::vector<double>
+  BodyParameters::lateral_fractions(const unsigned int direction) const
+  {
+    const unsigned int  n = cells[direction], under = cells_under_implant;
+    std::vector<double> result;
+    if (under == 0)
+      return KnotVector::graded(1, n, lateral_grading).breakpoints();
+    const double       half = 0.5 * width(direction), R = rim[direction];
+    const unsigned int beside = (n - under) / 2;
+    for (unsigned int i = 0; i <= n; ++i)
+      {
+        // cells from the middle, in halves
+        const double from_middle = std::abs(i - 0.5 * n) - 0.5 * under;
+        const double x =
+          from_middle <= 0. ?
+            R * (1. - std::pow(-2. * from_middle / under, rim_grading)) :
+            R + (half - R) * std::pow(from_middle / beside, rim_grading);
+        result.push_back(2 * i < n ? 0.5 * (1. - x / half) :
+                                     0.5 * (1. + x / half));
+      }
+    result.front() = 0.;
+    result.back()  = 1.;
+    return result;
+  }
+
+
+
   BodyParameters
   BodyParameters::default_implant()
   {
@@ -69,6 +98,21 @@ namespace Debond
       "= sign(s) |s|^g L/2 with s equally spaced from -1 to 1 and L the edge "
       "length, in y alike. 1: equal cells; more than 1: smaller cells towards "
       "the centre, under the implant.");
+    table.add("Cells under implant",
+              cells_under_implant,
+              Allowed::whole_number(0, 1000000000),
+              "How many of the cells across are under the implant, within its "
+              "rim, the others as many to the left as to the right: cells "
+              "become smaller towards the rim, where the pressure changes "
+              "most. 0: cells do not heed the rim. It is for Element = spline; "
+              "trilinear cells become too stiff below the rim.");
+    table.add("Rim grading",
+              rim_grading,
+              allowed_grading,
+              "Exponent g of cells that heed the rim: their sides are at the "
+              "distances R s^g from it within, and (L/2 - R) s^g beside, with "
+              "s equally spaced from 0 to 1, R the radius of the implant and L "
+              "the edge length.");
     declare_material(table);
     table.leave_subsection();
   }
@@ -128,6 +172,14 @@ namespace Debond
   void
   BodyParameters::declare_material(EntryTable &table)
   {
+    table.add(
+      "Element",
+      element,
+      Allowed::choice("trilinear | spline"),
+      "What the cells are. `trilinear': hexahedra with eight vertices, below "
+      "the contact face with that in the place of a side, as in the paper. "
+      "`spline': quadratic splines in all three directions, with continuous "
+      "strains: about a tenth of the error for the same time.");
     table.add(
       "Layer grading",
       layer_grading,
@@ -190,6 +242,11 @@ namespace Debond
              "Cells",
              "one cell across is too few for Contact surface = nurbs: expected "
              "at least 2");
+      refuse(body.element == ElementKind::spline &&
+               body.contact_surface == SurfaceKind::bilinear,
+             "Contact surface",
+             "splines have theirs for a face: with Element = spline expected "
+             "nurbs");
 
       constexpr double  thinnest = 1e-6;
       const std::string thinner  = "thinner than a millionth of the body";
@@ -197,17 +254,28 @@ namespace Debond
              "Layer grading",
              "it makes the first of " + std::to_string(body.cells[2]) +
                " layers " + thinner);
-      for (const unsigned int n : {body.cells[0], body.cells[1]})
+      const unsigned int under = body.cells_under_implant;
+      for (const unsigned int d : {0, 1})
         {
-          // the cell in the centre, or the two beside it, and the one at the
-          // border
-          const double g = body.lateral_grading;
-          const double centre =
-            n % 2 == 1 ? std::pow(1. / n, g) : 0.5 * std::pow(2. / n, g);
-          const double border =
-            n > 2 ? 0.5 * (1. - std::pow(1. - 2. / n, g)) : 1.;
-          refuse(std::min(centre, border) < thinnest,
+          const unsigned int n = body.cells[d];
+          refuse(under > 0 && body.lateral_grading != 1.,
                  "Lateral grading",
+                 "cells heed the rim (Cells under implant) or the centre, not "
+                 "both: expected 1");
+          refuse(under > 0 && (under + 2 > n || (n - under) % 2 != 0),
+                 "Cells under implant",
+                 "of " + std::to_string(n) +
+                   " cells across as many are beside the implant to the left "
+                   "as to the right: expected " +
+                   std::to_string(n) + " less 2, 4, ...");
+          refuse(under > 0 && !(body.rim[d] < 0.499 * body.size[d]),
+                 "Cells under implant",
+                 "the implant has no rim above this bone: expected 0");
+          double     thin      = 1.;
+          const auto fractions = body.lateral_fractions(d);
+          for (unsigned int i = 0; i < n; ++i)
+            thin = std::min(thin, fractions[i + 1] - fractions[i]);
+          refuse(thin<thinnest, under> 0 ? "Rim grading" : "Lateral grading",
                  "it makes some of " + std::to_string(n) + " cells across " +
                    thinner);
         }

@@ -65,7 +65,7 @@ namespace Debond
     };
 
     const double upper = 0.5 * (1. + point[2]);
-    if (!cell.enriched)
+    if (!cell.enriched && !mesh.has_splines())
       {
         add_bilinear(1. - upper, -0.5);
         add_bilinear(upper, 0.5);
@@ -82,10 +82,24 @@ namespace Debond
                                                      point[1]),
                                        basis,
                                        false);
-    for (unsigned int a = 0; a < basis.size; ++a)
-      add({basis.N[a], basis.N_1[a] * half[0], basis.N_2[a] * half[1]},
-          near,
-          0.5 * outward);
+    const auto add_level = [&](const double share, const double slope) {
+      for (unsigned int a = 0; a < basis.size; ++a)
+        add({basis.N[a], basis.N_1[a] * half[0], basis.N_2[a] * half[1]},
+            share,
+            slope);
+    };
+    if (mesh.has_splines())
+      {
+        const auto  &ends  = mesh.depth().breakpoints();
+        const double begin = ends[cell.layer], end = ends[cell.layer + 1];
+        const auto   splines =
+          mesh.depth().evaluate(cell.layer, near * begin + (1. - near) * end);
+        for (unsigned int k = 0; k <= mesh.depth().degree(); ++k)
+          add_level(splines.B[k],
+                    -0.5 * outward * (end - begin) * splines.dB[k]);
+        return shape;
+      }
+    add_level(near, 0.5 * outward);
     add_bilinear(1. - near, -0.5 * outward);
     return shape;
   }

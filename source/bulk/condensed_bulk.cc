@@ -62,15 +62,13 @@ namespace Debond
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
           {
             std::vector<dealii::types::global_dof_index> numbers;
-            for (const int number : free_numbers(cell))
-              if (number >= 0)
-                numbers.push_back(number);
-            std::sort(numbers.begin(), numbers.end());
+            for (const auto &number : free_numbers(cell))
+              numbers.push_back(number.first);
             for (auto i = numbers.begin(); i != numbers.end(); ++i)
               pattern.add_entries(*i, i, numbers.end(), true);
           }
         // The same as Eigen's matrix, with zeros that stay in the pattern, so
-        // that coeffRef() below never has to insert.
+        // that linearise() finds all that it adds to.
         tangent.resize(free_dofs.size(), free_dofs.size());
         tangent.reserve(pattern.n_nonzero_elements());
         for (int column = 0; column < tangent.cols(); ++column)
@@ -122,14 +120,23 @@ namespace Debond
           {
             // The cell's K is full and symmetric. Rows of fixed components are
             // left out, and of each pair of equal entries the one below the
-            // diagonal of the whole matrix is taken; the order of a cell's
-            // nodes is not that of the free numbers.
+            // diagonal of the whole matrix is taken.
             const auto numbers = free_numbers(cell);
             cells.tangent(cell, v, K);
-            for (unsigned int j = 0; j < numbers.size(); ++j)
-              for (unsigned int i = 0; i < numbers.size(); ++i)
-                if (numbers[j] >= 0 && numbers[i] >= numbers[j])
-                  tangent.coeffRef(numbers[i], numbers[j]) += K(i, j);
+            for (auto column = numbers.begin(); column != numbers.end();
+                 ++column)
+              {
+                // rows of the column and of the cell ascend
+                const int *row = tangent.innerIndexPtr() +
+                                 tangent.outerIndexPtr()[column->first];
+                for (auto i = column; i != numbers.end(); ++i)
+                  {
+                    while (*row < i->first)
+                      ++row;
+                    tangent.valuePtr()[row - tangent.innerIndexPtr()] +=
+                      K(i->second, column->second);
+                  }
+              }
           }
         // The unknowns are those of the last set_contact(): condensing is where
         // their choice takes effect.
@@ -284,15 +291,20 @@ namespace Debond
       }
 
     private:
-      /** Numbers of a cell's degrees of freedom among the free ones, -1: fixed.
-       */
-      std::vector<int>
+      /** Those of a cell's degrees of freedom that are free, in ascending
+       *  order: the number among all free ones and that in the cell. */
+      std::vector<std::pair<int, int>>
       free_numbers(const unsigned int cell) const
       {
-        std::vector<int> numbers;
-        for (unsigned int a = 0; a < cells.n_nodes(cell); ++a)
-          for (unsigned int c = 0; c < 3; ++c)
-            numbers.push_back(free_number[3 * cells.nodes(cell)[a] + c]);
+        std::vector<std::pair<int, int>> numbers;
+        for (unsigned int i = 0; i < 3 * cells.n_nodes(cell); ++i)
+          {
+            const int number =
+              free_number[3 * cells.nodes(cell)[i / 3] + i % 3];
+            if (number >= 0)
+              numbers.emplace_back(number, i);
+          }
+        std::sort(numbers.begin(), numbers.end());
         return numbers;
       }
 

@@ -136,27 +136,52 @@ namespace Debond
 
 
 
+  // dP_iJ/dF_kL = G (d_ik d_JL + A_iL A_kJ) + Lambda (A_iJ A_kL - ln J A_iL
+  // A_kJ) with A = F^-T. With the gradients g_a of the functions in the
+  // reference configuration, and h_a = A g_a in the deformed one,
+  //
+  //   K_ai,bk = sum_q (G d_ik g_a . g_b + (G - Lambda ln J) h_ak h_bi
+  //                    + Lambda h_ai h_bk) JxW:
+  //
+  // three products of matrices with a row for each point.
   void
   EnrichedCells::tangent(const unsigned int     cell,
                          const Eigen::VectorXd &v,
                          Eigen::MatrixXd       &K) const
   {
+    using Gradients      = Eigen::Matrix<double, n_q, Eigen::Dynamic>;
     const unsigned int n = n_cell_nodes[cell];
-    K.setZero(3 * n, 3 * n);
-    double H[n_q][3][3];
-    displacement_gradients(cell, v, H);
-    // columns: dF_kL for a displacement of node b in direction k
-    Eigen::MatrixXd B(9, 3 * n);
-    for (unsigned int q = 0; q < n_q; ++q)
-      {
-        B.setZero();
-        for (unsigned int a = 0; a < n; ++a)
-          for (unsigned int d = 0; d < 3; ++d)
-            for (unsigned int i = 0; i < 3; ++i)
-              B(3 * i + d, 3 * a + i) = gradients(cell)[(3 * a + d) * n_q + q];
-        const auto C = bulk_material.tangent(H[q]);
-        K.noalias() += B.transpose() * (JxW[n_q * cell + q] * (C * B));
-      }
+    PointValues        H[3][3], A[3][3];
+    gradient_at_points(cell, v, H);
+    const PointValues j = NeoHookean::volume_change(H);
+    NeoHookean::inverse_transpose(H, PointValues(1. + j), A);
+    const Eigen::Map<const Gradients>   g(gradients(cell), n_q, 3 * n);
+    const Eigen::Map<const PointValues> weight(&JxW[n_q * cell]);
+    Gradients                           h(n_q, 3 * n);
+    for (unsigned int a = 0; a < n; ++a)
+      for (unsigned int i = 0; i < 3; ++i)
+        h.col(3 * a + i) = A[i][0] * g.col(3 * a).array() +
+                           A[i][1] * g.col(3 * a + 1).array() +
+                           A[i][2] * g.col(3 * a + 2).array();
+
+    const PointValues across =
+      weight * (bulk_material.G - bulk_material.Lambda * j.log1p());
+    const Eigen::MatrixXd crossed =
+      h.transpose() * (across.matrix().asDiagonal() * h);
+    K = h.transpose() *
+        ((bulk_material.Lambda * weight).matrix().asDiagonal() * h);
+    // all 24 numbers of a node in a column
+    const Eigen::Map<const Eigen::Matrix<double, 3 * n_q, Eigen::Dynamic>>
+      g_of_node(gradients(cell), 3 * n_q, n);
+    const Eigen::Array<double, 3 * n_q, 1> weights =
+      bulk_material.G * weight.replicate<3, 1>();
+    const Eigen::MatrixXd dots =
+      g_of_node.transpose() * (weights.matrix().asDiagonal() * g_of_node);
+    for (unsigned int b = 0; b < n; ++b)
+      for (unsigned int a = 0; a < n; ++a)
+        K.block<3, 3>(3 * a, 3 * b) +=
+          crossed.block<3, 3>(3 * a, 3 * b).transpose() +
+          dots(a, b) * Eigen::Matrix3d::Identity();
   }
 
 

@@ -2,23 +2,6 @@
 
 namespace Debond
 {
-  Eigen::Matrix<double, 9, 9>
-  NeoHookean::tangent(const double (&H)[3][3]) const
-  {
-    const double j = volume_change(H);
-    double       A[3][3];
-    inverse_transpose(H, 1. + j, A);
-    const double                factor = G - Lambda * std::log1p(j);
-    Eigen::Matrix<double, 9, 9> C = G * Eigen::Matrix<double, 9, 9>::Identity();
-    for (unsigned int m = 0; m < 9; ++m)
-      for (unsigned int n = 0; n < 9; ++n)
-        C(m, n) += factor * A[m / 3][n % 3] * A[n / 3][m % 3] +
-                   Lambda * A[m / 3][m % 3] * A[n / 3][n % 3];
-    return C;
-  }
-
-
-
   namespace
   {
     Eigen::Matrix3d

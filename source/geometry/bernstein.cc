@@ -103,6 +103,18 @@ namespace Debond
 
 
   KnotVector
+  KnotVector::from_breakpoints(const unsigned int         degree,
+                               const std::vector<double> &breakpoints)
+  {
+    std::vector<double> knots = breakpoints;
+    knots.insert(knots.begin(), degree, breakpoints.front());
+    knots.insert(knots.end(), degree, breakpoints.back());
+    return KnotVector(degree, knots);
+  }
+
+
+
+  KnotVector
   KnotVector::graded(const unsigned int degree,
                      const unsigned int n_spans,
                      const double       grading)
@@ -110,18 +122,33 @@ namespace Debond
     if (!(grading > 0.) || n_spans == 0)
       throw std::invalid_argument(
         "A knot vector needs a positive grading and one span at least.");
-    std::vector<double> knots(degree + 1, 0.);
+    std::vector<double> breakpoints{0.};
     for (unsigned int i = 1; i < n_spans; ++i)
       {
         const double s     = (2. * i - n_spans) / n_spans;
         const double power = 0.5 * std::pow(std::abs(s), grading);
         // equal spans without the rounding of the general formula
-        knots.push_back(grading == 1. ? double(i) / n_spans :
-                        s < 0.        ? 0.5 - power :
-                                        0.5 + power);
+        breakpoints.push_back(grading == 1. ? double(i) / n_spans :
+                              s < 0.        ? 0.5 - power :
+                                              0.5 + power);
       }
-    knots.insert(knots.end(), degree + 1, 1.);
-    return KnotVector(degree, knots);
+    breakpoints.push_back(1.);
+    return from_breakpoints(degree, breakpoints);
+  }
+
+
+
+  std::vector<double>
+  KnotVector::greville_abscissae() const
+  {
+    std::vector<double> result(n_basis_functions(), 0.);
+    for (unsigned int i = 0; i < result.size(); ++i)
+      {
+        for (unsigned int j = 1; j <= p; ++j)
+          result[i] += knot_values[i + j];
+        result[i] /= p;
+      }
+    return result;
   }
 
 

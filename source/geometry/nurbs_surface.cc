@@ -78,24 +78,6 @@ namespace Debond
 
 
 
-    /** Greville abscissae: with these as control values, weights 1, the
-     *  B-splines reproduce the parameter itself. */
-    std::vector<double>
-    greville_abscissae(const KnotVector &knots)
-    {
-      const unsigned int  p = knots.degree();
-      std::vector<double> result(knots.n_basis_functions(), 0.);
-      for (unsigned int i = 0; i < result.size(); ++i)
-        {
-          for (unsigned int j = 1; j <= p; ++j)
-            result[i] += knots.knots()[i + j];
-          result[i] /= p;
-        }
-      return result;
-    }
-
-
-
     /** The surface with weights 1 and the control points position(u_i, v_j).
      */
     template <typename Position>
@@ -349,7 +331,7 @@ namespace Debond
 
     NurbsSurface              result = disk(R, n);
     const KnotVector         &knots  = result.knot_vectors[0];
-    const std::vector<double> u      = greville_abscissae(knots);
+    const std::vector<double> u      = knots.greville_abscissae();
     const unsigned int        size   = u.size();
     Eigen::MatrixXd           B      = Eigen::MatrixXd::Zero(size, size);
     for (unsigned int i = 0; i < size; ++i)
@@ -384,22 +366,18 @@ namespace Debond
 
 
   NurbsSurface
-  NurbsSurface::rectangle(const double       lx,
-                          const double       ly,
-                          const unsigned int n1,
-                          const unsigned int n2,
-                          const unsigned int degree,
-                          const double       grading)
+  NurbsSurface::rectangle(const double      lx,
+                          const double      ly,
+                          const KnotVector &knots_1,
+                          const KnotVector &knots_2)
   {
     if (!(lx > 0. && ly > 0. && std::isfinite(lx) && std::isfinite(ly)))
       throw std::invalid_argument("A rectangle needs positive edge lengths.");
 
-    const KnotVector knots_1 = KnotVector::graded(degree, n1, grading);
-    const KnotVector knots_2 = KnotVector::graded(degree, n2, grading);
     return unweighted(knots_1,
                       knots_2,
-                      greville_abscissae(knots_1),
-                      greville_abscissae(knots_2),
+                      knots_1.greville_abscissae(),
+                      knots_2.greville_abscissae(),
                       [&](const double u, const double v) {
                         return Eigen::Vector3d((u - 0.5) * lx,
                                                (v - 0.5) * ly,
@@ -410,19 +388,33 @@ namespace Debond
 
 
   NurbsSurface
+  NurbsSurface::rectangle(const double       lx,
+                          const double       ly,
+                          const unsigned int n1,
+                          const unsigned int n2,
+                          const unsigned int degree,
+                          const double       grading)
+  {
+    return rectangle(lx,
+                     ly,
+                     KnotVector::graded(degree, n1, grading),
+                     KnotVector::graded(degree, n2, grading));
+  }
+
+
+
+  NurbsSurface
   NurbsSurface::bilinear_interpolant() const
   {
-    const auto &u    = knot_vectors[0].breakpoints(),
-               &v    = knot_vectors[1].breakpoints();
-    const auto knots = [](std::vector<double> breakpoints) {
-      breakpoints.insert(breakpoints.begin(), 0.);
-      breakpoints.push_back(1.);
-      return KnotVector(1, breakpoints);
-    };
-    return unweighted(
-      knots(u), knots(v), u, v, [&](const double u, const double v) {
-        return point(Eigen::Vector2d(u, v));
-      });
+    const auto &u = knot_vectors[0].breakpoints(),
+               &v = knot_vectors[1].breakpoints();
+    return unweighted(KnotVector::from_breakpoints(1, u),
+                      KnotVector::from_breakpoints(1, v),
+                      u,
+                      v,
+                      [&](const double u, const double v) {
+                        return point(Eigen::Vector2d(u, v));
+                      });
   }
 
 

@@ -63,9 +63,10 @@ namespace Debond
                   const BodyParameters &body,
                   double               &n_condensed)
     {
-      constexpr double per_unknown = 2500.;
-      const double     per_cell = scene.output.fields_every > 0 ? 8000. : 3000.;
-      const double     x = body.cells[0], y = body.cells[1], z = body.cells[2];
+      constexpr double per_unknown = 2500., per_spline_cell = 8000.,
+                       per_spline_unknown = 7000.;
+      const double per_cell = scene.output.fields_every > 0 ? 8000. : 3000.;
+      const double x = body.cells[0], y = body.cells[1], z = body.cells[2];
       n_condensed = 0.;
       if (body.is_rigid())
         return per_cell * x * y * z;
@@ -81,13 +82,23 @@ namespace Debond
             const double width =
               std::min(1., scene.implant.width(d) / body.size[d]);
             const double n_under =
-              n * std::pow(width, 1. / body.lateral_grading);
+              body.cells_under_implant > 0 ?
+                body.cells_under_implant :
+                n * std::pow(width, 1. / body.lateral_grading);
             return (std::min(n, n_under + 2.) + more) / (n + more);
           };
           share =
             across(0) * across(1) * (scene.implant.is_round() ? M_PI / 4. : 1.);
         }
       n_condensed = 3. * nodes_on_face * share;
+      if (body.element == ElementKind::spline)
+        return (per_cell + per_spline_cell) * x * y * z +
+               per_spline_unknown * 3. * nodes_on_face * (z + 1.) +
+               bytes_per_number *
+                 // two layers of nodes part a box
+                 2. *
+                 entries_of_factor({{x + more, y + more, z + 1.}},
+                                   {{0., 0., share}});
       const double n_unknowns =
         3. * ((x + 1.) * (y + 1.) * (z - 1.) + nodes_on_face);
       return per_cell * x * y * z + per_unknown * n_unknowns +

@@ -84,13 +84,15 @@ namespace Debond
           }
       }
 
-      /** The text of a VTU file. */
+      /** The text of a VTU file; with @p curved_cells a patch is one cell, a
+       *  Lagrange polynomial through its points. */
       std::string
-      vtu() const
+      vtu(const bool curved_cells = false) const
       {
         dealii::DataOutBase::VtkFlags flags;
-        flags.print_date_and_time = false;
-        flags.compression_level   = flags.best_speed;
+        flags.print_date_and_time      = false;
+        flags.compression_level        = flags.best_speed;
+        flags.write_higher_order_cells = curved_cells;
         std::ostringstream text;
         dealii::DataOutBase::write_vtu(patches, names, ranges, flags, text);
         return text.str();
@@ -125,7 +127,8 @@ namespace Debond
 
 
 
-  // A patch is a cell; those at the curved surface are finely subdivided.
+  // A patch is a cell; those at the curved surface are finely subdivided, or
+  // quadratic ones where a body has splines.
   std::string
   bulk_vtu(const std::array<const Body *, 2> &bodies, const Chuck &chuck)
   {
@@ -134,6 +137,8 @@ namespace Debond
                         {"stress_MPa", 9},
                         {"von_Mises_MPa", 1},
                         {"body", 1}});
+    const bool  curved_cells =
+      bodies[0]->mesh().has_splines() || bodies[1]->mesh().has_splines();
     for (const Body *const body : bodies)
       {
         const BodyMesh       &mesh       = body->mesh();
@@ -145,10 +150,12 @@ namespace Debond
           Q = chuck.rotation();
         // A surface of degree one makes its cells trilinear.
         const unsigned int n_enriched =
-          mesh.surface().degree() == 1 ? 1 : n_pieces(mesh.surface(), 24, 2, 8);
+          mesh.surface().degree() == 1 ? 1 :
+          curved_cells                 ? 2 :
+                                         n_pieces(mesh.surface(), 24, 2, 8);
         for (const BodyMesh::Cell &cell : mesh.cells())
           output.add_patch(
-            cell.enriched ? n_enriched : 1,
+            cell.enriched || mesh.has_splines() ? n_enriched : 1,
             [&](const Eigen::Vector3d &point, std::vector<double> &values) {
               const std::vector<double> N =
                 shape_functions(mesh, cell, point).N;
@@ -172,7 +179,7 @@ namespace Debond
               return X;
             });
       }
-    return output.vtu();
+    return output.vtu(curved_cells);
   }
 
 

@@ -69,6 +69,8 @@ namespace Debond
         scene.interface.friction =
           create_friction_law(scene.interface.friction_choice);
         scene.chuck.read_tables();
+        scene.bone.rim = {
+          {0.5 * scene.implant.width(0), 0.5 * scene.implant.width(1)}};
         scene.check();
       }
     catch (const InputError &error)

@@ -30,6 +30,10 @@ namespace Debond
    *
    * With the contact surface `bilinear` the surface is of degree 1, has one
    * control point at each surface vertex, and everything else stays the same.
+   *
+   * With the element `spline` all nodes are control points, of functions that
+   * are those of the contact surface times quadratic splines of the depth:
+   * level by level, that of the contact surface last. No vertex is a node.
    */
   class BodyMesh
   {
@@ -61,21 +65,36 @@ namespace Debond
       return body_side == Side::bone ? 1. : -1.;
     }
 
+    bool
+    has_splines() const
+    {
+      return body_parameters.element == ElementKind::spline;
+    }
+    /** Corners of the cells, for pictures. */
     unsigned int
     n_vertices() const
     {
       return lattice.size();
     }
+    /** Nodes before the control points of the contact surface: the vertices,
+     *  or the control points of the other levels. */
+    unsigned int
+    n_inner_nodes() const
+    {
+      return has_splines() ? contact_surface.n_control_points() *
+                               (layer_knots.n_basis_functions() - 1) :
+                             n_vertices();
+    }
     unsigned int
     n_nodes() const
     {
-      return n_vertices() + contact_surface.n_control_points();
+      return n_inner_nodes() + contact_surface.n_control_points();
     }
     /** Node number of a control point of the contact surface. */
     unsigned int
     control_point_node(unsigned int control_point) const
     {
-      return n_vertices() + control_point;
+      return n_inner_nodes() + control_point;
     }
 
     /** Degrees of freedom as the paper counts them: all vertices and, with
@@ -93,7 +112,15 @@ namespace Debond
     n_unknowns() const
     {
       const auto &n = body_parameters.cells;
-      return 3 * (n_nodes() - (n[0] + 1) * (n[1] + 1));
+      return 3 * (n_nodes() - (has_splines() ? 0 : (n[0] + 1) * (n[1] + 1)));
+    }
+
+    /** Splines of the depth, over the fraction 0 (contact face) to 1 of it:
+     *  one span for each layer of cells, of the degree of the elements. */
+    const KnotVector &
+    depth() const
+    {
+      return layer_knots;
     }
 
     /** Reference position of a node [mm] (vertices and control points). */
@@ -112,7 +139,7 @@ namespace Debond
     bool
     is_tied(unsigned int node) const
     {
-      return node < n_vertices() && lattice[node][2] == 0;
+      return !has_splines() && node < n_vertices() && lattice[node][2] == 0;
     }
     /** Fills in the tied vertices of a displacement vector (3 n_nodes). */
     void
@@ -120,11 +147,13 @@ namespace Debond
 
     /** A cell of the bulk: the eight vertices of a trilinear hexahedron in
      *  deal.II's order, or, in the contact layer, the control points of its
-     *  surface element followed by the four vertices of the opposite face. */
+     *  surface element followed by the four vertices of the opposite face. With
+     *  splines: those of its surface element, in three levels. */
     struct Cell
     {
-      bool                        enriched        = false;
-      unsigned int                surface_element = 0; ///< if enriched
+      bool         enriched = false;    ///< it is bounded by the contact face
+      unsigned int surface_element = 0; ///< above or below it
+      unsigned int layer           = 0; ///< from the contact face
       std::vector<unsigned int>   nodes;
       std::array<unsigned int, 8> vertices; ///< all vertices, deal.II's order
     };
@@ -144,9 +173,19 @@ namespace Debond
     void
     make_constraints();
 
+    /** Where a node stands among its like in each direction, the third from the
+     *  contact face inwards, and where the last one stands. */
+    struct Place
+    {
+      std::array<unsigned int, 3> index, last;
+    };
+    Place
+    place_of(unsigned int node) const;
+
     const BodyParameters body_parameters;
     const Side           body_side;
     const NurbsSurface   contact_surface;
+    const KnotVector     layer_knots;
 
     /** Lattice index (i, j, layer from the contact face) of each vertex node.
      */

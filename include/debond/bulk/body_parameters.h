@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <vector>
 
 namespace Debond
 {
@@ -20,6 +21,11 @@ namespace Debond
     rigid,
     linear,
     neo_hookean
+  };
+  enum class ElementKind
+  {
+    trilinear,
+    spline
   };
   enum class SurfaceKind
   {
@@ -39,12 +45,18 @@ namespace Debond
     /** Number of cells in x, y, z; z along the axis (`Cells = n, m` becomes
      *  n, n, m). */
     std::array<unsigned int, 3> cells{{15, 15, 2}};
-    double                      lateral_grading = 1; ///< block
-    double                      layer_grading   = 1;
-    Material                    material        = Material::neo_hookean;
-    double                      young_modulus   = 18000; ///< [MPa]
-    double                      poisson_ratio   = 0.3;
-    SurfaceKind                 contact_surface = SurfaceKind::nurbs;
+    ElementKind                 element         = ElementKind::trilinear;
+    double                      lateral_grading = 1; ///< bone
+    unsigned int cells_under_implant            = 0; ///< bone; 0: as they come
+    double       rim_grading                    = 1.5; ///< of such a bone
+    /** Half the widths of the implant [mm], which such a bone heeds; no entry.
+     */
+    std::array<double, 2> rim{{0, 0}};
+    double                layer_grading   = 1;
+    Material              material        = Material::neo_hookean;
+    double                young_modulus   = 18000; ///< [MPa]
+    double                poisson_ratio   = 0.3;
+    SurfaceKind           contact_surface = SurfaceKind::nurbs;
 
     /** Whether the body does not deform, and has no unknowns. */
     bool
@@ -93,6 +105,11 @@ namespace Debond
     {
       return 0.5 * std::min(width(0), width(1));
     }
+
+    /** Sides of the cells across a block along x (0) or y (1), as fractions of
+     *  its edge from 0 to 1. */
+    std::vector<double>
+    lateral_fractions(unsigned int direction) const;
 
     /** Refuses what makes no sense together. Throws EntryError; @p section is
      *  "Bone" or "Implant". */

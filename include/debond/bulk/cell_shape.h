@@ -71,7 +71,8 @@ namespace Debond
    *   x = (1-zeta)/2 sum_A N_A(xi,eta) x_A + (1+zeta)/2 sum_a L_a(xi,eta) x_a,
    *
    * zeta from the contact face inwards, N_A those of the NURBS by Bezier
-   * extraction (Eqs. 34, 35 of the paper), L_a bilinear.
+   * extraction (Eqs. 34, 35 of the paper), L_a bilinear; or, with splines M_k
+   * of the depth, sum_k M_k(zeta) sum_A N_A(xi,eta) x_kA in all layers.
    */
   CellShape
   shape_functions(const BodyMesh        &mesh,

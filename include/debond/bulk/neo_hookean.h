@@ -102,11 +102,6 @@ namespace Debond
              0.5 * Lambda * ln_J * ln_J;
     }
 
-    /** dP_iJ / dF_kL = G (d_ik d_JL + A_iL A_kJ) + Lambda (A_iJ A_kL - ln J
-     * A_iL A_kJ), A = F^-T; row 3 i + J, column 3 k + L. */
-    Eigen::Matrix<double, 9, 9>
-    tangent(const double (&H)[3][3]) const;
-
     /** Cauchy stress, Eq. (1) [MPa]. */
     Eigen::Matrix3d
     cauchy_stress(const double (&H)[3][3]) const;

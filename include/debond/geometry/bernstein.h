@@ -28,6 +28,10 @@ namespace Debond
     KnotVector() = default;
     /** @p knots: non-decreasing, first and last repeated degree+1 times. */
     KnotVector(unsigned int degree, const std::vector<double> &knots);
+    /** Simple inner knots: all of @p breakpoints, from 0 to 1, but the ends. */
+    static KnotVector
+    from_breakpoints(unsigned int               degree,
+                     const std::vector<double> &breakpoints);
     /** Simple inner knots (1 + sign(s) |s|^g)/2 with g = @p grading and s
      *  equally spaced in [-1,1]: g > 1 makes the spans in the middle short. */
     static KnotVector
@@ -63,6 +67,9 @@ namespace Debond
     /** Span (numbering only those of positive length) that contains u. */
     unsigned int
     span_of(double u) const;
+    /** With these as control values the B-splines reproduce the parameter. */
+    std::vector<double>
+    greville_abscissae() const;
     /** Index of the first basis function that lives on a span. */
     unsigned int
     first_basis_function(const unsigned int span) const

@@ -163,6 +163,11 @@ namespace Debond
      *  parameters to positions is affine, whatever the grading (see
      *  KnotVector::graded()). a_1 x a_2 points to +z. */
     static NurbsSurface
+    rectangle(double            lx,
+              double            ly,
+              const KnotVector &knots_1,
+              const KnotVector &knots_2);
+    static NurbsSurface
     rectangle(double       lx,
               double       ly,
               unsigned int n1,

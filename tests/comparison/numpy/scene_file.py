@@ -16,13 +16,13 @@ FREE_TEXT = object()  # entries that say nothing about the mechanics
 
 # Defaults of debond, from `debond --print-parameters`; a tuple holds all values that the solver
 # knows, the default first.
-BODY = {'Layer grading': 1., 'Material': ('neo-hookean', 'linear'), 'Poisson ratio': .3,
+BODY = {'Element': ('trilinear',), 'Layer grading': 1., 'Material': ('neo-hookean', 'linear'), 'Poisson ratio': .3,
         'Contact surface': ('nurbs',)}
 ENTRIES = {
     'Title': FREE_TEXT, 'Model': ('finite elements',), 'Task': ('simulate',),
     **{'Bone/' + name: value for name, value in BODY.items()},
     'Bone/Size': [12.5, 12.5, 5.], 'Bone/Cells': [15., 15., 2.], 'Bone/Young modulus': 18000.,
-    'Bone/Lateral grading': ('1',),
+    'Bone/Lateral grading': ('1',), 'Bone/Cells under implant': ('0',), 'Bone/Rim grading': ('1.5',),
     **{'Implant/' + name: value for name, value in BODY.items()},
     'Implant/Shape': ('coin',), 'Implant/Radius': 2.5, 'Implant/Height': 3., 'Implant/Cells': [3., 2.],
     'Implant/Young modulus': 113000.,

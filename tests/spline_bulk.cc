@@ -1,0 +1,167 @@
+// Bodies of quadratic splines: the coin is a cylinder at all depths; 2x2x2
+// Gauss points leave them no motions without energy but the six rigid ones; the
+// torque is that of an independent program.
+
+#include <debond/bulk/cell_shape.h>
+#include <debond/bulk/enriched_cells.h>
+#include <debond/models/simulation.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "checks.h"
+
+using namespace Debond;
+
+BodyParameters
+coin(const unsigned int n, const unsigned int n_layers)
+{
+  BodyParameters parameters;
+  parameters.shape   = BodyShape::coin;
+  parameters.element = ElementKind::spline;
+  parameters.cells   = {{n, n, n_layers}};
+  return parameters;
+}
+
+BodyParameters
+block(const unsigned int n, const unsigned int n_layers)
+{
+  BodyParameters parameters;
+  parameters.element = ElementKind::spline;
+  parameters.cells   = {{n, n, n_layers}};
+  return parameters;
+}
+
+
+
+/** Distance of the side of a coin from its axis. */
+void
+check_cylinder()
+{
+  BodyParameters parameters = coin(3, 3);
+  parameters.layer_grading  = 1.7;
+  const BodyMesh mesh(parameters, Side::implant);
+  double         deviation = 0., highest = 0.;
+  for (const BodyMesh::Cell &cell : mesh.cells())
+    for (const double z : {-1., 0.3, 1.})
+      for (const double s : {-1., -0.2, 0.7})
+        for (unsigned int side = 0; side < 4; ++side)
+          {
+            const bool         first = side % 2 == 0, at_end = side / 2 == 1;
+            const unsigned int place =
+              first ? cell.surface_element % 3 : cell.surface_element / 3;
+            if (place != (at_end ? 2 : 0))
+              continue;
+            const double          end = at_end ? 1. : -1.;
+            const Eigen::Vector3d point(first ? end : s, first ? s : end, z);
+            const auto            N = shape_functions(mesh, cell, point).N;
+            Eigen::Vector3d       X = Eigen::Vector3d::Zero();
+            for (unsigned int a = 0; a < N.size(); ++a)
+              X += N[a] * mesh.reference_position(cell.nodes[a]);
+            grow(deviation, std::abs(X.head<2>().norm() - parameters.radius));
+            highest = std::max(highest, X[2]);
+          }
+  report("Side of a coin, distance from the cylinder", deviation, 1e-14);
+  report("  and of its end from the height",
+         std::abs(highest - parameters.height),
+         1e-14);
+}
+
+
+
+/** Eigenvalues of the stiffness at rest, supports not heeded. */
+void
+check_modes(const std::string &name, const BodyParameters &parameters)
+{
+  const BodyMesh      mesh(parameters, Side::implant);
+  const EnrichedCells cells(mesh, NeoHookean::from_young(18000., 0.3));
+  const unsigned int  n = 3 * mesh.n_nodes();
+  Eigen::MatrixXd     K = Eigen::MatrixXd::Zero(n, n), K_cell;
+  for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
+    {
+      cells.tangent(cell, Eigen::VectorXd::Zero(n), K_cell);
+      for (unsigned int i = 0; i < K_cell.rows(); ++i)
+        for (unsigned int j = 0; j < K_cell.cols(); ++j)
+          K(3 * cells.nodes(cell)[i / 3] + i % 3,
+            3 * cells.nodes(cell)[j / 3] + j % 3) += K_cell(i, j);
+    }
+  const Eigen::VectorXd values =
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues();
+  const double largest = values[n - 1];
+  report(name + ", sixth eigenvalue over the largest",
+         std::abs(values[5]) / largest,
+         1e-13);
+  report("  sixth over seventh", std::abs(values[5] / values[6]), 1e-8);
+}
+
+
+
+/** tests/comparison/numpy has no splines. These numbers are from a program
+ *  that shares nothing with this one: numpy, B-splines by the recursion of de
+ *  Boor, the stiffness as sums of Kronecker products of one-dimensional
+ *  matrices, 2 x 2 x 2 points, 50 equal steps. */
+void
+check_torque()
+{
+  Simulation simulation(Scene::from_text(R"(
+subsection Bone
+  set Cells               = 12, 12, 3
+  set Cells under implant = 8
+  set Layer grading       = 2
+  set Material            = linear
+  set Element             = spline
+end
+subsection Implant
+  set Cells         = 4, 3
+  set Layer grading = 2
+  set Material      = linear
+  set Element       = spline
+end
+subsection Interface
+  set Slip direction = trial
+end
+subsection Chuck
+  subsection Translation z
+    set Value = -0.0049 * min(t, 1)
+  end
+  subsection Rotation z
+    set Value = 10 * max(t - 1, 0)
+  end
+end
+subsection Load steps
+  set Steps              = 1, 50
+  set Residual tolerance = 1e-11
+end
+)"));
+  simulation.run();
+  const auto &rows = simulation.rows();
+  report("Pressure",
+         std::abs(rows[1].pressure_MPa / 2.623243832746 - 1.),
+         1e-10);
+  const std::vector<std::pair<unsigned int, std::array<double, 2>>> expected{
+    {2, {{49.584834814588, 51.502707701009}}},
+    {3, {{49.957458228126, 51.500627962227}}},
+    {5, {{49.117241766903, 51.499811212546}}},
+    {6, {{46.157884927297, 51.499722993912}}},
+    {51, {{34.490657174556, 51.499483037439}}}};
+  for (const auto &[step, values] : expected)
+    {
+      const std::string at = ", " + std::to_string(step - 1) + " steps of turn";
+      report("Torque" + at,
+             std::abs(rows[step].torque_Nmm / values[0] - 1.),
+             1e-9);
+      report("Force" + at, std::abs(rows[step].force_N / values[1] - 1.), 1e-9);
+    }
+}
+
+
+
+int
+main()
+{
+  check_cylinder();
+  check_modes("Coin of 2 x 2 x 1 cells", coin(2, 1));
+  check_modes("Coin of 4 x 4 x 2 cells", coin(4, 2));
+  check_modes("Block of 2 x 2 x 1 cells", block(2, 1));
+  check_modes("Block of 4 x 4 x 2 cells", block(4, 2));
+  check_torque();
+}

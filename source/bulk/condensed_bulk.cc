@@ -1,5 +1,6 @@
 #include <debond/bulk/bulk.h>
 #include <debond/bulk/condensation.h>
+#include <debond/bulk/dof_classes.h>
 #include <debond/bulk/enriched_cells.h>
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
@@ -22,8 +23,8 @@
 // Three numberings of degrees of freedom meet here:
 //
 //   dof       3 node + component, control points after vertices;
-//   free      those that no boundary condition fixes: rows of K;
-//   unknown   those of control points that contact can reach: rows of S.
+//   number    of a motion of free ones in its block: rows of the blocks of K;
+//   unknown   those of control points that contact can reach.
 namespace Debond
 {
   namespace
@@ -42,108 +43,109 @@ namespace Debond
       // Fixed components have none either: supports are homogeneous in the
       // body's frame, and nothing has to be moved to the right-hand side as
       // AffineConstraints would.
+      //
+      // A body with small strains is its own mirror image, and K falls into
+      // blocks.
       CondensedBulk(const BodyMesh &mesh, const NeoHookean &material)
         : mesh(mesh)
         , cells(mesh, material)
-        , free_number(3 * mesh.n_nodes(), -1)
+        , is_symmetric(!mesh.parameters().has_large_strains())
       {
-        // the unknowns of K: what no boundary condition fixes
-        for (unsigned int dof = 0; dof < free_number.size(); ++dof)
-          if (!mesh.is_tied(dof / 3) && !mesh.is_fixed(dof / 3, dof % 3))
-            {
-              free_number[dof] = free_dofs.size();
-              free_dofs.push_back(dof);
-            }
-        // The pattern of K, which is made once. Cells couple all their degrees
-        // of freedom with each other; the lower triangle is stored, column by
-        // column, as CHOLMOD wants it. Rows of the pattern are columns of K:
-        // entry (j, i), i >= j, is put into row j.
-        dealii::DynamicSparsityPattern pattern(free_dofs.size());
-        for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
-          {
-            std::vector<dealii::types::global_dof_index> numbers;
-            for (const auto &number : free_numbers(cell))
-              numbers.push_back(number.first);
-            for (auto i = numbers.begin(); i != numbers.end(); ++i)
-              pattern.add_entries(*i, i, numbers.end(), true);
-          }
-        // The same as Eigen's matrix, with zeros that stay in the pattern, so
-        // that linearise() finds all that it adds to.
-        tangent.resize(free_dofs.size(), free_dofs.size());
-        tangent.reserve(pattern.n_nonzero_elements());
-        for (int column = 0; column < tangent.cols(); ++column)
-          {
-            tangent.startVec(column);
-            for (unsigned int k = 0; k < pattern.row_length(column); ++k)
-              tangent.insertBack(pattern.column_number(column, k), column) = 0.;
-          }
-        tangent.finalize();
+        if (is_symmetric)
+          for (DofClass &dofs : mirror_classes_of(mesh))
+            blocks.push_back({std::move(dofs), {}, {}, {}, {}});
+        else
+          blocks.push_back({free_dofs_of(mesh), {}, {}, {}, {}});
+        for (Block &block : blocks)
+          make_pattern(block);
       }
 
-      // c: the free components of these control points. Their order here is the
-      // order of the rows of S, and of the body's part in the vector of
-      // unknowns. Components that a support holds on the edge of the face are
-      // no unknowns.
+      // c: the free components of these control points, and of their images in
+      // the mirrors. Their order here is the order of the body's part in the
+      // vector of unknowns. Components that a support holds on the edge of the
+      // face are no unknowns.
       std::vector<unsigned int>
       set_contact(const std::vector<bool> &control_points) override
       {
-        std::vector<unsigned int> dofs;
-        contact.clear();
-        for (unsigned int A = 0; A < control_points.size(); ++A)
-          for (unsigned int c = 0; c < 3; ++c)
-            {
-              const unsigned int dof = 3 * mesh.control_point_node(A) + c;
-              if (control_points[A] && free_number[dof] >= 0)
-                {
-                  dofs.push_back(dof);
-                  contact.push_back(free_number[dof]);
-                }
-            }
-        return dofs;
+        unknowns.clear();
+        for (Block &block : blocks)
+          {
+            block.condensed.clear();
+            block.unknown_number.clear();
+            block.unknown_coefficient.clear();
+          }
+        // the number of a motion among the condensed ones of its block
+        std::vector<std::vector<int>> condensed_number;
+        const unsigned int            first = 3 * mesh.control_point_node(0);
+        for (const Block &block : blocks)
+          {
+            condensed_number.emplace_back(block.dofs.n, -1);
+            for (unsigned int i = 0; i < 3 * control_points.size(); ++i)
+              if (control_points[i / 3] && block.dofs.number[first + i] >= 0)
+                condensed_number.back()[block.dofs.number[first + i]] = 0;
+          }
+        for (unsigned int k = 0; k < blocks.size(); ++k)
+          for (unsigned int i = 0; i < condensed_number[k].size(); ++i)
+            if (condensed_number[k][i] == 0)
+              {
+                condensed_number[k][i] = blocks[k].condensed.size();
+                blocks[k].condensed.push_back(i);
+              }
+        for (unsigned int i = 0; i < 3 * control_points.size(); ++i)
+          {
+            bool is_unknown = false;
+            for (unsigned int k = 0; k < blocks.size(); ++k)
+              {
+                const int number = blocks[k].dofs.number[first + i];
+                is_unknown       = is_unknown ||
+                             (number >= 0 && condensed_number[k][number] >= 0);
+              }
+            if (!is_unknown)
+              continue;
+            unknowns.push_back(first + i);
+            for (unsigned int k = 0; k < blocks.size(); ++k)
+              {
+                const int number = blocks[k].dofs.number[first + i];
+                blocks[k].unknown_number.push_back(
+                  number >= 0 ? condensed_number[k][number] : -1);
+                blocks[k].unknown_coefficient.push_back(
+                  blocks[k].dofs.coefficient[first + i]);
+              }
+          }
+        return unknowns;
       }
 
-      // Assembles the lower triangle of K = dR/dv [N/mm] at the displacement v
-      // from the cells' tangents and condenses it. At v = 0 it is the stiffness
-      // of linear elasticity with the G and Lambda of Eq. (2).
+      // Assembles K = dR/dv [N/mm] at the displacement v, block by block, from
+      // the cells' tangents and condenses it. At v = 0 it is the stiffness of
+      // linear elasticity with the G and Lambda of Eq. (2).
       //
-      // The new factor is made in another object: a K that is not positive
+      // The new factors are made in other objects: a K that is not positive
       // definite, as that of a Neo-Hookean body may be far from equilibrium,
       // leaves the old one as it is for the next attempt at the step. For the
       // moment both take memory.
       bool
       linearise(const Eigen::VectorXd &v) override
       {
-        // The pattern stays, with the memory that it took: only values change.
-        tangent.coeffs().setZero();
+        // The patterns stay, with the memory that they took: only values
+        // change.
+        for (Block &block : blocks)
+          block.tangent.coeffs().setZero();
         Eigen::MatrixXd K;
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
-          {
-            // The cell's K is full and symmetric. Rows of fixed components are
-            // left out, and of each pair of equal entries the one below the
-            // diagonal of the whole matrix is taken.
-            const auto numbers = free_numbers(cell);
-            cells.tangent(cell, v, K);
-            for (auto column = numbers.begin(); column != numbers.end();
-                 ++column)
-              {
-                // rows of the column and of the cell ascend
-                const int *row = tangent.innerIndexPtr() +
-                                 tangent.outerIndexPtr()[column->first];
-                for (auto i = column; i != numbers.end(); ++i)
-                  {
-                    while (*row < i->first)
-                      ++row;
-                    tangent.valuePtr()[row - tangent.innerIndexPtr()] +=
-                      K(i->second, column->second);
-                  }
-              }
-          }
+          if (const unsigned int n_images = n_images_of(cell))
+            {
+              cells.tangent(cell, v, K);
+              for (Block &block : blocks)
+                add_cell(cell, n_images, K, block);
+            }
         // The unknowns are those of the last set_contact(): condensing is where
         // their choice takes effect.
-        Condensation attempt;
-        if (!attempt.factorise(tangent, contact))
-          return false;
-        condensation = std::move(attempt);
+        std::vector<Condensation> attempts(blocks.size());
+        for (unsigned int k = 0; k < blocks.size(); ++k)
+          if (!attempts[k].factorise(blocks[k].tangent, blocks[k].condensed))
+            return false;
+        for (unsigned int k = 0; k < blocks.size(); ++k)
+          blocks[k].condensation = std::move(attempts[k]);
         return true;
       }
 
@@ -153,17 +155,27 @@ namespace Debond
       Eigen::VectorXd
       product(const Eigen::VectorXd &x) const override
       {
-        return condensation.schur_product(x);
+        Eigen::MatrixXd result = Eigen::MatrixXd::Zero(x.size(), 1);
+        for (const Block &block : blocks)
+          block.unfold(block.condensation.schur_product(block.fold(x)), result);
+        return result;
       }
       Eigen::VectorXd
       solve(const Eigen::VectorXd &b) const override
       {
-        return condensation.schur_solve(b);
+        Eigen::MatrixXd result = Eigen::MatrixXd::Zero(b.size(), 1);
+        for (const Block &block : blocks)
+          block.unfold(block.condensation.schur_solve(block.fold(b)), result);
+        return result;
       }
       Eigen::MatrixXd
       solve_all(const Eigen::MatrixXd &B) const override
       {
-        return condensation.schur_solve_all(B);
+        Eigen::MatrixXd result = Eigen::MatrixXd::Zero(B.rows(), B.cols());
+        for (const Block &block : blocks)
+          block.unfold(block.condensation.schur_solve_all(block.fold(B)),
+                       result);
+        return result;
       }
       // A condensed bulk couples every unknown with every other one. It has S
       // as a matrix, if at the price of n_c^3 work.
@@ -175,7 +187,21 @@ namespace Debond
       Eigen::MatrixXd
       dense_stiffness() const override
       {
-        return condensation.schur_complement();
+        const unsigned int n = unknowns.size();
+        Eigen::MatrixXd    S = Eigen::MatrixXd::Zero(n, n);
+        for (const Block &block : blocks)
+          {
+            const Eigen::MatrixXd part = block.condensation.schur_complement();
+            for (unsigned int j = 0; j < n; ++j)
+              for (unsigned int i = 0; i < n; ++i)
+                if (block.unknown_number[i] >= 0 &&
+                    block.unknown_number[j] >= 0)
+                  S(i, j) +=
+                    block.unknown_coefficient[i] *
+                    block.unknown_coefficient[j] *
+                    part(block.unknown_number[i], block.unknown_number[j]);
+          }
+        return S;
       }
 
       // r_c - K_ci K_ii^-1 r_i, the forward half of a solve with K. r is a
@@ -188,12 +214,25 @@ namespace Debond
       {
         // Tied vertices have no entry of their own: their forces have gone to
         // the control points, as cells know no other nodes on that face.
-        const Eigen::VectorXd free  = r(free_dofs);
-        auto                  parts = condensation.forward(free);
-        return {std::move(parts.condensed),
-                std::move(parts.interior),
-                free.squaredNorm(),
-                free.squaredNorm() - free(contact).squaredNorm()};
+        Bulk::Residual  result;
+        Eigen::MatrixXd condensed = Eigen::MatrixXd::Zero(unknowns.size(), 1);
+        std::vector<double> interior;
+        for (const Block &block : blocks)
+          {
+            const Eigen::VectorXd folded = block.dofs.fold(r);
+            const auto            parts  = block.condensation.forward(folded);
+            block.unfold(parts.condensed, condensed);
+            interior.insert(interior.end(),
+                            parts.interior.begin(),
+                            parts.interior.end());
+            result.norm_squared += folded.squaredNorm();
+            result.interior_squared +=
+              folded.squaredNorm() - folded(block.condensed).squaredNorm();
+          }
+        result.condensed = condensed;
+        result.interior =
+          Eigen::Map<Eigen::VectorXd>(interior.data(), interior.size());
+        return result;
       }
 
       // The other half. backward() solves K_ii x_i = r_i - K_ic x_c; with x =
@@ -203,8 +242,20 @@ namespace Debond
       Eigen::VectorXd
       correction(const Eigen::VectorXd &dv_c, const Residual &r) const override
       {
-        Eigen::VectorXd dv = Eigen::VectorXd::Zero(free_number.size());
-        dv(free_dofs)      = -condensation.backward(-dv_c, r.interior);
+        Eigen::VectorXd dv    = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
+        unsigned int    first = 0;
+        for (const Block &block : blocks)
+          {
+            const unsigned int n = r.interior.size() == 0 ?
+                                     0 :
+                                     block.dofs.n - block.condensed.size();
+            block.dofs.unfold(
+              -block.condensation.backward(-block.fold(dv_c),
+                                           r.interior.segment(first, n)),
+              dv);
+            first += n;
+          }
+        dv(unknowns) = dv_c; // to the last bit
         return dv;
       }
 
@@ -291,16 +342,53 @@ namespace Debond
       }
 
     private:
-      /** Those of a cell's degrees of freedom that are free, in ascending
-       *  order: the number among all free ones and that in the cell. */
+      /** A part of K that is coupled with no other. */
+      struct Block
+      {
+        DofClass              dofs; ///< rows of the part
+        SymmetricSparseMatrix tangent;
+        std::vector<int>      condensed; ///< numbers of those of the unknowns
+        /** Of an unknown: the number of its motion among the condensed ones,
+         *  -1: none, and its coefficient. */
+        std::vector<int>    unknown_number;
+        std::vector<double> unknown_coefficient;
+        Condensation        condensation;
+
+        /** As DofClass, for columns over the unknowns. */
+        Eigen::MatrixXd
+        fold(const Eigen::MatrixXd &x) const
+        {
+          Eigen::MatrixXd y = Eigen::MatrixXd::Zero(condensed.size(), x.cols());
+          for (unsigned int k = 0; k < unknown_number.size(); ++k)
+            if (unknown_number[k] >= 0)
+              y.row(unknown_number[k]) += unknown_coefficient[k] * x.row(k);
+          return y;
+        }
+        void
+        unfold(const Eigen::MatrixXd &y, Eigen::MatrixXd &x) const
+        {
+          for (unsigned int k = 0; k < unknown_number.size(); ++k)
+            if (unknown_number[k] >= 0)
+              x.row(k) += unknown_coefficient[k] * y.row(unknown_number[k]);
+        }
+      };
+
+      unsigned int
+      n_images_of(const unsigned int cell) const
+      {
+        return is_symmetric ? n_mirror_images(mesh, mesh.cells()[cell]) : 1;
+      }
+
+      /** Numbers in a block, ascending, of a cell's degrees of freedom, with
+       *  the number in the cell. */
       std::vector<std::pair<int, int>>
-      free_numbers(const unsigned int cell) const
+      numbers_in(const Block &block, const unsigned int cell) const
       {
         std::vector<std::pair<int, int>> numbers;
         for (unsigned int i = 0; i < 3 * cells.n_nodes(cell); ++i)
           {
             const int number =
-              free_number[3 * cells.nodes(cell)[i / 3] + i % 3];
+              block.dofs.number[3 * cells.nodes(cell)[i / 3] + i % 3];
             if (number >= 0)
               numbers.emplace_back(number, i);
           }
@@ -308,13 +396,77 @@ namespace Debond
         return numbers;
       }
 
+      // The pattern of K, which is made once. Cells couple all their degrees of
+      // freedom with each other; the lower triangle is stored, column by
+      // column, as CHOLMOD wants it. Rows of the pattern are columns of K:
+      // entry (j, i), i >= j, is put into row j.
+      void
+      make_pattern(Block &block) const
+      {
+        dealii::DynamicSparsityPattern pattern(block.dofs.n);
+        for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
+          {
+            if (n_images_of(cell) == 0)
+              continue;
+            std::vector<dealii::types::global_dof_index> numbers;
+            for (const auto &number : numbers_in(block, cell))
+              numbers.push_back(number.first);
+            numbers.erase(std::unique(numbers.begin(), numbers.end()),
+                          numbers.end());
+            for (auto i = numbers.begin(); i != numbers.end(); ++i)
+              pattern.add_entries(*i, i, numbers.end(), true);
+          }
+        // The same as Eigen's matrix, with zeros that stay in the pattern, so
+        // that add_cell() finds all that it adds to.
+        SymmetricSparseMatrix &K = block.tangent;
+        K.resize(block.dofs.n, block.dofs.n);
+        K.reserve(pattern.n_nonzero_elements());
+        for (int column = 0; column < K.cols(); ++column)
+          {
+            K.startVec(column);
+            for (unsigned int k = 0; k < pattern.row_length(column); ++k)
+              K.insertBack(pattern.column_number(column, k), column) = 0.;
+          }
+        K.finalize();
+      }
+
+      // The cell's K is full and symmetric. Rows of fixed components are left
+      // out, and of each pair of equal entries the one below the diagonal of
+      // the block is taken. Beside a mirror two nodes of a cell may be images
+      // of each other and have one number.
+      void
+      add_cell(const unsigned int     cell,
+               const unsigned int     n_images,
+               const Eigen::MatrixXd &K,
+               Block                 &block) const
+      {
+        const auto numbers     = numbers_in(block, cell);
+        const auto coefficient = [&](const int i) {
+          return block.dofs.coefficient[3 * cells.nodes(cell)[i / 3] + i % 3];
+        };
+        const int *rows   = block.tangent.innerIndexPtr();
+        double    *values = block.tangent.valuePtr();
+        for (auto j = numbers.begin(); j != numbers.end(); ++j)
+          {
+            // rows of the column and of the cell ascend
+            const double weight = n_images * coefficient(j->second);
+            int          at     = block.tangent.outerIndexPtr()[j->first];
+            for (auto i = j; i != numbers.end(); ++i)
+              {
+                while (rows[at] < i->first)
+                  ++at;
+                const bool twice = i != j && i->first == j->first;
+                values[at] += (twice ? 2. : 1.) * weight *
+                              coefficient(i->second) * K(i->second, j->second);
+              }
+          }
+      }
+
       const BodyMesh           &mesh;
       const EnrichedCells       cells;
-      std::vector<unsigned int> free_dofs;
-      std::vector<int>          free_number; ///< -1: fixed, or follows others
-      std::vector<int>          contact;     ///< free numbers of the unknowns
-      SymmetricSparseMatrix     tangent;
-      Condensation              condensation;
+      const bool                is_symmetric; ///< to both mirrors
+      std::vector<Block>        blocks;
+      std::vector<unsigned int> unknowns; ///< degrees of freedom
     };
   } // namespace
 

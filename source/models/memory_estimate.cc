@@ -91,19 +91,22 @@ namespace Debond
             across(0) * across(1) * (scene.implant.is_round() ? M_PI / 4. : 1.);
         }
       n_condensed = 3. * nodes_on_face * share;
-      if (body.element == ElementKind::spline)
+      // small strains: four blocks, each of a quarter of the body
+      const double parts = body.has_large_strains() ? 1. : 2.;
+      const auto   factor =
+        [&](const double n_x, const double n_y, const double n_z) {
+          return bytes_per_number * parts * parts *
+                 entries_of_factor({{n_x / parts, n_y / parts, n_z}},
+                                   {{0., 0., share}});
+        };
+      if (body.element == ElementKind::spline) // two layers of nodes part a box
         return (per_cell + per_spline_cell) * x * y * z +
                per_spline_unknown * 3. * nodes_on_face * (z + 1.) +
-               bytes_per_number *
-                 // two layers of nodes part a box
-                 2. *
-                 entries_of_factor({{x + more, y + more, z + 1.}},
-                                   {{0., 0., share}});
+               2. * factor(x + more, y + more, z + 1.);
       const double n_unknowns =
         3. * ((x + 1.) * (y + 1.) * (z - 1.) + nodes_on_face);
       return per_cell * x * y * z + per_unknown * n_unknowns +
-             bytes_per_number *
-               entries_of_factor({{x + 1., y + 1., z}}, {{0., 0., share}});
+             factor(x + 1., y + 1., z);
     }
 
 
@@ -119,7 +122,8 @@ namespace Debond
         bone    = bytes_of_body(scene, scene.bone, n_bone);
         implant = bytes_of_body(scene, scene.implant, n_implant);
 
-        // The trailing block of each body's factor and its copy; where a chuck
+        // The trailing block of each body's factor and its copy, of a quarter
+        // of the size where the body is its mirror image; where a chuck
         // component is an unknown too, also the matrix of the coupled system
         // and its factors.
         const bool is_assembled =
@@ -130,12 +134,17 @@ namespace Debond
                         return component.loaded || component.stiffness != 0.;
                       });
         const double squares = n_bone * n_bone + n_implant * n_implant;
-        const double matrices =
+        const double assembled =
           is_assembled ?
-            3. + 2. * std::pow(n_bone + n_implant, 2) / std::max(1., squares) :
-            2.;
-        bone += bytes_per_number * matrices * n_bone * n_bone;
-        implant += bytes_per_number * matrices * n_implant * n_implant;
+            1. + 2. * std::pow(n_bone + n_implant, 2) / std::max(1., squares) :
+            0.;
+        const auto bytes_of_matrices = [&](const BodyParameters &body,
+                                           const double          n) {
+          const double factors = body.has_large_strains() ? 2. : 0.5;
+          return bytes_per_number * (factors + assembled) * n * n;
+        };
+        bone += bytes_of_matrices(scene.bone, n_bone);
+        implant += bytes_of_matrices(scene.implant, n_implant);
 
         // those of the bonding pattern are similar, and smaller
         const bool  on_implant = scene.interface.slave == Side::implant;

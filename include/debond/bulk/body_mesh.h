@@ -141,6 +141,14 @@ namespace Debond
     {
       return !has_splines() && node < n_vertices() && lattice[node][2] == 0;
     }
+    /** Where a node stands among its like in each direction, the third from the
+     *  contact face inwards, and where the last one stands. */
+    struct Place
+    {
+      std::array<unsigned int, 3> index, last;
+    };
+    Place
+    place_of(unsigned int node) const;
     /** Fills in the tied vertices of a displacement vector (3 n_nodes). */
     void
     distribute(Eigen::VectorXd &v) const;
@@ -173,14 +181,6 @@ namespace Debond
     void
     make_constraints();
 
-    /** Where a node stands among its like in each direction, the third from the
-     *  contact face inwards, and where the last one stands. */
-    struct Place
-    {
-      std::array<unsigned int, 3> index, last;
-    };
-    Place
-    place_of(unsigned int node) const;
 
     const BodyParameters body_parameters;
     const Side           body_side;

@@ -1,0 +1,152 @@
+// A linear body is condensed in four classes of motions, by what two mirrors
+// make of them. What comes of it is that of the whole stiffness, condensed
+// here as a dense matrix: even and odd numbers of cells, trilinear and spline,
+// and contact on a part of the face that is not symmetric itself.
+
+#include <debond/bulk/bulk.h>
+#include <debond/bulk/enriched_cells.h>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "checks.h"
+
+using namespace Debond;
+
+/** K at rest over all degrees of freedom. */
+Eigen::MatrixXd
+stiffness(const BodyMesh &mesh)
+{
+  const EnrichedCells cells(
+    mesh,
+    NeoHookean::from_young(mesh.parameters().young_modulus,
+                           mesh.parameters().poisson_ratio));
+  const unsigned int n = 3 * mesh.n_nodes();
+  Eigen::MatrixXd    K = Eigen::MatrixXd::Zero(n, n), K_cell;
+  for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
+    {
+      cells.tangent(cell, Eigen::VectorXd::Zero(n), K_cell);
+      for (unsigned int i = 0; i < K_cell.rows(); ++i)
+        for (unsigned int j = 0; j < K_cell.cols(); ++j)
+          K(3 * cells.nodes(cell)[i / 3] + i % 3,
+            3 * cells.nodes(cell)[j / 3] + j % 3) += K_cell(i, j);
+    }
+  return K;
+}
+
+
+
+Eigen::VectorXd
+random_vector(const unsigned int n)
+{
+  Eigen::VectorXd result(n);
+  for (double &value : result)
+    value = random_number(-1., 1.);
+  return result;
+}
+
+
+
+double
+deviation(const Eigen::MatrixXd &ours, const Eigen::MatrixXd &reference)
+{
+  return (ours - reference).norm() / reference.norm();
+}
+
+
+
+void
+check(const std::string &name, BodyParameters parameters, const Side side)
+{
+  parameters.material = Material::linear;
+  const BodyMesh     mesh(parameters, side);
+  const auto         bulk = make_bulk(mesh);
+  const unsigned int n_cp = mesh.surface().n_control_points();
+  std::vector<bool>  contact(n_cp, false);
+  for (unsigned int A = 0; A < n_cp; ++A)
+    contact[A] = A % 3 == 0 || A < n_cp / 2;
+  const std::vector<unsigned int> c = bulk->set_contact(contact);
+  std::cout << name << std::endl;
+  report("  linearised",
+         bulk->linearise(Eigen::VectorXd::Zero(3 * mesh.n_nodes())));
+
+  std::vector<unsigned int> interior;
+  bool                      all_found = true;
+  for (unsigned int dof = 0; dof < 3 * mesh.n_nodes(); ++dof)
+    if (!mesh.is_tied(dof / 3) && !mesh.is_fixed(dof / 3, dof % 3))
+      {
+        const bool is_unknown = std::find(c.begin(), c.end(), dof) != c.end();
+        if (!is_unknown)
+          interior.push_back(dof);
+        const unsigned int first = mesh.control_point_node(0);
+        all_found = all_found && (is_unknown || dof / 3 < first ||
+                                  !contact[dof / 3 - first]);
+      }
+  report("  all that is asked for is an unknown", all_found);
+  const Eigen::MatrixXd K = stiffness(mesh), K_cc = K(c, c),
+                        K_ic = K(interior, c), K_ii = K(interior, interior);
+  const Eigen::PartialPivLU<Eigen::MatrixXd> inverse(K_ii);
+  const Eigen::MatrixXd S = K_cc - K_ic.transpose() * inverse.solve(K_ic);
+
+  const Eigen::VectorXd x = random_vector(c.size());
+  report("  S", deviation(bulk->dense_stiffness(), S), 1e-11);
+  report("  S x", deviation(bulk->product(x), S * x), 1e-11);
+  report("  S^-1 b", deviation(bulk->solve(S * x), x), 1e-9);
+  const Eigen::MatrixXd X =
+    Eigen::MatrixXd::NullaryExpr(c.size(), 3, [](Eigen::Index, Eigen::Index) {
+      return random_number(-1., 1.);
+    });
+  report("  S^-1 B", deviation(bulk->solve_all(S * X), X), 1e-9);
+
+  const Eigen::VectorXd r   = random_vector(3 * mesh.n_nodes());
+  const Eigen::VectorXd r_i = r(interior), r_c = r(c);
+  const auto            folded = bulk->condense(r);
+  report("  condensed residual",
+         deviation(folded.condensed,
+                   r_c - K_ic.transpose() * inverse.solve(r_i)),
+         1e-11);
+  report("  its norm",
+         std::abs(
+           folded.norm_squared / (r_i.squaredNorm() + r_c.squaredNorm()) - 1.),
+         1e-13);
+  report("  that of the interior",
+         std::abs(folded.interior_squared / r_i.squaredNorm() - 1.),
+         1e-12);
+  const Eigen::VectorXd dv = bulk->correction(x, folded);
+  report("  correction of the interior",
+         deviation(dv(interior), -inverse.solve(r_i + K_ic * x)),
+         1e-11);
+  report("  of the unknowns", deviation(dv(c), x), 1e-14);
+}
+
+
+
+int
+main()
+{
+  for (const ElementKind element :
+       {ElementKind::trilinear, ElementKind::spline})
+    {
+      const std::string name =
+        element == ElementKind::spline ? ", splines" : ", trilinear";
+      BodyParameters block;
+      block.element       = element;
+      block.size          = {{5., 4., 2.}};
+      block.cells         = {{5, 4, 2}};
+      block.layer_grading = 1.5;
+      check("Block as bone" + name, block, Side::bone);
+      check("Block as implant" + name, block, Side::implant);
+      BodyParameters coin;
+      coin.element = element;
+      coin.shape   = BodyShape::coin;
+      coin.cells   = {{3, 3, 2}};
+      check("Coin" + name, coin, Side::implant);
+      coin.shape      = BodyShape::cap;
+      coin.cap_radius = 6.;
+      coin.cells      = {{4, 4, 2}};
+      check("Cap" + name, coin, Side::implant);
+    }
+}

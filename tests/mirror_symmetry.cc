@@ -4,7 +4,6 @@
 // and contact on a part of the face that is not symmetric itself.
 
 #include <debond/bulk/bulk.h>
-#include <debond/bulk/enriched_cells.h>
 
 #include <Eigen/LU>
 
@@ -13,31 +12,9 @@
 #include <vector>
 
 #include "checks.h"
+#include "stiffness_at_rest.h"
 
 using namespace Debond;
-
-/** K at rest over all degrees of freedom. */
-Eigen::MatrixXd
-stiffness(const BodyMesh &mesh)
-{
-  const EnrichedCells cells(
-    mesh,
-    NeoHookean::from_young(mesh.parameters().young_modulus,
-                           mesh.parameters().poisson_ratio));
-  const unsigned int n = 3 * mesh.n_nodes();
-  Eigen::MatrixXd    K = Eigen::MatrixXd::Zero(n, n), K_cell;
-  for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
-    {
-      cells.tangent(cell, Eigen::VectorXd::Zero(n), K_cell);
-      for (unsigned int i = 0; i < K_cell.rows(); ++i)
-        for (unsigned int j = 0; j < K_cell.cols(); ++j)
-          K(3 * cells.nodes(cell)[i / 3] + i % 3,
-            3 * cells.nodes(cell)[j / 3] + j % 3) += K_cell(i, j);
-    }
-  return K;
-}
-
-
 
 Eigen::VectorXd
 random_vector(const unsigned int n)
@@ -86,7 +63,7 @@ check(const std::string &name, BodyParameters parameters, const Side side)
                                   !contact[dof / 3 - first]);
       }
   report("  all that is asked for is an unknown", all_found);
-  const Eigen::MatrixXd K = stiffness(mesh), K_cc = K(c, c),
+  const Eigen::MatrixXd K = stiffness_at_rest(mesh), K_cc = K(c, c),
                         K_ic = K(interior, c), K_ii = K(interior, interior);
   const Eigen::PartialPivLU<Eigen::MatrixXd> inverse(K_ii);
   const Eigen::MatrixXd S = K_cc - K_ic.transpose() * inverse.solve(K_ic);

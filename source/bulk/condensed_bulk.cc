@@ -67,51 +67,16 @@ namespace Debond
       std::vector<unsigned int>
       set_contact(const std::vector<bool> &control_points) override
       {
+        const std::vector<bool> reached =
+          is_symmetric ? with_mirror_images(mesh, control_points) :
+                         control_points;
         unknowns.clear();
+        for (unsigned int A = 0; A < reached.size(); ++A)
+          for (unsigned int c = 0; c < 3; ++c)
+            if (reached[A] && !mesh.is_fixed(mesh.control_point_node(A), c))
+              unknowns.push_back(3 * mesh.control_point_node(A) + c);
         for (Block &block : blocks)
-          {
-            block.condensed.clear();
-            block.unknown_number.clear();
-            block.unknown_coefficient.clear();
-          }
-        // the number of a motion among the condensed ones of its block
-        std::vector<std::vector<int>> condensed_number;
-        const unsigned int            first = 3 * mesh.control_point_node(0);
-        for (const Block &block : blocks)
-          {
-            condensed_number.emplace_back(block.dofs.n, -1);
-            for (unsigned int i = 0; i < 3 * control_points.size(); ++i)
-              if (control_points[i / 3] && block.dofs.number[first + i] >= 0)
-                condensed_number.back()[block.dofs.number[first + i]] = 0;
-          }
-        for (unsigned int k = 0; k < blocks.size(); ++k)
-          for (unsigned int i = 0; i < condensed_number[k].size(); ++i)
-            if (condensed_number[k][i] == 0)
-              {
-                condensed_number[k][i] = blocks[k].condensed.size();
-                blocks[k].condensed.push_back(i);
-              }
-        for (unsigned int i = 0; i < 3 * control_points.size(); ++i)
-          {
-            bool is_unknown = false;
-            for (unsigned int k = 0; k < blocks.size(); ++k)
-              {
-                const int number = blocks[k].dofs.number[first + i];
-                is_unknown       = is_unknown ||
-                             (number >= 0 && condensed_number[k][number] >= 0);
-              }
-            if (!is_unknown)
-              continue;
-            unknowns.push_back(first + i);
-            for (unsigned int k = 0; k < blocks.size(); ++k)
-              {
-                const int number = blocks[k].dofs.number[first + i];
-                blocks[k].unknown_number.push_back(
-                  number >= 0 ? condensed_number[k][number] : -1);
-                blocks[k].unknown_coefficient.push_back(
-                  blocks[k].dofs.coefficient[first + i]);
-              }
-          }
+          block.condense_on(unknowns);
         return unknowns;
       }
 
@@ -353,6 +318,26 @@ namespace Debond
         std::vector<int>    unknown_number;
         std::vector<double> unknown_coefficient;
         Condensation        condensation;
+
+        void
+        condense_on(const std::vector<unsigned int> &unknowns)
+        {
+          condensed.clear();
+          unknown_number.clear();
+          unknown_coefficient.clear();
+          std::vector<int> place(dofs.n, -1); // among the condensed ones
+          for (const unsigned int dof : unknowns)
+            {
+              const int number = dofs.number[dof];
+              if (number >= 0 && place[number] < 0)
+                {
+                  place[number] = condensed.size();
+                  condensed.push_back(number);
+                }
+              unknown_number.push_back(number >= 0 ? place[number] : -1);
+              unknown_coefficient.push_back(dofs.coefficient[dof]);
+            }
+        }
 
         /** As DofClass, for columns over the unknowns. */
         Eigen::MatrixXd

@@ -121,6 +121,27 @@ namespace Debond
 
 
 
+  std::vector<bool>
+  with_mirror_images(const BodyMesh &mesh, std::vector<bool> control_points)
+  {
+    const unsigned int n_1 = mesh.surface().knots(0).n_basis_functions(),
+                       n_2 = mesh.surface().knots(1).n_basis_functions();
+    for (unsigned int j = 0; j < n_2; ++j)
+      for (unsigned int i = 0; i < n_1; ++i)
+        {
+          const unsigned int images[]{i + n_1 * j,
+                                      n_1 - 1 - i + n_1 * j,
+                                      i + n_1 * (n_2 - 1 - j),
+                                      n_1 - 1 - i + n_1 * (n_2 - 1 - j)};
+          for (const unsigned int image : images)
+            control_points[image] =
+              control_points[image] || control_points[images[0]];
+        }
+    return control_points;
+  }
+
+
+
   unsigned int
   n_mirror_images(const BodyMesh &mesh, const BodyMesh::Cell &cell)
   {

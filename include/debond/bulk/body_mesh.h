@@ -141,6 +141,7 @@ namespace Debond
     {
       return !has_splines() && node < n_vertices() && lattice[node][2] == 0;
     }
+
     /** Where a node stands among its like in each direction, the third from the
      *  contact face inwards, and where the last one stands. */
     struct Place
@@ -180,7 +181,6 @@ namespace Debond
     complete_cells();
     void
     make_constraints();
-
 
     const BodyParameters body_parameters;
     const Side           body_side;

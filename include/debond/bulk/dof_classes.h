@@ -41,6 +41,10 @@ namespace Debond
   std::vector<DofClass>
   mirror_classes_of(const BodyMesh &mesh);
 
+  /** These control points of the contact surface and their mirror images. */
+  std::vector<bool>
+  with_mirror_images(const BodyMesh &mesh, std::vector<bool> control_points);
+
   /** How many cells there are of a cell's kind if mirror images are one kind;
    *  0 if another of its kind stands for it. */
   unsigned int

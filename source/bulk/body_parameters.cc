@@ -113,6 +113,17 @@ namespace Debond
               "distances R s^g from it within, and (L/2 - R) s^g beside, with "
               "s equally spaced from 0 to 1, R the radius of the implant and L "
               "the edge length.");
+    table.add("Bulk solver",
+              bulk_solver,
+              Allowed::choice("auto | direct | lattice"),
+              "How the stiffness of the bone is solved. `direct': by a sparse "
+              "factorisation, condensed on the contact face. `lattice': by "
+              "sines and cosines across, exact for a linear bone of splines "
+              "with cells of equal width, at the cost of a few products of "
+              "matrices; the bone has no shear at its sides then, which is "
+              "what sides that slide come to with ever finer cells. `auto': "
+              "lattice where that is possible and the implant stays away "
+              "from the sides. The program says which, and why.");
     declare_material(table);
     table.leave_subsection();
   }

@@ -1,7 +1,7 @@
-#include <debond/bulk/bulk.h>
+#include <debond/bulk/bulk_of_cells.h>
+#include <debond/bulk/bulk_solvers.h>
 #include <debond/bulk/condensation.h>
 #include <debond/bulk/dof_classes.h>
-#include <debond/bulk/enriched_cells.h>
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
@@ -29,13 +29,7 @@ namespace Debond
 {
   namespace
   {
-    /**
-     * NURBS-enriched hexahedra whose stiffness is factorised by sparse Cholesky
-     * and condensed on the degrees of freedom that contact can reach. A linear
-     * body uses it as a spring of many degrees of freedom, a Neo-Hookean one
-     * as an approximate inverse beside its true internal forces.
-     */
-    class CondensedBulk : public Bulk
+    class CondensedBulk : public BulkOfCells
     {
     public:
       // Vertices of the contact face follow the control points, v_vertex =
@@ -47,15 +41,14 @@ namespace Debond
       // A body with small strains is its own mirror image, and K falls into
       // blocks.
       CondensedBulk(const BodyMesh &mesh, const NeoHookean &material)
-        : mesh(mesh)
-        , cells(mesh, material)
+        : BulkOfCells(mesh, material)
         , is_symmetric(!mesh.parameters().has_large_strains())
       {
         if (is_symmetric)
           for (DofClass &dofs : mirror_classes_of(mesh))
-            blocks.push_back({std::move(dofs), {}, {}, {}, {}});
+            blocks.push_back({std::move(dofs), {}, {}, {}, {}, {}});
         else
-          blocks.push_back({free_dofs_of(mesh), {}, {}, {}, {}});
+          blocks.push_back({free_dofs_of(mesh), {}, {}, {}, {}, {}});
         for (Block &block : blocks)
           make_pattern(block);
       }
@@ -224,88 +217,6 @@ namespace Debond
         return dv;
       }
 
-      // R = int P : dF/dv dV by the true Neo-Hookean law, Eq. (1), cell by cell
-      // and without K.
-      bool
-      internal_forces(const Eigen::VectorXd &v,
-                      Eigen::VectorXd       &force,
-                      double                &energy) const override
-      {
-        return cells.internal_forces(v, force, energy);
-      }
-
-      // K x cell by cell, with the rows of the supports, which the factorised K
-      // does not have: from them a linear body has the reactions of its
-      // supports. Cells that x leaves at rest, and that is most of them, are
-      // passed over: x are rigid motions of the supported nodes only. A second
-      // matrix with the rows of the supports would have to be kept for six
-      // products.
-      Eigen::MatrixXd
-      product_at_rest(const Eigen::MatrixXd &x) const override
-      {
-        const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(x.rows());
-        Eigen::MatrixXd       y = Eigen::MatrixXd::Zero(x.rows(), x.cols()), K;
-        for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
-          {
-            // Gather, multiply, scatter, as in a matrix-free operator.
-            const unsigned int n = cells.n_nodes(cell);
-            Eigen::MatrixXd    x_cell(3 * n, x.cols());
-            for (unsigned int a = 0; a < n; ++a)
-              x_cell.middleRows<3>(3 * a) =
-                x.middleRows<3>(3 * cells.nodes(cell)[a]);
-            if (x_cell.isZero(0.))
-              continue;
-            cells.tangent(cell, at_rest, K);
-            const Eigen::MatrixXd y_cell = K * x_cell;
-            for (unsigned int a = 0; a < n; ++a)
-              y.middleRows<3>(3 * cells.nodes(cell)[a]) +=
-                y_cell.middleRows<3>(3 * a);
-          }
-        return y;
-      }
-
-      // Cauchy stress [MPa] for pictures: from the Gauss points, where it is
-      // most accurate, to the corners of each cell, and there the mean over the
-      // cells. The trilinear extrapolation through the 2x2x2 points evaluates
-      // no gradient at a corner, where the disk's parametrisation is singular.
-      // It is not continuous from cell to cell; the mean hides that, so it is
-      // no measure of the error.
-      std::vector<Eigen::Matrix3d>
-      vertex_stress(const Eigen::VectorXd &v,
-                    const StressLaw        law) const override
-      {
-        std::vector<Eigen::Matrix3d> stress(mesh.n_vertices(),
-                                            Eigen::Matrix3d::Zero());
-        std::vector<unsigned int>    n_cells(mesh.n_vertices(), 0);
-        for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
-          {
-            // H = dv/dX in the body's frame, and by the material's law the
-            // stress.
-            double H[EnrichedCells::n_q][3][3];
-            cells.displacement_gradients(cell, v, H);
-            std::array<Eigen::Matrix3d, EnrichedCells::n_q> at_points;
-            for (unsigned int q = 0; q < EnrichedCells::n_q; ++q)
-              at_points[q] = (cells.material().*law)(H[q]);
-            for (unsigned int a = 0; a < n_corners; ++a)
-              {
-                // The weights are those of the trilinear polynomial through the
-                // eight points, at corner a. Vertices of the contact face are
-                // corners as any other here: pictures show the mesh, not the
-                // control points.
-                const unsigned int vertex = mesh.cells()[cell].vertices[a];
-                const auto         weight = extrapolation_weights(a);
-                for (unsigned int q = 0; q < EnrichedCells::n_q; ++q)
-                  stress[vertex] += weight[q] * at_points[q];
-                ++n_cells[vertex];
-              }
-          }
-        // Every cell counts the same, whatever its volume; each vertex has at
-        // least one.
-        for (unsigned int vertex = 0; vertex < mesh.n_vertices(); ++vertex)
-          stress[vertex] /= n_cells[vertex];
-        return stress;
-      }
-
     private:
       /** A part of K that is coupled with no other. */
       struct Block
@@ -447,8 +358,6 @@ namespace Debond
           }
       }
 
-      const BodyMesh           &mesh;
-      const EnrichedCells       cells;
       const bool                is_symmetric; ///< to both mirrors
       std::vector<Block>        blocks;
       std::vector<unsigned int> unknowns; ///< degrees of freedom
@@ -457,15 +366,9 @@ namespace Debond
 
 
 
-  // G and Lambda [MPa] from E and nu by Eq. (2). Other elements, or a solver
-  // for bodies whose S would be too large to store, get their place here;
-  // is_dense() tells the solver then that it has to do with products.
   std::unique_ptr<Bulk>
-  make_bulk(const BodyMesh &mesh)
+  make_condensed_bulk(const BodyMesh &mesh, const NeoHookean &material)
   {
-    return std::make_unique<CondensedBulk>(
-      mesh,
-      NeoHookean::from_young(mesh.parameters().young_modulus,
-                             mesh.parameters().poisson_ratio));
+    return std::make_unique<CondensedBulk>(mesh, material);
   }
 } // namespace Debond

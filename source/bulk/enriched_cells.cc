@@ -6,39 +6,63 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
+#include <map>
 
 namespace Debond
 {
+  // Where all cells across are equal, all but those beside the ends of the
+  // splines have the same functions.
+  EnrichedCells::EnrichedCells(const BodyMesh &mesh, const NeoHookean &material)
+    : mesh(mesh)
+    , bulk_material(material)
+  {
+    const BodyParameters &body = mesh.parameters();
+    std::map<std::array<unsigned int, 3>, unsigned int> kind_of_place;
+    for (unsigned int cell = 0; cell < n_cells(); ++cell)
+      {
+        const BodyMesh::Cell       &info = mesh.cells()[cell];
+        std::array<unsigned int, 3> place{{cell, 0, 0}};
+        if (body.has_equal_splines())
+          {
+            place = {{info.surface_element % body.cells[0],
+                      info.surface_element / body.cells[0],
+                      info.layer}};
+            for (const unsigned int d : {0, 1})
+              if (place[d] > 2 && place[d] + 2 < body.cells[d])
+                place[d] = 2;
+          }
+        const auto [found, is_new] =
+          kind_of_place.emplace(place, first_gradient.size());
+        if (is_new)
+          add_kind(info);
+        kinds.push_back(found->second);
+      }
+  }
+
+
+
   // Gradients with respect to the reference position X of the isoparametric
   // map X(xi) = sum_a N_a X_a: with J = dX/dxi they are J^-T dN_a/dxi, and a
   // Gauss point stands for det J of the volume.
-  EnrichedCells::EnrichedCells(const BodyMesh &mesh, const NeoHookean &material)
-    : bulk_material(material)
+  void
+  EnrichedCells::add_kind(const BodyMesh::Cell &cell)
   {
-    for (const auto &cell : mesh.cells())
+    const unsigned int n      = cell.nodes.size();
+    const std::size_t  offset = gradient_list.size();
+    first_gradient.push_back(offset);
+    gradient_list.resize(offset + 3 * n_q * n);
+    for (unsigned int q = 0; q < n_q; ++q)
       {
-        const unsigned int n = cell.nodes.size();
-        n_cell_nodes.push_back(n);
-        first_node.push_back(node_list.size());
-        node_list.insert(node_list.end(), cell.nodes.begin(), cell.nodes.end());
-
-        const std::size_t offset = gradient_list.size();
-        gradient_list.resize(offset + 3 * n_q * n);
-        for (unsigned int q = 0; q < n_q; ++q)
-          {
-            const auto dN =
-              shape_functions(mesh, cell, gauss_point(q)).derivative;
-            Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
-            for (unsigned int a = 0; a < n; ++a)
-              J += mesh.reference_position(cell.nodes[a]) * dN[a].transpose();
-            JxW.push_back(J.determinant());
-            const Eigen::Matrix3d J_inverse = J.inverse();
-            for (unsigned int a = 0; a < n; ++a)
-              for (unsigned int d = 0; d < 3; ++d)
-                gradient_list[offset + (3 * a + d) * n_q + q] =
-                  J_inverse.col(d).dot(dN[a]);
-          }
+        const auto dN = shape_functions(mesh, cell, gauss_point(q)).derivative;
+        Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
+        for (unsigned int a = 0; a < n; ++a)
+          J += mesh.reference_position(cell.nodes[a]) * dN[a].transpose();
+        JxW.push_back(J.determinant());
+        const Eigen::Matrix3d J_inverse = J.inverse();
+        for (unsigned int a = 0; a < n; ++a)
+          for (unsigned int d = 0; d < 3; ++d)
+            gradient_list[offset + (3 * a + d) * n_q + q] =
+              J_inverse.col(d).dot(dN[a]);
       }
   }
 
@@ -53,7 +77,7 @@ namespace Debond
       for (PointValues &entry : row)
         entry.setZero();
     const double *G = gradients(cell);
-    for (unsigned int a = 0; a < n_cell_nodes[cell]; ++a, G += 3 * n_q)
+    for (unsigned int a = 0; a < n_nodes(cell); ++a, G += 3 * n_q)
       {
         const double *v_a = &v[3 * nodes(cell)[a]];
         for (unsigned int d = 0; d < 3; ++d)
@@ -83,7 +107,7 @@ namespace Debond
       PointValues H[3][3], P[3][3];
       gradient_at_points(cell, v, H);
       bulk_material.stress(H, P);
-      const Eigen::Map<const PointValues> weight(&JxW[n_q * cell]);
+      const auto weight = weights(cell);
       part.energy += (bulk_material.energy(H) * weight).sum();
       part.smallest_j =
         std::min(part.smallest_j, NeoHookean::volume_change(H).minCoeff());
@@ -91,7 +115,7 @@ namespace Debond
         for (PointValues &entry : row)
           entry *= weight;
       const double *G = gradients(cell);
-      for (unsigned int a = 0; a < n_cell_nodes[cell]; ++a, G += 3 * n_q)
+      for (unsigned int a = 0; a < n_nodes(cell); ++a, G += 3 * n_q)
         {
           const Eigen::Map<const PointValues> G_0(G), G_1(G + n_q),
             G_2(G + 2 * n_q);
@@ -150,14 +174,14 @@ namespace Debond
                          Eigen::MatrixXd       &K) const
   {
     using Gradients      = Eigen::Matrix<double, n_q, Eigen::Dynamic>;
-    const unsigned int n = n_cell_nodes[cell];
+    const unsigned int n = n_nodes(cell);
     PointValues        H[3][3], A[3][3];
     gradient_at_points(cell, v, H);
     const PointValues j = NeoHookean::volume_change(H);
     NeoHookean::inverse_transpose(H, PointValues(1. + j), A);
-    const Eigen::Map<const Gradients>   g(gradients(cell), n_q, 3 * n);
-    const Eigen::Map<const PointValues> weight(&JxW[n_q * cell]);
-    Gradients                           h(n_q, 3 * n);
+    const Eigen::Map<const Gradients> g(gradients(cell), n_q, 3 * n);
+    const auto                        weight = weights(cell);
+    Gradients                         h(n_q, 3 * n);
     for (unsigned int a = 0; a < n; ++a)
       for (unsigned int i = 0; i < 3; ++i)
         h.col(3 * a + i) = A[i][0] * g.col(3 * a).array() +
@@ -189,6 +213,9 @@ namespace Debond
   double
   EnrichedCells::volume() const
   {
-    return std::accumulate(JxW.begin(), JxW.end(), 0.);
+    double result = 0.;
+    for (unsigned int cell = 0; cell < n_cells(); ++cell)
+      result += weights(cell).sum();
+    return result;
   }
 } // namespace Debond

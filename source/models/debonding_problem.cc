@@ -135,6 +135,8 @@ namespace Debond
         Console              &console = report.console;
         report.begin(simulation.rows());
         console.headline(unknowns_of(simulation.system()));
+        if (scene.bone.element == ElementKind::spline)
+          console.headline(scene.bulk_solver_in_words());
         for (const Warning &warning : simulation.warnings())
           console.warn(warning.check, warning.text);
         if (scene.interface.bonding.pattern != BondingPatternKind::homogeneous)
@@ -392,8 +394,10 @@ namespace Debond
     const CoupledSystem       &system    = simulation.system();
     const ContactInterface    &interface = system.interface;
     const std::vector<double> &times     = scene.load_steps.times;
-    out << unknowns_of(system) << '\n'
-        << interface.get_points().size() << " slave quadrature points on the "
+    out << unknowns_of(system) << '\n';
+    if (scene.bone.element == ElementKind::spline)
+      out << scene.bulk_solver_in_words() << '\n';
+    out << interface.get_points().size() << " slave quadrature points on the "
         << name_of(interface.slave_side()) << '\n'
         << "memory: some " << std::ceil(estimated_memory_MB(scene)) << " MB\n"
         << "initial bonding " << name_of(scene.interface.bonding.pattern)

@@ -99,6 +99,12 @@ namespace Debond
                  entries_of_factor({{n_x / parts, n_y / parts, n_z}},
                                    {{0., 0., share}});
         };
+      if (&body == &scene.bone &&
+          scene.is_on_lattice()) // no factors, shape functions of few cells
+        {
+          n_condensed = 0.;
+          return (scene.output.fields_every > 0 ? 12500. : 1300.) * x * y * z;
+        }
       if (body.element == ElementKind::spline) // two layers of nodes part a box
         return (per_cell + per_spline_cell) * x * y * z +
                per_spline_unknown * 3. * nodes_on_face * (z + 1.) +
@@ -126,14 +132,8 @@ namespace Debond
         // of the size where the body is its mirror image; where a chuck
         // component is an unknown too, also the matrix of the coupled system
         // and its factors.
-        const bool is_assembled =
-          scene.load_steps.follow_path ||
-          std::any_of(scene.chuck.component.begin(),
-                      scene.chuck.component.end(),
-                      [](const ChuckComponentParameters &component) {
-                        return component.loaded || component.stiffness != 0.;
-                      });
-        const double squares = n_bone * n_bone + n_implant * n_implant;
+        const bool   is_assembled = scene.needs_matrix();
+        const double squares      = n_bone * n_bone + n_implant * n_implant;
         const double assembled =
           is_assembled ?
             1. + 2. * std::pow(n_bone + n_implant, 2) / std::max(1., squares) :

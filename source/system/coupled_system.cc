@@ -25,11 +25,24 @@
 // commit() is a trial.
 namespace Debond
 {
+  namespace
+  {
+    BodyParameters
+    with_solver(const ModelParameters &parameters)
+    {
+      BodyParameters bone = parameters.bone;
+      bone.on_lattice     = parameters.is_on_lattice();
+      return bone;
+    }
+  } // namespace
+
+
+
   // Apart from the rest since variants of a study share them: meshes and
   // factors depend on the bodies alone, not on friction or loads, so that a
   // study makes them once.
   BodyPair::BodyPair(const ModelParameters &parameters)
-    : bone(make_body(parameters.bone, Side::bone))
+    : bone(make_body(with_solver(parameters), Side::bone))
     , implant(make_body(parameters.implant, Side::implant))
   {}
 

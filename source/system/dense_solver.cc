@@ -89,19 +89,21 @@ namespace Debond
       }};
     // What cannot be assembled has no other solver behind it, and may iterate
     // as long as GMRES can in exact arithmetic.
-    // Relative to |b|. No restarts: all vectors are kept, which costs little
-    // where iterations are few.
-    const unsigned int max_iterations =
+    // Relative to |b|. Restarts only then: all vectors are kept, which costs
+    // little where iterations are few.
+    constexpr unsigned int max_vectors = 200;
+    const unsigned int     max_iterations =
       !A.can_be_assembled() ? b.size() :
-      is_factorised         ? affordable_iterations(b.size()) :
-                              max_bulk_iterations;
+          is_factorised         ? affordable_iterations(b.size()) :
+                                  max_bulk_iterations;
     dealii::SolverControl           control(max_iterations,
                                   relative_tolerance * b.norm(),
                                   false,
                                   false);
     dealii::SolverGMRES<DealVector> gmres(
       control,
-      dealii::SolverGMRES<DealVector>::AdditionalData(max_iterations + 2));
+      dealii::SolverGMRES<DealVector>::AdditionalData(
+        std::min(max_iterations, max_vectors) + 2));
     DealVector       y(b.size());
     const DealVector right_hand_side(b.begin(), b.end());
     try

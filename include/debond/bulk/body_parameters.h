@@ -27,6 +27,12 @@ namespace Debond
     trilinear,
     spline
   };
+  enum class BulkSolver
+  {
+    automatic,
+    direct,
+    lattice
+  };
   enum class SurfaceKind
   {
     nurbs,
@@ -57,6 +63,9 @@ namespace Debond
     double                young_modulus   = 18000; ///< [MPa]
     double                poisson_ratio   = 0.3;
     SurfaceKind           contact_surface = SurfaceKind::nurbs;
+    /** Whether the bone is solved by waves; no entry. */
+    bool       on_lattice  = false;
+    BulkSolver bulk_solver = BulkSolver::automatic; ///< bone
 
     /** Whether the body does not deform, and has no unknowns. */
     bool
@@ -75,6 +84,13 @@ namespace Debond
     is_round() const
     {
       return shape != BodyShape::block;
+    }
+    /** Whether it is a block of splines whose cells across are equal. */
+    bool
+    has_equal_splines() const
+    {
+      return element == ElementKind::spline && shape == BodyShape::block &&
+             cells_under_implant == 0 && lateral_grading == 1.;
     }
     /** Height of the body on its axis [mm]. */
     double

@@ -12,31 +12,32 @@ namespace Debond
 {
   /**
    * The element kernel of the bulk: 2x2x2 Gauss points, reference gradients
-   * stored once, all eight points of a cell side by side so that the compiler
-   * vectorises over them.
+   * stored once for cells that are alike, all eight points of a cell side by
+   * side so that the compiler vectorises over them.
    */
   class EnrichedCells
   {
   public:
     static constexpr unsigned int n_q = n_corners;
 
+    /** @p mesh must outlive this object. */
     EnrichedCells(const BodyMesh &mesh, const NeoHookean &material);
 
     unsigned int
     n_cells() const
     {
-      return n_cell_nodes.size();
+      return mesh.cells().size();
     }
     unsigned int
     n_nodes(const unsigned int cell) const
     {
-      return n_cell_nodes[cell];
+      return mesh.cells()[cell].nodes.size();
     }
     /** Node numbers (degrees of freedom 3 node + component) of a cell. */
     const unsigned int *
     nodes(const unsigned int cell) const
     {
-      return &node_list[first_node[cell]];
+      return mesh.cells()[cell].nodes.data();
     }
 
     /** Adds the internal forces of all cells [N] to @p force (3 n_nodes of the
@@ -72,12 +73,15 @@ namespace Debond
     }
 
   private:
+    /** Shape functions of a cell and of all those that are alike. */
+    void
+    add_kind(const BodyMesh::Cell &cell);
     /** Gradient of shape function a in direction d at point q:
      *  gradients(cell)[(3 a + d) n_q + q]. */
     const double *
     gradients(const unsigned int cell) const
     {
-      return &gradient_list[3 * n_q * first_node[cell]];
+      return &gradient_list[first_gradient[kinds[cell]]];
     }
     /** One number for each Gauss point of a cell. */
     using PointValues = Eigen::Array<double, n_q, 1>;
@@ -86,10 +90,18 @@ namespace Debond
                        const Eigen::VectorXd &v,
                        PointValues (&H)[3][3]) const;
 
+    Eigen::Map<const PointValues>
+    weights(const unsigned int cell) const
+    {
+      return Eigen::Map<const PointValues>(&JxW[n_q * kinds[cell]]);
+    }
+
+    const BodyMesh           &mesh;
     const NeoHookean          bulk_material;
-    std::vector<unsigned int> n_cell_nodes, first_node, node_list;
+    std::vector<unsigned int> kinds;          ///< of each cell
+    std::vector<std::size_t>  first_gradient; ///< of each kind
     std::vector<double>       gradient_list;
-    std::vector<double>       JxW; ///< n_q per cell [mm^3]
+    std::vector<double>       JxW; ///< n_q per kind [mm^3]
   };
 } // namespace Debond
 #endif

@@ -109,6 +109,20 @@ namespace Debond
              interface.friction_starts_at -
                1e-9 * (load_steps.times.back() - load_steps.times.front());
     }
+
+    /** Whether unknown components of the chuck, or those of a path, make the
+     *  coupled system one that has to be assembled as a matrix. */
+    bool
+    needs_matrix() const;
+    /** Why the bone has to be solved directly, as the rest of a sentence;
+     *  empty: the lattice solver can. */
+    std::string
+    why_direct() const;
+    /** What `Bone / Bulk solver' comes to, and in words. */
+    bool
+    is_on_lattice() const;
+    std::string
+    bulk_solver_in_words() const;
   };
 } // namespace Debond
 #endif

@@ -1,0 +1,33 @@
+#ifndef debond_bulk_bulk_of_cells_h
+#define debond_bulk_bulk_of_cells_h
+
+#include <debond/bulk/bulk.h>
+#include <debond/bulk/enriched_cells.h>
+
+namespace Debond
+{
+  /** What the cells of a bulk say by themselves, whatever solves for their
+   *  stiffness. */
+  class BulkOfCells : public Bulk
+  {
+  public:
+    bool
+    internal_forces(const Eigen::VectorXd &v,
+                    Eigen::VectorXd       &force,
+                    double                &energy) const override;
+    Eigen::MatrixXd
+    product_at_rest(const Eigen::MatrixXd &x) const override;
+    std::vector<Eigen::Matrix3d>
+    vertex_stress(const Eigen::VectorXd &v, StressLaw law) const override;
+
+  protected:
+    BulkOfCells(const BodyMesh &mesh, const NeoHookean &material)
+      : mesh(mesh)
+      , cells(mesh, material)
+    {}
+
+    const BodyMesh     &mesh;
+    const EnrichedCells cells;
+  };
+} // namespace Debond
+#endif

@@ -1,0 +1,23 @@
+#ifndef debond_bulk_bulk_solvers_h
+#define debond_bulk_bulk_solvers_h
+
+#include <debond/bulk/bulk.h>
+
+namespace Debond
+{
+  /** NURBS-enriched hexahedra or splines whose stiffness is factorised by
+   *  sparse Cholesky and condensed on the degrees of freedom that contact can
+   *  reach. A linear body uses it as a spring of many degrees of freedom, a
+   *  Neo-Hookean one as an approximate inverse beside its true internal
+   *  forces. */
+  std::unique_ptr<Bulk>
+  make_condensed_bulk(const BodyMesh &mesh, const NeoHookean &material);
+
+  /** A bone of equal splines across (BodyParameters::has_equal_splines), which
+   *  sines and cosines make diagonal. Its unknowns are all control points of
+   *  the contact face but those at the sides, which contact must not reach:
+   *  set_contact() throws EntryError. */
+  std::unique_ptr<Bulk>
+  make_lattice_bulk(const BodyMesh &mesh, const NeoHookean &material);
+} // namespace Debond
+#endif

@@ -1,0 +1,151 @@
+// The lattice solver of a bone of equal splines is exact: it is that of the
+// whole stiffness, condensed here as a dense matrix, of motions without slope
+// at the sides.
+
+#include <debond/bulk/bulk.h>
+#include <debond/support/input_error.h>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "checks.h"
+#include "stiffness_at_rest.h"
+
+using namespace Debond;
+
+Eigen::VectorXd
+random_vector(const unsigned int n)
+{
+  Eigen::VectorXd result(n);
+  for (double &value : result)
+    value = random_number(-1., 1.);
+  return result;
+}
+
+
+
+double
+deviation(const Eigen::MatrixXd &ours, const Eigen::MatrixXd &reference)
+{
+  return (ours - reference).norm() / reference.norm();
+}
+
+
+
+/** What all degrees of freedom do as the free ones away from the sides move:
+ *  control points at a side move along it with their neighbours. @p free: the
+ *  latter. */
+Eigen::MatrixXd
+mirrored_motions(const BodyMesh &mesh, std::vector<unsigned int> &free)
+{
+  const unsigned int n   = 3 * mesh.n_nodes();
+  const auto         key = [&](const unsigned int dof) {
+    auto place = mesh.place_of(dof / 3);
+    for (const unsigned int d : {0, 1})
+      place.index[d] = std::clamp(place.index[d], 1u, place.last[d] - 1);
+    return std::array<unsigned int, 4>{
+      {place.index[0], place.index[1], place.index[2], dof % 3}};
+  };
+  std::vector<unsigned int> all;
+  for (unsigned int dof = 0; dof < n; ++dof)
+    if (!mesh.is_fixed(dof / 3, dof % 3))
+      {
+        const auto place = mesh.place_of(dof / 3);
+        all.push_back(dof);
+        if (place.index[0] % place.last[0] != 0 &&
+            place.index[1] % place.last[1] != 0)
+          free.push_back(dof);
+      }
+  Eigen::MatrixXd T = Eigen::MatrixXd::Zero(n, free.size());
+  for (unsigned int k = 0; k < free.size(); ++k)
+    for (const unsigned int dof : all)
+      if (key(dof) == key(free[k]))
+        T(dof, k) = 1.;
+  return T;
+}
+
+
+
+void
+check(const std::string &name, BodyParameters parameters)
+{
+  parameters.element    = ElementKind::spline;
+  parameters.material   = Material::linear;
+  parameters.on_lattice = true;
+  const BodyMesh    mesh(parameters, Side::bone);
+  const auto        bulk = make_bulk(mesh);
+  std::vector<bool> contact(mesh.surface().n_control_points(), false);
+  contact[parameters.cells[0] + 3]  = true; // not at a side
+  const std::vector<unsigned int> c = bulk->set_contact(contact);
+  const Eigen::VectorXd at_rest     = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
+  std::cout << name << std::endl;
+  report("  linearised", bulk->linearise(at_rest));
+
+  std::vector<unsigned int> free, face, interior; // places among the free ones
+  const Eigen::MatrixXd     T = mirrored_motions(mesh, free);
+  for (unsigned int k = 0; k < free.size(); ++k)
+    (free[k] / 3 >= mesh.n_inner_nodes() ? face : interior).push_back(k);
+  report("  unknowns are those of the face", c.size() == face.size());
+  const Eigen::MatrixXd K    = T.transpose() * stiffness_at_rest(mesh) * T,
+                        K_cc = K(face, face), K_ic = K(interior, face),
+                        K_ii = K(interior, interior);
+  const Eigen::PartialPivLU<Eigen::MatrixXd> inverse(K_ii);
+  const Eigen::MatrixXd S = K_cc - K_ic.transpose() * inverse.solve(K_ic);
+
+  const Eigen::VectorXd x = random_vector(c.size());
+  report("  S x", deviation(bulk->product(x), S * x), 1e-11);
+  report("  S^-1 b", deviation(bulk->solve(S * x), x), 1e-11);
+
+  const Eigen::VectorXd r   = random_vector(3 * mesh.n_nodes());
+  const Eigen::VectorXd r_t = T.transpose() * r, r_i = r_t(interior),
+                        r_c = r_t(face);
+  const auto folded         = bulk->condense(r);
+  report("  condensed residual",
+         deviation(folded.condensed,
+                   r_c - K_ic.transpose() * inverse.solve(r_i)),
+         1e-11);
+  report("  its norm",
+         std::abs(folded.norm_squared / r_t.squaredNorm() - 1.),
+         1e-13);
+  report("  that of the interior",
+         std::abs(folded.interior_squared / r_i.squaredNorm() - 1.),
+         1e-12);
+  const Eigen::VectorXd dv = bulk->correction(x, folded);
+  Eigen::VectorXd       expected(free.size());
+  expected(face)     = x;
+  expected(interior) = -inverse.solve(r_i + K_ic * x);
+  report("  correction, sides too", deviation(dv, T * expected), 1e-11);
+
+  contact[0] = true;
+  try
+    {
+      bulk->set_contact(contact);
+      report("  contact at a side is refused", false);
+    }
+  catch (const EntryError &error)
+    {
+      report("  contact at a side is refused",
+             error.entry == "Bone / Bulk solver");
+    }
+}
+
+
+
+int
+main()
+{
+  BodyParameters block;
+  block.size          = {{5., 4., 2.}};
+  block.cells         = {{5, 4, 3}};
+  block.layer_grading = 1.5;
+  check("Odd and even numbers of cells", block);
+  block.cells         = {{6, 3, 1}};
+  block.poisson_ratio = 0.45;
+  check("A single layer, nearly incompressible", block);
+  block.cells         = {{2, 1, 2}};
+  block.poisson_ratio = 0.;
+  check("Hardly any cells", block);
+}

@@ -226,6 +226,7 @@ namespace Debond
   void
   ContactInterface::initialise(const InterfaceConfiguration &configuration)
   {
+    tangent.clear();
     for (const Side side : both_sides)
       accepted_positions[side] = configuration.side[side].positions;
     accepted_frame  = configuration.side[Side::implant].frame;
@@ -344,6 +345,7 @@ namespace Debond
   ContactInterface::evaluate(const InterfaceConfiguration &configuration,
                              const ContactPointMode       &mode)
   {
+    tangent.clear();
     // the master where it is now, and how far things have moved at most since
     // the accepted state. The mode of this step is needed again when it is
     // judged and when it is committed.
@@ -483,6 +485,7 @@ namespace Debond
   ContactInterface::differentiate_turns(
     const InterfaceConfiguration &configuration)
   {
+    tangent.clear();
     if (law.slip_direction != SlipDirection::integrated)
       return;
     const TurnOfWay turn(accepted_frame, accepted_centre, configuration);
@@ -504,6 +507,7 @@ namespace Debond
   void
   ContactInterface::commit(const InterfaceConfiguration &configuration)
   {
+    tangent.clear();
     // how far things have moved must be known before the positions are replaced
     const Eigen::Matrix3d &Q     = configuration.side[master_side()].frame;
     const double           moved = motion(configuration);

@@ -1,5 +1,6 @@
 #include <debond/interface/contact_interface.h>
 #include <debond/interface/local_motion.h>
+#include <debond/interface/point_tangent.h>
 
 #include <algorithm>
 #include <tuple>
@@ -388,40 +389,127 @@ namespace Debond
 
 
 
+  // What a product takes of a point lies scattered among what the update has
+  // left, and a solver makes several products with one tangent: so it is
+  // gathered first.
+  PointTangent::PointTangent(const SlavePoint &point)
+    : on_slave(point.basis)
+    , on_master(point.trial.basis)
+    , on_old(point.trial.old_basis)
+    , slips(point.trial.state.status == PointStatus::slip)
+  {
+    dt_dxi_1 << point.JxW * point.trial.dt, point.trial.dxi.row(0);
+    dxi_2.setZero();
+    for (unsigned int k = 0; k < 6; ++k)
+      dxi_2.segment<3>(4 * k) =
+        point.trial.dxi.row(1).segment<3>(3 * k).transpose();
+    dxi_2_by_turn = point.trial.dxi(1, 18);
+    t << point.JxW * point.trial.traction, 0.;
+    turn_by_chuck = point.trial.turn_by_chuck;
+    for (unsigned int a = 0; a < on_slave.size; ++a)
+      on_slave.N[a] = {{point.basis.N[a], 0., 0.}};
+    for (unsigned int b = 0; b < on_master.size; ++b)
+      on_master.N[b] = {{point.trial.basis.N[b],
+                         point.trial.basis.N_1[b],
+                         point.trial.basis.N_2[b]}};
+    for (unsigned int b = 0; slips && b < on_old.size; ++b)
+      on_old.N[b] = {{point.trial.old_basis.N[b], along_old_gap(point, b), 0.}};
+  }
+
+
+
   // The same tangent without a matrix, for iterative solvers: the unknowns move
   // the control points, these move w of every point, that changes its forces,
   // which go back the other way.
   //
-  // GMRES needs no more than this product. It costs about as much as an
-  // evaluation of the forces without the update of the points, where the matrix
-  // would have to be summed first, point by point. Sums go as in evaluate():
-  // threads change no digit.
+  // GMRES needs no more than this product, where the matrix would have to be
+  // summed first, point by point. Vectors of three take the place of four, of
+  // which the processor adds and multiplies all at once. Sums go as in
+  // evaluate(): threads change no digit.
   void
   ContactInterface::apply_tangent(const InterfaceConfiguration &configuration,
                                   const Eigen::VectorXd        &direction,
                                   Eigen::VectorXd              &result) const
   {
-    const NodalSums moved  = nodal_motion(direction, configuration);
-    const auto      change = [&](const unsigned int q, NodalSums &sums) {
-      const SlavePoint &point = points[q];
-      if (point.trial.state.status == PointStatus::open)
-        return;
-      double turn = 0.;
-      for (const auto &[component, number] : configuration.chuck_unknowns)
-        turn += point.trial.turn_by_chuck[component] * direction[number];
-      const auto dw = local_motion(point, slave, moved, turn);
-      spread_change(point,
-                    slave,
-                    point.JxW * (point.trial.dt * dw),
-                    point.trial.dxi * dw,
-                    sums);
-    };
-    add_in_unknowns(sum_in_chunks(points.size(),
-                                  zero_sums(configuration),
-                                  change),
+    if (tangent.empty())
+      for (const SlavePoint &point : points)
+        if (point.trial.state.status != PointStatus::open)
+          tangent.emplace_back(point);
+    const NodalSums          motion = nodal_motion(direction, configuration);
+    std::array<PaddedNet, 2> moved, zero;
+    for (const Side side : both_sides)
+      {
+        zero[side].setZero(4, motion[side].cols());
+        moved[side]              = zero[side];
+        moved[side].topRows<3>() = motion[side];
+      }
+    Eigen::Matrix<double, 6, 1> chuck = Eigen::Matrix<double, 6, 1>::Zero();
+    for (const auto &[component, number] : configuration.chuck_unknowns)
+      chuck[component] = direction[number];
+    const auto sums =
+      sum_in_chunks(tangent.size(),
+                    zero,
+                    [&](const unsigned int        q,
+                        std::array<PaddedNet, 2> &forces) {
+                      tangent[q].add_product(moved[slave],
+                                             moved[other(slave)],
+                                             chuck,
+                                             forces[slave],
+                                             forces[other(slave)]);
+                    });
+    add_in_unknowns({{sums[0].topRows<3>(), sums[1].topRows<3>()}},
                     configuration,
                     1.,
                     result);
+  }
+
+
+
+  void
+  PointTangent::add_product(const PaddedNet                   &slave,
+                            const PaddedNet                   &master,
+                            const Eigen::Matrix<double, 6, 1> &chuck,
+                            PaddedNet                         &slave_force,
+                            PaddedNet &master_force) const
+  {
+    using Eigen::Vector4d;
+    Eigen::Matrix<double, 4, 6> w = Eigen::Matrix<double, 4, 6>::Zero();
+    for (unsigned int a = 0; a < on_slave.size; ++a)
+      w.col(0) += on_slave.N[a][0] * slave.col(on_slave.control_point[a]);
+    for (unsigned int b = 0; b < on_master.size; ++b)
+      {
+        const Vector4d p = master.col(on_master.control_point[b]);
+        for (unsigned int k = 0; k < 3; ++k)
+          w.col(1 + k) += on_master.N[b][k] * p;
+      }
+    for (unsigned int b = 0; slips && b < on_old.size; ++b)
+      {
+        const Vector4d p = master.col(on_old.control_point[b]);
+        for (unsigned int k = 0; k < 2; ++k)
+          w.col(4 + k) += on_old.N[b][k] * p;
+      }
+    const double turn   = chuck.dot(turn_by_chuck);
+    Vector4d     change = turn * dt_dxi_1.col(18); // JxW dt, dxi^1
+    for (unsigned int k = 0; k < (slips ? 6 : 4); ++k)
+      {
+        const Vector4d part = w(0, k) * dt_dxi_1.col(3 * k) +
+                              w(1, k) * dt_dxi_1.col(3 * k + 1) +
+                              w(2, k) * dt_dxi_1.col(3 * k + 2);
+        change += part;
+      }
+    const double dxi_2_now = dxi_2.dot(w.reshaped()) + turn * dxi_2_by_turn;
+
+    // as in spread_change()
+    const Vector4d by_1 = change[3] * t, by_2 = dxi_2_now * t;
+    change[3] = 0.;
+    for (unsigned int a = 0; a < on_slave.size; ++a)
+      slave_force.col(on_slave.control_point[a]) += on_slave.N[a][0] * change;
+    for (unsigned int b = 0; b < on_master.size; ++b)
+      {
+        const auto &N = on_master.N[b];
+        master_force.col(on_master.control_point[b]) -=
+          N[0] * change + N[1] * by_1 + N[2] * by_2;
+      }
   }
 
 

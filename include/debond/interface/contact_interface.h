@@ -1,6 +1,7 @@
 #ifndef debond_interface_contact_interface_h
 #define debond_interface_contact_interface_h
 
+#include <debond/interface/point_tangent.h>
 #include <debond/interface/bonding_pattern.h>
 #include <debond/interface/interface_configuration.h>
 #include <debond/interface/interface_parameters.h>
@@ -321,6 +322,8 @@ namespace Debond
     unsigned int      unprojected = 0;
     const SlavePoint *failed      = nullptr;
     ContactPointMode  mode_now; ///< of the last evaluate()
+    /** Of the closed points; empty: not gathered since points changed. */
+    mutable std::vector<PointTangent> tangent;
   };
 } // namespace Debond
 #endif

@@ -226,7 +226,7 @@ namespace Debond
   void
   ContactInterface::initialise(const InterfaceConfiguration &configuration)
   {
-    tangent.clear();
+    tangent_is_gathered = false;
     for (const Side side : both_sides)
       accepted_positions[side] = configuration.side[side].positions;
     accepted_frame  = configuration.side[Side::implant].frame;
@@ -345,7 +345,7 @@ namespace Debond
   ContactInterface::evaluate(const InterfaceConfiguration &configuration,
                              const ContactPointMode       &mode)
   {
-    tangent.clear();
+    tangent_is_gathered = false;
     // the master where it is now, and how far things have moved at most since
     // the accepted state. The mode of this step is needed again when it is
     // judged and when it is committed.
@@ -485,7 +485,7 @@ namespace Debond
   ContactInterface::differentiate_turns(
     const InterfaceConfiguration &configuration)
   {
-    tangent.clear();
+    tangent_is_gathered = false;
     if (law.slip_direction != SlipDirection::integrated)
       return;
     const TurnOfWay turn(accepted_frame, accepted_centre, configuration);
@@ -507,7 +507,7 @@ namespace Debond
   void
   ContactInterface::commit(const InterfaceConfiguration &configuration)
   {
-    tangent.clear();
+    tangent_is_gathered = false;
     // how far things have moved must be known before the positions are replaced
     const Eigen::Matrix3d &Q     = configuration.side[master_side()].frame;
     const double           moved = motion(configuration);

@@ -431,10 +431,8 @@ namespace Debond
                                   const Eigen::VectorXd        &direction,
                                   Eigen::VectorXd              &result) const
   {
-    if (tangent.empty())
-      for (const SlavePoint &point : points)
-        if (point.trial.state.status != PointStatus::open)
-          tangent.emplace_back(point);
+    if (!tangent_is_gathered)
+      gather_tangent();
     const NodalSums          motion = nodal_motion(direction, configuration);
     std::array<PaddedNet, 2> moved, zero;
     for (const Side side : both_sides)
@@ -447,20 +445,39 @@ namespace Debond
     for (const auto &[component, number] : configuration.chuck_unknowns)
       chuck[component] = direction[number];
     const auto sums =
-      sum_in_chunks(tangent.size(),
+      sum_in_chunks(n_chunks,
                     zero,
-                    [&](const unsigned int        q,
+                    [&](const unsigned int        chunk,
                         std::array<PaddedNet, 2> &forces) {
-                      tangent[q].add_product(moved[slave],
-                                             moved[other(slave)],
-                                             chuck,
-                                             forces[slave],
-                                             forces[other(slave)]);
+                      for (const PointTangent &point : tangent[chunk])
+                        point.add_product(moved[slave],
+                                          moved[other(slave)],
+                                          chuck,
+                                          forces[slave],
+                                          forces[other(slave)]);
                     });
     add_in_unknowns({{sums[0].topRows<3>(), sums[1].topRows<3>()}},
                     configuration,
                     1.,
                     result);
+  }
+
+
+
+  void
+  ContactInterface::gather_tangent() const
+  {
+    for_each_chunk(points.size(),
+                   [&](const unsigned int chunk,
+                       const unsigned int first,
+                       const unsigned int end) {
+                     tangent[chunk].clear();
+                     tangent[chunk].reserve(end - first);
+                     for (unsigned int q = first; q < end; ++q)
+                       if (points[q].trial.state.status != PointStatus::open)
+                         tangent[chunk].emplace_back(points[q]);
+                   });
+    tangent_is_gathered = true;
   }
 
 

@@ -307,6 +307,9 @@ namespace Debond
     double
     motion(const InterfaceConfiguration &configuration) const;
 
+    void
+    gather_tangent() const;
+
     const InterfaceParameters             parameters;
     const ContactPointLaw                 law;
     const Side                            slave;
@@ -322,8 +325,9 @@ namespace Debond
     unsigned int      unprojected = 0;
     const SlavePoint *failed      = nullptr;
     ContactPointMode  mode_now; ///< of the last evaluate()
-    /** Of the closed points; empty: not gathered since points changed. */
-    mutable std::vector<PointTangent> tangent;
+    /** Of the closed points, gathered for the first of several products. */
+    mutable std::array<std::vector<PointTangent>, n_chunks> tangent;
+    mutable bool tangent_is_gathered = false;
   };
 } // namespace Debond
 #endif

@@ -147,8 +147,8 @@ namespace Debond
     const InterfaceConfiguration &configuration,
     const bool                    use_guess)
   {
-    // The search starts from the last xi_hat where there is one, and over the
-    // whole master in the first state. A point beyond the edge has no partner;
+    // The search starts from the last xi_hat where there is one, and goes over
+    // the whole master else. A point beyond the edge has no partner;
     // it keeps its clearance instead, the distance [mm] that the surfaces may
     // move before it has to be asked again.
     const Projection projection =
@@ -232,8 +232,17 @@ namespace Debond
     accepted_frame  = configuration.side[Side::implant].frame;
     accepted_centre = configuration.chuck->centre();
     unprojected     = 0;
+    // From one point to the next: a search over the whole master asks all of
+    // its elements.
+    const SlavePoint *neighbour = nullptr;
     for (SlavePoint &point : points)
-      project_accepted(point, configuration, false);
+      {
+        if (neighbour != nullptr)
+          point.accepted.xi = neighbour->accepted.xi;
+        project_accepted(point, configuration, neighbour != nullptr);
+        if (point.accepted.has_partner)
+          neighbour = &point;
+      }
     assign_bonding();
   }
 

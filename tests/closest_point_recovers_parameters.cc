@@ -457,6 +457,19 @@ check_that_it_ends()
          (from_corner.xi - centre).norm(),
          1e-13);
 
+  // An element begins at 0.5; what misses it by rounding gets beyond, also
+  // where there is nothing to be gained along the side.
+  const Vector2d        by_rounding(0.5 - 3e-15, 0.3);
+  const SurfaceGeometry side =
+    geometry_at(disk, disk.control_points(), by_rounding);
+  const Vector3d across =
+    side.a1 - side.a1.dot(side.a2) / side.a2.squaredNorm() * side.a2;
+  const Vector3d beyond = side.y + 0.1 * across;
+  report(
+    "from a side but for rounding",
+    closest_point(disk, disk.control_points(), beyond, &by_rounding).distance,
+    1e-13);
+
   const ControlNet   point     = ControlNet::Zero(3, disk.n_control_points());
   const ClosestPoint collapsed = closest_point(disk, point, Vector3d(3, 4, 0));
   report("surface shrunk to a point: distance",

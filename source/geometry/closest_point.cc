@@ -191,8 +191,18 @@ namespace Debond
         : problem(&problem)
         , element(element)
         , box(problem.surface.element_bounds(element))
-        , s(problem, element, xi)
+        , s(problem, element, on_bounds(xi))
       {}
+
+      // A start that misses a side by rounding would stop there, as steps to
+      // it are none, and not ask beyond it.
+      Vector2d
+      on_bounds(Vector2d xi) const
+      {
+        for (const Vector2d &bound : box)
+          xi = ((xi - bound).array().abs() <= 1e-13).select(bound, xi);
+        return xi;
+      }
 
       /** Goes to the minimum of the distance over the patch that is reached
        *  from here. Returns whether it was found. */

@@ -46,9 +46,10 @@ FNR == 1 {
   fields($0, field)
   if (value("converged") != "true") next
   closed = value("Model") != "finite elements"
-  tier = closed ? value("Model") : value("Bone / Material")
+  splines = FILENAME ~ /splines/
+  tier = closed ? value("Model") : splines ? "splines" : value("Bone / Material")
   split(value("Bone / Cells"), cells, ", ")
-  mesh = closed ? "none" : mesh_name[cells[1]]
+  mesh = closed ? "none" : splines ? cells[1] " x " cells[2] : mesh_name[cells[1]]
   layers = closed ? "none" : cells[3] (value("Bone / Layer grading") == 1 ? " equal" : "")
   if (value("Load steps / Adaptive") == "true" && !closed) steps = "tol. " value("Load steps / Tolerance")
   else {

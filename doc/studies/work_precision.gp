@@ -46,12 +46,12 @@ do for [format in "png svg"] {
   set xlabel "Wall time of the run [s]"
   set ylabel "Largest error of the torque curve / {/:Italic T}_{max}"
   set xrange [0.02:100]
-  set yrange [3e-5:1]
+  set yrange [1e-5:1]
   set bmargin 9
   set key at screen 0.5, 0.01 bottom center maxrows 4 samplen 1.5
   front = dir . "front_torque.csv"
   # what the reference is known to
-  floor_of_error = 5.5e-5
+  floor_of_error = 1.2e-5
   set arrow 1 from graph 0, first floor_of_error to graph 1, first floor_of_error nohead dashtype 2 linecolor rgb "#888888"
   set label 2 "error of the reference" at graph 0.01, first floor_of_error * 1.15
   plot for [k=1:6] for [m=1:6] table using (is(word(tiers, k), word(meshes, m)) ? column("seconds") : NaN):"error_torque" \

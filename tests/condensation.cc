@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "checks.h"
+#include "vectors.h"
 
 using namespace Debond;
 using Eigen::MatrixXd;
@@ -70,17 +71,6 @@ sparse(const MatrixXd &K)
 {
   return MatrixXd(K.triangularView<Eigen::Lower>()).sparseView();
 }
-
-VectorXd
-random_vector(const int n)
-{
-  VectorXd v(n);
-  for (double &component : v)
-    component = random_number(-1., 1.);
-  return v;
-}
-
-
 
 struct Deviation
 {

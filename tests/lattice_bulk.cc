@@ -13,27 +13,9 @@
 
 #include "checks.h"
 #include "stiffness_at_rest.h"
+#include "vectors.h"
 
 using namespace Debond;
-
-Eigen::VectorXd
-random_vector(const unsigned int n)
-{
-  Eigen::VectorXd result(n);
-  for (double &value : result)
-    value = random_number(-1., 1.);
-  return result;
-}
-
-
-
-double
-deviation(const Eigen::MatrixXd &ours, const Eigen::MatrixXd &reference)
-{
-  return (ours - reference).norm() / reference.norm();
-}
-
-
 
 /** What all degrees of freedom do as the free ones away from the sides move:
  *  control points at a side move along it with their neighbours. @p free: the
@@ -72,9 +54,9 @@ mirrored_motions(const BodyMesh &mesh, std::vector<unsigned int> &free)
 void
 check(const std::string &name, BodyParameters parameters)
 {
-  parameters.element    = ElementKind::spline;
-  parameters.material   = Material::linear;
-  parameters.on_lattice = true;
+  parameters.element     = ElementKind::spline;
+  parameters.material    = Material::linear;
+  parameters.bulk_solver = BulkSolver::lattice;
   const BodyMesh    mesh(parameters, Side::bone);
   const auto        bulk = make_bulk(mesh);
   std::vector<bool> contact(mesh.surface().n_control_points(), false);

@@ -13,27 +13,9 @@
 
 #include "checks.h"
 #include "stiffness_at_rest.h"
+#include "vectors.h"
 
 using namespace Debond;
-
-Eigen::VectorXd
-random_vector(const unsigned int n)
-{
-  Eigen::VectorXd result(n);
-  for (double &value : result)
-    value = random_number(-1., 1.);
-  return result;
-}
-
-
-
-double
-deviation(const Eigen::MatrixXd &ours, const Eigen::MatrixXd &reference)
-{
-  return (ours - reference).norm() / reference.norm();
-}
-
-
 
 void
 check(const std::string &name, BodyParameters parameters, const Side side)

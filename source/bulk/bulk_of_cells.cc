@@ -102,7 +102,7 @@ namespace Debond
     const BodyParameters &body = mesh.parameters();
     const NeoHookean      material =
       NeoHookean::from_young(body.young_modulus, body.poisson_ratio);
-    return body.on_lattice && !body.has_large_strains() ?
+    return body.bulk_solver == BulkSolver::lattice ?
              make_lattice_bulk(mesh, material) :
              make_condensed_bulk(mesh, material);
   }

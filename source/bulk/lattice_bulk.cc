@@ -107,13 +107,12 @@ namespace Debond
     /** The splines of one direction across in waves. */
     struct Waves
     {
-      unsigned int    n = 0;          ///< spans
+      unsigned int    n;              ///< spans
       Eigen::MatrixXd cosines, sines; ///< orthonormal columns p = 0, ..., n
       /** Of waves p with themselves: integrals of values, of slopes, and of the
        *  slope of the sine with the cosine. */
       Eigen::ArrayXd values, slopes, slope_value;
 
-      Waves() = default;
       Waves(const unsigned int n_spans, const double length)
         : n(n_spans)
         , cosines(n, n + 1)
@@ -128,7 +127,7 @@ namespace Debond
               std::sqrt((p == 0 || p == n ? 1. : 2.) / double(n));
             for (unsigned int i = 0; i < n; ++i)
               {
-                // of an angle below a right one, for the last digits
+                // whole turns taken away first, for the last digits
                 const unsigned int turn  = p * (2 * i + 1) % (4 * n);
                 const double       angle = turn * (0.5 * M_PI / n);
                 cosines(i, p)            = p == n ? 0. : unit * std::cos(angle);
@@ -255,7 +254,7 @@ namespace Debond
       Eigen::MatrixXd
       dense_stiffness() const override
       {
-        Assert(false, dealii::ExcInternalError());
+        AssertThrow(false, dealii::ExcInternalError());
         return {};
       }
 
@@ -350,7 +349,7 @@ namespace Debond
       Eigen::VectorXd
       multiplied(const WaveMatrices &matrices, const Eigen::VectorXd &x) const
       {
-        Level           level = level_of(x), y;
+        Level           level = level_of(x);
         Eigen::VectorXd result(x.size());
         for_each_component(
           [&](const unsigned int c) { level[c] = to_waves(level[c], c); });

@@ -28,8 +28,9 @@ namespace Debond
     constexpr double       eps        = std::numeric_limits<double>::epsilon();
     constexpr double       infinity   = std::numeric_limits<double>::infinity();
     constexpr unsigned int max_newton = 60; // in one element
-    constexpr unsigned int max_halvings = 40;
-    constexpr unsigned int max_starts   = 8; // of the global search
+    constexpr unsigned int max_halvings    = 40;
+    constexpr unsigned int max_starts      = 8;     // of the global search
+    constexpr double       negligible_step = 1e-14; // of a parameter
 
     // Keeps a surface shrunk to a point from a 0/0; its square is a number too.
     constexpr double least_curvature = 1e-100;
@@ -81,7 +82,7 @@ namespace Debond
       is_negligible(const Vector2d &step) const
       {
         const Vector2d noise = 4. * eps * magnitude * lengths;
-        return step.lpNorm<Eigen::Infinity>() <= 1e-14 ||
+        return step.lpNorm<Eigen::Infinity>() <= negligible_step ||
                (gradient.cwiseAbs() - noise).maxCoeff() <= 0.;
       }
 
@@ -194,13 +195,15 @@ namespace Debond
         , s(problem, element, on_bounds(xi))
       {}
 
-      // A start that misses a side by rounding would stop there, as steps to
-      // it are none, and not ask beyond it.
+      /** Exactly on a bound that is met but for round-off: later decisions ask
+       *  whether a parameter is on one, and what is a negligible step away
+       *  would stop there. */
       Vector2d
       on_bounds(Vector2d xi) const
       {
         for (const Vector2d &bound : box)
-          xi = ((xi - bound).array().abs() <= 1e-13).select(bound, xi);
+          xi =
+            ((xi - bound).array().abs() <= negligible_step).select(bound, xi);
         return xi;
       }
 
@@ -264,11 +267,7 @@ namespace Debond
         double       length    = 1.;
         for (unsigned int i = 0; i <= max_halvings; ++i, length *= 0.5)
           {
-            // put exactly on a bound that is met but for round-off: later
-            // decisions ask whether a parameter is on a bound
-            Vector2d xi = s.xi + length * step;
-            for (const Vector2d &bound : box)
-              xi = ((xi - bound).array().abs() <= 4. * eps).select(bound, xi);
+            const Vector2d      xi = on_bounds(s.xi + length * step);
             const DistanceState next(*problem,
                                      element,
                                      xi.cwiseMax(box[0]).cwiseMin(box[1]));

@@ -423,8 +423,8 @@ namespace Debond
   // which go back the other way.
   //
   // GMRES needs no more than this product, where the matrix would have to be
-  // summed first, point by point. Vectors of three take the place of four, of
-  // which the processor adds and multiplies all at once. Sums go as in
+  // summed first, point by point. Vectors of three have a zero as the fourth
+  // number: the processor adds and multiplies four at once. Sums go as in
   // evaluate(): threads change no digit.
   void
   ContactInterface::apply_tangent(const InterfaceConfiguration &configuration,

@@ -31,7 +31,8 @@ namespace Debond
     with_solver(const ModelParameters &parameters)
     {
       BodyParameters bone = parameters.bone;
-      bone.on_lattice     = parameters.is_on_lattice();
+      bone.bulk_solver =
+        parameters.is_on_lattice() ? BulkSolver::lattice : BulkSolver::direct;
       return bone;
     }
   } // namespace

@@ -56,6 +56,10 @@ namespace Debond
     // method to the next, so that factors serve for many.
     constexpr unsigned int max_bulk_iterations = 12;
 
+    // Vectors that are kept at most where nothing else can solve: all there
+    // could be are as many as unknowns.
+    constexpr unsigned int max_vectors = 200;
+
     // Iterations that are cheaper than a new factorisation: n^3 against n^2
     // work, with a floor for small systems where overheads count. A count and
     // not the clock, which would make results depend on what else the machine
@@ -91,11 +95,10 @@ namespace Debond
     // as long as GMRES can in exact arithmetic.
     // Relative to |b|. Restarts only then: all vectors are kept, which costs
     // little where iterations are few.
-    constexpr unsigned int max_vectors = 200;
-    const unsigned int     max_iterations =
+    const unsigned int max_iterations =
       !A.can_be_assembled() ? b.size() :
-          is_factorised         ? affordable_iterations(b.size()) :
-                                  max_bulk_iterations;
+      is_factorised         ? affordable_iterations(b.size()) :
+                              max_bulk_iterations;
     dealii::SolverControl           control(max_iterations,
                                   relative_tolerance * b.norm(),
                                   false,
@@ -172,10 +175,13 @@ namespace Debond
                            const double           relative_tolerance,
                            Eigen::MatrixXd       &X) const
   {
-    constexpr unsigned int at_once        = 8;
-    const unsigned int     n              = B.rows();
-    const unsigned int     max_directions = std::min<unsigned int>(
-      n, A.can_be_assembled() ? affordable_iterations(n) * (1 + B.cols()) : n);
+    constexpr unsigned int at_once = 8;
+    const unsigned int     n       = B.rows();
+    const unsigned int     max_directions =
+      std::min<unsigned int>(n,
+                             (A.can_be_assembled() ? affordable_iterations(n) :
+                                                     max_vectors) *
+                               (1 + B.cols()));
     Eigen::MatrixXd Q(n, max_directions), Z(n, max_directions), R = B;
     unsigned int    n_directions = 0;
     X.setZero(n, B.cols());

@@ -81,6 +81,11 @@ test()
             scene_text,
             {"Bone/Material=rigid", "Implant/Material=rigid"});
   const double before_MB = Debond::peak_memory_MB();
+  compare("lattice solver",
+          {"Bone/Element=spline",
+           "Bone/Cells=100, 100, 8",
+           "Implant/Cells=4, 2"},
+          before_MB);
   compare("flat mesh",
           {"Bone/Cells=60, 60, 2", "Implant/Cells=12, 2"},
           before_MB);

@@ -63,9 +63,7 @@ namespace Debond
     double                young_modulus   = 18000; ///< [MPa]
     double                poisson_ratio   = 0.3;
     SurfaceKind           contact_surface = SurfaceKind::nurbs;
-    /** Whether the bone is solved by waves; no entry. */
-    bool       on_lattice  = false;
-    BulkSolver bulk_solver = BulkSolver::automatic; ///< bone
+    BulkSolver            bulk_solver     = BulkSolver::automatic; ///< bone
 
     /** Whether the body does not deform, and has no unknowns. */
     bool

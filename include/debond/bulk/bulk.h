@@ -116,7 +116,9 @@ namespace Debond
     return std::sqrt(1.5) * deviator.norm();
   }
 
-  /** The bulk of a body with the given @p mesh, which must outlive it. */
+  /** The bulk of a body with the given @p mesh, which must outlive it; direct
+   *  unless the mesh asks for BulkSolver::lattice (ModelParameters says whether
+   *  it may). */
   std::unique_ptr<Bulk>
   make_bulk(const BodyMesh &mesh);
 } // namespace Debond

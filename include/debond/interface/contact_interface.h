@@ -1,10 +1,10 @@
 #ifndef debond_interface_contact_interface_h
 #define debond_interface_contact_interface_h
 
-#include <debond/interface/point_tangent.h>
 #include <debond/interface/bonding_pattern.h>
 #include <debond/interface/interface_configuration.h>
 #include <debond/interface/interface_parameters.h>
+#include <debond/interface/point_tangent.h>
 
 #include <memory>
 #include <string>
@@ -270,6 +270,7 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
+      tangent_is_gathered = false;
       for (SlavePoint &point : points)
         archive &point;
       archive &forces &accepted_positions &accepted_frame &accepted_centre;

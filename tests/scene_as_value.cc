@@ -93,7 +93,7 @@ main()
   show([](Scene &scene) {
     scene.bone.young_modulus = std::numeric_limits<double>::quiet_NaN();
   });
-  show([](Scene &scene) { scene.interface.quadrature_points = 0; });
+  show([](Scene &scene) { scene.interface.quadrature_points = 65; });
   show([](Scene &scene) { scene.implant.cells = {{2, 3, 2}}; });
   show([](Scene &scene) { scene.load_steps.steps = {1}; });
   show([](Scene &scene) { scene.chuck = ChuckParameters(); });

@@ -144,7 +144,9 @@ namespace Debond
           const double more =
                          body->contact_surface == SurfaceKind::nurbs ? 2. : 1.,
                        on_face = (n[0] + more) * (n[1] + more);
-          sum += 3. * ((n[0] + 1.) * (n[1] + 1.) * n[2] + on_face);
+          sum += 3. * (body->element == ElementKind::spline ?
+                         on_face * (n[2] + 2.) :
+                         (n[0] + 1.) * (n[1] + 1.) * n[2] + on_face);
         }
     return sum;
   }
@@ -168,7 +170,8 @@ namespace Debond
          {Material::rigid, Material::linear, Material::neo_hookean})
       if (materials.empty() || limited_to(limit) != materials.back())
         materials.push_back(limited_to(limit));
-    while (can_be_halved(coarsest[0], 15) && can_be_halved(coarsest[1], 3))
+    while (scene.bone.cells_under_implant == 0 &&
+           can_be_halved(coarsest[0], 15) && can_be_halved(coarsest[1], 3))
       for (Cells &cells : coarsest)
         for (unsigned int &n : cells)
           n /= 2;
@@ -193,6 +196,7 @@ namespace Debond
         body->cells    = coarsest[which++];
         for (unsigned int &n : body->cells)
           n <<= mesh;
+        body->cells_under_implant <<= mesh;
       }
     level.scene.load_steps.adaptive  = true;
     level.scene.load_steps.tolerance = step_tolerance;
@@ -228,10 +232,16 @@ namespace Debond
     double       ratio  = 2.;
     for (BodyParameters *const body : {&result.bone, &result.implant})
       {
-        const Cells &cells = coarsest[which++];
+        const Cells       &cells  = coarsest[which++];
+        const unsigned int under  = body->cells_under_implant;
+        body->cells_under_implant = (under + 1) / 2;
         for (unsigned int d = 0; d < 3; ++d)
           {
             body->cells[d] = std::max(d < 2 ? 2U : 1U, (cells[d] + 1) / 2);
+            // as many to the left as to the right of those under the implant
+            if (d < 2 && under > 0)
+              body->cells[d] =
+                (under + 1) / 2 + 2 * (((cells[d] - under) / 2 + 1) / 2);
             if (!body->is_rigid() || d < 2)
               ratio = std::min(ratio, double(cells[d]) / body->cells[d]);
           }

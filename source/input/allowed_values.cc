@@ -45,6 +45,18 @@ namespace Debond
 
 
 
+  AllowedValues
+  AllowedValues::or_word(const std::string &word) const
+  {
+    return {[test = test, word](const std::string &text) {
+              return text == word || test(text);
+            },
+            word + ", or " + description,
+            hint};
+  }
+
+
+
   std::optional<double>
   read_number(const std::string &text)
   {

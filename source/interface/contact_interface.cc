@@ -33,12 +33,12 @@ namespace Debond
     , law(parameters.law())
     , slave(parameters.slave)
     , mesh{{&bone, &implant}}
+    , n(parameters.points_per_element(bone.parameters(), implant.parameters()))
   {
     // n x n Gauss points per element. A point carries its weight JxW [mm^2] of
     // the reference area, and a history: to begin with no partner, g_s = 0, and
     // the internal variables that the law wants, such as the initial state of a
     // law that ages.
-    const unsigned int n = parameters.quadrature_points;
     for (const auto &place : surface_quadrature(mesh[slave]->surface(), n))
       {
         SlavePoint point;
@@ -101,7 +101,7 @@ namespace Debond
     return BondingPattern(of.bonding_of_law(),
                           mesh[Side::implant]->parameters(),
                           mesh[Side::implant]->surface(),
-                          of.quadrature_points);
+                          n);
   }
 
 
@@ -589,8 +589,7 @@ namespace Debond
   unsigned int
   ContactInterface::n_enclosed() const
   {
-    const unsigned int n = parameters.quadrature_points;
-    const auto elements  = mesh[slave]->surface().n_elements_per_direction();
+    const auto elements = mesh[slave]->surface().n_elements_per_direction();
     // element by element, and in each of them, the first parameter fastest
     const auto number = [&](const unsigned int i, const unsigned int j) {
       return ((j / n * elements[0] + i / n) * n + j % n) * n + i % n;

@@ -1,6 +1,10 @@
+#include <debond/bulk/body_parameters.h>
 #include <debond/input/entry_table.h>
 #include <debond/interface/interface_parameters.h>
 #include <debond/support/input_error.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace Debond
 {
@@ -12,10 +16,18 @@ namespace Debond
               slave,
               Allowed::choice("bone | implant"),
               "The body whose contact face carries the quadrature points.");
-    table.add("Quadrature points",
-              quadrature_points,
-              Allowed::whole_number(1, 64),
-              "Gauss points per direction and slave surface element.");
+    table.add(
+      "Quadrature points",
+      quadrature_points == 0 ? "auto" : entry_text(quadrature_points),
+      [this](const std::string &text) {
+        quadrature_points = 0;
+        if (text != "auto")
+          read_entry(text, quadrature_points);
+      },
+      Allowed::whole_number(1, 64).or_word("auto"),
+      "Gauss points per direction and slave surface element. `auto': 5; if a "
+      "body has splines 6, or as many as keep the distance between points "
+      "below the width of the other body's cells.");
     table.add("Penalty stiffness",
               normal_penalty,
               Allowed::number_between(1e-6, 1e15, "MPa/mm"),
@@ -39,6 +51,40 @@ namespace Debond
     declare_variants(table);
     bonding.declare(table);
     table.leave_subsection();
+  }
+
+
+
+  // Six: with splines the error of five is as large as that of the bulk
+  // (doc/speed_and_accuracy.md).
+  unsigned int
+  InterfaceParameters::points_per_element(const BodyParameters &bone,
+                                          const BodyParameters &implant) const
+  {
+    if (quadrature_points > 0)
+      return quadrature_points;
+    if (bone.element == ElementKind::trilinear &&
+        implant.element == ElementKind::trilinear)
+      return 5;
+    return std::clamp(fewest_points_per_element(bone, implant), 6U, 64U);
+  }
+
+
+
+  // Cells of the other body that are finer than the distance of the points
+  // give way between them: the interface would be too soft. Up to rounding.
+  unsigned int
+  InterfaceParameters::fewest_points_per_element(
+    const BodyParameters &bone,
+    const BodyParameters &implant) const
+  {
+    const BodyParameters &mine  = slave == Side::bone ? bone : implant;
+    const BodyParameters &other = slave == Side::bone ? implant : bone;
+    double                ratio = 0.;
+    for (const unsigned int d : {0, 1})
+      if (!other.is_rigid())
+        ratio = std::max(ratio, mine.cell_width(d) / other.cell_width(d));
+    return std::ceil(ratio - 1e-9);
   }
 
 

@@ -181,7 +181,7 @@ namespace Debond
       return "";
     // points that lie badly or are few are another cause
     if (scene.interface.slave == Side::bone ||
-        scene.interface.quadrature_points < 3 ||
+        scene.interface.points_per_element(scene.bone, scene.implant) < 3 ||
         scene.interface.friction->is_frictionless())
       return "";
     const Forecast forecast(scene, system);

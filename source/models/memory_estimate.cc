@@ -150,7 +150,9 @@ namespace Debond
         const bool  on_implant = scene.interface.slave == Side::implant;
         const auto &cells = (on_implant ? scene.implant : scene.bone).cells;
         points = 2. * sizeof(SlavePoint) * double(cells[0]) * cells[1] *
-                 std::pow(scene.interface.quadrature_points, 2);
+                 std::pow(scene.interface.points_per_element(scene.bone,
+                                                             scene.implant),
+                          2);
         constexpr double program = 150e6; // with its libraries
         total                    = program + bone + implant + points;
         for (double *const part : {&bone, &implant, &points, &total})

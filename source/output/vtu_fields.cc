@@ -193,7 +193,7 @@ namespace Debond
       QuadratureGrid(const ContactInterface &interface,
                      const NurbsSurface     &surface)
         : points(interface.get_points())
-        , n(interface.get_parameters().quadrature_points)
+        , n(interface.points_per_element())
         , n_elements_1(surface.n_elements_per_direction()[0])
       {
         for (unsigned int d = 0; d < 2; ++d)

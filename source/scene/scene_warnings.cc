@@ -45,12 +45,16 @@ namespace Debond
                  to_text(scene.implant.young_modulus) +
                  " MPa: are they swapped?");
           // A trilinear cell cannot bend without a change of its volume, which
-          // a nearly incompressible material resists.
+          // a nearly incompressible material resists; splines do it less.
           note(!body.is_rigid() && body.poisson_ratio > 0.45,
                name + "locking",
                name + "Poisson ratio = " + to_text(body.poisson_ratio) +
-                 ": trilinear cells lock as it approaches 0.5, so that the "
-                 "body is too stiff: compare with finer Cells");
+                 ": cells lock as it approaches 0.5, so that the body is too "
+                 "stiff: " +
+                 (body.element == ElementKind::trilinear ?
+                    "Element = spline locks less; " :
+                    "") +
+                 "compare with finer Cells");
         }
       for (const unsigned int d : {0, 1})
         note(scene.implant.width(d) == scene.bone.size[d],
@@ -97,6 +101,17 @@ namespace Debond
            "short bond",
            "the bond breaks over a sliding distance of some " +
              to_text(distance, 3) + " mm: lengths are mm, 22 um is 0.022");
+      const unsigned int points =
+                           scene.interface.points_per_element(scene.bone,
+                                                              scene.implant),
+                         fewest = scene.interface.fewest_points_per_element(
+                           scene.bone, scene.implant);
+      note(points < fewest,
+           "cells without points",
+           "Interface / Quadrature points = " + std::to_string(points) +
+             " leaves cells of the other body without a point, which makes "
+             "the interface too soft: choose " +
+             std::to_string(fewest) + " or more, or larger Cells there");
       const unsigned int n = scene.implant.cells[0] * scene.implant.cells[1];
       note(bonding.pattern == BondingPatternKind::random &&
              bonding.resolution == BondingResolution::element && n < 50,

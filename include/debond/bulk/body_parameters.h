@@ -109,6 +109,15 @@ namespace Debond
     {
       return is_round() ? 2. * radius : size[direction];
     }
+    /** Mean width of the cells [mm] along x (0) or y (1), under the implant if
+     *  a bone has them there. */
+    double
+    cell_width(const unsigned int direction) const
+    {
+      return cells_under_implant > 0 ?
+               2. * rim[direction] / cells_under_implant :
+               width(direction) / cells[direction];
+    }
     /** Height of the rim of the contact face above its centre [mm]. */
     double
     rise() const;

@@ -28,6 +28,9 @@ namespace Debond
     /** The same values and this number. */
     AllowedValues
     or_number(double number) const;
+    /** The same values and this word. */
+    AllowedValues
+    or_word(const std::string &word) const;
   };
 
   /** The kinds of values that occur in a scene. The unit is part of the words

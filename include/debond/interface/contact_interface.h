@@ -215,6 +215,12 @@ namespace Debond
     {
       return points;
     }
+    /** Quadrature points per direction and slave surface element. */
+    unsigned int
+    points_per_element() const
+    {
+      return n;
+    }
     /** phi and mu of a point in its trial state. */
     FrictionCoefficient
     friction(const SlavePoint &point) const
@@ -315,6 +321,7 @@ namespace Debond
     const ContactPointLaw                 law;
     const Side                            slave;
     std::array<const BodyMesh *, 2>       mesh;
+    const unsigned int                    n; ///< points per direction, element
     std::vector<SlavePoint>               points;
     double                                area_of_implant = 0;
     std::unique_ptr<const BondingPattern> pattern;

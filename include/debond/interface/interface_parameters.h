@@ -11,7 +11,7 @@ namespace Debond
   struct InterfaceParameters
   {
     Side         slave               = Side::implant;
-    unsigned int quadrature_points   = 5;   ///< per direction and element
+    unsigned int quadrature_points   = 0;   ///< per direction, 0: auto
     double       normal_penalty      = 585; ///< eps_n [MPa/mm]
     double       tangential_penalty  = 0;   ///< eps_t [MPa/mm], 0: as eps_n
     bool         opening_breaks_bond = false;
@@ -32,6 +32,16 @@ namespace Debond
     {
       return tangential_penalty == 0. ? normal_penalty : tangential_penalty;
     }
+
+    /** What `Quadrature points' comes to, per direction and slave surface
+     *  element. */
+    unsigned int
+    points_per_element(const BodyParameters &bone,
+                       const BodyParameters &implant) const;
+    /** With fewer there are cells of the other body without a point. */
+    unsigned int
+    fewest_points_per_element(const BodyParameters &bone,
+                              const BodyParameters &implant) const;
 
     /** What governs the points. */
     ContactPointLaw

@@ -2,6 +2,7 @@
 // ends without reaching the tolerance, and the parts of its estimates. That
 // the estimates bound the error is tested by prm/verification/auto.prm.
 
+#include <debond/bulk/body_mesh.h>
 #include <debond/campaigns/model_choice.h>
 #include <debond/campaigns/run_scene.h>
 #include <debond/models/closed_forms.h>
@@ -315,6 +316,38 @@ test_estimates()
 
 
 
+// Of 12 x 12 cells 8 x 8 are under the implant, and 2 beside them on each side.
+void
+test_cells_that_heed_the_rim()
+{
+  const ModelHierarchy hierarchy(Scene::from_text(scene_text,
+                                                  {"Bone/Element=spline",
+                                                   "Bone/Cells=12, 12, 3",
+                                                   "Bone/Cells under implant=8",
+                                                   "Implant/Element=spline",
+                                                   "Implant/Cells=4, 3"}),
+                                 1e-3);
+  for (const unsigned int mesh : {0, 1})
+    {
+      const ModelLevel level =
+        hierarchy.finite_elements(hierarchy.materials.back(), mesh);
+      const BodyParameters &bone    = level.scene.bone,
+                           &implant = level.scene.implant;
+      std::cout << level.description() << ", " << bone.cells_under_implant
+                << " under the implant\n";
+      report("unknowns are those of the bodies",
+             level.unknowns() ==
+               BodyMesh(bone, Side::bone).n_unknowns() +
+                 BodyMesh(implant, Side::implant).n_unknowns());
+    }
+  const auto [coarser, ratio] = hierarchy.below_coarsest();
+  std::cout << "below: " << in_words(coarser.bone.cells) << ", "
+            << coarser.bone.cells_under_implant << " under the implant, "
+            << in_words(coarser.implant.cells) << ", ratio " << ratio << '\n';
+}
+
+
+
 void
 test()
 {
@@ -325,6 +358,7 @@ test()
                 "Load steps/Steps=1, 1"});
   show_refusal({"Chuck/Rotation z/Control=moment"});
   test_holds();
+  test_cells_that_heed_the_rim();
   test_other_results_stay();
   test_estimates();
   test_chain_that_ends_at_once();

@@ -98,6 +98,21 @@ main()
   show([](Scene &scene) { scene.load_steps.steps = {1}; });
   show([](Scene &scene) { scene.chuck = ChuckParameters(); });
 
+  // elements of the implant are 5/3 mm wide, 60 cells across 10 mm 1/6 mm
+  for (const unsigned int cells : {15, 60})
+    for (const ElementKind element :
+         {ElementKind::trilinear, ElementKind::spline})
+      {
+        Scene scene           = turning();
+        scene.interface.slave = Side::implant;
+        scene.bone.element    = element;
+        scene.bone.cells      = {{cells, cells, 2}};
+        std::cout << "points: "
+                  << scene.interface.points_per_element(scene.bone,
+                                                        scene.implant)
+                  << '\n';
+      }
+
   for (const double number :
        {0., -1., 0.1, 585., 18000., 113000., 1e6, 1e-3, 1e-8, 0.022, 1. / 3.})
     std::cout << exact_text(number) << (number == 1. / 3. ? "\n" : " ");

@@ -54,6 +54,15 @@ main()
         "Interface/Bonding/Bonded fraction=0.5",
         "Implant/Cells=20, 2"});
 
+  show({"Bone/Poisson ratio=0.47"});
+  show({"Bone/Poisson ratio=0.47", "Bone/Element=spline"});
+  show({"Bone/Cells=60, 60, 2"});
+  show({"Bone/Cells=60, 60, 2", "Interface/Quadrature points=8"});
+  show({"Bone/Cells=60, 60, 2", "Bone/Element=spline"});
+  show({"Bone/Cells=60, 60, 2",
+        "Bone/Element=spline",
+        "Interface/Quadrature points=7"});
+
   show({twist + "5 * (t - 1)"});
   show({twist + "5 * (t - 1)", "Load steps/Times=1, 2, 3"});
   show({twist + "2 + 10 * max(t - 1, 0)"});

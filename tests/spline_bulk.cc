@@ -107,7 +107,8 @@ subsection Implant
   set Element       = spline
 end
 subsection Interface
-  set Slip direction = trial
+  set Quadrature points = 5
+  set Slip direction    = trial
 end
 subsection Chuck
   subsection Translation z

@@ -230,18 +230,18 @@ namespace Debond
     Scene        result = scene;
     unsigned int which  = 0;
     double       ratio  = 2.;
+    const auto   half   = [](const unsigned int n) { return (n + 1) / 2; };
     for (BodyParameters *const body : {&result.bone, &result.implant})
       {
         const Cells       &cells  = coarsest[which++];
         const unsigned int under  = body->cells_under_implant;
-        body->cells_under_implant = (under + 1) / 2;
+        body->cells_under_implant = half(under);
         for (unsigned int d = 0; d < 3; ++d)
           {
-            body->cells[d] = std::max(d < 2 ? 2U : 1U, (cells[d] + 1) / 2);
             // as many to the left as to the right of those under the implant
-            if (d < 2 && under > 0)
-              body->cells[d] =
-                (under + 1) / 2 + 2 * (((cells[d] - under) / 2 + 1) / 2);
+            body->cells[d] = d < 2 && under > 0 ?
+                               half(under) + 2 * half((cells[d] - under) / 2) :
+                               std::max(d < 2 ? 2U : 1U, half(cells[d]));
             if (!body->is_rigid() || d < 2)
               ratio = std::min(ratio, double(cells[d]) / body->cells[d]);
           }

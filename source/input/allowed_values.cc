@@ -33,14 +33,33 @@ namespace Debond
 
 
 
+  namespace
+  {
+    /** What @p values allow, and texts that @p is_other accepts; @p words name
+     *  these. */
+    AllowedValues
+    with_others(const AllowedValues                            &values,
+                const std::string                              &words,
+                const std::function<bool(const std::string &)> &is_other)
+    {
+      return {[test = values.test, is_other](const std::string &text) {
+                return is_other(text) || test(text);
+              },
+              words + ", or " + values.description,
+              values.hint};
+    }
+  } // namespace
+
+
+
   AllowedValues
   AllowedValues::or_number(const double number) const
   {
-    return {[test = test, number](const std::string &text) {
-              return read_number(text) == number || test(text);
-            },
-            exact_text(number) + ", or " + description,
-            hint};
+    return with_others(*this,
+                       exact_text(number),
+                       [number](const std::string &text) {
+                         return read_number(text) == number;
+                       });
   }
 
 
@@ -48,11 +67,9 @@ namespace Debond
   AllowedValues
   AllowedValues::or_word(const std::string &word) const
   {
-    return {[test = test, word](const std::string &text) {
-              return text == word || test(text);
-            },
-            word + ", or " + description,
-            hint};
+    return with_others(*this, word, [word](const std::string &text) {
+      return text == word;
+    });
   }
 
 

@@ -49,11 +49,9 @@ namespace Debond
           note(!body.is_rigid() && body.poisson_ratio > 0.45,
                name + "locking",
                name + "Poisson ratio = " + to_text(body.poisson_ratio) +
-                 ": cells lock as it approaches 0.5, so that the body is too "
-                 "stiff: " +
-                 (body.element == ElementKind::trilinear ?
-                    "Element = spline locks less; " :
-                    "") +
+                 (body.element == ElementKind::trilinear ? ": trilinear cells" :
+                                                           ": cells") +
+                 " lock as it approaches 0.5, so that the body is too stiff: "
                  "compare with finer Cells");
         }
       for (const unsigned int d : {0, 1})

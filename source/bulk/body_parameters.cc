@@ -118,12 +118,15 @@ namespace Debond
               Allowed::choice("auto | direct | lattice"),
               "How the stiffness of the bone is solved. `direct': by a sparse "
               "factorisation, condensed on the contact face. `lattice': by "
-              "sines and cosines across, exact for a linear bone of splines "
-              "with cells of equal width, at the cost of a few products of "
+              "sines and cosines across, exact for a bone of splines with "
+              "cells of equal width, at the cost of a few products of "
               "matrices; the bone has no shear at its sides then, which is "
-              "what sides that slide come to with ever finer cells. `auto': "
-              "lattice where that is possible and the implant stays away "
-              "from the sides. The program says which, and why.");
+              "what sides that slide come to with ever finer cells. The "
+              "stiffness of a Neo-Hookean bone stays that at rest, which leads "
+              "Newton's method to the same solution as long as strains are "
+              "small. `auto': lattice where that is possible, the implant "
+              "stays away from the sides, and strains are below some 1 %. The "
+              "program says which, and why.");
     declare_material(table);
     table.leave_subsection();
   }

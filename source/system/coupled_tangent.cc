@@ -151,6 +151,8 @@ namespace Debond
     add_geometric_part(x, y);
     if (path.follow)
       path.apply(configuration, x, y);
+    for (const auto &[k, row] : configuration.chuck_unknowns)
+      y[row] -= chuck_stiffness_of_bulk(k) * x[row];
     return y;
   }
 
@@ -168,6 +170,8 @@ namespace Debond
       {
         Eigen::VectorXd y = Y.col(j);
         add_geometric_part(X.col(j), y);
+        for (const auto &[k, row] : configuration.chuck_unknowns)
+          y[row] -= chuck_stiffness_of_bulk(k) * X(row, j);
         Y.col(j) = y;
       }
     return Y;
@@ -184,6 +188,8 @@ namespace Debond
     for_each_bulk([&](const Bulk &bulk, const int first, const int n) {
       y.segment(first, n) += bulk.product(x.segment(first, n));
     });
+    for (const auto &[k, row] : configuration.chuck_unknowns)
+      y[row] += chuck_stiffness_of_bulk(k) * x[row];
     return y;
   }
 
@@ -203,9 +209,9 @@ namespace Debond
 
 
   // B^-1 b, body by body: the preconditioner. The bodies know nothing of each
-  // other; the interface is what the iteration has to find. With unknown
-  // components of the chuck B has zeros on the diagonal, and is not asked
-  // (bulk_is_regular).
+  // other; the interface is what the iteration has to find. An unknown
+  // component of the chuck, which no body resists, is one direction more that
+  // it has to find, or leaves B without an inverse (bulk_is_regular).
   Eigen::VectorXd
   CoupledTangent::solve_bulk(const Eigen::VectorXd &b) const
   {
@@ -213,6 +219,8 @@ namespace Debond
     for_each_bulk([&](const Bulk &bulk, const int first, const int n) {
       x.segment(first, n) = bulk.solve(b.segment(first, n));
     });
+    for (const auto &[k, row] : configuration.chuck_unknowns)
+      x[row] /= chuck_stiffness_of_bulk(k);
     return x;
   }
 
@@ -225,6 +233,8 @@ namespace Debond
     for_each_bulk([&](const Bulk &bulk, const int first, const int n) {
       X.middleRows(first, n) = bulk.solve_all(B.middleRows(first, n));
     });
+    for (const auto &[k, row] : configuration.chuck_unknowns)
+      X.row(row) /= chuck_stiffness_of_bulk(k);
     return X;
   }
 

@@ -82,7 +82,7 @@ namespace Debond
     bool
     bulk_is_regular() const override
     {
-      return configuration.chuck_unknowns.empty(); // it does not resist those
+      return configuration.chuck_unknowns.empty() || !can_be_assembled();
     }
     Eigen::VectorXd
     solve_bulk(const Eigen::VectorXd &b) const override;
@@ -113,6 +113,14 @@ namespace Debond
     }
     unsigned int
     size() const;
+    /** Of the unknown component @p k of the chuck in B [N/mm, N mm]. The bodies
+     *  do not resist it: 0, and A is assembled. Where it cannot be, B gets the
+     *  stiffness of the whole face, and C loses it. */
+    double
+    chuck_stiffness_of_bulk(const unsigned int k) const
+    {
+      return can_be_assembled() ? 0. : path.stiffness[k];
+    }
 
     const std::array<Body *, 2>   bodies;
     const ContactInterface       &interface;

@@ -37,9 +37,9 @@ namespace Debond
     /** Mean sliding distance at which the path ends [mm]; 0: the radius. */
     double path_ends_at_slip = 0;
 
-    /** Ends of the planned steps of each phase, if they are not even: those that
-     *  another run has chosen. For scenes that a program makes; no entry of a
-     *  file. The curve between them is drawn as with adaptive steps. */
+    /** Ends of the planned steps of each phase, if they are not even: those
+     * that another run has chosen. For scenes that a program makes; no entry of
+     * a file. The curve between them is drawn as with adaptive steps. */
     std::vector<std::vector<double>> ends;
 
     /** Whether the curve between rows is known. */
@@ -111,13 +111,16 @@ namespace Debond
     }
 
     /** Whether unknown components of the chuck, or those of a path, make the
-     *  coupled system one that has to be assembled as a matrix. */
+     *  coupled system one that is assembled as a matrix. */
     bool
     needs_matrix() const;
     /** Why the bone has to be solved directly, as the rest of a sentence;
      *  empty: the lattice solver can. */
     std::string
     why_direct() const;
+    /** The same for a choice that the scene leaves to the program. */
+    std::string
+    why_rather_direct() const;
     /** What `Bone / Bulk solver' comes to, and in words. */
     bool
     is_on_lattice() const;

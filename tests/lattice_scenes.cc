@@ -1,0 +1,149 @@
+// Which scenes have their bone solved on the lattice, and that their results
+// are those of the direct solver: with loads and springs on the chuck, which
+// are unknowns then, and with a Neo-Hookean bone, whose stiffness stays that at
+// rest. The two differ by the shear at the sides of the bone, which coarse
+// cells have: 1e-7 of the forces here, 1e-9 on 24 x 24 cells. Test lattice_bulk
+// compares the solver itself, to 1e-11.
+
+#include <debond/models/simulation.h>
+
+#include "checks.h"
+
+using namespace Debond;
+
+const std::string coin = R"(
+subsection Bone
+  set Cells         = 16, 16, 4
+  set Layer grading = 2
+  set Element       = spline
+end
+subsection Implant
+  set Cells         = 3, 2
+  set Layer grading = 2
+  set Element       = spline
+end
+subsection Chuck
+  subsection Translation z
+    set Value = -0.0049 * min(t, 1)
+  end
+  subsection Rotation z
+    set Value = 10 * max(t - 1, 0)
+  end
+end
+subsection Load steps
+  set Times              = 0, 1, 1.05, 1.2
+  set Steps              = 1, 5, 4
+  set Residual tolerance = 1e-10
+end
+)";
+
+
+
+using Changes = std::vector<std::string>;
+
+const Changes linear{"Bone/Material=linear", "Implant/Material=linear"},
+  pressed_by_force{"Chuck/Translation z/Control=force",
+                   "Chuck/Translation z/Value=-10 - 41.5 * min(t, 1)"};
+
+Changes
+operator+(Changes a, const Changes &b)
+{
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+
+
+void
+check_choice(const std::string &name, const Changes &changes)
+{
+  std::cout << name << ": "
+            << Scene::from_text(coin, changes).bulk_solver_in_words()
+            << std::endl;
+}
+
+
+
+void
+check_results(const std::string &name, const Changes &changes)
+{
+  std::cout << name << '\n';
+  Simulation lattice(
+    Scene::from_text(coin, changes + Changes{"Bone/Bulk solver=lattice"}));
+  Simulation direct(
+    Scene::from_text(coin, changes + Changes{"Bone/Bulk solver=direct"}));
+  lattice.run();
+  direct.run();
+  const auto &rows = lattice.rows(), &expected = direct.rows();
+  report("  as many rows", rows.size() == expected.size());
+  double force = 0., moment = 0., way = 0., energy = 0., largest_force = 0.,
+         largest_moment = 0., largest_way = 0., largest_energy = 0.;
+  unsigned int iterations = 0, expected_iterations = 0;
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    {
+      const auto &a = rows[i], &b = expected[i];
+      iterations += a.newton_iterations;
+      expected_iterations += b.newton_iterations;
+      for (unsigned int k = 0; k < 3; ++k)
+        {
+          grow(force, std::abs(a.chuck_reaction[k] - b.chuck_reaction[k]));
+          grow(largest_force, std::abs(b.chuck_reaction[k]));
+          grow(moment,
+               std::abs(a.chuck_reaction[3 + k] - b.chuck_reaction[3 + k]));
+          grow(largest_moment, std::abs(b.chuck_reaction[3 + k]));
+        }
+      for (unsigned int k = 0; k < 6; ++k)
+        {
+          grow(way, std::abs(a.chuck_position[k] - b.chuck_position[k]));
+          grow(largest_way, std::abs(b.chuck_position[k]));
+        }
+      grow(energy, std::abs(a.energy_bulk_Nmm - b.energy_bulk_Nmm));
+      grow(largest_energy, std::abs(b.energy_bulk_Nmm));
+    }
+  report("  forces", force / largest_force, 5e-7);
+  report("  moments", moment / largest_moment, 5e-7);
+  report("  place of the chuck", way / largest_way, 5e-8);
+  report("  energy of the bodies", energy / largest_energy, 5e-6);
+  // the tangent is exact, whatever solves with it
+  report("  at most two iterations more",
+         iterations <= expected_iterations + 2);
+}
+
+
+
+int
+main()
+{
+  check_choice("linear", linear);
+  check_choice("Neo-Hookean", {});
+  check_choice("Neo-Hookean, pressed deeply",
+               {"Chuck/Translation z/Value=-0.1 * min(t, 1)"});
+  check_choice("Neo-Hookean, tilted",
+               {"Chuck/Rotation x/Value=0.6 * min(t, 1)"});
+  check_choice("Neo-Hookean, pressed by a force", pressed_by_force);
+  check_choice("linear, pressed by a force", linear + pressed_by_force);
+  check_choice("linear, free in x",
+               linear + Changes{"Chuck/Translation x/Control=force"});
+  check_choice("linear, held in y by a spring",
+               linear + Changes{"Chuck/Translation y/Stiffness=100"});
+  check_choice("linear, moved to the side",
+               linear + Changes{"Chuck/Translation y/Value=2 * t"});
+  check_choice("trilinear", linear + Changes{"Bone/Element=trilinear"});
+  check_choice("cells under the implant",
+               linear + Changes{"Bone/Cells under implant=8"});
+  check_choice("rigid", {"Bone/Material=rigid"});
+  check_choice("as asked for", linear + Changes{"Bone/Bulk solver=direct"});
+
+  check_results("Pressed by a force, free to tilt under a moment",
+                linear + pressed_by_force +
+                  Changes{"Chuck/Rotation x/Control=moment",
+                          "Chuck/Rotation y/Control=moment",
+                          "Chuck/Rotation y/Value=2 * max(t - 1, 0)"});
+  check_results("Pulled aside by a force",
+                linear +
+                  Changes{"Chuck/Translation x/Control=force",
+                          "Chuck/Translation x/Value=40 * max(t - 1, 0)"});
+  check_results("Turned by a spring",
+                linear + Changes{"Chuck/Rotation z/Stiffness=5000"});
+  check_results("Neo-Hookean bodies", {});
+}

@@ -20,6 +20,7 @@ import os
 import re
 import subprocess
 import sys
+import zlib
 
 os.chdir(os.path.join(os.path.dirname(os.path.abspath(__file__)), '..'))
 BLOCK = re.compile(r'(<!-- numbers: (\w+) -->)(.*?)(<!-- end -->)', re.S)
@@ -82,7 +83,8 @@ def check(scene, *changes):
 
 
 def directory_of(scene, changes):
-    return os.path.join(options.results, re.sub(r'\W+', '_', ' '.join((scene,) + changes))[-200:])
+    name = ' '.join((scene,) + changes)
+    return os.path.join(options.results, re.sub(r'\W+', '_', name)[-180:] + '_%08x' % zlib.crc32(name.encode()))
 
 
 def rows_of(path):
@@ -143,15 +145,15 @@ def percent(value, digits=2):
 def choices():
     first = run(MAIN, REFERENCE)
     rows = []
-    for name, changes in (
-            ('as it is: Neo-Hookean bodies, two equal layers, 1000 steps', ()),
-            ('linear bodies', LINEAR),
-            ('linear, adaptive steps with the tolerance 1e-3', LINEAR + ADAPTIVE),
-            ('the same, four graded layers: `coin_mode3_fast`',
-             LINEAR + ADAPTIVE + LAYERED + ('Bone/Cells=15, 15, 4', 'Implant/Cells=3, 4')),
-            ('rigid bodies', ('Bone/Material=rigid', 'Implant/Material=rigid')),
-            ('`Model = foundation`', ('Model=foundation',))):
-        result = run(MAIN, REFERENCE, *changes)
+    for name, scene, changes in (
+            ('as it is: Neo-Hookean bodies, two equal layers, 1000 steps', MAIN, ()),
+            ('linear bodies', MAIN, LINEAR),
+            ('linear, adaptive steps with the tolerance 1e-3', MAIN, LINEAR + ADAPTIVE),
+            ('the same, four graded layers: `coin_mode3_fast`', 'prm/coin_mode3_fast.prm', ()),
+            ('splines: `coin_mode3_spline`', 'prm/coin_mode3_spline.prm', ()),
+            ('rigid bodies', MAIN, ('Bone/Material=rigid', 'Implant/Material=rigid')),
+            ('`Model = foundation`', MAIN, ('Model=foundation',))):
+        result = run(scene, REFERENCE, *changes)
         rows.append([name, int(result['steps']) - 1, percent(result['difference_max']),
                      '' if result is first else small(difference(result, first))])
     return table(['main scene', 'steps', 'error', 'differs from the first row by'], rows)
@@ -599,12 +601,12 @@ def codes_factors():
 @numbers('seconds')
 def calculix_factor():
     factors = [factor for element, factor in codes_factors() if element.startswith('C3D8')]
-    return '%.0f to %.0f' % (round(min(factors), -1), round(max(factors), -1))
+    return '%.0f to %.0f' % tuple(float('%.1e' % factor) for factor in (min(factors), max(factors)))
 
 
 @numbers('seconds')
 def calculix_quadratic_factor():
-    return '%.0f' % min(factor for element, factor in codes_factors() if element == 'C3D20R')
+    return '%.0f' % float('%.1e' % min(factor for element, factor in codes_factors() if element == 'C3D20R'))
 
 
 # What takes minutes
@@ -811,6 +813,22 @@ def turning_slip():
     return table(['tolerance', '`integrated`: rows', 'Fx', 'torque', '`trial`: rows', 'Fx', 'torque'], lines)
 
 
+FORCES, MOMENTS = ['chuck_F%s_N' % k for k in 'xyz'], ['chuck_M%s_Nmm' % k for k in 'xyz']
+
+
+def largest_error(reference, curve, groups):
+    """Of the columns in each group at the times of the reference, relative to the largest value in the group."""
+    errors, after = [], 0
+    for row in reference:
+        while curve[after]['time'] < row['time'] - 1e-12:
+            after += 1
+        begin, end = curve[max(after - 1, 0)], curve[after]
+        share = (row['time'] - begin['time']) / (end['time'] - begin['time']) if after else 0
+        errors.append({c: abs(begin[c] + share * (end[c] - begin[c]) - row[c]) for columns in groups for c in columns})
+    return max(max(error[c] for error in errors for c in columns) / max(abs(row[c]) for row in reference for c in columns)
+               for columns in groups)
+
+
 @numbers('minutes')
 def adaptive_scenes():
     press, twice = '-0.0049 * min(t, 1)', 'min(max(t - 1, 0), 1)'
@@ -842,31 +860,102 @@ def adaptive_scenes():
                                                'Rotation y': '0.3 * sin(4 * pi * max(t - 1, 0))'}, mesh + ('Implant/Shape=cap',)),
         ('under a moment, to and fro: the angle', 2, {'Rotation z': '49.5 * (%s - 1.8 * max(t - 2, 0))' % twice},
          mesh + ('Chuck/Rotation z/Control=moment',))]
-    forces, moments = ['chuck_F%s_N' % k for k in 'xyz'], ['chuck_M%s_Nmm' % k for k in 'xyz']
-
-    def largest_error(reference, curve, groups):
-        errors, after = [], 0
-        for row in reference:
-            while curve[after]['time'] < row['time'] - 1e-12:
-                after += 1
-            begin, end = curve[max(after - 1, 0)], curve[after]
-            share = (row['time'] - begin['time']) / (end['time'] - begin['time']) if after else 0
-            errors.append({c: abs(begin[c] + share * (end[c] - begin[c]) - row[c]) for columns in groups for c in columns})
-        return max(max(error[c] for error in errors for c in columns) / max(abs(row[c]) for row in reference for c in columns)
-                   for columns in groups)
-
     lines = []
     for name, phases, motion, changes in scenes:
         scene = (MAIN, 'Load steps/Times=' + ', '.join(str(k) for k in range(phases + 2))) + changes + tuple(
             'Chuck/%s/Value=%s' % entry for entry in {'Translation z': press, 'Rotation z': '0', **motion}.items())
         reference = run(*scene, 'Load steps/Steps=30' + ', 800' * phases)['curve']
-        groups = [['angle_deg']] if 'under a moment' in name else [forces, moments]
+        groups = [['angle_deg']] if 'under a moment' in name else [FORCES, MOMENTS]
         line = [name]
         for tolerance in ('1e-2', '1e-3', '1e-4'):
             result = run(*scene, 'Load steps/Adaptive=true', 'Load steps/Steps=1' + ', 10' * phases, 'Load steps/Tolerance=' + tolerance)
             line += [str(len(result['curve'])), '%.1f' % (largest_error(reference, result['fine curve'], groups) / float(tolerance))]
         lines.append(line)
     return table(['12 x 12 x 3 and 4 x 4 x 2 cells, linear', '1e-2: rows', 'error', '1e-3: rows', 'error', '1e-4: rows', 'error'], lines)
+
+
+def study_of_splines(bone, implant, *changes):
+    """On the main scene with steps that do not count."""
+    return study('prm/coin_mode3_spline.prm', 'Bone/Cells=' + bone, 'Implant/Cells=' + implant, *changes, 'Load steps/Tolerance=5e-5',
+                 'Load steps/Times=0, 1, 1.1, 2', 'Load steps/Steps=1, 10, 10', 'Output/Fields every=0', REFERENCE)
+
+
+@numbers('minutes')
+def spline_layers():
+    layers = [3, 4, 6, 8, 12, 20]
+    rows = study_of_splines('60, 60, {{%s}}' % '|'.join(map(str, layers)), '8, 6')
+    return table(['layers in the bone'] + layers, [['error'] + [small(row['difference_max']) for row in rows]])
+
+
+@numbers('minutes')
+def spline_points():
+    points, lines = [4, 5, 6, 7, 8, 10], []
+    for bone, implant in (('24, 24, 8', '4, 3'), ('32, 32, 8', '6, 4'), ('40, 40, 8', '6, 4'), ('60, 60, 10', '8, 6')):
+        rows = study_of_splines(bone, implant, 'Interface/Quadrature points={{%s}}' % '|'.join(map(str, points)))
+        name = '%s / %s x %s' % (bone.replace(',', ' x'), implant.split(',')[0], implant.replace(',', ' x'))
+        lines.append([name.replace('  ', ' ')] + [small(row['difference_max']) for row in rows])
+    return table(['bone / implant'] + ['n = %d' % points[0]] + points[1:], lines)
+
+
+@numbers('minutes')
+def splines_elsewhere():
+    def mesh(bone, implant, grading, element, tolerance):
+        return tuple('%s/%s' % pair for body, cells in (('Bone', bone), ('Implant', implant)) for pair in (
+            (body, 'Cells=' + cells), (body, 'Layer grading=%g' % grading), (body, 'Element=' + element))) + ADAPTIVE + (
+                'Load steps/Tolerance=' + tolerance, 'Load steps/Times=0, 1, 1.1, 2', 'Load steps/Steps=1, 10, 10')
+    choices = (('trilinear 30 x 30 x 8 / 6 x 6 x 8', mesh('30, 30, 8', '6, 8', 1.5, 'trilinear', '1e-3')),
+               ('splines 32 x 32 x 8 / 6 x 6 x 4', mesh('32, 32, 8', '6, 4', 2, 'spline', '3e-4')),
+               ('trilinear 60 x 60 x 12 / 12 x 12 x 12', mesh('60, 60, 12', '12, 12', 1.5, 'trilinear', '2e-4')),
+               ('splines 60 x 60 x 8 / 12 x 12 x 6', mesh('60, 60, 8', '12, 6', 2, 'spline', '2e-4')))
+    fine = mesh('120, 120, 12', '16, 10', 2, 'spline', '2e-5') + ('Interface/Quadrature points=8',)
+    bonded_half = ('Interface/Bonding/Pattern=expression', 'Interface/Bonding/Expression=x > 0 ? 1 : 0')
+    # about an axis half a millimetre beside that of the coin
+    off_centre = ('Chuck/Translation x/Value=0.5 * (1 - cos(pi / 18 * max(t - 1, 0)))',
+                  'Chuck/Translation y/Value=-0.5 * sin(pi / 18 * max(t - 1, 0))')
+    scenes = (
+        ('main scene', ()),
+        ('1800 MPa/mm', ('Interface/Penalty stiffness=1800',)),
+        ('6000 MPa/mm', ('Interface/Penalty stiffness=6000',)),
+        ("Poisson's ratio of the bone 0.45", ('Bone/Poisson ratio=0.45',)),
+        ("Poisson's ratio of the bone 0.49", ('Bone/Poisson ratio=0.49',)),
+        ('bonded in a disk, f = 0.55', ('Interface/Bonding/Pattern=disk', 'Interface/Bonding/Bonded fraction=0.55',
+                                        'Interface/Bonding/Resolution=quadrature point')),
+        ('one half bonded, turned about an axis 0.5 mm off centre', bonded_half + off_centre),
+        ('a cap, pressed by 0.02 mm', ('Implant/Shape=cap', 'Chuck/Translation z/Value=-0.02 * min(t, 1)')),
+        ('tilted by 0.1 degrees', ('Chuck/Rotation x/Value=0.1 * min(t, 1)',)),
+        ('a force instead of a depth', ('Chuck/Translation z/Control=force', 'Chuck/Translation z/Value=-51.5 * min(t, 1)')))
+    lines = []
+    for name, changes in scenes:
+        reference = run(MAIN, *fine, *LINEAR, *changes)['curve']
+        line = [name]
+        for _, choice in choices:
+            result = run(MAIN, *choice, *LINEAR, *changes)
+            line += [small(largest_error(reference, result['fine curve'], [FORCES, MOMENTS])), '%.2g s' % result['wall_seconds']]
+        lines.append(line)
+    return table(['scene'] + [column for name, _ in choices for column in (name, 'all')], lines)
+
+
+@numbers('minutes')
+def lattice():
+    scene = ('prm/coin_mode3_spline.prm', 'Load steps/Tolerance=1e-3')
+
+    def measured(*changes):
+        result = run(*scene, *changes)
+        return result, '%.2g s' % result['wall_seconds'], '%.0f MB' % result['peak_memory_MB']
+    neo_hookean = ('Bone/Material=neo-hookean', 'Implant/Material=neo-hookean')
+    lines = []
+    for name, cells, changes in (('linear', '60, 60, 6', ()), ('linear, under a force', '60, 60, 6', (
+            'Chuck/Translation z/Control=force', 'Chuck/Translation z/Value=-51.5 * min(t, 1)')),
+                                 ('Neo-Hookean', '60, 60, 6', neo_hookean), ('linear', '200, 200, 10', ())):
+        changes = ('Bone/Cells=' + cells, 'Implant/Cells=8, 4') + changes
+        result, *line = measured(*changes)
+        if cells == '60, 60, 6':
+            direct, *more = measured(*changes, 'Bone/Bulk solver=direct')
+            line += more
+        else:
+            line += ['', '']
+        lines.append(['%s, %s' % (cells.replace(', ', ' x '), name)] + line)
+    return table(['bone', 'lattice', 'memory', 'direct', 'memory'], lines)
 
 
 @functools.lru_cache(None)

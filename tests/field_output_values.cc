@@ -12,18 +12,15 @@
 #include <debond/output/result_files.h>
 
 #include <deal.II/base/numbers.h>
-#include <deal.II/base/utilities.h>
-
-#include <zlib.h>
 
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <functional>
 #include <iostream>
-#include <sstream>
 #include <string>
 #include <vector>
+
+#include "checks.h"
+#include "vtu_file.h"
 
 using namespace Debond;
 
@@ -37,56 +34,6 @@ phi_of(const double phi_0, const double slip)
 
 constexpr double depth = 0.0049;                     // [mm]
 constexpr double angle = dealii::numbers::PI / 180.; // [rad]
-
-void
-report(const std::string &what, const double deviation, const double limit)
-{
-  std::cout << what << " below " << limit << ": ";
-  if (deviation < limit) // false for NaN as well
-    std::cout << "yes" << std::endl;
-  else
-    std::cout << "NO, " << deviation << std::endl;
-}
-
-
-
-std::string
-contents(const std::string &filename)
-{
-  std::ostringstream text;
-  text << std::ifstream(filename, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-
-
-/** Values of an array of a VTU file, or its points if @p name is empty: one
- *  compressed block after a header of four numbers. */
-std::vector<float>
-read_array(const std::string &vtu, const std::string &name)
-{
-  const std::string key   = name.empty() ? "<Points>" : "Name=\"" + name + "\"";
-  const auto        found = vtu.find(key);
-  if (found == std::string::npos)
-    return {};
-  const auto array  = vtu.find("format=\"binary\">", found);
-  const auto begin  = vtu.find_first_not_of(" \n", vtu.find('>', array) + 1);
-  const auto end    = vtu.find_first_of(" \n<", begin);
-  const auto header = dealii::Utilities::decode_base64(vtu.substr(begin, 24));
-  const auto data =
-    dealii::Utilities::decode_base64(vtu.substr(begin + 24, end - begin - 24));
-  std::uint32_t sizes[4];
-  std::memcpy(sizes, header.data(), sizeof(sizes));
-  std::vector<float> values(sizes[1] / sizeof(float));
-  uLongf             n_bytes = sizes[1];
-  const int status = uncompress(reinterpret_cast<Bytef *>(values.data()),
-                                &n_bytes,
-                                data.data(),
-                                sizes[3]);
-  return status == Z_OK ? values : std::vector<float>();
-}
-
-
 
 /** Largest value that @p deviation has at the points of a file; NaN if there
  *  are none. */

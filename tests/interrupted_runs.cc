@@ -297,6 +297,26 @@ main()
         set Value = 0.2 * max(t - 1.2, 0)
       end
     end)");
+  const std::string splines = R"(
+    subsection Bone
+      set Element = spline
+      set Cells   = 12, 12, 2
+    end
+    subsection Implant
+      set Element = spline
+    end)";
+  check("Splines on the lattice, a loaded chuck", linear + splines + R"(
+    subsection Chuck
+      subsection Translation z
+        set Control = force
+        set Value   = -50 * (0.2 + min(t, 1))
+      end
+    end)");
+  check("Splines on the lattice, Neo-Hookean bodies", splines);
+  check("Splines, cells under the implant", linear + splines + R"(
+    subsection Bone
+      set Cells under implant = 8
+    end)");
   check("Steps that are halved",
         R"(
     subsection Interface

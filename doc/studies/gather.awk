@@ -1,12 +1,14 @@
 # Gathers study.csv files into one table that is easy to plot: a row for each variant with what was chosen, seconds and
-# errors. Entries that a study does not vary have the value they have in prm/studies/work_precision_scene.prm.
+# errors. Entries that a study does not vary have the value they have in prm/studies/work_precision_scene.prm; studies with
+# splines in their name are of splines.
 BEGIN {
   chosen["Model"] = "finite elements"
   chosen["Bone / Cells"] = "30, 30, 4"
   chosen["Bone / Layer grading"] = "1.5"
+  chosen["Bone / Cells under implant"] = "0"
   chosen["Bone / Material"] = "linear"
   chosen["Bone / Contact surface"] = "nurbs"
-  chosen["Interface / Quadrature points"] = "5"
+  chosen["Interface / Quadrature points"] = "5" # 6 with splines
   chosen["Interface / Slave"] = "implant"
   chosen["Load steps / Steps"] = "1, 10, 10"
   chosen["Load steps / Adaptive"] = "true"
@@ -48,8 +50,8 @@ FNR == 1 {
   closed = value("Model") != "finite elements"
   splines = FILENAME ~ /splines/
   tier = closed ? value("Model") : splines ? "splines" : value("Bone / Material")
-  split(value("Bone / Cells"), cells, ", ")
-  mesh = closed ? "none" : splines ? cells[1] " x " cells[2] : mesh_name[cells[1]]
+  split(value("Bone / Cells"), cells, ", "); split(value("Implant / Cells"), implant_cells, ", ")
+  mesh = closed ? "none" : !splines ? mesh_name[cells[1]] : value("Bone / Cells under implant") > 0 ? "graded to the rim" : "equal splines"
   layers = closed ? "none" : cells[3] (value("Bone / Layer grading") == 1 ? " equal" : "")
   if (value("Load steps / Adaptive") == "true" && !closed) steps = "tol. " value("Load steps / Tolerance")
   else {
@@ -58,13 +60,17 @@ FNR == 1 {
     for (i = 2; i <= phases; i++) steps += count[i]
     steps = steps " steps"
   }
-  points = value("Interface / Quadrature points"); surface = value("Bone / Contact surface"); slave = value("Interface / Slave")
+  points = splines ? 6 : value("Interface / Quadrature points")
+  surface = value("Bone / Contact surface"); slave = value("Interface / Slave")
   # what differs from the usual choice
   label = tier
   if (tier == "analytical") label = label (value("Closed form / Linear limit angle") == 0.13 ? "; printed angles" : "; own angles")
-  if (!closed && tier != "rigid") label = label "; " mesh "; " layers " layers"
+  if (splines) {
+    label = label (value("Bone / Material") == "linear" ? "" : " " value("Bone / Material")) "; " cells[1] " x " cells[2] " x " cells[3] " / " \
+      implant_cells[1] " x " implant_cells[1] " x " implant_cells[2] (mesh == "equal splines" ? "" : " " mesh)
+  } else if (!closed && tier != "rigid") label = label "; " mesh "; " layers " layers"
   label = label "; " steps
-  if (!closed && points != 5) label = label "; " points "x" points " points"
+  if (!closed && !splines && points != 5) label = label "; " points "x" points " points"
   if (surface != "nurbs") label = label "; " surface
   if (slave != "implant") label = label "; slave: " slave
   shared = value("seconds_shared_set_up") # a run alone would spend it, too

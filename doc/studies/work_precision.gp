@@ -2,13 +2,14 @@
 # CSV file or "", methods: list of what is in it, CODE/METHOD.
 dir = "output/studies/"
 table = dir . "work_precision.csv"
-tiers = "mathieu analytical foundation rigid linear neo-hookean"
-tier_colours = "grey orange green purple blue red"
-meshes = "none coarse lean medium fine very_fine"
+tiers = "mathieu analytical foundation rigid linear neo-hookean splines"
+tier_colours = "grey orange green purple blue red black"
+meshes = "none coarse lean medium fine very_fine equal_splines graded_to_the_rim"
+black = 0x000000
 colour(k) = value(word(tier_colours, k))
-array symbol[6] = [3, 9, 15, 7, 5, 13]
-spaced(word) = word eq "very_fine" ? "very fine" : word
-mesh_name(m) = m == 1 ? "closed form" : spaced(word(meshes, m)) . " mesh"
+array symbol[8] = [3, 9, 15, 7, 5, 13, 11, 4]
+spaced(word) = word eq "very_fine" ? "very fine" : word eq "equal_splines" ? "equal splines" : word eq "graded_to_the_rim" ? "graded to the rim" : word
+mesh_name(m) = m == 1 ? "closed form" : m == 7 ? "equal cells" : m == 8 ? "cells for the rim" : spaced(word(meshes, m)) . " mesh"
 is(tier, mesh) = strcol("tier") eq tier && strcol("mesh") eq spaced(mesh)
 best(x) = x > 0 ? x : NaN
 
@@ -54,10 +55,10 @@ do for [format in "png svg"] {
   floor_of_error = 1.2e-5
   set arrow 1 from graph 0, first floor_of_error to graph 1, first floor_of_error nohead dashtype 2 linecolor rgb "#888888"
   set label 2 "error of the reference" at graph 0.01, first floor_of_error * 1.15
-  plot for [k=1:6] for [m=1:6] table using (is(word(tiers, k), word(meshes, m)) ? column("seconds") : NaN):"error_torque" \
+  plot for [k=1:7] for [m=1:8] table using (is(word(tiers, k), word(meshes, m)) ? column("seconds") : NaN):"error_torque" \
       with points pointtype symbol[m] pointsize 1.5 linecolor rgb (colour(k) + 0x60000000) notitle, \
-    for [k=1:6] NaN with points pointtype 7 pointsize 1.6 linecolor rgb colour(k) title word(tiers, k), \
-    for [m=1:6] NaN with points pointtype symbol[m] pointsize 1.6 linecolor rgb "#444444" title mesh_name(m), \
+    for [k=1:7] NaN with points pointtype 7 pointsize 1.6 linecolor rgb colour(k) title word(tiers, k), \
+    for [m=1:8] NaN with points pointtype symbol[m] pointsize 1.6 linecolor rgb "#444444" title mesh_name(m), \
     front using "seconds":"error_torque" with steps linewidth 1.5 linecolor rgb "#000000" title "best in its time", \
     front using "seconds":"error_torque":(sprintf("%d", $0 + 1)) with labels offset -0.6, -0.7 right notitle
   unset label
@@ -75,13 +76,13 @@ do for [format in "png svg"] {
     set origin (i - 1) / 2., 0
     set size 0.5, 1
     set ylabel "RMS error of the local " . name[i] . " / its mean"
-    set key at screen 0.5, 0.01 bottom center maxrows 4 samplen 1.5
+    set key at screen 0.5, 0.01 bottom center maxrows 4 samplen 1.5 width -2
     if (i == 2) { unset key }
     error = "error_" . what[i]
-    plot for [k=1:6] for [m=1:6] table using (is(word(tiers, k), word(meshes, m)) ? column("seconds") : NaN):(best(column(error))) \
+    plot for [k=1:7] for [m=1:8] table using (is(word(tiers, k), word(meshes, m)) ? column("seconds") : NaN):(best(column(error))) \
         with points pointtype symbol[m] pointsize 1.3 linecolor rgb (colour(k) + 0x60000000) notitle, \
-      for [k=2:6] NaN with points pointtype 7 pointsize 1.5 linecolor rgb colour(k) title word(tiers, k), \
-      for [m=1:6] NaN with points pointtype symbol[m] pointsize 1.5 linecolor rgb "#444444" title mesh_name(m), \
+      for [k=2:7] NaN with points pointtype 7 pointsize 1.5 linecolor rgb colour(k) title word(tiers, k), \
+      for [m=1:8] NaN with points pointtype symbol[m] pointsize 1.5 linecolor rgb "#444444" title mesh_name(m), \
       dir . "front_" . what[i] . ".csv" using "seconds":error with steps linewidth 1.5 linecolor rgb "#000000" title "best in its time"
   }
   unset multiplot
@@ -97,25 +98,27 @@ do for [format in "png svg"] {
   set xlabel "Wall time of the run [s]"
   set ylabel "Largest error of the torque at 0.05, 0.1, ... 1° / {/:Italic T}_{max}"
   set xrange [0.02:1000]
-  set yrange [1e-4:0.2]
+  set yrange [3e-5:0.2]
   set bmargin 9
   # columns of the key: debond, its meshes, the first of the other codes, the others
-  set key at screen 0.5, 0.01 bottom center maxrows 4 samplen 1.5 width -5
+  set key at screen 0.5, 0.01 bottom center maxrows 4 samplen 1.5 width -7
   set style textbox opaque noborder fillcolor rgb "#ffffff"
   front = dir . "front_coulomb.csv"
   if (codes ne "") {
     do for [n=1:count_of_semicolons(all_cells)] {
       rest = all_cells
       do for [skipped=2:n] { rest = rest[strstrt(rest, ";") + 1:] }
-      set label n letter(rest[1:strstrt(rest, ";") - 1]) . ": " . rest[1:strstrt(rest, ";") - 1] at graph 0.03, 0.04 + 0.035 * (count_of_semicolons(all_cells) - n) boxed
+      set label n letter(rest[1:strstrt(rest, ";") - 1]) . ": " . rest[1:strstrt(rest, ";") - 1] at graph 0.69, 0.04 + 0.035 * (count_of_semicolons(all_cells) - n) boxed
     }
-    set label 100 "Cells of other codes, bone / implant" at graph 0.02, 0.04 + 0.035 * count_of_semicolons(all_cells) boxed
+    set label 100 "Cells of other codes, bone / implant" at graph 0.68, 0.04 + 0.035 * count_of_semicolons(all_cells) boxed
   }
   plot for [s=1:2] for [m=2:6] ours using (strcol("surface") eq word(surfaces, s) && is("linear", word(meshes, m)) ? column("seconds") : NaN):"error_torque" \
       with points pointtype symbol[m] pointsize 1.5 linecolor rgb (surface_colour[s] + 0x40000000) notitle, \
+    ours using (is("splines", "equal_splines") ? column("seconds") : NaN):"error_torque" \
+      with points pointtype symbol[7] pointsize 1.5 linecolor rgb 0x40000000 notitle, \
     front using "seconds":"error_torque" with steps linewidth 1.5 linecolor rgb "#000000" title "debond, best in its time", \
-    for [s=1:2] NaN with points pointtype 7 pointsize 1.6 linecolor rgb surface_colour[s] title "debond, " . (s == 1 ? "NURBS" : "bilinear") . " surfaces", \
-    keyentry with points pointtype -1 linecolor rgb "#ffffff" title " ", \
+    for [s=1:2] NaN with points pointtype 7 pointsize 1.6 linecolor rgb surface_colour[s] title s == 1 ? "trilinear, NURBS" : "trilinear, bilinear faces", \
+    NaN with points pointtype symbol[7] pointsize 1.6 linecolor rgb black title "splines", \
     for [m=2:5] NaN with points pointtype symbol[m] pointsize 1.6 linecolor rgb "#444444" title mesh_name(m), \
     for [k=1:words(methods)] others using (of(word(methods, k)) ? column("seconds") : NaN):"error_torque" \
       with points pointtype open_symbol[k] pointsize 2 linewidth 1.5 linecolor rgb code_colour(word(methods, k)) notitle, \

@@ -4,6 +4,7 @@
 #include <debond/geometry/surface_geometry.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/output/field_output.h>
+#include <debond/support/runtime.h>
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/utilities.h>
@@ -28,6 +29,35 @@ namespace Debond
         for (unsigned int j = 0; j < matrix.cols(); ++j)
           values.push_back(matrix(i, j));
     }
+
+    /** With @p curved_cells a patch is one cell, a Lagrange polynomial through
+     *  its points. */
+    dealii::DataOutBase::VtkFlags
+    vtk_flags(const bool curved_cells)
+    {
+      dealii::DataOutBase::VtkFlags flags;
+      flags.print_date_and_time      = false;
+      flags.compression_level        = flags.best_speed;
+      flags.write_higher_order_cells = curved_cells;
+      return flags;
+    }
+
+
+
+    /** The text of a VTU file from those of its pieces. */
+    std::string
+    vtu_file(const std::vector<std::string> &pieces,
+             const bool                      curved_cells = false)
+    {
+      std::ostringstream text;
+      dealii::DataOutBase::write_vtu_header(text, vtk_flags(curved_cells));
+      for (const std::string &piece : pieces)
+        text << piece;
+      dealii::DataOutBase::write_vtu_footer(text);
+      return text.str();
+    }
+
+
 
     /**
      * What deal.II's writers ask for: patches (cells or pieces of a surface,
@@ -84,17 +114,13 @@ namespace Debond
           }
       }
 
-      /** The text of a VTU file; with @p curved_cells a patch is one cell, a
-       *  Lagrange polynomial through its points. */
+      /** The text of a piece of a VTU file. */
       std::string
-      vtu(const bool curved_cells = false) const
+      piece(const bool curved_cells = false) const
       {
-        dealii::DataOutBase::VtkFlags flags;
-        flags.print_date_and_time      = false;
-        flags.compression_level        = flags.best_speed;
-        flags.write_higher_order_cells = curved_cells;
         std::ostringstream text;
-        dealii::DataOutBase::write_vtu(patches, names, ranges, flags, text);
+        dealii::DataOutBase::write_vtu_main(
+          patches, names, ranges, vtk_flags(curved_cells), text);
         return text.str();
       }
 
@@ -127,59 +153,102 @@ namespace Debond
 
 
 
+  namespace
+  {
+    /** What is drawn of a body: its state, and how finely. */
+    struct DrawnBody
+    {
+      const BodyMesh              &mesh;
+      const Chuck                 &chuck;
+      Eigen::VectorXd              v; ///< of all nodes, in the body's frame
+      std::vector<Eigen::Matrix3d> stress;     ///< at the vertices
+      unsigned int                 n_enriched; ///< pieces of a curved cell
+
+      DrawnBody(const Body &body, const Chuck &chuck, const bool curved_cells)
+        : mesh(body.mesh())
+        , chuck(chuck)
+        , v(body.full_displacement())
+        , stress(body.vertex_stress(v))
+        // A surface of degree one makes its cells trilinear.
+        , n_enriched(mesh.surface().degree() == 1 ? 1 :
+                     curved_cells                 ? 2 :
+                                    n_pieces(mesh.surface(), 24, 2, 8))
+      {}
+
+      void
+      draw(const BodyMesh::Cell &cell, PatchSet<3> &output) const
+      {
+        const bool            is_implant = mesh.side() == Side::implant;
+        const Eigen::Matrix3d Q =
+          is_implant ? chuck.rotation() : Eigen::Matrix3d::Identity();
+        output.add_patch(
+          cell.enriched || mesh.has_splines() ? n_enriched : 1,
+          [&](const Eigen::Vector3d &point, std::vector<double> &values) {
+            const std::vector<double> N = shape_functions(mesh, cell, point).N;
+            Eigen::Vector3d           X = Eigen::Vector3d::Zero(), v_point = X;
+            for (unsigned int a = 0; a < N.size(); ++a)
+              {
+                X += N[a] * mesh.reference_position(cell.nodes[a]);
+                v_point += N[a] * v.segment<3>(3 * cell.nodes[a]);
+              }
+            const auto      corners = trilinear(point);
+            Eigen::Matrix3d sigma   = Eigen::Matrix3d::Zero();
+            for (unsigned int a = 0; a < n_corners; ++a)
+              sigma += corners[a] * stress[cell.vertices[a]];
+
+            append_values(values,
+                          is_implant ? chuck.map(X, v_point) - X : v_point);
+            append_values(values, v_point);
+            append_values(values, (Q * sigma * Q.transpose()).eval());
+            values.push_back(von_mises(sigma));
+            values.push_back(is_implant ? 1. : 0.);
+            return X;
+          });
+      }
+    };
+  } // namespace
+
+
+
   // A patch is a cell; those at the curved surface are finely subdivided, or
-  // quadratic ones where a body has splines.
+  // quadratic ones where a body has splines. To draw and to compress them takes
+  // longer than to solve for a step on the lattice, so that large bodies are
+  // written as several pieces of a file, in threads.
   std::string
   bulk_vtu(const std::array<const Body *, 2> &bodies, const Chuck &chuck)
   {
-    PatchSet<3> output({{"displacement", 3},
-                        {"displacement_in_frame", 3},
-                        {"stress_MPa", 9},
-                        {"von_Mises_MPa", 1},
-                        {"body", 1}});
-    const bool  curved_cells =
+    const bool curved_cells =
       bodies[0]->mesh().has_splines() || bodies[1]->mesh().has_splines();
-    for (const Body *const body : bodies)
-      {
-        const BodyMesh       &mesh       = body->mesh();
-        const bool            is_implant = mesh.side() == Side::implant;
-        const Eigen::VectorXd v          = body->full_displacement();
-        const auto            stress     = body->vertex_stress(v);
-        Eigen::Matrix3d       Q          = Eigen::Matrix3d::Identity();
-        if (is_implant)
-          Q = chuck.rotation();
-        // A surface of degree one makes its cells trilinear.
-        const unsigned int n_enriched =
-          mesh.surface().degree() == 1 ? 1 :
-          curved_cells                 ? 2 :
-                                         n_pieces(mesh.surface(), 24, 2, 8);
-        for (const BodyMesh::Cell &cell : mesh.cells())
-          output.add_patch(
-            cell.enriched || mesh.has_splines() ? n_enriched : 1,
-            [&](const Eigen::Vector3d &point, std::vector<double> &values) {
-              const std::vector<double> N =
-                shape_functions(mesh, cell, point).N;
-              Eigen::Vector3d X = Eigen::Vector3d::Zero(), v_point = X;
-              for (unsigned int a = 0; a < N.size(); ++a)
-                {
-                  X += N[a] * mesh.reference_position(cell.nodes[a]);
-                  v_point += N[a] * v.segment<3>(3 * cell.nodes[a]);
-                }
-              const auto      corners = trilinear(point);
-              Eigen::Matrix3d sigma   = Eigen::Matrix3d::Zero();
-              for (unsigned int a = 0; a < n_corners; ++a)
-                sigma += corners[a] * stress[cell.vertices[a]];
-
-              append_values(values,
-                            is_implant ? chuck.map(X, v_point) - X : v_point);
-              append_values(values, v_point);
-              append_values(values, (Q * sigma * Q.transpose()).eval());
-              values.push_back(von_mises(sigma));
-              values.push_back(is_implant ? 1. : 0.);
-              return X;
-            });
-      }
-    return output.vtu(curved_cells);
+    const std::array<DrawnBody, 2> drawn{
+      {{*bodies[0], chuck, curved_cells}, {*bodies[1], chuck, curved_cells}}};
+    const std::size_t n_first = drawn[0].mesh.cells().size(),
+                      n_cells = n_first + drawn[1].mesh.cells().size();
+    constexpr std::size_t cells_in_piece = 500, max_pieces = 8;
+    const std::size_t     n =
+      std::clamp<std::size_t>(n_cells / cells_in_piece, 1, max_pieces);
+    const PatchSet<3>        fields({{"displacement", 3},
+                                     {"displacement_in_frame", 3},
+                                     {"stress_MPa", 9},
+                                     {"von_Mises_MPa", 1},
+                                     {"body", 1}});
+    std::vector<std::string> pieces(n);
+    for_each_chunk(
+      n, [&](unsigned int, const std::size_t first, const std::size_t end) {
+        for (std::size_t piece = first; piece < end; ++piece)
+          {
+            PatchSet<3>       output = fields;
+            const std::size_t begin  = n_cells * piece / n;
+            for (std::size_t k = begin; k < n_cells * (piece + 1) / n; ++k)
+              {
+                const bool       is_first = k < n_first;
+                const DrawnBody &body     = drawn[is_first ? 0 : 1];
+                body.draw(body.mesh.cells()[is_first ? k : k - n_first],
+                          output);
+              }
+            pieces[piece] = output.piece(curved_cells);
+          }
+      });
+    return vtu_file(pieces, curved_cells);
   }
 
 
@@ -399,6 +468,6 @@ namespace Debond
           append_values(values, displacement.y);
           return position.y;
         });
-    return output.vtu();
+    return vtu_file({output.piece()});
   }
 } // namespace Debond

@@ -32,7 +32,8 @@ those of build/release, ccx and /usr/bin/python3."
 # code | method | bone across | implant across | layers (bone+implant if they
 # differ) | threads | processor seconds (rough), for the curve (-: left out).
 # The method is the element and, with 'round', a polygon of the same area as the
-# disk: what a careful user of straight elements would take.
+# disk: what a careful user of straight elements would take. debond: 'nurbs',
+# trilinear cells below a face of NURBS, or 'splines'.
 runs="
 debond   nurbs        15  3  2   2 0.1  0.15
 debond   nurbs        15  3  4   2 0.1  0.15
@@ -44,6 +45,12 @@ debond   nurbs        30  6  8   2 0.6  0.8
 debond   nurbs        40  8 12+6 2 2    3
 debond   nurbs        45  9 12   2 4    5
 debond   nurbs        60 12 16   2 15   20
+debond   splines      16  3  4+2 2 0.1  0.1
+debond   splines      20  4  6+3 2 0.1  0.15
+debond   splines      30  5  8+4 2 0.2  0.25
+debond   splines      40  6  8+4 2 0.3  0.4
+debond   splines      60  8 10+6 2 0.5  0.8
+debond   splines      80 10 10+8 2 1    1.5
 debond   adaptive     20  4  6+2 2 0.3  -
 debond   adaptive     30  6  8   2 1    -
 CalculiX C3D8         15  6  2   1 1.3  6
@@ -113,14 +120,14 @@ for code in $only; do
 done
 $list || [ -n "$output" ] || fail "no file to write is given (see work_precision.sh --help)"
 
-# For each run of another code its seconds over those that debond (nurbs) needs
-# for the same error, logarithms linear between the best of its runs. An error
-# larger than debond's largest is given debond's least seconds; a smaller one no
+# For each run of another code its seconds over those that debond (nurbs and
+# splines) needs for the same error, logarithms linear between the best of its
+# runs. An error larger than debond's largest is given debond's least seconds; a smaller one no
 # factor.
 print_factors() {
   awk -F, '
     FNR == 1 { next }
-    $1 == "debond" && $2 ~ /^nurbs/ { ++all; s[all] = $3; e[all] = $4; next }
+    $1 == "debond" && $2 ~ /^(nurbs|splines)/ { ++all; s[all] = $3; e[all] = $4; next }
     $1 != "debond" { ++m; row[m] = $0 }
     function front(     i, k, best) { # faster runs first, each closer than the last
       for (best = 1e9; ; best = e[k])
@@ -238,10 +245,13 @@ cells_of_scene() {
 }
 
 run_debond() {
-  local adaptive=false
+  local adaptive=false body splines=()
   [ "$method" = adaptive ] && adaptive=true
+  if [ "$method" = splines ]; then
+    for body in Bone Implant; do splines+=(--set "$body/Element=spline" --set "$body/Layer grading=2"); done
+  fi
   # shellcheck disable=SC2046 # no value has a blank
-  timed "$debond" "$here/coin.prm" $(cells_of_scene) --force --set "Output/Directory=$directory/debond" \
+  timed "$debond" "$here/coin.prm" $(cells_of_scene) "${splines[@]}" --force --set "Output/Directory=$directory/debond" \
     --set Output/Console=quiet --set "Load steps/Adaptive=$adaptive" --set "Load steps/Steps=$steps_of_scene" \
     --threads "$threads"
   awk -F, 'FNR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i; next }

@@ -1,0 +1,103 @@
+// What VTU files hold of bodies of splines: curved cells, by which the coin is
+// round between the corners of its cells; a uniform strain and its stress, as
+// quadratic splines have it exactly.
+
+#include <debond/bulk/body.h>
+#include <debond/bulk/chuck.h>
+#include <debond/output/field_output.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "checks.h"
+#include "vtu_file.h"
+
+using namespace Debond;
+
+/** Cells across and layers. */
+constexpr unsigned int n_bone = 5, n_coin = 3, n_layers = 2;
+/** Displacement gradient of both bodies in their frames. */
+const Eigen::Matrix3d H =
+  (Eigen::Matrix3d() << 1., -2., 0.5, 0.3, -1.2, 2., 0.7, 0.2, -0.4)
+    .finished() *
+  1e-3;
+
+std::unique_ptr<Body>
+strained_body(BodyParameters parameters, const Side side)
+{
+  parameters.element       = ElementKind::spline;
+  parameters.material      = Material::linear;
+  parameters.layer_grading = 1.5;
+  auto            body     = make_body(parameters, side);
+  const BodyMesh &mesh     = body->mesh();
+  Eigen::VectorXd v(3 * mesh.n_nodes());
+  for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
+    v.segment<3>(3 * node) = H * mesh.reference_position(node);
+  body->correct(v);
+  return body;
+}
+
+
+
+int
+main()
+{
+  BodyParameters bone, coin;
+  bone.cells              = {{n_bone, n_bone, n_layers}};
+  coin.shape              = BodyShape::coin;
+  coin.cells              = {{n_coin, n_coin, n_layers}};
+  const auto body_of_bone = strained_body(bone, Side::bone),
+             body_of_coin = strained_body(coin, Side::implant);
+  const Chuck       chuck(ChuckParameters(),
+                    Eigen::Vector3d(0, 0, coin.height),
+                    coin.radius);
+  const std::string vtu =
+    bulk_vtu({{body_of_bone.get(), body_of_coin.get()}}, chuck);
+
+  const auto X = read_array(vtu, ""), u = read_array(vtu, "displacement"),
+             stress          = read_array(vtu, "stress_MPa"),
+             of              = read_array(vtu, "body");
+  const unsigned int n_cells = n_layers * (n_bone * n_bone + n_coin * n_coin);
+  report("27 points in each cell", of.size() == 27 * n_cells);
+  // 72: VTK_LAGRANGE_HEXAHEDRON
+  const auto         types = read_array<std::uint8_t>(vtu, "types");
+  const unsigned int n_curved =
+    std::count(types.begin(), types.end(), std::uint8_t(72));
+  report("cells are curved", types.size() == n_cells && n_curved == n_cells);
+
+  double       displacement = 0., stresses = 0., outside = 0.;
+  unsigned int n_on_side = 0;
+  for (unsigned int i = 0; i < of.size(); ++i)
+    {
+      const Eigen::Vector3d
+        x   = Eigen::Map<const Eigen::Vector3f>(&X[3 * i]).cast<double>(),
+        u_x = Eigen::Map<const Eigen::Vector3f>(&u[3 * i]).cast<double>();
+      grow(displacement, (u_x - H * x).norm());
+      const BodyParameters &body = of[i] == 1 ? coin : bone;
+      const double          E = body.young_modulus, nu = body.poisson_ratio;
+      const Eigen::Matrix3d strain = 0.5 * (H + H.transpose());
+      const Eigen::Matrix3d expected =
+        E / (1. + nu) *
+        (strain +
+         nu / (1. - 2. * nu) * strain.trace() * Eigen::Matrix3d::Identity());
+      grow(stresses,
+           (Eigen::Map<const Eigen::Matrix3f>(&stress[9 * i]).cast<double>() -
+            expected)
+               .norm() /
+             expected.norm());
+      if (of[i] == 1)
+        {
+          const double r = x.head<2>().norm();
+          grow(outside, r - coin.radius);
+          n_on_side += std::abs(r - coin.radius) < 1e-6;
+        }
+    }
+  report("Displacement of a uniform strain [mm]", displacement, 1e-8);
+  report("Its stress, relative", stresses, 1e-5);
+  report("Coin beyond its radius [mm]", outside, 1e-6);
+  // nine of each outer face; those of a corner cell's common edge belong to two
+  // faces, but to one cell
+  report("All points of the side are on the circle",
+         n_on_side == n_layers * (4 * n_coin * 9 - 4 * 3));
+}

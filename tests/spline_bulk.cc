@@ -151,8 +151,8 @@ check_torque()
 
 
 /** Strains are 1e-3, and their squares hardly matter: 1.3e-6 of T_max in an
- *  independent finite-strain solution with trilinear cells, where the bound for
- *  splines is 5e-6. The steps through the peak are enough. */
+ *  independent finite-strain solution with trilinear cells; the bound here is
+ *  5e-6. The steps through the peak are enough. */
 void
 check_neo_hooke()
 {

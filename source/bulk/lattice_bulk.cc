@@ -199,8 +199,9 @@ namespace Debond
         return unknowns;
       }
 
-      // Only linear bodies are solved this way: the stiffness is that at rest
-      // whatever the displacement, and whatever is in contact.
+      // The stiffness stays that at rest, whatever the displacement and whatever
+      // is in contact: that of a linear body, and a frozen tangent of a
+      // Neo-Hookean one.
       bool
       linearise(const Eigen::VectorXd &) override
       {

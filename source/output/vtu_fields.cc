@@ -30,35 +30,6 @@ namespace Debond
           values.push_back(matrix(i, j));
     }
 
-    /** With @p curved_cells a patch is one cell, a Lagrange polynomial through
-     *  its points. */
-    dealii::DataOutBase::VtkFlags
-    vtk_flags(const bool curved_cells)
-    {
-      dealii::DataOutBase::VtkFlags flags;
-      flags.print_date_and_time      = false;
-      flags.compression_level        = flags.best_speed;
-      flags.write_higher_order_cells = curved_cells;
-      return flags;
-    }
-
-
-
-    /** The text of a VTU file from those of its pieces. */
-    std::string
-    vtu_file(const std::vector<std::string> &pieces,
-             const bool                      curved_cells = false)
-    {
-      std::ostringstream text;
-      dealii::DataOutBase::write_vtu_header(text, vtk_flags(curved_cells));
-      for (const std::string &piece : pieces)
-        text << piece;
-      dealii::DataOutBase::write_vtu_footer(text);
-      return text.str();
-    }
-
-
-
     /**
      * What deal.II's writers ask for: patches (cells or pieces of a surface,
      * each a regular grid of points) and the names of the fields.
@@ -114,13 +85,28 @@ namespace Debond
           }
       }
 
-      /** The text of a piece of a VTU file. */
-      std::string
-      piece(const bool curved_cells = false) const
+      /** Adds the patches of another set with the same fields. */
+      void
+      add_patches(PatchSet &&other)
       {
+        for (auto &patch : other.patches)
+          {
+            patch.patch_index = patches.size();
+            patches.push_back(std::move(patch));
+          }
+      }
+
+      /** The text of a VTU file; with @p curved_cells a patch is one cell, a
+       *  Lagrange polynomial through its points. */
+      std::string
+      vtu(const bool curved_cells = false) const
+      {
+        dealii::DataOutBase::VtkFlags flags;
+        flags.print_date_and_time      = false;
+        flags.compression_level        = flags.best_speed;
+        flags.write_higher_order_cells = curved_cells;
         std::ostringstream text;
-        dealii::DataOutBase::write_vtu_main(
-          patches, names, ranges, vtk_flags(curved_cells), text);
+        dealii::DataOutBase::write_vtu(patches, names, ranges, flags, text);
         return text.str();
       }
 
@@ -211,44 +197,36 @@ namespace Debond
 
 
   // A patch is a cell; those at the curved surface are finely subdivided, or
-  // quadratic ones where a body has splines. To draw and to compress them takes
-  // longer than to solve for a step on the lattice, so that large bodies are
-  // written as several pieces of a file, in threads.
+  // quadratic ones where a body has splines. They are drawn in threads. The
+  // file has one piece: ParaView mixes up the points of curved cells in files
+  // of several.
   std::string
   bulk_vtu(const std::array<const Body *, 2> &bodies, const Chuck &chuck)
   {
-    const bool curved_cells =
+    const PatchSet<3> fields({{"displacement", 3},
+                              {"displacement_in_frame", 3},
+                              {"stress_MPa", 9},
+                              {"von_Mises_MPa", 1},
+                              {"body", 1}});
+    PatchSet<3>       output = fields;
+    const bool        curved_cells =
       bodies[0]->mesh().has_splines() || bodies[1]->mesh().has_splines();
-    const std::array<DrawnBody, 2> drawn{
-      {{*bodies[0], chuck, curved_cells}, {*bodies[1], chuck, curved_cells}}};
-    const std::size_t n_first = drawn[0].mesh.cells().size(),
-                      n_cells = n_first + drawn[1].mesh.cells().size();
-    constexpr std::size_t cells_in_piece = 500, max_pieces = 8;
-    const std::size_t     n =
-      std::clamp<std::size_t>(n_cells / cells_in_piece, 1, max_pieces);
-    const PatchSet<3>        fields({{"displacement", 3},
-                                     {"displacement_in_frame", 3},
-                                     {"stress_MPa", 9},
-                                     {"von_Mises_MPa", 1},
-                                     {"body", 1}});
-    std::vector<std::string> pieces(n);
-    for_each_chunk(
-      n, [&](unsigned int, const std::size_t first, const std::size_t end) {
-        for (std::size_t piece = first; piece < end; ++piece)
-          {
-            PatchSet<3>       output = fields;
-            const std::size_t begin  = n_cells * piece / n;
-            for (std::size_t k = begin; k < n_cells * (piece + 1) / n; ++k)
-              {
-                const bool       is_first = k < n_first;
-                const DrawnBody &body     = drawn[is_first ? 0 : 1];
-                body.draw(body.mesh.cells()[is_first ? k : k - n_first],
-                          output);
-              }
-            pieces[piece] = output.piece(curved_cells);
-          }
-      });
-    return vtu_file(pieces, curved_cells);
+    for (const Body *const body : bodies)
+      {
+        const DrawnBody          drawn(*body, chuck, curved_cells);
+        const auto              &cells = body->mesh().cells();
+        std::vector<PatchSet<3>> parts(n_chunks, fields);
+        for_each_chunk(cells.size(),
+                       [&](const unsigned int chunk,
+                           const unsigned int first,
+                           const unsigned int end) {
+                         for (unsigned int k = first; k < end; ++k)
+                           drawn.draw(cells[k], parts[chunk]);
+                       });
+        for (PatchSet<3> &part : parts)
+          output.add_patches(std::move(part));
+      }
+    return output.vtu(curved_cells);
   }
 
 
@@ -468,6 +446,6 @@ namespace Debond
           append_values(values, displacement.y);
           return position.y;
         });
-    return vtu_file({output.piece()});
+    return output.vtu();
   }
 } // namespace Debond

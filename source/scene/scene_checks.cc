@@ -275,8 +275,8 @@ namespace Debond
                        ChuckParameters::entry_name(c, "File"),
                        output.directory);
     check_sensitivities(*this);
-    if (bone.bulk_solver == BulkSolver::lattice && !why_direct().empty())
+    if (bone.bulk_solver == BulkSolver::lattice && !why_not_lattice().empty())
       throw EntryError("Bone / Bulk solver",
-                       why_direct() + ": expected auto or direct");
+                       why_not_lattice() + ": expected auto or direct");
   }
 } // namespace Debond

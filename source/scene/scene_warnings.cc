@@ -181,7 +181,7 @@ namespace Debond
            entry + " is never negative: it pulls the implant off the bone. "
                    "What presses is negative");
       const double push = -*least; // a machine's springs may take a larger one
-      note(!z.loaded && z.stiffness == 0. &&
+      note(!z.is_unknown() &&
              push >
                std::max(bone.penetration_limit(), implant.penetration_limit()),
            "depth of the push",

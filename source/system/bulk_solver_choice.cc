@@ -7,26 +7,24 @@ namespace Debond
 {
   namespace
   {
-    /** Whether a component of the chuck is an unknown. */
-    bool
-    is_free(const ModelParameters &model, const unsigned int component)
-    {
-      const auto &parameters = model.chuck.component[component];
-      return parameters.loaded || parameters.stiffness != 0.;
-    }
-
-
-
-    /** The largest value of a prescribed component [mm, rad]. */
+    /** The largest value of a prescribed component [mm, degrees], also between
+     *  the planned times, where adaptive steps may end. */
     double
     largest_value(const ModelParameters &model, const unsigned int component)
     {
-      const auto function =
+      constexpr unsigned int    n_between = 10;
+      const std::vector<double> times     = model.load_steps.sample_times();
+      const auto                function =
         model.chuck.value_over_time(component,
                                     model.implant.characteristic_radius());
-      double largest = 0.;
-      for (const double time : model.load_steps.sample_times())
-        largest = std::max(largest, std::abs(function(time)));
+      double largest = std::abs(function(times.front()));
+      for (unsigned int i = 1; i < times.size(); ++i)
+        for (unsigned int k = 1; k <= n_between; ++k)
+          {
+            const double time = times[i] - (times[i] - times[i - 1]) *
+                                             (n_between - k) / n_between;
+            largest = std::max(largest, std::abs(function(time)));
+          }
       return largest;
     }
 
@@ -37,8 +35,9 @@ namespace Debond
     double
     reach_of_implant(const ModelParameters &model, const unsigned int direction)
     {
-      const unsigned int c   = ChuckComponent::translation_x + direction;
-      const double       way = is_free(model, c) ? 0. : largest_value(model, c);
+      const unsigned int c = ChuckComponent::translation_x + direction;
+      const double       way =
+        model.chuck.component[c].is_unknown() ? 0. : largest_value(model, c);
       // a block may turn
       return way + (model.implant.is_round() ?
                       model.implant.radius :
@@ -49,7 +48,8 @@ namespace Debond
 
 
     /** Whether the implant is pressed and tilted so little that strains, which
-     *  are about its way over its radius, are below a hundredth. */
+     *  are about its way over its radius, are below a hundredth. What friction
+     *  does to the bone on the way sideways is in proportion to that. */
     bool
     is_pressed_lightly(const ModelParameters &model)
     {
@@ -60,18 +60,39 @@ namespace Debond
                                    ChuckComponent::rotation_x,
                                    ChuckComponent::rotation_y})
         {
-          if (is_free(model, c))
+          if (model.chuck.component[c].is_unknown())
             return false;
-          way += largest_value(model, c) * (is_rotation(c) ? R : 1.);
+          way +=
+            largest_value(model, c) * (is_rotation(c) ? R * M_PI / 180. : 1.);
         }
       return way <= largest_strain * R;
+    }
+
+
+
+    /** Why a bone that the lattice solver could do is better solved directly,
+     *  as the rest of a sentence; empty: it is not. A free implant may come to
+     *  the sides, where the lattice solver ends the run, and with large strains
+     *  its tangent, that at rest, leads Newton's method slowly or not at all.
+     */
+    std::string
+    why_rather_direct(const ModelParameters &model)
+    {
+      for (const unsigned int d : {0, 1})
+        if (model.chuck.component[ChuckComponent::translation_x + d]
+              .is_unknown())
+          return std::string("the implant may go anywhere in ") + "xy"[d];
+      if (model.bone.material == Material::neo_hookean &&
+          !is_pressed_lightly(model))
+        return "strains of the Neo-Hookean bone may be large";
+      return "";
     }
   } // namespace
 
 
 
   std::string
-  ModelParameters::why_direct() const
+  ModelParameters::why_not_lattice() const
   {
     if (bone.material == Material::rigid)
       return "the bone is rigid";
@@ -90,28 +111,15 @@ namespace Debond
 
 
 
-  // What is possible may still end badly: on the lattice the implant must not
-  // come to the sides, and the stiffness of a Neo-Hookean bone stays that at
-  // rest, which Newton's method gets along with as long as strains are small.
   std::string
-  ModelParameters::why_rather_direct() const
+  ModelParameters::why_direct() const
   {
-    for (const unsigned int d : {0, 1})
-      if (is_free(*this, ChuckComponent::translation_x + d))
-        return std::string("the implant may go anywhere in ") + "xy"[d];
-    if (bone.material == Material::neo_hookean && !is_pressed_lightly(*this))
-      return "strains of the Neo-Hookean bone may be large";
-    return "";
-  }
-
-
-
-  bool
-  ModelParameters::is_on_lattice() const
-  {
-    return bone.bulk_solver != BulkSolver::direct && why_direct().empty() &&
-           (bone.bulk_solver == BulkSolver::lattice ||
-            why_rather_direct().empty());
+    if (bone.bulk_solver == BulkSolver::direct)
+      return "asked for";
+    const std::string why = why_not_lattice();
+    return why.empty() && bone.bulk_solver != BulkSolver::lattice ?
+             why_rather_direct(*this) :
+             why;
   }
 
 
@@ -119,12 +127,14 @@ namespace Debond
   bool
   ModelParameters::needs_matrix() const
   {
-    if (load_steps.follow_path)
-      return true;
-    bool has_unknowns = false;
-    for (unsigned int c = 0; c < ChuckParameters::n_components; ++c)
-      has_unknowns = has_unknowns || is_free(*this, c);
-    return has_unknowns && !is_on_lattice();
+    const auto &components = chuck.component;
+    return load_steps.follow_path ||
+           (!is_on_lattice() &&
+            std::any_of(components.begin(),
+                        components.end(),
+                        [](const ChuckComponentParameters &component) {
+                          return component.is_unknown();
+                        }));
   }
 
 
@@ -132,11 +142,8 @@ namespace Debond
   std::string
   ModelParameters::bulk_solver_in_words() const
   {
-    if (is_on_lattice())
-      return "bulk solver of the bone: lattice, for cells of equal width";
-    if (bone.bulk_solver == BulkSolver::direct)
-      return "bulk solver: direct, as asked for";
-    return "bulk solver: direct, as " +
-           (why_direct().empty() ? why_rather_direct() : why_direct());
+    return is_on_lattice() ?
+             "bulk solver of the bone: lattice, for cells of equal width" :
+             "bulk solver: direct, as " + why_direct();
   }
 } // namespace Debond

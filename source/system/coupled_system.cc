@@ -76,7 +76,8 @@ namespace Debond
     // their own along a path only, are lengths and angles among forces and
     // moments. Multiplied by the stiffness of the whole face, eps_n A [N/mm],
     // or eps_n A R^2 [N mm] if they are angles, they are of the size of the
-    // rows of forces and moments beside them.
+    // rows of forces and moments beside them. It also stands for the chuck in
+    // the preconditioner, where that has no other stiffness (CoupledTangent).
     for (unsigned int k = 0; k < 6; ++k)
       path.stiffness[k] =
         parameters.interface.law().normal->initial_stiffness() *

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-// The matrix of Newton's method: A = B + C with B = diag(S_bone, S_implant, 0),
+// The matrix of Newton's method: A = B + C with B = diag(S_bone, S_implant, D),
 // the condensed bodies, and C everything else. In step-44's terms it is the
 // tangent_matrix, but it is not stored: the linear solver asks for products.
 // The derivatives of Eqs. (29) to (32) at a point are in contact_point.cc,
@@ -139,18 +139,28 @@ namespace Debond
 
 
 
-  // C x, all of the tangent but the bodies: what the points contribute by their
+  // All of the tangent but the bodies: what the points contribute by their
   // total derivatives df/dx, turned into the frames, then the geometric part,
   // then the path. A product follows one motion of each point; to fill a matrix
   // would take one for each unknown that the point depends on.
   Eigen::VectorXd
-  CoupledTangent::interface_product(const Eigen::VectorXd &x) const
+  CoupledTangent::product_without_bulk(const Eigen::VectorXd &x) const
   {
     Eigen::VectorXd y = Eigen::VectorXd::Zero(size());
     interface.apply_tangent(configuration, x, y);
     add_geometric_part(x, y);
     if (path.follow)
       path.apply(configuration, x, y);
+    return y;
+  }
+
+
+
+  // C x. What B has of the chuck, C takes away again.
+  Eigen::VectorXd
+  CoupledTangent::interface_product(const Eigen::VectorXd &x) const
+  {
+    Eigen::VectorXd y = product_without_bulk(x);
     for (const auto &[k, row] : configuration.chuck_unknowns)
       y[row] -= chuck_stiffness_of_bulk(k) * x[row];
     return y;
@@ -170,26 +180,24 @@ namespace Debond
       {
         Eigen::VectorXd y = Y.col(j);
         add_geometric_part(X.col(j), y);
-        for (const auto &[k, row] : configuration.chuck_unknowns)
-          y[row] -= chuck_stiffness_of_bulk(k) * X(row, j);
         Y.col(j) = y;
       }
+    for (const auto &[k, row] : configuration.chuck_unknowns)
+      Y.row(row) -= chuck_stiffness_of_bulk(k) * X.row(row);
     return Y;
   }
 
 
 
-  // (B + C) x, B = diag(S_bone, S_implant, 0). Needed only where a
-  // factorisation is the preconditioner; with B^-1 there is no product with B.
+  // A x. Needed only where a factorisation is the preconditioner; with B^-1
+  // there is no product with B.
   Eigen::VectorXd
   CoupledTangent::product(const Eigen::VectorXd &x) const
   {
-    Eigen::VectorXd y = interface_product(x);
+    Eigen::VectorXd y = product_without_bulk(x);
     for_each_bulk([&](const Bulk &bulk, const int first, const int n) {
       y.segment(first, n) += bulk.product(x.segment(first, n));
     });
-    for (const auto &[k, row] : configuration.chuck_unknowns)
-      y[row] += chuck_stiffness_of_bulk(k) * x[row];
     return y;
   }
 

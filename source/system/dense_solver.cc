@@ -139,8 +139,8 @@ namespace Debond
   {
     // Two rigid bodies with a prescribed chuck have no unknowns. And GMRES
     // could not make a residual of zero smaller.
-    // With unknown components of the chuck, which the bulk does not resist, B
-    // has no inverse: the first system goes straight to LU.
+    // With unknown components of the chuck, which condensed bodies do not resist,
+    // B has no inverse: the first system goes straight to LU.
     if (b.size() == 0 || b.isZero(0.))
       return Eigen::VectorXd::Zero(b.size());
     Eigen::VectorXd x;

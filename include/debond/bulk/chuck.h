@@ -57,6 +57,13 @@ namespace Debond
     /** Of time, in the same units: if it is set, it counts instead of the
      *  expression. For scenes that a program makes; no entry of a file. */
     std::function<double(double)> function;
+
+    /** Whether its place is an unknown: under a load, or on a spring. */
+    bool
+    is_unknown() const
+    {
+      return loaded || stiffness != 0.;
+    }
   };
 
   /** The subsection `Chuck`: Translation x, y, z, Rotation x, y, z. */

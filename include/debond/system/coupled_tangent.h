@@ -21,7 +21,9 @@ namespace Debond
     /** Growth of the mean slip in this step [mm]; 0: the time is given. */
     double slip     = 0;
     double old_slip = 0; ///< mean slip of the accepted state [mm]
-    /** Of the equations q_k [N/mm, N mm]. */
+    /** Of the whole face against each component of the chuck: eps_n A [N/mm],
+     *  or eps_n A R^2 [N mm] for rotations. It gives the equations of q_k along
+     *  a path the size of the others, and is D of CoupledTangent. */
     Chuck::Vector6 stiffness = Chuck::Vector6::Zero();
 
     /** Returns the residual of the equation for the time, in a trial state at
@@ -113,9 +115,13 @@ namespace Debond
     }
     unsigned int
     size() const;
-    /** Of the unknown component @p k of the chuck in B [N/mm, N mm]. The bodies
-     *  do not resist it: 0, and A is assembled. Where it cannot be, B gets the
-     *  stiffness of the whole face, and C loses it. */
+    /** All of the tangent but the bodies, times x. */
+    Eigen::VectorXd
+    product_without_bulk(const Eigen::VectorXd &x) const;
+    /** D: stiffness of the unknown component @p k of the chuck in B [N/mm,
+     *  N mm]. No body resists it. Where A can be assembled D is 0, B has no
+     *  inverse, and LU takes over. Otherwise the stiffness of the whole face
+     *  makes B regular, and C takes it away again: A is the same. */
     double
     chuck_stiffness_of_bulk(const unsigned int k) const
     {

@@ -37,9 +37,9 @@ namespace Debond
     /** Mean sliding distance at which the path ends [mm]; 0: the radius. */
     double path_ends_at_slip = 0;
 
-    /** Ends of the planned steps of each phase, if they are not even: those
-     * that another run has chosen. For scenes that a program makes; no entry of
-     * a file. The curve between them is drawn as with adaptive steps. */
+    /** Ends of the planned steps of each phase, if they are not even: those that
+     *  another run has chosen. For scenes that a program makes; no entry of a
+     *  file. The curve between them is drawn as with adaptive steps. */
     std::vector<std::vector<double>> ends;
 
     /** Whether the curve between rows is known. */
@@ -114,18 +114,24 @@ namespace Debond
      *  coupled system one that is assembled as a matrix. */
     bool
     needs_matrix() const;
-    /** Why the bone has to be solved directly, as the rest of a sentence;
-     *  empty: the lattice solver can. */
+    /** Why the lattice solver cannot do the bone, as the rest of a sentence;
+     *  empty: it can. */
     std::string
-    why_direct() const;
-    /** The same for a choice that the scene leaves to the program. */
-    std::string
-    why_rather_direct() const;
+    why_not_lattice() const;
     /** What `Bone / Bulk solver' comes to, and in words. */
     bool
-    is_on_lattice() const;
+    is_on_lattice() const
+    {
+      return why_direct().empty();
+    }
     std::string
     bulk_solver_in_words() const;
+
+  private:
+    /** Why the bone is solved directly, as the rest of a sentence; empty: it is
+     *  solved on the lattice. */
+    std::string
+    why_direct() const;
   };
 } // namespace Debond
 #endif

@@ -83,7 +83,7 @@ def check(scene, *changes):
 
 
 def directory_of(scene, changes):
-    name = ' '.join((scene,) + changes)
+    name = ' '.join((scene,) + changes)  # the checksum tells those with the same end apart
     return os.path.join(options.results, re.sub(r'\W+', '_', name)[-180:] + '_%08x' % zlib.crc32(name.encode()))
 
 
@@ -132,6 +132,11 @@ def difference(result, reference):
 def table(head, rows):
     lines = [head, ['---'] * len(head)] + rows
     return '\n' + ''.join('| %s |\n' % ' | '.join(str(cell) for cell in line) for line in lines)
+
+
+def two_digits(value):
+    """3900"""
+    return '%.0f' % float('%.1e' % value)
 
 
 def percent(value, digits=2):
@@ -601,12 +606,12 @@ def codes_factors():
 @numbers('seconds')
 def calculix_factor():
     factors = [factor for element, factor in codes_factors() if element.startswith('C3D8')]
-    return '%.0f to %.0f' % tuple(float('%.1e' % factor) for factor in (min(factors), max(factors)))
+    return '%s to %s' % (two_digits(min(factors)), two_digits(max(factors)))
 
 
 @numbers('seconds')
 def calculix_quadratic_factor():
-    return '%.0f' % float('%.1e' % min(factor for element, factor in codes_factors() if element == 'C3D20R'))
+    return two_digits(min(factor for element, factor in codes_factors() if element == 'C3D20R'))
 
 
 # What takes minutes
@@ -875,7 +880,7 @@ def adaptive_scenes():
 
 
 def study_of_splines(bone, implant, *changes):
-    """On the main scene with steps that do not count."""
+    """On the main scene, with steps whose error does not count."""
     return study('prm/coin_mode3_spline.prm', 'Bone/Cells=' + bone, 'Implant/Cells=' + implant, *changes, 'Load steps/Tolerance=5e-5',
                  'Load steps/Times=0, 1, 1.1, 2', 'Load steps/Steps=1, 10, 10', 'Output/Fields every=0', REFERENCE)
 
@@ -892,8 +897,8 @@ def spline_points():
     points, lines = [4, 5, 6, 7, 8, 10], []
     for bone, implant in (('24, 24, 8', '4, 3'), ('32, 32, 8', '6, 4'), ('40, 40, 8', '6, 4'), ('60, 60, 10', '8, 6')):
         rows = study_of_splines(bone, implant, 'Interface/Quadrature points={{%s}}' % '|'.join(map(str, points)))
-        name = '%s / %s x %s' % (bone.replace(',', ' x'), implant.split(',')[0], implant.replace(',', ' x'))
-        lines.append([name.replace('  ', ' ')] + [small(row['difference_max']) for row in rows])
+        name = '%s / %s x %s' % (bone.replace(', ', ' x '), implant.split(',')[0], implant.replace(', ', ' x '))
+        lines.append([name] + [small(row['difference_max']) for row in rows])
     return table(['bone / implant'] + ['n = %d' % points[0]] + points[1:], lines)
 
 
@@ -932,7 +937,7 @@ def splines_elsewhere():
             result = run(MAIN, *choice, *LINEAR, *changes)
             line += [small(largest_error(reference, result['fine curve'], [FORCES, MOMENTS])), '%.2g s' % result['wall_seconds']]
         lines.append(line)
-    return table(['scene'] + [column for name, _ in choices for column in (name, 'all')], lines)
+    return table(['scene'] + [column for name, _ in choices for column in (name, 'seconds')], lines)
 
 
 @numbers('minutes')

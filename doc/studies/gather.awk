@@ -8,7 +8,6 @@ BEGIN {
   chosen["Bone / Cells under implant"] = "0"
   chosen["Bone / Material"] = "linear"
   chosen["Bone / Contact surface"] = "nurbs"
-  chosen["Interface / Quadrature points"] = "5" # 6 with splines
   chosen["Interface / Slave"] = "implant"
   chosen["Load steps / Steps"] = "1, 10, 10"
   chosen["Load steps / Adaptive"] = "true"
@@ -38,6 +37,8 @@ function fields(line, field,    n, i, part, parts, pieces, k, m) {
 function value(name) { return name in number ? field[number[name]] : chosen[name] }
 
 FNR == 1 {
+  splines = FILENAME ~ /splines/
+  chosen["Interface / Quadrature points"] = splines ? 6 : 5
   delete number
   n = fields($0, field)
   for (i = 1; i <= n; i++) number[field[i]] = i
@@ -48,10 +49,9 @@ FNR == 1 {
   fields($0, field)
   if (value("converged") != "true") next
   closed = value("Model") != "finite elements"
-  splines = FILENAME ~ /splines/
   tier = closed ? value("Model") : splines ? "splines" : value("Bone / Material")
   split(value("Bone / Cells"), cells, ", "); split(value("Implant / Cells"), implant_cells, ", ")
-  mesh = closed ? "none" : !splines ? mesh_name[cells[1]] : value("Bone / Cells under implant") > 0 ? "graded to the rim" : "equal splines"
+  mesh = closed ? "none" : !splines ? mesh_name[cells[1]] : value("Bone / Cells under implant") > 0 ? "graded to the rim" : "equal cells"
   layers = closed ? "none" : cells[3] (value("Bone / Layer grading") == 1 ? " equal" : "")
   if (value("Load steps / Adaptive") == "true" && !closed) steps = "tol. " value("Load steps / Tolerance")
   else {
@@ -60,14 +60,14 @@ FNR == 1 {
     for (i = 2; i <= phases; i++) steps += count[i]
     steps = steps " steps"
   }
-  points = splines ? 6 : value("Interface / Quadrature points")
+  points = value("Interface / Quadrature points")
   surface = value("Bone / Contact surface"); slave = value("Interface / Slave")
   # what differs from the usual choice
   label = tier
   if (tier == "analytical") label = label (value("Closed form / Linear limit angle") == 0.13 ? "; printed angles" : "; own angles")
   if (splines) {
     label = label (value("Bone / Material") == "linear" ? "" : " " value("Bone / Material")) "; " cells[1] " x " cells[2] " x " cells[3] " / " \
-      implant_cells[1] " x " implant_cells[1] " x " implant_cells[2] (mesh == "equal splines" ? "" : " " mesh)
+      implant_cells[1] " x " implant_cells[1] " x " implant_cells[2] (mesh == "equal cells" ? "" : " " mesh)
   } else if (!closed && tier != "rigid") label = label "; " mesh "; " layers " layers"
   label = label "; " steps
   if (!closed && !splines && points != 5) label = label "; " points "x" points " points"

@@ -30,7 +30,7 @@ NR == 1 { next }
 }
 BEGIN { split("0.1 0.01 0.005 0.002 0.001 0.0005 0.0002 0.0001", limit, " ") }
 END {
-  print "| splines, bone / implant | steps | all | torque | pressure | g_s |\n| --- | --- | --- | --- | --- | --- |"
+  print "| splines, bone / implant | steps | seconds | torque | pressure | g_s |\n| --- | --- | --- | --- | --- | --- |"
   for (i = 1; i <= n_splines; i++) print "| " splines[i] " |"
   print "\n| mesh | unknowns | before steps | all | torque | pressure | g_s |\n| --- | --- | --- | --- | --- | --- | --- |"
   for (i = 1; i <= m; i++) print "| " meshes[i] " |"

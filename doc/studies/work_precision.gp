@@ -4,12 +4,12 @@ dir = "output/studies/"
 table = dir . "work_precision.csv"
 tiers = "mathieu analytical foundation rigid linear neo-hookean splines"
 tier_colours = "grey orange green purple blue red black"
-meshes = "none coarse lean medium fine very_fine equal_splines graded_to_the_rim"
+meshes = "none coarse lean medium fine very_fine equal_cells graded_to_the_rim"
 black = 0x000000
 colour(k) = value(word(tier_colours, k))
 array symbol[8] = [3, 9, 15, 7, 5, 13, 11, 4]
-spaced(word) = word eq "very_fine" ? "very fine" : word eq "equal_splines" ? "equal splines" : word eq "graded_to_the_rim" ? "graded to the rim" : word
-mesh_name(m) = m == 1 ? "closed form" : m == 7 ? "equal cells" : m == 8 ? "cells for the rim" : spaced(word(meshes, m)) . " mesh"
+spaced(word) = word eq "very_fine" ? "very fine" : word eq "equal_cells" ? "equal cells" : word eq "graded_to_the_rim" ? "graded to the rim" : word
+mesh_name(m) = m == 1 ? "closed form" : spaced(word(meshes, m)) . (m < 7 ? " mesh" : "")
 is(tier, mesh) = strcol("tier") eq tier && strcol("mesh") eq spaced(mesh)
 best(x) = x > 0 ? x : NaN
 
@@ -55,10 +55,10 @@ do for [format in "png svg"] {
   floor_of_error = 1.2e-5
   set arrow 1 from graph 0, first floor_of_error to graph 1, first floor_of_error nohead dashtype 2 linecolor rgb "#888888"
   set label 2 "error of the reference" at graph 0.01, first floor_of_error * 1.15
-  plot for [k=1:7] for [m=1:8] table using (is(word(tiers, k), word(meshes, m)) ? column("seconds") : NaN):"error_torque" \
+  plot for [k=1:words(tiers)] for [m=1:words(meshes)] table using (is(word(tiers, k), word(meshes, m)) ? column("seconds") : NaN):"error_torque" \
       with points pointtype symbol[m] pointsize 1.5 linecolor rgb (colour(k) + 0x60000000) notitle, \
-    for [k=1:7] NaN with points pointtype 7 pointsize 1.6 linecolor rgb colour(k) title word(tiers, k), \
-    for [m=1:8] NaN with points pointtype symbol[m] pointsize 1.6 linecolor rgb "#444444" title mesh_name(m), \
+    for [k=1:words(tiers)] NaN with points pointtype 7 pointsize 1.6 linecolor rgb colour(k) title word(tiers, k), \
+    for [m=1:words(meshes)] NaN with points pointtype symbol[m] pointsize 1.6 linecolor rgb "#444444" title mesh_name(m), \
     front using "seconds":"error_torque" with steps linewidth 1.5 linecolor rgb "#000000" title "best in its time", \
     front using "seconds":"error_torque":(sprintf("%d", $0 + 1)) with labels offset -0.6, -0.7 right notitle
   unset label
@@ -79,10 +79,10 @@ do for [format in "png svg"] {
     set key at screen 0.5, 0.01 bottom center maxrows 4 samplen 1.5 width -2
     if (i == 2) { unset key }
     error = "error_" . what[i]
-    plot for [k=1:7] for [m=1:8] table using (is(word(tiers, k), word(meshes, m)) ? column("seconds") : NaN):(best(column(error))) \
+    plot for [k=1:words(tiers)] for [m=1:words(meshes)] table using (is(word(tiers, k), word(meshes, m)) ? column("seconds") : NaN):(best(column(error))) \
         with points pointtype symbol[m] pointsize 1.3 linecolor rgb (colour(k) + 0x60000000) notitle, \
-      for [k=2:7] NaN with points pointtype 7 pointsize 1.5 linecolor rgb colour(k) title word(tiers, k), \
-      for [m=1:8] NaN with points pointtype symbol[m] pointsize 1.5 linecolor rgb "#444444" title mesh_name(m), \
+      for [k=2:words(tiers)] NaN with points pointtype 7 pointsize 1.5 linecolor rgb colour(k) title word(tiers, k), \
+      for [m=1:words(meshes)] NaN with points pointtype symbol[m] pointsize 1.5 linecolor rgb "#444444" title mesh_name(m), \
       dir . "front_" . what[i] . ".csv" using "seconds":error with steps linewidth 1.5 linecolor rgb "#000000" title "best in its time"
   }
   unset multiplot
@@ -114,7 +114,7 @@ do for [format in "png svg"] {
   }
   plot for [s=1:2] for [m=2:6] ours using (strcol("surface") eq word(surfaces, s) && is("linear", word(meshes, m)) ? column("seconds") : NaN):"error_torque" \
       with points pointtype symbol[m] pointsize 1.5 linecolor rgb (surface_colour[s] + 0x40000000) notitle, \
-    ours using (is("splines", "equal_splines") ? column("seconds") : NaN):"error_torque" \
+    ours using (is("splines", "equal_cells") ? column("seconds") : NaN):"error_torque" \
       with points pointtype symbol[7] pointsize 1.5 linecolor rgb 0x40000000 notitle, \
     front using "seconds":"error_torque" with steps linewidth 1.5 linecolor rgb "#000000" title "debond, best in its time", \
     for [s=1:2] NaN with points pointtype 7 pointsize 1.6 linecolor rgb surface_colour[s] title s == 1 ? "trilinear, NURBS" : "trilinear, bilinear faces", \

@@ -122,8 +122,8 @@ $list || [ -n "$output" ] || fail "no file to write is given (see work_precision
 
 # For each run of another code its seconds over those that debond (nurbs and
 # splines) needs for the same error, logarithms linear between the best of its
-# runs. An error larger than debond's largest is given debond's least seconds; a smaller one no
-# factor.
+# runs. An error larger than debond's largest is given debond's least seconds; a
+# smaller one no factor.
 print_factors() {
   awk -F, '
     FNR == 1 { next }
@@ -158,7 +158,7 @@ print_factors() {
           split(row[k], part, ",")
           own = at(part[4])
           printf "%-9s %-45s %9.2e %9.2f %9s %7s\n", part[1], part[2], part[4], part[3],
-            own ? sprintf("%.2f", own) : "-", own ? sprintf("%.1f", part[3] / own) : "-"
+            own ? sprintf("%.2g", own) : "-", own ? sprintf("%.1f", part[3] / own) : "-"
         }
     }' "$1"
 }

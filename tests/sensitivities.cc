@@ -258,6 +258,17 @@ main()
           force.text(0.) + "Chuck/Rotation x/Control=moment" +
           "Chuck/Rotation y/Control=moment",
         {law[1], law[2], law[3], law[4], law[5], force, law[9]});
+  check("Splines on the lattice, a force, free to tilt, a spring",
+        coin,
+        Overrides{"Bone/Element=spline",
+                  "Bone/Cells=14, 14, 2",
+                  "Bone/Bulk solver=lattice",
+                  "Implant/Element=spline",
+                  "Chuck/Translation z/Control=force",
+                  "Chuck/Rotation y/Control=moment",
+                  "Chuck/Rotation z/Stiffness=4000"} +
+          force.text(0.),
+        {law[1], law[2], force, {"Chuck/Rotation z/Stiffness", 4000}});
   check("A compliant machine",
         coin,
         sideways + "Chuck/Rotation z/Stiffness=4000" +

@@ -178,19 +178,21 @@ check_queue()
 
 
 
+const std::vector<std::string> small{"Bone/Cells=6, 6, 1",
+                                     "Bone/Material=linear",
+                                     "Implant/Cells=2, 1",
+                                     "Implant/Material=linear",
+                                     "Interface/Quadrature points=2"};
+
 // Two variants of the scene and two with one entry changed: do all four have
 // the same bodies?
 bool
-share_bodies(const std::string &change)
+share_bodies(const std::string              &change,
+             const std::vector<std::string> &entries = small)
 {
-  const std::vector<std::string> small{"Bone/Cells=6, 6, 1",
-                                       "Bone/Material=linear",
-                                       "Implant/Cells=2, 1",
-                                       "Implant/Material=linear",
-                                       "Interface/Quadrature points=2"};
-  auto                           changed = small;
+  auto changed = entries;
   changed.push_back(change);
-  const Scene scene = Scene::from_text(scene_text, small),
+  const Scene scene = Scene::from_text(scene_text, entries),
               other = Scene::from_text(scene_text, changed);
   VariantQueue queue(1);
   for (unsigned int i = 0; i < 4; ++i)
@@ -224,6 +226,22 @@ check_what_is_shared()
                                    "Chuck/Translation x/Value=0.1 + t"})
     report(std::string("bodies are not shared with ") + change,
            !share_bodies(change));
+
+  // whether the lattice solver takes the bone depends on what moves the implant
+  const std::vector<std::string> splines{"Bone/Element=spline",
+                                         "Bone/Cells=16, 16, 1",
+                                         "Bone/Material=linear",
+                                         "Implant/Cells=2, 1",
+                                         "Implant/Material=linear",
+                                         "Interface/Quadrature points=4"};
+  report("bones on the lattice are shared",
+         share_bodies("Chuck/Rotation z/Value=t", splines));
+  for (const char *const change :
+       {"Chuck/Translation x/Value=3 * max(t - 1, 0)",
+        "Chuck/Translation x/Control=force",
+        "Load steps/Path following=slip"})
+    report(std::string("but not with ") + change,
+           !share_bodies(change, splines));
 }
 
 

@@ -47,6 +47,7 @@ namespace Debond
       chuck.place(scene.load_steps.times.front());
       for (const double q : chuck.position())
         text += to_text(q, 17) + " ";
+      text += scene.bulk_solver_in_words() + "\n"; // by motion, loads and path
       for (const SceneEntry &entry :
            read_scene_text(scene.completed_parameters, scene.name))
         {

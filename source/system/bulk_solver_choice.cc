@@ -8,64 +8,87 @@ namespace Debond
   namespace
   {
     /** The largest value of a prescribed component [mm, degrees], also between
-     *  the planned times, where adaptive steps may end. */
+     *  the planned times, where adaptive steps may end: at fractions of each
+     *  step that are in tune with no wave of the motion. */
     double
     largest_value(const ModelParameters &model, const unsigned int component)
     {
-      constexpr unsigned int    n_between = 10;
+      constexpr unsigned int    n_between = 20;
+      constexpr double          golden    = 0.6180339887498949;
       const std::vector<double> times     = model.load_steps.sample_times();
       const auto                function =
         model.chuck.value_over_time(component,
                                     model.implant.characteristic_radius());
       double largest = std::abs(function(times.front()));
       for (unsigned int i = 1; i < times.size(); ++i)
-        for (unsigned int k = 1; k <= n_between; ++k)
+        for (unsigned int k = 0; k <= n_between; ++k)
           {
-            const double time = times[i] - (times[i] - times[i - 1]) *
-                                             (n_between - k) / n_between;
-            largest = std::max(largest, std::abs(function(time)));
+            const double part = std::fmod(k * golden, 1.); // 0: the end
+            const double time = times[i] - part * (times[i] - times[i - 1]);
+            largest           = std::max(largest, std::abs(function(time)));
           }
       return largest;
     }
 
 
 
-    /** Half the width of what the implant passes over on its way [mm], as far
-     *  as that is prescribed. */
+    /** The largest way of a component of the chuck at a distance of @p arm [mm]
+     *  from its reference point: that of a rotation, or of a translation. A
+     * free rotation is taken for 5 degrees, a free translation for none. */
     double
-    reach_of_implant(const ModelParameters &model, const unsigned int direction)
+    largest_way(const ModelParameters &model,
+                const unsigned int     component,
+                const double           arm)
     {
-      const unsigned int c = ChuckComponent::translation_x + direction;
-      const double       way =
-        model.chuck.component[c].is_unknown() ? 0. : largest_value(model, c);
-      // a block may turn
-      return way + (model.implant.is_round() ?
-                      model.implant.radius :
-                      std::hypot(0.5 * model.implant.size[0],
-                                 0.5 * model.implant.size[1]));
+      const bool is_free = model.chuck.component[component].is_unknown();
+      if (!is_rotation(component))
+        return is_free ? 0. : largest_value(model, component);
+      return arm * M_PI / 180. *
+             (is_free ? 5. : largest_value(model, component));
     }
 
 
 
-    /** Whether the implant is pressed and tilted so little that strains, which
-     *  are about its way over its radius, are below a hundredth. What friction
-     *  does to the bone on the way sideways is in proportion to that. */
+    /** Half the width of what the implant passes over on its way [mm], as far
+     *  as that is prescribed. Tilted about the chuck, at its top, the face
+     * moves sideways. */
+    double
+    reach_of_implant(const ModelParameters &model, const unsigned int direction)
+    {
+      const unsigned int tilt = direction == 0 ? ChuckComponent::rotation_y :
+                                                 ChuckComponent::rotation_x;
+      // a block may turn
+      return largest_way(model, ChuckComponent::translation_x + direction, 0.) +
+             largest_way(model, tilt, model.implant.thickness()) +
+             (model.implant.is_round() ?
+                model.implant.radius :
+                std::hypot(0.5 * model.implant.size[0],
+                           0.5 * model.implant.size[1]));
+    }
+
+
+
+    /** Whether the implant is pressed and tilted so little that strains of the
+     *  bone are below a hundredth: they are about its way over its radius or
+     *  the thickness of the bone, and what friction adds, mu p / G with p = E
+     *  times that. */
     bool
     is_pressed_lightly(const ModelParameters &model)
     {
-      constexpr double largest_strain = 0.01;
-      const double     R              = model.implant.characteristic_radius();
-      double           way            = 0.;
+      constexpr double largest_strain = 0.01, E_over_G = 3.;
+      const double     R = model.implant.characteristic_radius();
+      const double mu  = model.interface.friction->coefficient({1., 0.}, 0.).mu;
+      double       way = 0.;
       for (const unsigned int c : {ChuckComponent::translation_z,
                                    ChuckComponent::rotation_x,
                                    ChuckComponent::rotation_y})
         {
           if (model.chuck.component[c].is_unknown())
             return false;
-          way +=
-            largest_value(model, c) * (is_rotation(c) ? R * M_PI / 180. : 1.);
+          way += largest_way(model, c, R);
         }
-      return way <= largest_strain * R;
+      return (1. + E_over_G * mu) * way <=
+             largest_strain * std::min(R, model.bone.thickness());
     }
 
 

@@ -35,6 +35,20 @@ namespace Debond
         parameters.is_on_lattice() ? BulkSolver::lattice : BulkSolver::direct;
       return bone;
     }
+
+
+
+    /** Bodies that another run hands over, if it has solved them as this one
+     *  has to; else new ones. */
+    std::shared_ptr<BodyPair>
+    those_or_new(std::shared_ptr<BodyPair> bodies,
+                 const ModelParameters    &parameters)
+    {
+      if (bodies && bodies->bone->mesh().parameters().bulk_solver ==
+                      with_solver(parameters).bulk_solver)
+        return bodies;
+      return std::make_shared<BodyPair>(parameters);
+    }
   } // namespace
 
 
@@ -55,8 +69,7 @@ namespace Debond
   CoupledSystem::CoupledSystem(const ModelParameters    &parameters,
                                std::shared_ptr<BodyPair> bodies,
                                dealii::TimerOutput      *timer)
-    : both_bodies(bodies ? std::move(bodies) :
-                           std::make_shared<BodyPair>(parameters))
+    : both_bodies(those_or_new(std::move(bodies), parameters))
     , bone(*both_bodies->bone)
     , implant(*both_bodies->implant)
     , body{{&bone, &implant}}

@@ -1,9 +1,9 @@
 // Which scenes have their bone solved on the lattice, and that their results
 // are those of the direct solver: with loads and springs on the chuck, which
 // are unknowns then, and with a Neo-Hookean bone, whose stiffness stays that at
-// rest; and so are the derivatives of the rows. The two differ by the shear at the sides of the bone, which coarse
-// cells have: 1e-7 of the forces here, 1e-9 on 24 x 24 cells. Test lattice_bulk
-// compares the solver itself, to 1e-11.
+// rest; and so are the derivatives of the rows. The two differ by the shear at
+// the sides of the bone, which coarse cells have: 1e-7 of the forces here, 1e-9
+// on 24 x 24 cells. Test lattice_bulk compares the solver itself, to 1e-11.
 
 #include <debond/models/simulation.h>
 
@@ -136,6 +136,8 @@ main()
   check_choice("Neo-Hookean, tilted",
                {"Chuck/Rotation x/Value=0.6 * min(t, 1)"});
   check_choice("Neo-Hookean, pressed by a force", pressed_by_force);
+  check_choice("Neo-Hookean, soft, pressed by a force",
+               pressed_by_force + Changes{"Bone/Young modulus=300"});
   check_choice("linear, pressed by a force", linear + pressed_by_force);
   check_choice("linear, free in x",
                linear + Changes{"Chuck/Translation x/Control=force"});
@@ -165,4 +167,5 @@ main()
   check_results("Turned by a spring",
                 linear + Changes{"Chuck/Rotation z/Stiffness=5000"});
   check_results("Neo-Hookean bodies", {});
+  check_results("Neo-Hookean bodies, pressed by a force", pressed_by_force);
 }

@@ -24,7 +24,7 @@ namespace Debond
         if (text != "auto")
           read_entry(text, quadrature_points);
       },
-      Allowed::whole_number(1, 64).or_word("auto"),
+      Allowed::whole_number(1, most_points).or_word("auto"),
       "Gauss points per direction and slave surface element. `auto': 5; if a "
       "body has splines 6, or as many as keep the distance between points "
       "below the width of the other body's cells.");
@@ -66,7 +66,7 @@ namespace Debond
     if (bone.element == ElementKind::trilinear &&
         implant.element == ElementKind::trilinear)
       return 5;
-    return std::clamp(fewest_points_per_element(bone, implant), 6U, 64U);
+    return std::clamp(fewest_points_per_element(bone, implant), 6U, most_points);
   }
 
 

@@ -45,14 +45,15 @@ namespace Debond
                  to_text(scene.implant.young_modulus) +
                  " MPa: are they swapped?");
           // A trilinear cell cannot bend without a change of its volume, which
-          // a nearly incompressible material resists; splines do it less.
-          note(!body.is_rigid() && body.poisson_ratio > 0.45,
+          // a nearly incompressible material resists. Splines can: doc/
+          // speed_and_accuracy.md, Other scenes.
+          note(!body.is_rigid() && body.element == ElementKind::trilinear &&
+                 body.poisson_ratio > 0.45,
                name + "locking",
                name + "Poisson ratio = " + to_text(body.poisson_ratio) +
-                 (body.element == ElementKind::trilinear ? ": trilinear cells" :
-                                                           ": cells") +
-                 " lock as it approaches 0.5, so that the body is too stiff: "
-                 "compare with finer Cells");
+                 ": trilinear cells lock as it approaches 0.5, so that the "
+                 "body is too stiff: compare with finer Cells, or take "
+                 "Element = spline");
         }
       for (const unsigned int d : {0, 1})
         note(scene.implant.width(d) == scene.bone.size[d],
@@ -109,7 +110,10 @@ namespace Debond
            "Interface / Quadrature points = " + std::to_string(points) +
              " leaves cells of the other body without a point, which makes "
              "the interface too soft: choose " +
-             std::to_string(fewest) + " or more, or larger Cells there");
+             (fewest <= InterfaceParameters::most_points ?
+                std::to_string(fewest) + " or more, or " :
+                "") +
+             "larger Cells there");
       const unsigned int n = scene.implant.cells[0] * scene.implant.cells[1];
       note(bonding.pattern == BondingPatternKind::random &&
              bonding.resolution == BondingResolution::element && n < 50,
@@ -181,9 +185,8 @@ namespace Debond
            entry + " is never negative: it pulls the implant off the bone. "
                    "What presses is negative");
       const double push = -*least; // a machine's springs may take a larger one
-      note(!z.is_unknown() &&
-             push >
-               std::max(bone.penetration_limit(), implant.penetration_limit()),
+      note(!z.is_unknown() && push > std::max(bone.penetration_limit(),
+                                              implant.penetration_limit()),
            "depth of the push",
            entry + " presses the implant in by " + to_text(push, 3) +
              " mm, more than a tenth of its height and of the bone's: lengths "
@@ -312,6 +315,9 @@ namespace Debond
          "closed forms"},
         {"Auto / ", scene.model == ModelKind::automatic, "Model = auto"},
         {"Bone / Young", !scene.bone.is_rigid(), "bodies that deform"},
+        {"Bone / Rim grading",
+         scene.bone.cells_under_implant > 0,
+         "Cells under implant"},
         {"Implant / Young", !scene.implant.is_rigid(), "bodies that deform"},
         {"Interface / Friction coefficient unbroken",
          law_name != "coulomb",

@@ -69,26 +69,27 @@ namespace Debond
 
 
     /** Whether the implant is pressed and tilted so little that strains of the
-     *  bone are below a hundredth: they are about its way over its radius or
-     *  the thickness of the bone, and what friction adds, mu p / G with p = E
-     *  times that. */
+     *  bone are below a hundredth. They are about its way over its radius or
+     * the thickness of the bone, and of a load the pressure over Young's
+     * modulus; and what friction adds, mu p / G. */
     bool
     is_pressed_lightly(const ModelParameters &model)
     {
       constexpr double largest_strain = 0.01, E_over_G = 3.;
-      const double     R = model.implant.characteristic_radius();
-      const double mu  = model.interface.friction->coefficient({1., 0.}, 0.).mu;
-      double       way = 0.;
+      const double     R  = model.implant.characteristic_radius(),
+                   length = std::min(R, model.bone.thickness()),
+                   mu = model.interface.friction->coefficient({1., 0.}, 0.).mu;
+      double strain   = 0.;
       for (const unsigned int c : {ChuckComponent::translation_z,
                                    ChuckComponent::rotation_x,
                                    ChuckComponent::rotation_y})
-        {
-          if (model.chuck.component[c].is_unknown())
-            return false;
-          way += largest_way(model, c, R);
-        }
-      return (1. + E_over_G * mu) * way <=
-             largest_strain * std::min(R, model.bone.thickness());
+        if (model.chuck.component[c].loaded)
+          strain += largest_value(model, c) / (is_rotation(c) ? R : 1.) /
+                    (M_PI * R * R * model.bone.young_modulus);
+        else // a spring gives way, and presses no further than its machine
+          strain += largest_value(model, c) *
+                    (is_rotation(c) ? R * M_PI / 180. : 1.) / length;
+      return (1. + E_over_G * mu) * strain <= largest_strain;
     }
 
 
@@ -127,7 +128,8 @@ namespace Debond
     for (const unsigned int d : {0, 1})
       if (reach_of_implant(*this, d) >
           (0.5 - 3. / bone.cells[d]) * bone.size[d])
-        return std::string("the implant comes to the sides of the bone in ") +
+        return std::string("the implant comes within three cells of the sides "
+                           "of the bone in ") +
                "xy"[d];
     return "";
   }
@@ -167,6 +169,6 @@ namespace Debond
   {
     return is_on_lattice() ?
              "bulk solver of the bone: lattice, for cells of equal width" :
-             "bulk solver: direct, as " + why_direct();
+             "bulk solver of the bone: direct, as " + why_direct();
   }
 } // namespace Debond

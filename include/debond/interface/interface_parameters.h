@@ -33,6 +33,8 @@ namespace Debond
       return tangential_penalty == 0. ? normal_penalty : tangential_penalty;
     }
 
+    /** Most points per direction and slave surface element. */
+    static constexpr unsigned int most_points = 64;
     /** What `Quadrature points' comes to, per direction and slave surface
      *  element. */
     unsigned int

@@ -13,15 +13,16 @@ namespace Debond
     double
     largest_value(const ModelParameters &model, const unsigned int component)
     {
-      constexpr unsigned int    n_between = 20;
-      constexpr double          golden    = 0.6180339887498949;
-      const std::vector<double> times     = model.load_steps.sample_times();
-      const auto                function =
+      constexpr double          golden = 0.6180339887498949;
+      const std::vector<double> times  = model.load_steps.sample_times();
+      // some thousand in all
+      const std::size_t n_between = 1 + 1000 / times.size();
+      const auto        function =
         model.chuck.value_over_time(component,
                                     model.implant.characteristic_radius());
       double largest = std::abs(function(times.front()));
       for (unsigned int i = 1; i < times.size(); ++i)
-        for (unsigned int k = 0; k <= n_between; ++k)
+        for (std::size_t k = 0; k <= n_between; ++k)
           {
             const double part = std::fmod(k * golden, 1.); // 0: the end
             const double time = times[i] - part * (times[i] - times[i - 1]);
@@ -34,7 +35,7 @@ namespace Debond
 
     /** The largest way of a component of the chuck at a distance of @p arm [mm]
      *  from its reference point: that of a rotation, or of a translation. A
-     * free rotation is taken for 5 degrees, a free translation for none. */
+     *  free rotation is taken for 5 degrees, a free translation for none. */
     double
     largest_way(const ModelParameters &model,
                 const unsigned int     component,
@@ -51,7 +52,7 @@ namespace Debond
 
     /** Half the width of what the implant passes over on its way [mm], as far
      *  as that is prescribed. Tilted about the chuck, at its top, the face
-     * moves sideways. */
+     *  moves sideways. */
     double
     reach_of_implant(const ModelParameters &model, const unsigned int direction)
     {

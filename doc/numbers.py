@@ -29,6 +29,7 @@ MAIN, REFERENCE = 'prm/coin_mode3.prm', 'Output/Reference curve=prm/studies/data
 STAND_IN = 'prm/paper/data/closed_form_b_data_set_%d.csv'
 LINEAR = ('Bone/Material=linear', 'Implant/Material=linear')
 LAYERED = ('Bone/Layer grading=1.5', 'Implant/Layer grading=1.5')
+THREE_PHASES = ('Load steps/Times=0, 1, 1.1, 2', 'Load steps/Steps=1, 10, 10')
 ADAPTIVE = ('Load steps/Steps=1, 10', 'Load steps/Adaptive=true')
 NAMES, options = {}, None
 
@@ -882,7 +883,7 @@ def adaptive_scenes():
 def study_of_splines(bone, implant, *changes):
     """On the main scene, with steps whose error does not count."""
     return study('prm/coin_mode3_spline.prm', 'Bone/Cells=' + bone, 'Implant/Cells=' + implant, *changes, 'Load steps/Tolerance=5e-5',
-                 'Load steps/Times=0, 1, 1.1, 2', 'Load steps/Steps=1, 10, 10', 'Output/Fields every=0', REFERENCE)
+                 *THREE_PHASES, 'Output/Fields every=0', REFERENCE)
 
 
 @numbers('minutes')
@@ -907,7 +908,7 @@ def splines_elsewhere():
     def mesh(bone, implant, grading, element, tolerance):
         return tuple('%s/%s' % pair for body, cells in (('Bone', bone), ('Implant', implant)) for pair in (
             (body, 'Cells=' + cells), (body, 'Layer grading=%g' % grading), (body, 'Element=' + element))) + ADAPTIVE + (
-                'Load steps/Tolerance=' + tolerance, 'Load steps/Times=0, 1, 1.1, 2', 'Load steps/Steps=1, 10, 10')
+                'Load steps/Tolerance=' + tolerance,) + THREE_PHASES
     choices = (('trilinear 30 x 30 x 8 / 6 x 6 x 8', mesh('30, 30, 8', '6, 8', 1.5, 'trilinear', '1e-3')),
                ('splines 32 x 32 x 8 / 6 x 6 x 4', mesh('32, 32, 8', '6, 4', 2, 'spline', '3e-4')),
                ('trilinear 60 x 60 x 12 / 12 x 12 x 12', mesh('60, 60, 12', '12, 12', 1.5, 'trilinear', '2e-4')),

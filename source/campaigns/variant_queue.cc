@@ -47,7 +47,8 @@ namespace Debond
       chuck.place(scene.load_steps.times.front());
       for (const double q : chuck.position())
         text += to_text(q, 17) + " ";
-      text += scene.bulk_solver_in_words() + "\n"; // by motion, loads and path
+      // which depends on motion, loads and path, too
+      text += scene.is_on_lattice() ? "lattice\n" : "direct\n";
       for (const SceneEntry &entry :
            read_scene_text(scene.completed_parameters, scene.name))
         {

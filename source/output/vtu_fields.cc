@@ -135,12 +135,9 @@ namespace Debond
       const unsigned int fewest = std::min(n[0], n[1]);
       return std::clamp((pieces + fewest - 1) / fewest, least, most);
     }
-  } // namespace
 
 
 
-  namespace
-  {
     /** What is drawn of a body: its state, and how finely. */
     struct DrawnBody
     {

@@ -7,9 +7,10 @@ namespace Debond
 {
   namespace
   {
-    /** The largest value of a prescribed component [mm, degrees], also between
-     *  the planned times, where adaptive steps may end: at fractions of each
-     *  step that are in tune with no wave of the motion. */
+    /** The largest value that the scene wants of a component, in its units
+     *  [mm, degrees; N, N mm of a load], also between the planned times, where
+     *  adaptive steps may end: at fractions of each step that are in tune with
+     *  no wave of the motion. */
     double
     largest_value(const ModelParameters &model, const unsigned int component)
     {
@@ -71,8 +72,8 @@ namespace Debond
 
     /** Whether the implant is pressed and tilted so little that strains of the
      *  bone are below a hundredth. They are about its way over its radius or
-     * the thickness of the bone, and of a load the pressure over Young's
-     * modulus; and what friction adds, mu p / G. */
+     *  the thickness of the bone, and of a load the pressure over Young's
+     *  modulus; and what friction adds, mu p / G. */
     bool
     is_pressed_lightly(const ModelParameters &model)
     {

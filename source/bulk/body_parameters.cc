@@ -1,4 +1,5 @@
 #include <debond/bulk/body_parameters.h>
+#include <debond/bulk/modulus_field.h>
 #include <debond/geometry/nurbs_surface.h>
 #include <debond/input/entry_table.h>
 #include <debond/support/input_error.h>
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <regex>
 
 namespace Debond
 {
@@ -127,7 +129,7 @@ namespace Debond
               "small. `auto': lattice where that is possible, the implant "
               "stays away from the sides, and strains are below some 1 %. The "
               "program says which, and why.");
-    declare_material(table);
+    declare_material(table, true);
     table.leave_subsection();
   }
 
@@ -177,14 +179,106 @@ namespace Debond
               Allowed::list(allowed_cells, 2, 3),
               "Number of cells in x, y and z. Two numbers n, m mean n, n, m: "
               "of a coin and a cap across the disk and along the axis.");
-    declare_material(table);
+    declare_material(table, false);
     table.leave_subsection();
   }
 
 
 
   void
-  BodyParameters::declare_material(EntryTable &table)
+  BodyParameters::declare_modulus(EntryTable &table, const bool is_bone)
+  {
+    const std::string   what   = "Young's modulus E [MPa]; 18 GPa is 18000.";
+    const AllowedValues number = Allowed::number_between(1e-6, 1e12, "MPa");
+    if (!is_bone)
+      {
+        table.add("Young modulus",
+                  young_modulus,
+                  number,
+                  what + " A rigid body ignores it.");
+        return;
+      }
+    // what names no place is a number, maybe with a mistake
+    static const std::regex place("(^|[^A-Za-z_])(x|y|z|grey)([^A-Za-z_]|$)");
+    const auto              is_expression = [](const std::string &text) {
+      return std::regex_search(text, place);
+    };
+    AllowedValues number_or_expression = number;
+    number_or_expression.test = [number, is_expression](const auto &text) {
+      return is_expression(text) || number.test(text);
+    };
+    number_or_expression.description +=
+      ", or an expression in x, y, z [mm] and, with a Voxel file, grey";
+    table.add(
+      "Young modulus",
+      modulus_expression.empty() ? entry_text(young_modulus) :
+                                   modulus_expression,
+      [this, is_expression](const std::string &text) {
+        modulus_expression = is_expression(text) ? text : "";
+        if (modulus_expression.empty())
+          read_entry(text, young_modulus);
+      },
+      number_or_expression,
+      what +
+        " Or an expression in the place x, y, z [mm], z = 0 at the top and "
+        "negative below, with R the radius of the implant: if(z > -1, 18000, "
+        "500) is a cortical layer of 1 mm. With a Voxel file also in its grey "
+        "value: max(10, 6850 * (grey / 1000)^1.49). A rigid body ignores it.");
+    table.add("Voxel file",
+              voxel_file,
+              Allowed::text("the name of a file of voxels"),
+              "File with a grey value for each voxel of the bone, as a "
+              "computed tomograph writes it, relative to the working "
+              "directory; empty: none. MetaImage (.mhd, .mha), NIfTI (.nii, "
+              ".nii.gz), or CSV with columns x,y,z,grey of the centres [mm]. "
+              "Young modulus says what grey values mean.");
+    const AllowedValues places = Allowed::list(Allowed::number("mm"), 3, 3);
+    table.add("Voxel corner",
+              voxel_corner,
+              places.or_word("centred").or_word("file"),
+              "Where the voxels are: x, y, z [mm] of the lowest corner of "
+              "their grid. `centred': the implant is in the middle of the "
+              "grid, whose top is the top of the bone. `file': where the file "
+              "says, without rotation.");
+  }
+
+
+
+  // The grid is moved and not turned: axes are those of the file.
+  void
+  BodyParameters::read_modulus(const double radius)
+  {
+    modulus.reset();
+    if (modulus_expression.empty() && !voxel_file.empty())
+      throw EntryError("Bone / Voxel file",
+                       "Young modulus is a number: expected an expression of "
+                       "the grey value, grey",
+                       voxel_file);
+    if (modulus_expression.empty())
+      return;
+    std::optional<VoxelImage> image;
+    if (!voxel_file.empty())
+      {
+        image = read_voxel_image(voxel_file, "Bone / Voxel file");
+        if (voxel_corner == "centred")
+          image->corner = {{-0.5 * image->length(0),
+                            -0.5 * image->length(1),
+                            -image->length(2)}};
+        else if (voxel_corner != "file")
+          read_entry(voxel_corner, image->corner);
+      }
+    const auto corners = corners_of_bone();
+    modulus            = std::make_shared<ModulusField>(modulus_expression,
+                                             std::move(image),
+                                             radius);
+    young_modulus      = modulus->mean(Eigen::Vector3d(corners[0].data()),
+                                  Eigen::Vector3d(corners[1].data()));
+  }
+
+
+
+  void
+  BodyParameters::declare_material(EntryTable &table, const bool is_bone)
   {
     table.add(
       "Element",
@@ -211,11 +305,7 @@ namespace Debond
       "small strains in the body's own moving frame, so that large rotations "
       "of the implant are exact. `neo-hookean': compressible Neo-Hooke with "
       "finite strains (Eq. 1 of the paper).");
-    table.add("Young modulus",
-              young_modulus,
-              Allowed::number_between(1e-6, 1e12, "MPa"),
-              "Young's modulus E [MPa]; 18 GPa is 18000. A rigid body ignores "
-              "it.");
+    declare_modulus(table, is_bone);
     table.add("Poisson ratio",
               poisson_ratio,
               Allowed::number_between(0, 0.49, ""),

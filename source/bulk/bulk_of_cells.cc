@@ -69,8 +69,9 @@ namespace Debond
         double H[EnrichedCells::n_q][3][3];
         cells.displacement_gradients(cell, v, H);
         std::array<Eigen::Matrix3d, EnrichedCells::n_q> at_points;
+        const auto factors = cells.stiffness_factors(cell);
         for (unsigned int q = 0; q < EnrichedCells::n_q; ++q)
-          at_points[q] = (cells.material().*law)(H[q]);
+          at_points[q] = factors[q] * (cells.material().*law)(H[q]);
         for (unsigned int a = 0; a < n_corners; ++a)
           {
             // The weights are those of the trilinear polynomial through the

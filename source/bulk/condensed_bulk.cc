@@ -38,11 +38,12 @@ namespace Debond
       // body's frame, and nothing has to be moved to the right-hand side as
       // AffineConstraints would.
       //
-      // A body with small strains is its own mirror image, and K falls into
-      // blocks.
+      // A body with small strains is its own mirror image, if its modulus is,
+      // and K falls into blocks.
       CondensedBulk(const BodyMesh &mesh, const NeoHookean &material)
         : BulkOfCells(mesh, material)
-        , is_symmetric(!mesh.parameters().has_large_strains())
+        , is_symmetric(!mesh.parameters().has_large_strains() &&
+                       cells.are_mirror_images())
       {
         if (is_symmetric)
           for (DofClass &dofs : mirror_classes_of(mesh))

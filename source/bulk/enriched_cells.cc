@@ -1,4 +1,5 @@
 #include <debond/bulk/enriched_cells.h>
+#include <debond/bulk/modulus_field.h>
 #include <debond/support/runtime.h>
 
 #include <Eigen/LU>
@@ -37,6 +38,91 @@ namespace Debond
           add_kind(info);
         kinds.push_back(found->second);
       }
+    if (body.modulus)
+      find_factors();
+  }
+
+
+
+  namespace
+  {
+    /** Where a cell of a block is: its corners [mm]. */
+    std::array<Eigen::Vector3d, 2>
+    corners_of(const BodyMesh &mesh, const BodyMesh::Cell &cell)
+    {
+      const BodyParameters &body = mesh.parameters();
+      const auto bounds = mesh.surface().element_bounds(cell.surface_element);
+      std::array<Eigen::Vector3d, 2> result;
+      for (unsigned int end = 0; end < 2; ++end)
+        {
+          for (unsigned int d = 0; d < 2; ++d)
+            result[end][d] = (bounds[end][d] - 0.5) * body.size[d];
+          // the lower one is the one farther from the top
+          result[end][2] = -mesh.depth().breakpoints()[cell.layer + 1 - end] *
+                           body.thickness();
+        }
+      return result;
+    }
+  } // namespace
+
+
+
+  // W and P are proportional to Young's modulus, so that one which varies is
+  // nothing but other weights of the Gauss points. A point stands for its
+  // eighth of the cell.
+  void
+  EnrichedCells::find_factors()
+  {
+    const BodyParameters &body = mesh.parameters();
+    factors.reserve(n_q * n_cells());
+    for (const BodyMesh::Cell &cell : mesh.cells())
+      {
+        const auto            corners = corners_of(mesh, cell);
+        const Eigen::Vector3d middle  = 0.5 * (corners[0] + corners[1]),
+                              half    = 0.5 * (corners[1] - corners[0]);
+        for (unsigned int q = 0; q < n_q; ++q)
+          {
+            const Eigen::Vector3d other = middle + half.cwiseProduct(corner(q));
+            factors.push_back(
+              body.modulus->over_box(middle.cwiseMin(other),
+                                     middle.cwiseMax(other),
+                                     middle +
+                                       half.cwiseProduct(gauss_point(q))) /
+              body.young_modulus);
+          }
+      }
+  }
+
+
+
+  bool
+  EnrichedCells::are_mirror_images() const
+  {
+    const auto               &n = mesh.parameters().cells;
+    std::vector<unsigned int> cell_at(n[0] * n[1] * n[2]);
+    const auto                place = [&](const BodyMesh::Cell &cell,
+                           const unsigned int    mirror) {
+      unsigned int i = cell.surface_element % n[0],
+                   j = cell.surface_element / n[0];
+      if (mirror == 1)
+        i = n[0] - 1 - i;
+      if (mirror == 2)
+        j = n[1] - 1 - j;
+      return i + n[0] * (j + n[1] * cell.layer);
+    };
+    for (unsigned int cell = 0; cell < n_cells(); ++cell)
+      cell_at[place(mesh.cells()[cell], 0)] = cell;
+    for (unsigned int cell = 0; cell < n_cells() && !factors.empty(); ++cell)
+      for (const unsigned int mirror : {1, 2})
+        {
+          const PointValues own   = stiffness_factors(cell),
+                            image = stiffness_factors(
+                              cell_at[place(mesh.cells()[cell], mirror)]);
+          for (unsigned int q = 0; q < n_q; ++q)
+            if (std::abs(own[q] - image[q ^ mirror]) > 1e-10 * own[q])
+              return false;
+        }
+    return true;
   }
 
 
@@ -107,7 +193,7 @@ namespace Debond
       PointValues H[3][3], P[3][3];
       gradient_at_points(cell, v, H);
       bulk_material.stress(H, P);
-      const auto weight = weights(cell);
+      const PointValues weight = weights(cell);
       part.energy += (bulk_material.energy(H) * weight).sum();
       part.smallest_j =
         std::min(part.smallest_j, NeoHookean::volume_change(H).minCoeff());
@@ -180,7 +266,7 @@ namespace Debond
     const PointValues j = NeoHookean::volume_change(H);
     NeoHookean::inverse_transpose(H, PointValues(1. + j), A);
     const Eigen::Map<const Gradients> g(gradients(cell), n_q, 3 * n);
-    const auto                        weight = weights(cell);
+    const PointValues                 weight = weights(cell);
     Gradients                         h(n_q, 3 * n);
     for (unsigned int a = 0; a < n; ++a)
       for (unsigned int i = 0; i < 3; ++i)
@@ -215,7 +301,7 @@ namespace Debond
   {
     double result = 0.;
     for (unsigned int cell = 0; cell < n_cells(); ++cell)
-      result += weights(cell).sum();
+      result += volumes(cell).sum();
     return result;
   }
 } // namespace Debond

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 // The exact solver of a block of equal splines: sines and cosines across
 // diagonalise its stiffness, and what is left along the depth is a banded
@@ -35,7 +36,8 @@
 //   u = U(z) sin cos, v = V(z) cos sin, w = W(z) cos cos
 //
 // are coupled with no other ones. U, V, W have a coefficient each at every
-// level of control points but the last, which is held.
+// level of control points but the last, which is held. Young's modulus may
+// depend on the depth: it is a factor in the integrals along it.
 extern "C"
 {
   void
@@ -64,7 +66,7 @@ namespace Debond
   namespace
   {
     /** Integrals of products of functions over a length, by two Gauss points in
-     *  each span. */
+     *  each span, at which a factor may weigh them. */
     struct Integrals
     {
       Eigen::MatrixXd values;      ///< of N_a N_b
@@ -75,7 +77,9 @@ namespace Debond
 
 
     Integrals
-    integrals_of(const KnotVector &splines, const double length)
+    integrals_of(const KnotVector                                  &splines,
+                 const double                                       length,
+                 const std::function<double(unsigned int, double)> &factor)
     {
       const unsigned int n = splines.n_basis_functions();
       Integrals          result;
@@ -89,7 +93,7 @@ namespace Debond
                          width = splines.breakpoints()[span + 1] - begin;
             const auto N       = splines.evaluate(
               span, begin + 0.5 * width * (1. + side / std::sqrt(3.)));
-            const double          weight = 0.5 * width;
+            const double          weight = 0.5 * width * factor(span, side);
             const unsigned int    first  = splines.first_basis_function(span);
             const Eigen::Vector3d dN     = N.dB / length;
             result.values.block<3, 3>(first, first) +=
@@ -136,7 +140,9 @@ namespace Debond
           }
         // a function far from the ends and its neighbours
         const Integrals common =
-          integrals_of(KnotVector::graded(2, 7), 7. * length / n);
+          integrals_of(KnotVector::graded(2, 7),
+                       7. * length / n,
+                       [](unsigned int, double) { return 1.; });
         for (unsigned int p = 0; p <= n; ++p)
           {
             const double theta = p * M_PI / n;
@@ -173,7 +179,12 @@ namespace Debond
         : BulkOfCells(mesh, material)
         , across{{Waves(mesh.parameters().cells[0], mesh.parameters().size[0]),
                   Waves(mesh.parameters().cells[1], mesh.parameters().size[1])}}
-        , along_depth(integrals_of(mesh.depth(), mesh.parameters().thickness()))
+        , along_depth(
+            integrals_of(mesh.depth(),
+                         mesh.parameters().thickness(),
+                         [&](const unsigned int span, const double side) {
+                           return factor_of_layer(span, side < 0. ? 4 : 0);
+                         }))
         , n_levels(mesh.depth().n_basis_functions() - 1)
       {}
 
@@ -199,9 +210,9 @@ namespace Debond
         return unknowns;
       }
 
-      // The stiffness stays that at rest, whatever the displacement and whatever
-      // is in contact: that of a linear body, and a frozen tangent of a
-      // Neo-Hookean one.
+      // The stiffness stays that at rest, whatever the displacement and
+      // whatever is in contact: that of a linear body, and a frozen tangent of
+      // a Neo-Hookean one.
       bool
       linearise(const Eigen::VectorXd &) override
       {
@@ -303,6 +314,17 @@ namespace Debond
        *  i >= j, in row i - j of column j. Three levels are coupled. */
       static constexpr int half_band = 8;
       using Column = Eigen::Matrix<double, half_band + 1, Eigen::Dynamic>;
+
+      /** Of Young's modulus, at the Gauss point @p q of all cells of a layer.
+       */
+      double
+      factor_of_layer(const unsigned int layer, const unsigned int q) const
+      {
+        unsigned int cell = 0;
+        while (mesh.cells()[cell].layer != layer)
+          ++cell;
+        return cells.stiffness_factors(cell)[q];
+      }
 
       Level
       zero_level() const

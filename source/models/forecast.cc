@@ -120,6 +120,8 @@ namespace Debond
                             torsional * stiffness) +
             0.3 * in_implant * in_implant +
             (std::min(bone.size[0], bone.size[1]) < 2.3 * R ? 0.15 : 0.);
+    if (bone.modulus)
+      why = "Young's modulus of the bone is not the same everywhere";
     if (last[ChuckComponent::rotation_x] != 0. ||
         last[ChuckComponent::rotation_y] != 0.)
       why = "the implant is tilted";

@@ -1,3 +1,4 @@
+#include <debond/bulk/modulus_field.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/models/memory_estimate.h>
 #include <debond/scene/scene.h>
@@ -54,6 +55,17 @@ namespace Debond
 
 
 
+    /** Whether the stiffness of a body may be one block, as that of a body that
+     *  is not its own mirror image. */
+    bool
+    is_one_block(const BodyParameters &body)
+    {
+      return body.has_large_strains() ||
+             (body.modulus && !body.modulus->is_layered());
+    }
+
+
+
     /** Bytes that a body takes without dense matrices: triangulation, shape
      *  functions and sparse matrices, the text of VTU files where there are
      *  any (measured), and the sparse part of its factor. @p n_condensed: its
@@ -92,7 +104,7 @@ namespace Debond
         }
       n_condensed = 3. * nodes_on_face * share;
       // small strains: four blocks, each of a quarter of the body
-      const double parts = body.has_large_strains() ? 1. : 2.;
+      const double parts = is_one_block(body) ? 1. : 2.;
       const auto   factor =
         [&](const double n_x, const double n_y, const double n_z) {
           return bytes_per_number * parts * parts *
@@ -140,7 +152,7 @@ namespace Debond
             0.;
         const auto bytes_of_matrices = [&](const BodyParameters &body,
                                            const double          n) {
-          const double factors = body.has_large_strains() ? 2. : 0.5;
+          const double factors = is_one_block(body) ? 2. : 0.5;
           return bytes_per_number * (factors + assembled) * n * n;
         };
         bone += bytes_of_matrices(scene.bone, n_bone);

@@ -146,8 +146,13 @@ namespace Debond
       Eigen::VectorXd              v; ///< of all nodes, in the body's frame
       std::vector<Eigen::Matrix3d> stress;     ///< at the vertices
       unsigned int                 n_enriched; ///< pieces of a curved cell
+      bool                         draws_modulus;
+      const Bulk                  *bulk;
 
-      DrawnBody(const Body &body, const Chuck &chuck, const bool curved_cells)
+      DrawnBody(const Body  &body,
+                const Chuck &chuck,
+                const bool   curved_cells,
+                const bool   has_modulus)
         : mesh(body.mesh())
         , chuck(chuck)
         , v(body.full_displacement())
@@ -156,11 +161,14 @@ namespace Debond
         , n_enriched(mesh.surface().degree() == 1 ? 1 :
                      curved_cells                 ? 2 :
                                     n_pieces(mesh.surface(), 24, 2, 8))
+        , draws_modulus(has_modulus)
+        , bulk(body.bulk())
       {}
 
       void
-      draw(const BodyMesh::Cell &cell, PatchSet<3> &output) const
+      draw(const unsigned int number, PatchSet<3> &output) const
       {
+        const BodyMesh::Cell &cell       = mesh.cells()[number];
         const bool            is_implant = mesh.side() == Side::implant;
         const Eigen::Matrix3d Q =
           is_implant ? chuck.rotation() : Eigen::Matrix3d::Identity();
@@ -185,6 +193,8 @@ namespace Debond
             append_values(values, (Q * sigma * Q.transpose()).eval());
             values.push_back(von_mises(sigma));
             values.push_back(is_implant ? 1. : 0.);
+            if (draws_modulus)
+              values.push_back(bulk ? bulk->young_modulus(number) : 0.);
             return X;
           });
       }
@@ -200,25 +210,29 @@ namespace Debond
   std::string
   bulk_vtu(const std::array<const Body *, 2> &bodies, const Chuck &chuck)
   {
-    const PatchSet<3> fields({{"displacement", 3},
-                              {"displacement_in_frame", 3},
-                              {"stress_MPa", 9},
-                              {"von_Mises_MPa", 1},
-                              {"body", 1}});
+    std::vector<std::pair<std::string, unsigned int>> names{
+      {"displacement", 3},
+      {"displacement_in_frame", 3},
+      {"stress_MPa", 9},
+      {"von_Mises_MPa", 1},
+      {"body", 1}};
+    const bool has_modulus = bodies[0]->mesh().parameters().modulus != nullptr;
+    if (has_modulus)
+      names.emplace_back("young_modulus_MPa", 1);
+    const PatchSet<3> fields(names);
     PatchSet<3>       output = fields;
     const bool        curved_cells =
       bodies[0]->mesh().has_splines() || bodies[1]->mesh().has_splines();
     for (const Body *const body : bodies)
       {
-        const DrawnBody          drawn(*body, chuck, curved_cells);
-        const auto              &cells = body->mesh().cells();
+        const DrawnBody          drawn(*body, chuck, curved_cells, has_modulus);
         std::vector<PatchSet<3>> parts(n_chunks, fields);
-        for_each_chunk(cells.size(),
+        for_each_chunk(body->mesh().cells().size(),
                        [&](const unsigned int chunk,
                            const unsigned int first,
                            const unsigned int end) {
                          for (unsigned int k = first; k < end; ++k)
-                           drawn.draw(cells[k], parts[chunk]);
+                           drawn.draw(k, parts[chunk]);
                        });
         for (PatchSet<3> &part : parts)
           output.add_patches(std::move(part));

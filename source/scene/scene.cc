@@ -1,3 +1,4 @@
+#include <debond/bulk/modulus_field.h>
 #include <debond/input/entry_table.h>
 #include <debond/input/scene_file.h>
 #include <debond/scene/scene.h>
@@ -37,6 +38,9 @@ namespace Debond
                          identity_of(scene.interface.friction->file());
       for (const ChuckComponentParameters &component : scene.chuck.component)
         text += identity_of(component.file);
+      text += identity_of(scene.bone.voxel_file);
+      if (scene.bone.modulus && scene.bone.modulus->voxels())
+        text += identity_of(scene.bone.modulus->voxels()->data_file);
       return text;
     }
   } // namespace
@@ -71,6 +75,7 @@ namespace Debond
         scene.chuck.read_tables();
         scene.bone.rim = {
           {0.5 * scene.implant.width(0), 0.5 * scene.implant.width(1)}};
+        scene.bone.read_modulus(scene.implant.characteristic_radius());
         scene.check();
       }
     catch (const InputError &error)

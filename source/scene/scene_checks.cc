@@ -274,6 +274,11 @@ namespace Debond
       check_input_file(chuck.component[c].file,
                        ChuckParameters::entry_name(c, "File"),
                        output.directory);
+    check_input_file(bone.voxel_file, "Bone / Voxel file", output.directory);
+    if (bone.modulus && model != ModelKind::finite_elements)
+      throw EntryError("Bone / Young modulus",
+                       "one that varies is for Model = finite elements, and "
+                       "closed forms know none: expected a number");
     check_sensitivities(*this);
     if (bone.bulk_solver == BulkSolver::lattice && !why_not_lattice().empty())
       throw EntryError("Bone / Bulk solver",

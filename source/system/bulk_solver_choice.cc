@@ -1,3 +1,4 @@
+#include <debond/bulk/modulus_field.h>
 #include <debond/system/load_step_parameters.h>
 
 #include <algorithm>
@@ -124,6 +125,8 @@ namespace Debond
       return "the bone is rigid";
     if (!bone.has_equal_splines())
       return "the bone's cells are not splines of equal width";
+    if (bone.modulus && !bone.modulus->is_layered())
+      return "Young's modulus of the bone varies across";
     if (load_steps.follow_path)
       return "a path takes the stiffness as a matrix";
     // contact elements reach two control points beyond themselves

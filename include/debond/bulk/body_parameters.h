@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace Debond
 {
   class EntryTable;
+  class ModulusField;
 
   enum class BodyShape
   {
@@ -58,12 +60,17 @@ namespace Debond
     /** Half the widths of the implant [mm], which such a bone heeds; no entry.
      */
     std::array<double, 2> rim{{0, 0}};
-    double                layer_grading   = 1;
-    Material              material        = Material::neo_hookean;
-    double                young_modulus   = 18000; ///< [MPa]
-    double                poisson_ratio   = 0.3;
-    SurfaceKind           contact_surface = SurfaceKind::nurbs;
-    BulkSolver            bulk_solver     = BulkSolver::automatic; ///< bone
+    double                layer_grading = 1;
+    Material              material      = Material::neo_hookean;
+    /** Where there is a modulus_expression, the mean [MPa]. */
+    double young_modulus = 18000;
+    /** Of the bone: `Young modulus` if it is no number, and where its voxels
+     *  are; see read_modulus(). */
+    std::string modulus_expression, voxel_file, voxel_corner = "centred";
+    std::shared_ptr<const ModulusField> modulus; ///< null: young_modulus
+    double                              poisson_ratio   = 0.3;
+    SurfaceKind                         contact_surface = SurfaceKind::nurbs;
+    BulkSolver bulk_solver = BulkSolver::automatic; ///< bone
 
     /** Whether the body does not deform, and has no unknowns. */
     bool
@@ -134,6 +141,20 @@ namespace Debond
     std::vector<double>
     lateral_fractions(unsigned int direction) const;
 
+    /** Corners of a block at rest, of a bone [mm]. */
+    std::array<std::array<double, 3>, 2>
+    corners_of_bone() const
+    {
+      return {{{{-0.5 * size[0], -0.5 * size[1], -size[2]}},
+               {{0.5 * size[0], 0.5 * size[1], 0.}}}};
+    }
+
+    /** Makes `modulus` and the mean young_modulus of the expression and the
+     *  voxels, if there are any. @p radius: R of the expression [mm]. Throws
+     *  EntryError. */
+    void
+    read_modulus(double radius);
+
     /** Refuses what makes no sense together. Throws EntryError; @p section is
      *  "Bone" or "Implant". */
     void
@@ -150,7 +171,9 @@ namespace Debond
 
   private:
     void
-    declare_material(EntryTable &table);
+    declare_material(EntryTable &table, bool is_bone);
+    void
+    declare_modulus(EntryTable &table, bool is_bone);
   };
 } // namespace Debond
 #endif

@@ -105,6 +105,9 @@ namespace Debond
      */
     virtual std::vector<Eigen::Matrix3d>
     vertex_stress(const Eigen::VectorXd &v, StressLaw law) const = 0;
+    /** Young's modulus of a cell [MPa], the mean over its Gauss points. */
+    virtual double
+    young_modulus(unsigned int cell) const = 0;
   };
 
   /** Equivalent stress of von Mises [MPa]. */

@@ -19,6 +19,12 @@ namespace Debond
     product_at_rest(const Eigen::MatrixXd &x) const override;
     std::vector<Eigen::Matrix3d>
     vertex_stress(const Eigen::VectorXd &v, StressLaw law) const override;
+    double
+    young_modulus(const unsigned int cell) const override
+    {
+      return mesh.parameters().young_modulus *
+             cells.stiffness_factors(cell).mean();
+    }
 
   protected:
     BulkOfCells(const BodyMesh &mesh, const NeoHookean &material)

@@ -20,7 +20,8 @@ namespace Debond
   public:
     static constexpr unsigned int n_q = n_corners;
 
-    /** @p mesh must outlive this object. */
+    /** @p mesh must outlive this object. @p material is that of the mesh's
+     *  young_modulus. */
     EnrichedCells(const BodyMesh &mesh, const NeoHookean &material);
 
     unsigned int
@@ -66,6 +67,21 @@ namespace Debond
     double
     volume() const;
 
+    /** Young's modulus at the Gauss points of a cell over that of material().
+     */
+    Eigen::Array<double, n_q, 1>
+    stiffness_factors(const unsigned int cell) const
+    {
+      if (factors.empty())
+        return Eigen::Array<double, n_q, 1>::Ones();
+      return Eigen::Map<const Eigen::Array<double, n_q, 1>>(
+        &factors[n_q * cell]);
+    }
+    /** Whether these are mirror images of each other in the planes x = 0 and y
+     *  = 0. */
+    bool
+    are_mirror_images() const;
+
     const NeoHookean &
     material() const
     {
@@ -90,18 +106,28 @@ namespace Debond
                        const Eigen::VectorXd &v,
                        PointValues (&H)[3][3]) const;
 
+    /** Volumes that the points stand for [mm^3]; those in the stiffness have
+     *  the factors of Young's modulus in them. */
     Eigen::Map<const PointValues>
-    weights(const unsigned int cell) const
+    volumes(const unsigned int cell) const
     {
       return Eigen::Map<const PointValues>(&JxW[n_q * kinds[cell]]);
     }
+    PointValues
+    weights(const unsigned int cell) const
+    {
+      return volumes(cell) * stiffness_factors(cell);
+    }
+    void
+    find_factors();
 
     const BodyMesh           &mesh;
     const NeoHookean          bulk_material;
     std::vector<unsigned int> kinds;          ///< of each cell
     std::vector<std::size_t>  first_gradient; ///< of each kind
     std::vector<double>       gradient_list;
-    std::vector<double>       JxW; ///< n_q per kind [mm^3]
+    std::vector<double>       JxW;     ///< n_q per kind [mm^3]
+    std::vector<double>       factors; ///< n_q per cell; empty: all 1
   };
 } // namespace Debond
 #endif

@@ -10,12 +10,15 @@
 #include <debond/scene/scene.h>
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
+#include <debond/support/ranks.h>
 #include <debond/support/runtime.h>
 
 #include <deal.II/base/config.h>
 #include <deal.II/base/exceptions.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cstdio>
 #include <iostream>
 #include <map>
 #include <new>
@@ -228,10 +231,14 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
   //
   // It knows nothing of the limits of processor time that a container may have:
   // --threads and --jobs are there for that.
+  // Ranks of MPI on one machine share its processors.
   unsigned int
   or_processors(const unsigned int n)
   {
-    return n > 0 ? n : std::max(1U, std::thread::hardware_concurrency());
+    return n > 0 ? n :
+                   std::max(1U,
+                            std::thread::hardware_concurrency() /
+                              Ranks::number_on_this_machine());
   }
 
 
@@ -347,6 +354,11 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
                      arguments.overrides);
     // A calibration's entries hold <<unknowns>>, and {{a|b}} where there are
     // several experiments.
+    const bool is_one_scene =
+      !is_calibration(entries) && varied_entries(entries).empty();
+    if (Ranks::number() > 1 && !is_one_scene)
+      refuse_usage("studies and calibrations run in one process: leave out "
+                   "mpirun");
     if (is_calibration(entries) && !arguments.print_parameters)
       return act_on_calibration(entries, arguments);
     // A study's entries hold {{a|b}}: each of its variants is a scene, they
@@ -420,6 +432,24 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
       }
     return (is_internal ? "debond: internal error: " : "") + line;
   }
+
+
+
+  // A mistake of the user is found by all ranks, and the first one says it.
+  // What one rank alone has met, as a lack of memory, it says itself, if the
+  // first one does not end the program before: others wait for it in a sum that
+  // it will never add to.
+  [[noreturn]] void
+  end_of_ranks(const std::string &message, const int code)
+  {
+    if (!Ranks::is_first())
+      std::this_thread::sleep_for(std::chrono::seconds(3));
+    std::cerr << (Ranks::is_first() ?
+                    "" :
+                    "rank " + std::to_string(Ranks::own()) + ": ")
+              << message << std::endl;
+    Ranks::end_all(code);
+  }
 } // namespace
 
 
@@ -433,9 +463,19 @@ main(int argc, char *argv[])
   // One thread to begin with; deal.II's errors as exceptions, not aborts. How
   // many threads there are to be is said once it is known what is run.
   set_up_libraries();
+  // As one of several processes of MPI all of them do the same, and the first
+  // one speaks.
+  if (Ranks::are_launched())
+    {
+      Ranks::start();
+      if (!Ranks::is_first() &&
+          std::freopen("/dev/null", "w", stdout) == nullptr)
+        Ranks::end_all(3);
+    }
   try
     {
       act(read_arguments({argv + 1, argv + argc}));
+      Ranks::finish();
       return 0;
     }
   catch (const std::exception &error)
@@ -453,7 +493,12 @@ main(int argc, char *argv[])
                        interrupted != nullptr ? 128 + interrupted->signal :
                        fails_to_run           ? 2 :
                                                 3;
-      std::cerr << message_of(error, code == 3) << std::endl;
-      return code;
+      const std::string message = message_of(error, code == 3);
+      if (Ranks::number() == 1)
+        {
+          std::cerr << message << std::endl;
+          return code;
+        }
+      end_of_ranks(message, code);
     }
 }

@@ -78,9 +78,7 @@ namespace Debond
   // The bulk says which degrees of freedom it leaves to the coupled system; the
   // interface needs those of the control points by their place. Control points
   // come after all vertices, so that 3 (control point) + component is the
-  // number of a degree of freedom less that of the first one. A bulk that
-  // condenses nothing has vertices among its unknowns, too, which the interface
-  // does not see.
+  // number of a degree of freedom less that of the first one.
   void
   Body::number_unknowns(const std::vector<bool> &contact)
   {
@@ -95,7 +93,7 @@ namespace Debond
     // bone's face, beyond the reach of contact.
     beside_unknowns = false;
     for (unsigned int i = 0; i < unknown_numbers.size(); ++i)
-      if (unknown_numbers[i] < 0 &&
+      if (own_bulk->condenses() && unknown_numbers[i] < 0 &&
           !body_mesh.is_fixed(body_mesh.control_point_node(i / 3), i % 3))
         beside_unknowns = true;
   }
@@ -112,6 +110,22 @@ namespace Debond
       return false;
     linearised_at = state;
     return true;
+  }
+
+
+
+  Eigen::VectorXd
+  Body::to_archive(const Eigen::VectorXd &state) const
+  {
+    const bool is_dealt_out = own_bulk && !own_bulk->condenses();
+    return is_dealt_out && state.size() > 0 ? body_mesh.gathered(state) : state;
+  }
+
+  Eigen::VectorXd
+  Body::from_archive(const Eigen::VectorXd &state) const
+  {
+    const bool is_dealt_out = own_bulk && !own_bulk->condenses();
+    return is_dealt_out && state.size() > 0 ? body_mesh.own_part(state) : state;
   }
 
 

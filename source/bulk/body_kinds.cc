@@ -1,4 +1,6 @@
 #include <debond/bulk/body.h>
+#include <debond/bulk/whole_bulk.h>
+#include <debond/support/ranks.h>
 
 #include <cmath>
 #include <limits>
@@ -188,6 +190,109 @@ namespace Debond
         return support_modes(v).transpose() * residual.internal_force;
       }
     };
+
+
+
+    /**
+     * A body whose bulk condenses nothing, of either law: its interior is part
+     * of the residual and of the state in every iteration, and the coupled
+     * system solves for all of it (WholeSolver). A rank has its part.
+     */
+    class WholeBody : public Body
+    {
+    public:
+      WholeBody(const BodyParameters &parameters, const Side side)
+        : Body(parameters,
+               side,
+               parameters.has_large_strains() ? &NeoHookean::cauchy_stress :
+                                                &NeoHookean::linear_stress)
+        , bulk(dynamic_cast<const WholeBulk &>(*own_bulk))
+      {}
+
+      // r = K v + f, or r = R(v) + f [N] with the true internal forces. Contact
+      // forces are known to all ranks; one of them adds them.
+      Residual
+      residual(const ControlNet &contact_force) const override
+      {
+        Residual result;
+        result.internal_force.setZero(v.size());
+        Eigen::VectorXd r;
+        if (has_small_strains())
+          r = linear_forces(result.energy);
+        else
+          result.valid =
+            bulk.internal_forces(v, result.internal_force, result.energy);
+        Eigen::VectorXd forces = result.internal_force;
+        if (Ranks::is_first())
+          forces.tail(contact_force.size()) += contact_force.reshaped();
+        const Eigen::VectorXd sum = bulk.assembled(forces);
+        r                         = r.size() == 0 ? sum : (r + sum).eval();
+        static_cast<Bulk::Residual &>(result) =
+          bulk.whole_residual(std::move(r));
+        return result;
+      }
+
+      bool
+      has_small_strains() const override
+      {
+        return !mesh().parameters().has_large_strains();
+      }
+
+      double
+      change_at_large_strains() const override
+      {
+        double          energy, linear_energy;
+        Eigen::VectorXd forces = Eigen::VectorXd::Zero(v.size());
+        if (!bulk.internal_forces(v, forces, energy))
+          return std::numeric_limits<double>::infinity();
+        const Eigen::VectorXd r =
+          bulk.assembled(forces) - linear_forces(linear_energy);
+        Eigen::VectorXd x(r.size());
+        bulk.cycle(r.data(), x.data()); // about K^-1 r
+        return std::sqrt(Ranks::sum(r.dot(x)) / (2. * linear_energy));
+      }
+
+    protected:
+      // As that of the other bodies, but each rank knows the forces of its own
+      // cells only.
+      bool
+      linearise(const Eigen::VectorXd &state) override
+      {
+        if (!Body::linearise(state))
+          return false;
+        if (has_small_strains() && reaction_rows.size() == 0)
+          reaction_rows = bulk.product_at_rest(
+            support_modes(Eigen::VectorXd::Zero(v.size())));
+        return true;
+      }
+      Eigen::Matrix<double, 6, 1>
+      reaction_about_origin(const Residual &residual) const override
+      {
+        Eigen::Matrix<double, 6, 1> sum;
+        if (has_small_strains())
+          sum = reaction_rows.transpose() * v;
+        else
+          sum = support_modes(v).transpose() * residual.internal_force;
+        Ranks::add_up(sum);
+        return sum;
+      }
+
+    private:
+      /** K v and the strain energy. */
+      Eigen::VectorXd
+      linear_forces(double &energy) const
+      {
+        const Eigen::VectorXd owned = bulk.owned_of(v);
+        Eigen::VectorXd       forces(owned.size());
+        bulk.multiply(owned.data(), forces.data());
+        energy = 0.5 * Ranks::sum(owned.dot(forces));
+        return forces;
+      }
+
+      const WholeBulk &bulk;
+      /** Supports' resultants about the origin per unit of v. */
+      Eigen::Matrix<double, Eigen::Dynamic, 6> reaction_rows;
+    };
   } // namespace
 
 
@@ -198,6 +303,9 @@ namespace Debond
   std::unique_ptr<Body>
   make_body(const BodyParameters &parameters, const Side side)
   {
+    if (parameters.bulk_solver == BulkSolver::multigrid &&
+        !parameters.is_rigid())
+      return std::make_unique<WholeBody>(parameters, side);
     if (parameters.material == Material::linear)
       return std::make_unique<LinearBody>(parameters, side);
     if (parameters.material == Material::neo_hookean)

@@ -1,4 +1,5 @@
 #include <debond/bulk/body_mesh.h>
+#include <debond/support/ranks.h>
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_q.h>
@@ -7,6 +8,7 @@
 #include <deal.II/grid/tria.h>
 
 #include <cmath>
+#include <limits>
 
 namespace Debond
 {
@@ -53,6 +55,10 @@ namespace Debond
   BodyMesh::BodyMesh(const BodyParameters &parameters, const Side side)
     : body_parameters(parameters)
     , body_side(side)
+    , columns(columns_of_rank(
+        parameters.cells,
+        parameters.bulk_solver == BulkSolver::multigrid ? Ranks::own() : 0,
+        parameters.bulk_solver == BulkSolver::multigrid ? Ranks::number() : 1))
     , contact_surface(make_contact_surface(parameters))
     , layer_knots(make_layers(parameters))
   {
@@ -72,12 +78,12 @@ namespace Debond
   {
     const auto              &n = body_parameters.cells;
     dealii::Triangulation<3> triangulation;
-    dealii::GridGenerator::subdivided_hyper_rectangle(triangulation,
-                                                      {n[0], n[1], n[2]},
-                                                      dealii::Point<3>(),
-                                                      dealii::Point<3>(n[0],
-                                                                       n[1],
-                                                                       n[2]));
+    const auto &[begin, end] = columns;
+    dealii::GridGenerator::subdivided_hyper_rectangle(
+      triangulation,
+      {end[0] - begin[0], end[1] - begin[1], n[2]},
+      dealii::Point<3>(begin[0], begin[1], 0),
+      dealii::Point<3>(end[0], end[1], n[2]));
     const dealii::FESystem<3> fe(dealii::FE_Q<3>(1), 3);
     dealii::DoFHandler<3>     dof_handler(triangulation);
     dof_handler.distribute_dofs(fe);
@@ -122,9 +128,13 @@ namespace Debond
     };
     const ControlNet &control_points = contact_surface.control_points();
     if (has_splines())
-      for (unsigned int level = 1; level < fractions.size(); ++level)
-        for (unsigned int A = 0; A < control_points.cols(); ++A)
-          push(control_points.col(A), level);
+      for (unsigned int node = 0; node < n_inner_nodes(); ++node)
+        {
+          const auto i = place_of(node).index;
+          push(control_points.col(
+                 i[0] + contact_surface.knots(0).n_basis_functions() * i[1]),
+               i[2]);
+        }
     else
       for (const auto &index : lattice)
         push(contact_surface.point(
@@ -152,21 +162,32 @@ namespace Debond
         info.surface_element = first[0] + body_parameters.cells[0] * first[1];
         const auto control_points =
           contact_surface.element_control_points(info.surface_element);
-        const auto add_level = [&](const unsigned int first_node) {
+        const auto add_face = [&] {
           for (unsigned int a = 0; a < n_functions; ++a)
-            info.nodes.push_back(first_node + control_points[a]);
+            info.nodes.push_back(control_point_node(control_points[a]));
+        };
+        // functions begin with the number of their first cell
+        const auto add_level = [&](const unsigned int level) {
+          const auto        &begin = columns.begin, &end = columns.end;
+          const unsigned int n_1 = end[0] - begin[0] + 2;
+          for (unsigned int a = 0; a < n_functions; ++a)
+            info.nodes.push_back((level - 1) * n_in_level() + first[0] -
+                                 begin[0] + a % 3 +
+                                 n_1 * (first[1] - begin[1] + a / 3));
         };
         if (has_splines())
           {
             const unsigned int level =
               layer_knots.first_basis_function(info.layer);
             for (unsigned int k = level; k <= level + layer_knots.degree(); ++k)
-              add_level(k == 0 ? control_point_node(0) :
-                                 (k - 1) * contact_surface.n_control_points());
+              if (k == 0)
+                add_face();
+              else
+                add_level(k);
             continue;
           }
         if (info.enriched)
-          add_level(control_point_node(0));
+          add_face();
         for (const unsigned int vertex : info.vertices)
           if (!is_tied(vertex))
             info.nodes.push_back(vertex);
@@ -184,11 +205,102 @@ namespace Debond
     const bool is_inner    = node < n_inner_nodes();
     if (is_inner && !has_splines())
       return {lattice[node], n};
-    const unsigned int in_level =
-      is_inner ? node % (n_1 * n_2) : node - n_inner_nodes();
-    return {
-      {{in_level % n_1, in_level / n_1, is_inner ? 1 + node / (n_1 * n_2) : 0}},
-      {{n_1 - 1, n_2 - 1, layer_knots.n_basis_functions() - 1}}};
+    const std::array<unsigned int, 3> last{
+      {n_1 - 1, n_2 - 1, layer_knots.n_basis_functions() - 1}};
+    if (!is_inner)
+      {
+        const unsigned int A = node - n_inner_nodes();
+        return {{{A % n_1, A / n_1, 0}}, last};
+      }
+    const unsigned int n_here   = columns.end[0] - columns.begin[0] + 2,
+                       in_level = node % n_in_level();
+    return {{{columns.begin[0] + in_level % n_here,
+              columns.begin[1] + in_level / n_here,
+              1 + node / n_in_level()}},
+            last};
+  }
+
+
+
+  namespace
+  {
+    /** Inner nodes of a whole body along x or y. */
+    unsigned int
+    n_across(const BodyMesh &mesh, const unsigned int direction)
+    {
+      return mesh.parameters().cells[direction] + (mesh.has_splines() ? 2 : 1);
+    }
+  } // namespace
+
+
+
+  unsigned int
+  BodyMesh::number_in_whole(const unsigned int node) const
+  {
+    const auto         i = place_of(node).index;
+    const unsigned int n = n_across(*this, 0) * n_across(*this, 1);
+    if (node >= n_inner_nodes())
+      return n_nodes_of_whole() - n_nodes() + node;
+    return i[0] + n_across(*this, 0) * i[1] +
+           n * (has_splines() ? i[2] - 1 : i[2]);
+  }
+
+
+
+  unsigned int
+  BodyMesh::n_nodes_of_whole() const
+  {
+    const unsigned int n_levels =
+      layer_knots.n_basis_functions() - (has_splines() ? 1 : 0);
+    return n_across(*this, 0) * n_across(*this, 1) * n_levels +
+           contact_surface.n_control_points();
+  }
+
+
+
+  unsigned int
+  BodyMesh::n_dofs_as_published() const
+  {
+    return 3 * (n_nodes_of_whole() -
+                (body_parameters.contact_surface == SurfaceKind::nurbs ?
+                   0 :
+                   contact_surface.n_control_points()));
+  }
+
+
+
+  unsigned int
+  BodyMesh::n_unknowns() const
+  {
+    const auto &n = body_parameters.cells;
+    return 3 *
+           (n_nodes_of_whole() - (has_splines() ? 0 : (n[0] + 1) * (n[1] + 1)));
+  }
+
+
+
+  // What several ranks have is the same on all of them.
+  Eigen::VectorXd
+  BodyMesh::gathered(const Eigen::VectorXd &v) const
+  {
+    Eigen::VectorXd whole =
+      Eigen::VectorXd::Constant(3 * n_nodes_of_whole(),
+                                -std::numeric_limits<double>::infinity());
+    for (unsigned int node = 0; node < n_nodes(); ++node)
+      whole.segment<3>(3 * number_in_whole(node)) = v.segment<3>(3 * node);
+    Ranks::take_largest(whole.data(), whole.size());
+    return whole;
+  }
+
+
+
+  Eigen::VectorXd
+  BodyMesh::own_part(const Eigen::VectorXd &whole) const
+  {
+    Eigen::VectorXd v(3 * n_nodes());
+    for (unsigned int node = 0; node < n_nodes(); ++node)
+      v.segment<3>(3 * node) = whole.segment<3>(3 * number_in_whole(node));
+    return v;
   }
 
 

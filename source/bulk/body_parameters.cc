@@ -117,7 +117,7 @@ namespace Debond
               "the edge length.");
     table.add("Bulk solver",
               bulk_solver,
-              Allowed::choice("auto | direct | lattice"),
+              Allowed::choice("auto | direct | lattice | multigrid"),
               "How the stiffness of the bone is solved. `direct': by a sparse "
               "factorisation, condensed on the contact face. `lattice': by "
               "sines and cosines across, exact for a bone of splines with "
@@ -126,7 +126,10 @@ namespace Debond
               "what sides that slide come to with ever finer cells. The "
               "stiffness of a Neo-Hookean bone stays that at rest, which leads "
               "Newton's method to the same solution as long as strains are "
-              "small. `auto': lattice where that is possible, the implant "
+              "small. `multigrid': "
+              "by iterations for the whole system with algebraic multigrid, "
+              "for bones that are too large to be factorised, on any number "
+              "of processes (mpirun). `auto': lattice where that is possible, the implant "
               "stays away from the sides, and strains are below some 1 %. The "
               "program says which, and why.");
     declare_material(table, true);

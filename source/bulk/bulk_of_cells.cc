@@ -61,7 +61,7 @@ namespace Debond
   {
     std::vector<Eigen::Matrix3d> stress(mesh.n_vertices(),
                                         Eigen::Matrix3d::Zero());
-    std::vector<unsigned int>    n_cells(mesh.n_vertices(), 0);
+    std::vector<double>          n_cells(mesh.n_vertices(), 0.);
     for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
       {
         // H = dv/dX in the body's frame, and by the material's law the
@@ -85,6 +85,7 @@ namespace Debond
             ++n_cells[vertex];
           }
       }
+    add_up_at_vertices(stress, n_cells);
     // Every cell counts the same, whatever its volume; each vertex has at
     // least one.
     for (unsigned int vertex = 0; vertex < mesh.n_vertices(); ++vertex)
@@ -105,6 +106,8 @@ namespace Debond
       NeoHookean::from_young(body.young_modulus, body.poisson_ratio);
     return body.bulk_solver == BulkSolver::lattice ?
              make_lattice_bulk(mesh, material) :
+           body.bulk_solver == BulkSolver::multigrid ?
+             make_multigrid_bulk(mesh, material) :
              make_condensed_bulk(mesh, material);
   }
 } // namespace Debond

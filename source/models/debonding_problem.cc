@@ -7,6 +7,7 @@
 #include <debond/output/field_output.h>
 #include <debond/support/interruption.h>
 #include <debond/support/number_text.h>
+#include <debond/support/ranks.h>
 #include <debond/support/runtime.h>
 #include <debond/support/serialization.h>
 
@@ -112,6 +113,7 @@ namespace Debond
                  simulation.system().interface,
                  simulation.system().chuck)
       {
+        Ranks::meet(); // all have seen what was in the directory
         simulation.differentiate(variations_of(scene));
         if (checkpoint != nullptr)
           restore(*checkpoint);
@@ -135,7 +137,8 @@ namespace Debond
         Console              &console = report.console;
         report.begin(simulation.rows());
         console.headline(unknowns_of(simulation.system()));
-        if (scene.bone.element == ElementKind::spline)
+        if (scene.bone.element == ElementKind::spline ||
+            scene.bulk_solver() == BulkSolver::multigrid)
           console.headline(scene.bulk_solver_in_words());
         for (const Warning &warning : simulation.warnings())
           console.warn(warning.check, warning.text);
@@ -193,7 +196,10 @@ namespace Debond
       void
       stop_if_interrupted()
       {
-        const int signal = interrupting_signal();
+        // mpirun tells all ranks, but not at the same time
+        double arrived = interrupting_signal();
+        Ranks::take_largest(&arrived, 1);
+        const int signal = static_cast<int>(arrived);
         if (signal == 0)
           return;
         std::string text = "interrupted by " + signal_name(signal) +
@@ -395,7 +401,8 @@ namespace Debond
     const ContactInterface    &interface = system.interface;
     const std::vector<double> &times     = scene.load_steps.times;
     out << unknowns_of(system) << '\n';
-    if (scene.bone.element == ElementKind::spline)
+    if (scene.bone.element == ElementKind::spline ||
+        scene.bulk_solver() == BulkSolver::multigrid)
       out << scene.bulk_solver_in_words() << '\n';
     out << interface.get_points().size() << " slave quadrature points on the "
         << name_of(interface.slave_side()) << '\n'

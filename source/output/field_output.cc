@@ -1,6 +1,7 @@
 #include <debond/interface/contact_interface.h>
 #include <debond/output/field_output.h>
 #include <debond/output/result_files.h>
+#include <debond/support/ranks.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -29,10 +30,28 @@ namespace Debond
 
 
     std::string
+    base_name(const std::string &series, const unsigned int number)
+    {
+      return series + "-" + dealii::Utilities::int_to_string(number, 4);
+    }
+
+
+
+    /** The file of a series: where several ranks draw the bulk, the list of
+     *  their pieces. */
+    std::string
     file_name(const std::string &series, const unsigned int number)
     {
-      return series + "-" + dealii::Utilities::int_to_string(number, 4) +
-             ".vtu";
+      const bool has_pieces = series == "bulk" && Ranks::number() > 1;
+      return base_name(series, number) + (has_pieces ? ".pvtu" : ".vtu");
+    }
+
+
+
+    std::string
+    piece_name(const unsigned int number, const unsigned int rank)
+    {
+      return base_name("bulk", number) + "." + std::to_string(rank) + ".vtu";
     }
   } // namespace
 
@@ -41,12 +60,23 @@ namespace Debond
   void
   FieldOutput::write(const double time)
   {
-    const Body       &slave  = *bodies[interface.slave_side()];
-    const std::string vtus[] = {bulk_vtu(bodies, chuck),
-                                interface_vtu(slave, interface, chuck)};
-    for (unsigned int i = 0; i < 2; ++i)
-      write_file(directory.file(file_name(all_series[i], times.size())),
-                 vtus[i]);
+    const Body        &slave  = *bodies[interface.slave_side()];
+    const unsigned int number = times.size();
+    const std::string  piece  = bulk_vtu(bodies, chuck);
+    if (Ranks::number() == 1)
+      write_file(directory.file(file_name("bulk", number)), piece);
+    else
+      {
+        write_own_file(directory.file(piece_name(number, Ranks::own())), piece);
+        std::vector<std::string> pieces;
+        for (unsigned int rank = 0; rank < Ranks::number(); ++rank)
+          pieces.push_back(piece_name(number, rank));
+        write_file(directory.file(file_name("bulk", number)),
+                   list_of_pieces(bodies, pieces));
+      }
+    if (Ranks::is_first())
+      write_file(directory.file(file_name("interface", number)),
+                 interface_vtu(slave, interface, chuck));
     times.push_back(time);
     write_series();
   }
@@ -85,7 +115,8 @@ namespace Debond
           const std::string name = file_name(series, i);
           std::error_code   none;
           if (i >= times.size() &&
-              !std::filesystem::remove(directory.file(name), none))
+              (!Ranks::is_first() ||
+               !std::filesystem::remove(directory.file(name), none)))
             break;
           if (i < times.size() &&
               !std::filesystem::exists(directory.file(name)))

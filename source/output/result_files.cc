@@ -1,5 +1,6 @@
 #include <debond/output/result_files.h>
 #include <debond/support/input_error.h>
+#include <debond/support/ranks.h>
 
 #include <nlohmann/json.hpp>
 
@@ -14,11 +15,13 @@ namespace Debond
   remove_results(const std::string &directory, const bool rungs_only)
   {
     namespace fs = std::filesystem;
+    if (!Ranks::is_first())
+      return;
     static const std::regex rung("rung-[0-9]+"),
       file("(summary|repetition-[0-9]+)\\.json|checkpoint-[12]|"
            "(torque|curve|curve_at|auto|bonding|profiles|friction_law|"
            "sensitivities)\\.csv|"
-           "(bulk|interface)(-[0-9]+\\.vtu|\\.pvd)");
+           "(bulk|interface)(-[0-9]+(\\.[0-9]+)?\\.p?vtu|\\.pvd)");
     const fs::directory_iterator entries(directory);
     for (const fs::path &path :
          std::vector<fs::path>(fs::begin(entries), fs::end(entries)))

@@ -4,6 +4,7 @@
 #include <debond/geometry/surface_geometry.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/output/field_output.h>
+#include <debond/support/ranks.h>
 #include <debond/support/runtime.h>
 
 #include <deal.II/base/data_out_base.h>
@@ -110,6 +111,15 @@ namespace Debond
         return text.str();
       }
 
+      /** The text of a file that names others as its pieces. */
+      std::string
+      list(const std::vector<std::string> &pieces) const
+      {
+        std::ostringstream text;
+        dealii::DataOutBase::write_pvtu_record(text, pieces, names, ranges, {});
+        return text.str();
+      }
+
     private:
       using Range = std::tuple<
         unsigned int,
@@ -203,24 +213,54 @@ namespace Debond
 
 
 
+  namespace
+  {
+    bool
+    draws_modulus(const std::array<const Body *, 2> &bodies)
+    {
+      return bodies[0]->mesh().parameters().modulus != nullptr;
+    }
+
+
+
+    /** A set without patches. */
+    PatchSet<3>
+    bulk_fields(const std::array<const Body *, 2> &bodies)
+    {
+      std::vector<std::pair<std::string, unsigned int>> names{
+        {"displacement", 3},
+        {"displacement_in_frame", 3},
+        {"stress_MPa", 9},
+        {"von_Mises_MPa", 1},
+        {"body", 1}};
+      if (draws_modulus(bodies))
+        names.emplace_back("young_modulus_MPa", 1);
+      return names;
+    }
+  } // namespace
+
+
+
+  std::string
+  list_of_pieces(const std::array<const Body *, 2> &bodies,
+                 const std::vector<std::string>    &pieces)
+  {
+    return bulk_fields(bodies).list(pieces);
+  }
+
+
+
   // A patch is a cell; those at the curved surface are finely subdivided, or
   // quadratic ones where a body has splines. They are drawn in threads. The
   // file has one piece: ParaView mixes up the points of curved cells in files
-  // of several.
+  // of several. Of several ranks each draws its part of the bone, and the first
+  // one the implant.
   std::string
   bulk_vtu(const std::array<const Body *, 2> &bodies, const Chuck &chuck)
   {
-    std::vector<std::pair<std::string, unsigned int>> names{
-      {"displacement", 3},
-      {"displacement_in_frame", 3},
-      {"stress_MPa", 9},
-      {"von_Mises_MPa", 1},
-      {"body", 1}};
-    const bool has_modulus = bodies[0]->mesh().parameters().modulus != nullptr;
-    if (has_modulus)
-      names.emplace_back("young_modulus_MPa", 1);
-    const PatchSet<3> fields(names);
-    PatchSet<3>       output = fields;
+    const bool        has_modulus = draws_modulus(bodies);
+    const PatchSet<3> fields      = bulk_fields(bodies);
+    PatchSet<3>       output      = fields;
     const bool        curved_cells =
       bodies[0]->mesh().has_splines() || bodies[1]->mesh().has_splines();
     for (const Body *const body : bodies)
@@ -234,8 +274,9 @@ namespace Debond
                          for (unsigned int k = first; k < end; ++k)
                            drawn.draw(k, parts[chunk]);
                        });
-        for (PatchSet<3> &part : parts)
-          output.add_patches(std::move(part));
+        if (body->mesh().side() == Side::bone || Ranks::is_first())
+          for (PatchSet<3> &part : parts)
+            output.add_patches(std::move(part));
       }
     return output.vtu(curved_cells);
   }

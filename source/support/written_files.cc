@@ -1,4 +1,5 @@
 #include <debond/support/input_error.h>
+#include <debond/support/ranks.h>
 #include <debond/support/written_files.h>
 
 #include <fcntl.h>
@@ -72,6 +73,17 @@ namespace Debond
              const std::string &text,
              const Durability   durability)
   {
+    if (Ranks::is_first())
+      write_own_file(filename, text, durability);
+  }
+
+
+
+  void
+  write_own_file(const std::string &filename,
+                 const std::string &text,
+                 const Durability   durability)
+  {
     const std::string temporary = filename + partial;
     const bool        on_disk   = durability == Durability::on_disk;
     std::ofstream     file(temporary, std::ios::binary);
@@ -97,6 +109,8 @@ namespace Debond
   void
   remove_file(const std::string &filename)
   {
+    if (!Ranks::is_first())
+      return;
     for (const std::string &name : {filename, filename + partial})
       if (unlink(name.c_str()) != 0 && errno != ENOENT)
         fail(filename);
@@ -107,7 +121,7 @@ namespace Debond
   void
   put_on_disk(const std::string &filename)
   {
-    if (!is_on_disk(filename))
+    if (Ranks::is_first() && !is_on_disk(filename))
       fail(filename);
   }
 
@@ -116,6 +130,8 @@ namespace Debond
   GrowingFile::GrowingFile(const std::string &filename, const std::string &text)
     : filename(filename)
   {
+    if (!Ranks::is_first())
+      return;
     write_file(filename, text);
     file.rdbuf()->pubsetbuf(nullptr, 0); // nothing is kept back
     file.open(filename, std::ios::binary | std::ios::app);
@@ -128,6 +144,8 @@ namespace Debond
   void
   GrowingFile::append(const std::string &text)
   {
+    if (!Ranks::is_first())
+      return;
     std::error_code ignored;
     const auto      before = std::filesystem::file_size(filename, ignored);
     if (file << text)
@@ -144,6 +162,8 @@ namespace Debond
   void
   GrowingFile::finish()
   {
+    if (!Ranks::is_first())
+      return;
     file.close();
     if (!file)
       fail(filename);
@@ -154,6 +174,8 @@ namespace Debond
   DirectoryLock
   lock_directory(const std::string &directory)
   {
+    if (!Ranks::is_first())
+      return nullptr;
     // two descriptors of one process would exclude each other
     static std::mutex                                                  mutex;
     static std::map<std::pair<dev_t, ino_t>, std::weak_ptr<const int>> locks;

@@ -1,4 +1,5 @@
 #include <debond/bulk/modulus_field.h>
+#include <debond/support/ranks.h>
 #include <debond/system/load_step_parameters.h>
 
 #include <algorithm>
@@ -154,12 +155,23 @@ namespace Debond
 
 
 
+  BulkSolver
+  ModelParameters::bulk_solver() const
+  {
+    if (!bone.is_rigid() &&
+        (bone.bulk_solver == BulkSolver::multigrid || Ranks::number() > 1))
+      return BulkSolver::multigrid;
+    return why_direct().empty() ? BulkSolver::lattice : BulkSolver::direct;
+  }
+
+
+
   bool
   ModelParameters::needs_matrix() const
   {
     const auto &components = chuck.component;
-    return load_steps.follow_path ||
-           (!is_on_lattice() &&
+    return bulk_solver() == BulkSolver::direct &&
+           (load_steps.follow_path ||
             std::any_of(components.begin(),
                         components.end(),
                         [](const ChuckComponentParameters &component) {
@@ -172,8 +184,18 @@ namespace Debond
   std::string
   ModelParameters::bulk_solver_in_words() const
   {
-    return is_on_lattice() ?
-             "bulk solver of the bone: lattice, for cells of equal width" :
-             "bulk solver of the bone: direct, as " + why_direct();
+    const std::string whose = "bulk solver of the bone: ";
+    switch (bulk_solver())
+      {
+        case BulkSolver::multigrid:
+          return whose + "multigrid, " +
+                 (Ranks::number() > 1 ?
+                    "for " + std::to_string(Ranks::number()) + " processes" :
+                    std::string("as asked for"));
+        case BulkSolver::lattice:
+          return whose + "lattice, for cells of equal width";
+        default:
+          return whose + "direct, as " + why_direct();
+      }
   }
 } // namespace Debond

@@ -1,6 +1,7 @@
 #include <debond/interface/interface_configuration.h>
 #include <debond/support/runtime.h>
 #include <debond/system/coupled_system.h>
+#include <debond/system/whole_solver.h>
 
 #include <Eigen/Geometry>
 
@@ -31,8 +32,7 @@ namespace Debond
     with_solver(const ModelParameters &parameters)
     {
       BodyParameters bone = parameters.bone;
-      bone.bulk_solver =
-        parameters.is_on_lattice() ? BulkSolver::lattice : BulkSolver::direct;
+      bone.bulk_solver    = parameters.bulk_solver();
       return bone;
     }
 
@@ -79,6 +79,7 @@ namespace Debond
     , interface(parameters.interface, bone.mesh(), implant.mesh())
     , R(parameters.implant.characteristic_radius())
     , timer(timer)
+    , whole_bone(dynamic_cast<const WholeBulk *>(bone.bulk()))
     , force_floor(parameters.interface.law().normal->initial_stiffness() *
                   interface.implant_area() * 1e-6 * R)
     , matrix(body, interface, configuration, path)
@@ -487,11 +488,27 @@ namespace Debond
                      "are not in contact";
         return result;
       }
-    {
-      const TimedSection t(timer, "dense solve");
-      result.unknowns =
-        -solver.solve(matrix, residual.unknowns, relative_tolerance);
-    }
+    if (whole_bone)
+      {
+        const TimedSection  t(timer, "multigrid");
+        const WholeSolution solution =
+          solve_whole(matrix,
+                      *whole_bone,
+                      residual.unknowns,
+                      bulk_residual[Side::bone].interior,
+                      relative_tolerance);
+        result.unknowns = -solution.unknowns;
+        if (!solution.converged)
+          result.why = "multigrid has not solved the linear system in " +
+                       std::to_string(solution.cycles) + " cycles";
+        result.bodies[Side::bone] = -whole_bone->at_nodes(solution.bone);
+      }
+    else
+      {
+        const TimedSection t(timer, "dense solve");
+        result.unknowns =
+          -solver.solve(matrix, residual.unknowns, relative_tolerance);
+      }
     // A singular matrix shows as numbers that are not finite, or, as rounding
     // seldom leaves an exact zero, as a chuck that flies away: by more than a
     // radian or 10 R in one iteration. Neither may enter the trial state.
@@ -514,11 +531,42 @@ namespace Debond
     for (const Side side : both_sides)
       {
         const unsigned int n = body[side]->n_unknowns();
-        result.bodies[side] =
-          body[side]->correction(result.unknowns.segment(first, n),
-                                 bulk_residual[side]);
+        if (result.bodies[side].size() == 0) // else it is known already
+          result.bodies[side] =
+            body[side]->correction(result.unknowns.segment(first, n),
+                                   bulk_residual[side]);
         first += n;
       }
+    return result;
+  }
+
+
+
+  // With forces at the unknowns only.
+  Eigen::VectorXd
+  CoupledSystem::solve_with_whole_bone(const Eigen::VectorXd &right,
+                                       const double relative_tolerance) const
+  {
+    Eigen::VectorXd of_bone = Eigen::VectorXd::Zero(whole_bone->n_owned());
+    whole_bone->add_unknowns(right.data(), of_bone.data());
+    const WholeSolution solution =
+      solve_whole(matrix, *whole_bone, right, of_bone, relative_tolerance);
+    return solution.converged ?
+             solution.unknowns :
+             Eigen::VectorXd::Constant(right.size(), std::nan(""));
+  }
+
+
+
+  Eigen::MatrixXd
+  CoupledSystem::solve_all(const Eigen::MatrixXd &right,
+                           const double           relative_tolerance) const
+  {
+    if (!whole_bone)
+      return solver.solve_all(matrix, right, relative_tolerance);
+    Eigen::MatrixXd result(right.rows(), right.cols());
+    for (unsigned int j = 0; j < right.cols(); ++j)
+      result.col(j) = solve_with_whole_bone(right.col(j), relative_tolerance);
     return result;
   }
 
@@ -699,7 +747,9 @@ namespace Debond
         change[n_v + k] - chuck.machine_load_per_value(k) * given[k];
     {
       const TimedSection    t(timer, "dense solve");
-      const Eigen::VectorXd response = -solver.solve(matrix, right, 1e-4);
+      const Eigen::VectorXd response = whole_bone ?
+                                         -solve_with_whole_bone(right, 1e-4) :
+                                         -solver.solve(matrix, right, 1e-4);
       motion.head(n_v)               = response.head(n_v);
       for (const auto &[k, number] : configuration.chuck_unknowns)
         motion[n_v + k] = response[number];

@@ -234,6 +234,37 @@ namespace Debond
 
 
 
+  // The implant, the chuck and, along a path, the time, for a bone whose
+  // unknowns are a part of something larger. B has a stiffness for the chuck
+  // here.
+  Eigen::VectorXd
+  CoupledTangent::product_beside_bone(const Eigen::VectorXd &x) const
+  {
+    const unsigned int n_bone = bodies[0]->n_unknowns(),
+                       n      = bodies[1]->n_unknowns();
+    Eigen::VectorXd y         = Eigen::VectorXd::Zero(x.size());
+    if (bodies[1]->bulk())
+      y.head(n) = bodies[1]->bulk()->product(x.head(n));
+    for (const auto &[k, row] : configuration.chuck_unknowns)
+      y[row - n_bone] = chuck_stiffness_of_bulk(k) * x[row - n_bone];
+    return y;
+  }
+
+  Eigen::VectorXd
+  CoupledTangent::solve_beside_bone(const Eigen::VectorXd &b) const
+  {
+    const unsigned int n_bone = bodies[0]->n_unknowns(),
+                       n      = bodies[1]->n_unknowns();
+    Eigen::VectorXd x         = b;
+    if (bodies[1]->bulk())
+      x.head(n) = bodies[1]->bulk()->solve(b.head(n));
+    for (const auto &[k, row] : configuration.chuck_unknowns)
+      x[row - n_bone] /= chuck_stiffness_of_bulk(k);
+    return x;
+  }
+
+
+
   Eigen::MatrixXd
   CoupledTangent::solve_bulk_all(const Eigen::MatrixXd &B) const
   {

@@ -195,11 +195,19 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      std::vector<bool>        contact = is_contact;
-      Eigen::VectorXd          state   = linearised_at;
-      archive &contact &state &accepted;
+      std::vector<bool>              contact = is_contact;
+      Eigen::VectorXd                state   = to_archive(linearised_at);
+      AcceptedState<Eigen::VectorXd> known   = accepted;
+      known.value                            = to_archive(accepted.value);
+      known.before                           = to_archive(accepted.before);
+      archive &contact &state &known;
       if (Archive::is_loading::value)
-        restore(contact, state);
+        {
+          accepted        = known;
+          accepted.value  = from_archive(known.value);
+          accepted.before = from_archive(known.before);
+          restore(contact, from_archive(state));
+        }
       archive &surface_is_stale;
     }
 
@@ -229,6 +237,12 @@ namespace Debond
     std::vector<unsigned int>      unknown_dofs; ///< 3 node + component
 
   private:
+    /** A displacement as a checkpoint holds it, which is the same for any number
+     *  of ranks, and back. */
+    Eigen::VectorXd
+    to_archive(const Eigen::VectorXd &state) const;
+    Eigen::VectorXd
+    from_archive(const Eigen::VectorXd &state) const;
     void
     number_unknowns(const std::vector<bool> &contact);
     /** Goes on from a checkpoint; the accepted state has been read. */

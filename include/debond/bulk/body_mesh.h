@@ -17,6 +17,26 @@ namespace Debond
 
 
 
+  /** Columns of cells: those whose places along x and y are in [begin, end).
+   */
+  struct CellColumns
+  {
+    std::array<unsigned int, 2> begin{{0, 0}}, end{{0, 0}};
+  };
+
+  /** Into how many parts along x and y a body of so many cells is dealt out
+   *  among @p n ranks; zeros: it cannot be. */
+  std::array<unsigned int, 2>
+  parts_across(const std::array<unsigned int, 3> &cells, unsigned int n);
+
+  /** The part of one of them. */
+  CellColumns
+  columns_of_rank(const std::array<unsigned int, 3> &cells,
+                  unsigned int                       rank,
+                  unsigned int                       n_ranks);
+
+
+
   /**
    * Mesh, numbering and boundary conditions of one body.
    *
@@ -34,6 +54,9 @@ namespace Debond
    * With the element `spline` all nodes are control points, of functions that
    * are those of the contact surface times quadratic splines of the depth:
    * level by level, that of the contact surface last. No vertex is a node.
+   *
+   * With BulkSolver::multigrid a rank has its columns of cells only, and their
+   * nodes; but always all control points of the contact surface.
    */
   class BodyMesh
   {
@@ -76,12 +99,26 @@ namespace Debond
     {
       return lattice.size();
     }
+    /** Number of a vertex among those of the whole body, and of all these. */
+    unsigned int
+    vertex_in_whole(const unsigned int vertex) const
+    {
+      const auto &i = lattice[vertex];
+      const auto &n = body_parameters.cells;
+      return i[0] + (n[0] + 1) * (i[1] + (n[1] + 1) * i[2]);
+    }
+    unsigned int
+    n_vertices_of_whole() const
+    {
+      const auto &n = body_parameters.cells;
+      return (n[0] + 1) * (n[1] + 1) * (n[2] + 1);
+    }
     /** Nodes before the control points of the contact surface: the vertices,
      *  or the control points of the other levels. */
     unsigned int
     n_inner_nodes() const
     {
-      return has_splines() ? contact_surface.n_control_points() *
+      return has_splines() ? n_in_level() *
                                (layer_knots.n_basis_functions() - 1) :
                              n_vertices();
     }
@@ -97,23 +134,14 @@ namespace Debond
       return n_inner_nodes() + control_point;
     }
 
-    /** Degrees of freedom as the paper counts them: all vertices and, with
-     *  NURBS, all control points, three each. */
+    /** Degrees of freedom of the whole body as the paper counts them: all
+     *  vertices and, with NURBS, all control points, three each. */
     unsigned int
-    n_dofs_as_published() const
-    {
-      return body_parameters.contact_surface == SurfaceKind::nurbs ?
-               3 * n_nodes() :
-               3 * n_vertices();
-    }
-    /** Three for each node but the surface vertices, which follow the control
-     *  points. */
+    n_dofs_as_published() const;
+    /** Three for each node of the whole body but the surface vertices, which
+     *  follow the control points. */
     unsigned int
-    n_unknowns() const
-    {
-      const auto &n = body_parameters.cells;
-      return 3 * (n_nodes() - (has_splines() ? 0 : (n[0] + 1) * (n[1] + 1)));
-    }
+    n_unknowns() const;
 
     /** Splines of the depth, over the fraction 0 (contact face) to 1 of it:
      *  one span for each layer of cells, of the degree of the elements. */
@@ -150,6 +178,13 @@ namespace Debond
     };
     Place
     place_of(unsigned int node) const;
+    /** A vector over the nodes of this rank in the order of their places in the
+     *  whole body, which no number of ranks changes, and back; collective. Only
+     *  for BulkSolver::multigrid. */
+    Eigen::VectorXd
+    gathered(const Eigen::VectorXd &v) const;
+    Eigen::VectorXd
+    own_part(const Eigen::VectorXd &whole) const;
     /** Fills in the tied vertices of a displacement vector (3 n_nodes). */
     void
     distribute(Eigen::VectorXd &v) const;
@@ -182,8 +217,23 @@ namespace Debond
     void
     make_constraints();
 
+    /** Control points of a level of splines that the cells here have. */
+    unsigned int
+    n_in_level() const
+    {
+      return (columns.end[0] - columns.begin[0] + 2) *
+             (columns.end[1] - columns.begin[1] + 2);
+    }
+    /** Number of a node among those of the whole body, in the order of places.
+     */
+    unsigned int
+    number_in_whole(unsigned int node) const;
+    unsigned int
+    n_nodes_of_whole() const;
+
     const BodyParameters body_parameters;
     const Side           body_side;
+    const CellColumns    columns; ///< of this rank
     const NurbsSurface   contact_surface;
     const KnotVector     layer_knots;
 

@@ -33,7 +33,8 @@ namespace Debond
   {
     automatic,
     direct,
-    lattice
+    lattice,
+    multigrid
   };
   enum class SurfaceKind
   {

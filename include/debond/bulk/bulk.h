@@ -22,8 +22,8 @@ namespace Debond
    *
    *   S = K_cc - K_ci K_ii^-1 K_ic.
    *
-   * One that condenses nothing brings all of them, those of the contact surface
-   * among them: S is K then, and there is nothing left to recover.
+   * One that condenses nothing, for which K takes part as it is, is a
+   * WholeBulk.
    *
    * Vectors of displacements v [mm] and forces [N] have 3 n_nodes entries; what
    * stands in fixed ones is ignored, and is zero in what is returned. Nothing
@@ -66,6 +66,14 @@ namespace Debond
     /** That matrix; formed at every call. */
     virtual Eigen::MatrixXd
     dense_stiffness() const = 0;
+
+    /** Whether there are degrees of freedom that it takes care of itself; if
+     *  not it is a WholeBulk. */
+    virtual bool
+    condenses() const
+    {
+      return true;
+    }
 
     /** A residual r, as far as the coupled system is concerned. */
     struct Residual
@@ -120,8 +128,8 @@ namespace Debond
   }
 
   /** The bulk of a body with the given @p mesh, which must outlive it; direct
-   *  unless the mesh asks for BulkSolver::lattice (ModelParameters says whether
-   *  it may). */
+   *  unless the mesh asks for another solver (ModelParameters says whether it
+   *  may). */
   std::unique_ptr<Bulk>
   make_bulk(const BodyMesh &mesh);
 } // namespace Debond

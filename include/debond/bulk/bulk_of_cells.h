@@ -32,6 +32,13 @@ namespace Debond
       , cells(mesh, material)
     {}
 
+    /** Adds to sums over the cells of this rank those of others, one entry for
+     *  each vertex. */
+    virtual void
+    add_up_at_vertices(std::vector<Eigen::Matrix3d> & /*stress*/,
+                       std::vector<double> & /*n_cells*/) const
+    {}
+
     const BodyMesh     &mesh;
     const EnrichedCells cells;
   };

@@ -19,5 +19,9 @@ namespace Debond
    *  set_contact() throws EntryError. */
   std::unique_ptr<Bulk>
   make_lattice_bulk(const BodyMesh &mesh, const NeoHookean &material);
+
+  /** A WholeBulk with algebraic multigrid, on all ranks. */
+  std::unique_ptr<Bulk>
+  make_multigrid_bulk(const BodyMesh &mesh, const NeoHookean &material);
 } // namespace Debond
 #endif

@@ -16,7 +16,8 @@ namespace Debond
    * Writes what ParaView shows: bulk-NNNN.vtu and interface-NNNN.vtu with the
    * series bulk.pvd and interface.pvd, which are replaced as a whole after each
    * call, so that the files of an interrupted run can be opened. No file holds
-   * a date: equal runs write equal files.
+   * a date: equal runs write equal files. Several ranks write a piece of the
+   * bulk each, bulk-NNNN.RANK.vtu, joined by bulk-NNNN.pvtu.
    *
    * Points lie at their *reference* positions X, and the array `displacement`
    * is x - X in space, the rigid motion of the implant included: the filter
@@ -58,7 +59,7 @@ namespace Debond
 
     /** Writes the trial state (the accepted one, if called after commit()) as
      *  the next file of both series. Throws WriteError if that is impossible.
-     */
+     *  Collective. */
     void
     write(double time);
 
@@ -91,9 +92,16 @@ namespace Debond
   };
 
   /** The text of a VTU file with the fields of both bodies, bone and implant,
-   *  in the trial state; class FieldOutput says which. */
+   *  in the trial state; class FieldOutput says which. Of several ranks each
+   *  has its piece. Collective. */
   std::string
   bulk_vtu(const std::array<const Body *, 2> &bodies, const Chuck &chuck);
+
+  /** The text of a file that joins such pieces, given by the names of their
+   *  files. */
+  std::string
+  list_of_pieces(const std::array<const Body *, 2> &bodies,
+                 const std::vector<std::string>    &pieces);
 
   /** The text of a VTU file with the fields of the interface in the trial state
    *  on the surface of the body @p slave; class FieldOutput says which, and how

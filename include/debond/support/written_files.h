@@ -22,11 +22,17 @@ namespace Debond
 
   /** Writes a whole file or leaves what was there before: the text goes to a
    *  temporary file that then takes the place of @p filename. Throws
-   *  WriteError. */
+   *  WriteError. Of several ranks the first one does it, as with everything
+   *  else here that changes files; the others do nothing. */
   void
   write_file(const std::string &filename,
              const std::string &text,
              Durability         durability = Durability::in_system);
+  /** The same on each rank, of files that are its own. */
+  void
+  write_own_file(const std::string &filename,
+                 const std::string &text,
+                 Durability         durability = Durability::in_system);
 
   /** Removes a file if there is one, and what a write_file() that was killed
    * may have left of it. Throws WriteError. */

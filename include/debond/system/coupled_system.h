@@ -3,6 +3,7 @@
 
 #include <debond/bulk/body.h>
 #include <debond/bulk/chuck.h>
+#include <debond/bulk/whole_bulk.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/system/coupled_tangent.h>
 #include <debond/system/load_step_parameters.h>
@@ -150,11 +151,7 @@ namespace Debond
      *  @p right, to |b - A x| <= @p relative_tolerance |b|. Changes nothing:
      * what follows is the same to the last digit. */
     Eigen::MatrixXd
-    solve_all(const Eigen::MatrixXd &right,
-              const double           relative_tolerance) const
-    {
-      return solver.solve_all(matrix, right, relative_tolerance);
-    }
+    solve_all(const Eigen::MatrixXd &right, double relative_tolerance) const;
     /** Adds @p fraction of a correction to the trial state. */
     void
     correct(const Correction &correction, double fraction = 1.);
@@ -288,7 +285,13 @@ namespace Debond
       return is_rotation(chuck_component) ? R : 1.;
     }
 
+    /** Solves with the tangent, for forces at the unknowns only. */
+    Eigen::VectorXd
+    solve_with_whole_bone(const Eigen::VectorXd &right,
+                          double                 relative_tolerance) const;
+
     dealii::TimerOutput *const timer;
+    const WholeBulk *const     whole_bone; ///< null: the bone is condensed
     unsigned int               unknowns    = 0;
     double                     force_floor = 0; ///< [N]
     /** Of each body in the last evaluate(). */

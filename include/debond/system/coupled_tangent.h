@@ -93,6 +93,15 @@ namespace Debond
     void
     assemble(Eigen::MatrixXd &matrix) const override;
 
+    /** @name Without the bone
+     *  B of the unknowns that follow those of the bone, and its inverse. */
+    //@{
+    Eigen::VectorXd
+    product_beside_bone(const Eigen::VectorXd &x) const;
+    Eigen::VectorXd
+    solve_beside_bone(const Eigen::VectorXd &b) const;
+    //@}
+
     /** Adds the product of @p x with the part that comes from the rotation of
      *  the implant's frame and of lever arms, and from the machine. */
     void

@@ -118,11 +118,13 @@ namespace Debond
      *  empty: it can. */
     std::string
     why_not_lattice() const;
-    /** What `Bone / Bulk solver' comes to, and in words. */
+    /** What `Bone / Bulk solver' comes to, never automatic, and in words. */
+    BulkSolver
+    bulk_solver() const;
     bool
     is_on_lattice() const
     {
-      return why_direct().empty();
+      return bulk_solver() == BulkSolver::lattice;
     }
     std::string
     bulk_solver_in_words() const;

@@ -1,0 +1,69 @@
+#ifndef debond_support_ranks_h
+#define debond_support_ranks_h
+
+#include <Eigen/Core>
+#include <mpi.h>
+
+namespace Debond
+{
+  /**
+   * The processes that solve one scene together, started by `mpirun` or `srun`.
+   * Each does the same; what is dealt out among them is said where it is. A
+   * process by itself is the only rank, and does without MPI until something
+   * asks for the communicator.
+   *
+   * Functions that all ranks have to call at the same time are collective. What
+   * they return is the same on all ranks.
+   */
+  namespace Ranks
+  {
+    /** Whether this process is one of several that MPI has started. */
+    bool
+    are_launched();
+    /** Initialises MPI, if that has not been done. */
+    void
+    start();
+    /** The last thing that a program does: ends MPI, if it has been started. */
+    void
+    finish();
+
+    MPI_Comm
+    communicator();
+    unsigned int
+    number();
+    unsigned int
+    own();
+    /** Whether this rank speaks for all: it writes files and lines. */
+    inline bool
+    is_first()
+    {
+      return own() == 0;
+    }
+    /** How many ranks share the processors and the memory of this machine. */
+    unsigned int
+    number_on_this_machine();
+
+    /** Sums over all ranks, in place. Collective. */
+    void
+    add_up(double *values, std::size_t n);
+    template <typename Derived>
+    void
+    add_up(Eigen::PlainObjectBase<Derived> &values)
+    {
+      add_up(values.data(), values.size());
+    }
+    double
+    sum(double value);
+    /** The largest of all ranks, in place, one by one. Collective. */
+    void
+    take_largest(double *values, std::size_t n);
+    /** Waits for all. Collective. */
+    void
+    meet();
+
+    /** Ends all ranks, with an exit code. */
+    [[noreturn]] void
+    end_all(int code);
+  } // namespace Ranks
+} // namespace Debond
+#endif

@@ -1,0 +1,34 @@
+#ifndef debond_system_whole_solver_h
+#define debond_system_whole_solver_h
+
+#include <debond/bulk/whole_bulk.h>
+#include <debond/system/coupled_tangent.h>
+
+namespace Debond
+{
+  /** What solve_whole() returns. */
+  struct WholeSolution
+  {
+    bool            converged = false;
+    unsigned int    cycles    = 0; ///< of multigrid
+    Eigen::VectorXd unknowns;      ///< of the coupled system
+    Eigen::VectorXd bone;          ///< all that this rank owns of it
+  };
+
+  /**
+   * Solves (B + C) x = b to |b - A x| <= @p relative_tolerance |b|, where the
+   * @p bone is a WholeBulk: by GMRES for bone, implant, chuck and interface at
+   * once, preconditioned from the right by a V-cycle for the bone and S^-1 for
+   * the implant.
+   *
+   * @p b: in the unknowns; what it has for the bone is left aside for @p
+   * b_of_bone, which is what this rank owns. Collective.
+   */
+  WholeSolution
+  solve_whole(const CoupledTangent  &A,
+              const WholeBulk       &bone,
+              const Eigen::VectorXd &b,
+              const Eigen::VectorXd &b_of_bone,
+              double                 relative_tolerance);
+} // namespace Debond
+#endif

@@ -1,0 +1,159 @@
+#include <debond/support/ranks.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cstdlib>
+#include <string>
+
+// MPI where there is more than one process, or a library that works with it.
+// Initialising it takes 0.3 s, as long as whole runs of this program, so that
+// a process by itself does not do it before it has to.
+namespace Debond
+{
+  namespace
+  {
+    // Not ended with the static objects: those of other libraries may be gone.
+    dealii::Utilities::MPI::MPI_InitFinalize *mpi = nullptr;
+
+
+
+    int
+    number_in_environment(const char *const name)
+    {
+      const char *const text = std::getenv(name);
+      return text == nullptr ? 0 : std::atoi(text);
+    }
+  } // namespace
+
+
+
+  namespace Ranks
+  {
+    // Open MPI, MPICH and its relatives, and srun say it each in their way. A
+    // script that a batch system started is one process, whatever it has
+    // reserved.
+    bool
+    are_launched()
+    {
+      return number_in_environment("OMPI_COMM_WORLD_SIZE") > 1 ||
+             number_in_environment("PMI_SIZE") > 1 ||
+             (number_in_environment("SLURM_STEP_NUM_TASKS") > 1 &&
+              std::getenv("SLURM_PROCID") != nullptr);
+    }
+
+
+
+    void
+    start()
+    {
+      if (mpi)
+        return;
+      static int    n_arguments = 1;
+      static char   name[]      = "debond";
+      static char  *words[]     = {name, nullptr};
+      static char **arguments   = words;
+      mpi = new dealii::Utilities::MPI::MPI_InitFinalize(
+        n_arguments, arguments, dealii::MultithreadInfo::n_threads());
+    }
+
+
+
+    void
+    finish()
+    {
+      delete mpi;
+      mpi = nullptr;
+    }
+
+
+
+    MPI_Comm
+    communicator()
+    {
+      start();
+      return MPI_COMM_WORLD;
+    }
+
+
+
+    unsigned int
+    number()
+    {
+      return mpi ? dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) : 1;
+    }
+
+
+
+    unsigned int
+    own()
+    {
+      return mpi ? dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) : 0;
+    }
+
+
+
+    unsigned int
+    number_on_this_machine()
+    {
+      if (number() == 1)
+        return 1;
+      static const int result = [] {
+        MPI_Comm here;
+        int      n = 1;
+        MPI_Comm_split_type(
+          communicator(), MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here);
+        MPI_Comm_size(here, &n);
+        MPI_Comm_free(&here);
+        return n;
+      }();
+      return result;
+    }
+
+
+
+    void
+    add_up(double *const values, const std::size_t n)
+    {
+      if (number() > 1)
+        MPI_Allreduce(
+          MPI_IN_PLACE, values, n, MPI_DOUBLE, MPI_SUM, communicator());
+    }
+
+
+
+    double
+    sum(double value)
+    {
+      add_up(&value, 1);
+      return value;
+    }
+
+
+
+    void
+    take_largest(double *const values, const std::size_t n)
+    {
+      if (number() > 1)
+        MPI_Allreduce(
+          MPI_IN_PLACE, values, n, MPI_DOUBLE, MPI_MAX, communicator());
+    }
+
+
+
+    void
+    meet()
+    {
+      if (number() > 1)
+        MPI_Barrier(communicator());
+    }
+
+
+
+    void
+    end_all(const int code)
+    {
+      MPI_Abort(communicator(), code);
+      std::abort();
+    }
+  } // namespace Ranks
+} // namespace Debond

@@ -354,11 +354,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
                      arguments.overrides);
     // A calibration's entries hold <<unknowns>>, and {{a|b}} where there are
     // several experiments.
-    const bool is_one_scene =
-      !is_calibration(entries) && varied_entries(entries).empty();
-    if (Ranks::number() > 1 && !is_one_scene)
-      refuse_usage("studies and calibrations run in one process: leave out "
-                   "mpirun");
+    if (Ranks::number() > 1 && is_calibration(entries))
+      refuse_usage("a calibration runs in one process: leave out mpirun");
     if (is_calibration(entries) && !arguments.print_parameters)
       return act_on_calibration(entries, arguments);
     // A study's entries hold {{a|b}}: each of its variants is a scene, they

@@ -114,6 +114,20 @@ namespace Debond
 
 
 
+  void
+  Body::refuse_archive(const int solver) const
+  {
+    const std::string names[]{"auto", "direct", "lattice", "multigrid"};
+    throw EntryError("Bone / Bulk solver",
+                     "the run was begun with " + names[solver & 3] +
+                       ", and cannot go on with " + names[solver_in_archive()] +
+                       (solver == static_cast<int>(BulkSolver::multigrid) ?
+                          "" :
+                          ": it takes one process, without mpirun"));
+  }
+
+
+
   Eigen::VectorXd
   Body::to_archive(const Eigen::VectorXd &state) const
   {

@@ -18,7 +18,6 @@
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 
 // A bulk of any size, of any modulus and on any number of ranks: step-40's
@@ -401,7 +400,7 @@ namespace Debond
         list.set("ML output", 0);
         list.set("PDE equations", 3);
         list.set("smoother: type", "Chebyshev");
-        list.set("smoother: sweeps", 2);
+        list.set("smoother: sweeps", mesh.has_splines() ? 4 : 2);
         list.set("aggregation: type", "Uncoupled");
         list.set("aggregation: threshold", 0.);
         list.set("coarse: type", "Amesos-KLU");
@@ -410,10 +409,13 @@ namespace Debond
         list.set("null space: dimension", 6);
         list.set("null space: vectors", modes.Values());
         list.set("null space: add default vectors", false);
-        if (const double threshold = distance_threshold(); threshold > 0.)
+        // Which nodes are close tells better than the entries of K which belong
+        // together in flat cells. Splines have close nodes at their ends, which
+        // it would leave alone.
+        if (!mesh.has_splines())
           {
             list.set("aggregation: aux: enable", true);
-            list.set("aggregation: aux: threshold", threshold);
+            list.set("aggregation: aux: threshold", 0.01);
             list.set("x-coordinates", coordinates[0].data());
             list.set("y-coordinates", coordinates[1].data());
             list.set("z-coordinates", coordinates[2].data());
@@ -421,14 +423,6 @@ namespace Debond
         multigrid.reset();
         multigrid = std::make_unique<ML_Epetra::MultiLevelPreconditioner>(
           K.trilinos_matrix(), list, true);
-      }
-
-      double
-      distance_threshold() const
-      {
-        if (const char *t = std::getenv("DEBOND_AUX"))
-          return std::atof(t);
-        return 0.01;
       }
 
       const BodyPartition       partition;

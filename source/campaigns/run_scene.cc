@@ -3,6 +3,7 @@
 #include <debond/models/closed_form_solution.h>
 #include <debond/models/debonding_problem.h>
 #include <debond/support/input_error.h>
+#include <debond/support/ranks.h>
 
 #include <deal.II/base/timer.h>
 
@@ -24,6 +25,10 @@ namespace Debond
             DebondingProblem problem(scene, std::move(bodies));
             plan != nullptr ? problem.check(*plan) : problem.run();
           }
+        else if (scene.model == ModelKind::automatic && Ranks::number() > 1)
+          throw EntryError("Model",
+                           "auto runs in one process: expected finite "
+                           "elements, or no mpirun");
         else if (scene.model == ModelKind::automatic)
           plan != nullptr ? check_auto(scene, *plan) : run_auto(scene);
         else

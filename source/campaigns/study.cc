@@ -8,16 +8,21 @@
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
 #include <debond/support/number_text.h>
+#include <debond/support/ranks.h>
 #include <debond/support/written_files.h>
+#include <debond/system/coupled_system.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
 
 #include <boost/algorithm/string/join.hpp>
+#include <boost/serialization/utility.hpp>
 
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <iomanip>
+#include <iostream>
 #include <ostream>
 #include <sstream>
 
@@ -59,7 +64,8 @@ namespace Debond
       std::vector<std::string> varied; ///< full names of the varied entries
       std::vector<Variant>     variants;
       std::string              directory;
-      unsigned int             reference = 0; ///< number of a variant, 0: none
+      unsigned int             reference  = 0; ///< number of a variant, 0: none
+      unsigned int             group_size = 1; ///< processes for a variant
 
       /** Reads all variants. */
       Study(const std::vector<SceneEntry> &entries, const std::string &name)
@@ -77,8 +83,10 @@ namespace Debond
           }
         const Scene first =
           Scene::from_entries(study_variants(entries)[0].entries, name);
-        directory = first.output.directory;
-        reference = first.study.reference_variant;
+        directory  = first.output.directory;
+        reference  = first.study.reference_variant;
+        group_size = first.study.processes_per_variant;
+        check_ranks(first);
         auto combinations =
           study_variants(entries, first.study.factors_at_once);
         if (reference > combinations.size())
@@ -96,6 +104,7 @@ namespace Debond
                                             {"Study/Reference variant=0",
                                              "Study/Factors varied at once=0",
                                              "Study/Repetitions=1",
+                                             "Study/Processes per variant=1",
                                              "Output/Console=quiet",
                                              "Output/Directory=" + directory +
                                                "/" + variant_name});
@@ -110,6 +119,26 @@ namespace Debond
             next.scene.changed_entries.clear();
             variants.push_back(std::move(next));
           }
+      }
+
+
+
+      void
+      check_ranks(const Scene &first) const
+      {
+        const unsigned int n      = Ranks::number();
+        const auto         refuse = [&](const std::string &entry,
+                                const std::string &why) {
+          throw first.with_place(EntryError("Study / " + entry, why));
+        };
+        if (n % group_size != 0)
+          refuse("Processes per variant",
+                 "mpirun has started " + std::to_string(n) +
+                   " processes, which are no groups of so many");
+        if (n > 1 && first.study.repetitions > 1)
+          refuse("Repetitions",
+                 "seconds of variants that run at the same time mean little: "
+                 "expected 1, or no mpirun");
       }
 
 
@@ -186,7 +215,12 @@ namespace Debond
         if (n_done() > 0)
           out << ", " << n_done() << " of them done already";
         out << std::endl;
-        run_variants(n_jobs, out);
+        if (Ranks::number() == 1)
+          run_variants(n_jobs, out);
+        else
+          run_in_groups(out);
+        if (!Ranks::is_first())
+          return;
         write_table();
         write_ensemble(out);
         name_best(out);
@@ -260,6 +294,110 @@ namespace Debond
             time_between_tables = std::max(2., 50. * clock.wall_time());
             since_table.restart();
           }
+      }
+
+
+
+      /** Runs a variant in this group of ranks. Returns why it failed. */
+      static std::string
+      run_here(const Scene &scene, const std::shared_ptr<BodyPair> &bodies)
+      {
+        // its lines are not those of the study
+        std::ostringstream unseen;
+        std::streambuf    *console = std::cout.rdbuf(unseen.rdbuf());
+        std::string        why;
+        try
+          {
+            run_variant(scene, bodies);
+          }
+        catch (const std::exception &error)
+          {
+            // what one rank alone has met the others wait for in vain
+            const bool is_of_one =
+              dynamic_cast<const WriteError *>(&error) != nullptr ||
+              dynamic_cast<const std::bad_alloc *>(&error) != nullptr;
+            if (is_of_one && Ranks::number() > 1)
+              throw;
+            why = error.what();
+          }
+        std::cout.rdbuf(console);
+        return why;
+      }
+
+
+
+      // Variants that share bodies follow each other, and a group keeps those
+      // of the last one. Who gets free takes the next one; what has been done
+      // is in the directories of the variants.
+      void
+      run_in_groups(std::ostream &out)
+      {
+        std::map<std::string, std::vector<unsigned int>> by_bodies;
+        for (unsigned int i = 0; i < variants.size(); ++i)
+          if (!variants[i].done)
+            by_bodies[what_bodies_depend_on(variants[i].scene)].push_back(i);
+        std::vector<std::pair<std::string, unsigned int>> order;
+        for (const auto &[bodies, numbers] : by_bodies)
+          for (const unsigned int number : numbers)
+            order.emplace_back(bodies, number);
+
+        std::vector<std::pair<unsigned int, std::string>> failures;
+        {
+          Ranks::Groups             groups(group_size);
+          std::shared_ptr<BodyPair> bodies;
+          std::string               kind;
+          for (unsigned int k; (k = groups.next()) < order.size();)
+            {
+              Variant &variant = variants[order[k].second];
+              if (order[k].first.empty())
+                bodies.reset();
+              else if (!bodies || order[k].first != kind)
+                bodies = std::make_shared<BodyPair>(variant.scene);
+              else
+                bodies->return_to_rest();
+              kind                  = order[k].first;
+              const std::string why = run_here(variant.scene, bodies);
+              if (!why.empty())
+                failures.emplace_back(order[k].second, why);
+              Ranks::meet();
+              variant.end_run(why);
+              out << variant.name << ": " << outcome_of(variant) << std::endl;
+              double stop = interrupting_signal();
+              Ranks::take_largest(&stop, 1);
+              if (stop != 0.)
+                break;
+            }
+        }
+        collect(failures);
+      }
+
+
+
+      /** After all groups are done: what the first rank has to know. */
+      void
+      collect(const std::vector<std::pair<unsigned int, std::string>> &failures)
+      {
+        const auto all =
+          dealii::Utilities::MPI::gather(Ranks::communicator(), failures);
+        double stop = interrupting_signal();
+        Ranks::take_largest(&stop, 1);
+        for (Variant &variant : variants)
+          variant.look_up();
+        for (const auto &of_rank : all)
+          for (const auto &[number, why] : of_rank)
+            {
+              variants[number].failure = why;
+              variants[number].done    = false;
+            }
+        if (stop == 0.)
+          return;
+        write_table();
+        throw Interrupted(stop,
+                          Text()
+                            << "interrupted by " << signal_name(stop) << ": "
+                            << n_done() << " of " << variants.size()
+                            << " variants are done; the same study without "
+                               "--force goes on with the others");
       }
 
 

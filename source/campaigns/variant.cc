@@ -1,5 +1,6 @@
 #include <debond/campaigns/variant.h>
 #include <debond/output/torque_curve.h>
+#include <debond/support/ranks.h>
 
 #include <boost/math/statistics/univariate_statistics.hpp>
 #include <boost/range/algorithm_ext/erase.hpp>
@@ -105,6 +106,7 @@ namespace Debond
   {
     std::error_code none;
     for (unsigned int i = 1;
+         Ranks::is_first() &&
          std::filesystem::remove(repetition_file(*this, i), none);
          ++i)
       ;

@@ -28,39 +28,36 @@
 
 namespace Debond
 {
+  std::string
+  what_bodies_depend_on(const Scene &scene)
+  {
+    if (scene.model != ModelKind::finite_elements)
+      return "";
+    static const std::regex of_bodies(
+      "(Bone|Implant) / [^/]*|Interface / (Slave|Quadrature points)");
+    std::string text;
+    Chuck       chuck(scene.chuck,
+                Eigen::Vector3d(0, 0, scene.implant.thickness()),
+                scene.implant.characteristic_radius());
+    chuck.place(scene.load_steps.times.front());
+    for (const double q : chuck.position())
+      text += to_text(q, 17) + " ";
+    // which depends on motion, loads and path, too
+    text += std::to_string(int(scene.bulk_solver())) + "\n";
+    for (const SceneEntry &entry :
+         read_scene_text(scene.completed_parameters, scene.name))
+      {
+        const std::string name = entry.full_name();
+        if (std::regex_match(name, of_bodies))
+          text += name + " = " + entry.value + "\n";
+      }
+    return text;
+  }
+
+
+
   namespace
   {
-    /** What scenes agree in if they can share bodies: what the bodies are, and
-     *  where they are when the interface is set up. Empty if the scene shares
-     *  them with none. */
-    std::string
-    common_part(const Scene &scene)
-    {
-      if (scene.model != ModelKind::finite_elements)
-        return "";
-      static const std::regex of_bodies(
-        "(Bone|Implant) / [^/]*|Interface / (Slave|Quadrature points)");
-      std::string text;
-      Chuck       chuck(scene.chuck,
-                  Eigen::Vector3d(0, 0, scene.implant.thickness()),
-                  scene.implant.characteristic_radius());
-      chuck.place(scene.load_steps.times.front());
-      for (const double q : chuck.position())
-        text += to_text(q, 17) + " ";
-      // which depends on motion, loads and path, too
-      text += scene.is_on_lattice() ? "lattice\n" : "direct\n";
-      for (const SceneEntry &entry :
-           read_scene_text(scene.completed_parameters, scene.name))
-        {
-          const std::string name = entry.full_name();
-          if (std::regex_match(name, of_bodies))
-            text += name + " = " + entry.value + "\n";
-        }
-      return text;
-    }
-
-
-
     /** The bodies of a scene, condensed on what contact reaches at first; none
      *  if that is impossible. In a thread of its own that has ended: what TBB
      *  keeps for a thread, here that there is but one, would stay with this one
@@ -98,7 +95,7 @@ namespace Debond
                     const Scene       &scene,
                     const bool         may_share)
   {
-    const std::string  key = may_share ? common_part(scene) : "";
+    const std::string  key = may_share ? what_bodies_depend_on(scene) : "";
     const unsigned int group =
       group_of.emplace(key, group_of.size()).first->second;
     waiting.insert({group, {variant, key.empty() ? nullptr : &scene}});
@@ -127,26 +124,24 @@ namespace Debond
 
 
 
+  void
+  run_variant(const Scene &scene, const std::shared_ptr<BodyPair> &bodies)
+  {
+    const bool without = scene.model != ModelKind::finite_elements ||
+                         scene.output.overwrite_other_results;
+    if (const auto checkpoint = without ? std::nullopt : find_checkpoint(scene))
+      return DebondingProblem(scene, bodies).run(&*checkpoint);
+    // a checkpoint that is of no use is not kept; the study has made sure
+    // that there are no results of another scene
+    Scene anew                          = scene;
+    anew.output.overwrite_other_results = true;
+    run_scene(anew, bodies);
+  }
+
+
+
   namespace
   {
-    /** From the checkpoint of a run that was ended, if it left one. */
-    void
-    run_variant(const Scene &scene, const std::shared_ptr<BodyPair> &bodies)
-    {
-      const bool without = scene.model != ModelKind::finite_elements ||
-                           scene.output.overwrite_other_results;
-      if (const auto checkpoint =
-            without ? std::nullopt : find_checkpoint(scene))
-        return DebondingProblem(scene, bodies).run(&*checkpoint);
-      // a checkpoint that is of no use is not kept; the study has made sure
-      // that there are no results of another scene
-      Scene anew                          = scene;
-      anew.output.overwrite_other_results = true;
-      run_scene(anew, bodies);
-    }
-
-
-
     /** What a child process does: it ends with the message on the pipe, an
      *  empty one if all went well. */
     [[noreturn]] void

@@ -238,6 +238,10 @@ namespace Debond
             boost::archive::binary_iarchive archive(bytes, archive_flags);
             archive >> *this >> end;
           }
+        catch (const InputError &)
+          {
+            throw;
+          }
         catch (const std::exception &)
           {} // of the archive, or of sizes that are none
         if (end != end_of_state || simulation.rows().empty())
@@ -406,7 +410,8 @@ namespace Debond
       out << scene.bulk_solver_in_words() << '\n';
     out << interface.get_points().size() << " slave quadrature points on the "
         << name_of(interface.slave_side()) << '\n'
-        << "memory: some " << std::ceil(estimated_memory_MB(scene)) << " MB\n"
+        << "memory: some " << std::ceil(estimated_memory_MB(scene)) << " MB"
+        << (Ranks::number() > 1 ? " in each process\n" : "\n")
         << "initial bonding " << name_of(scene.interface.bonding.pattern)
         << ": " << interface.bonding().description() << '\n'
         << (scene.load_steps.adaptive ? "adaptive steps, no larger than " : "")

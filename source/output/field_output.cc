@@ -37,23 +37,26 @@ namespace Debond
 
 
 
-    /** The file of a series: where several ranks draw the bulk, the list of
-     *  their pieces. */
-    std::string
-    file_name(const std::string &series, const unsigned int number)
-    {
-      const bool has_pieces = series == "bulk" && Ranks::number() > 1;
-      return base_name(series, number) + (has_pieces ? ".pvtu" : ".vtu");
-    }
-
-
-
     std::string
     piece_name(const unsigned int number, const unsigned int rank)
     {
       return base_name("bulk", number) + "." + std::to_string(rank) + ".vtu";
     }
   } // namespace
+
+
+
+  // Where several ranks drew the bulk it is the list of their pieces. A number
+  // that is still to be written is that of the ranks at work.
+  std::string
+  FieldOutput::file_name(const std::string &series,
+                         const unsigned int number) const
+  {
+    const unsigned int pieces =
+      number < n_pieces.size() ? n_pieces[number] : Ranks::number();
+    return base_name(series, number) +
+           (series == "bulk" && pieces > 1 ? ".pvtu" : ".vtu");
+  }
 
 
 
@@ -78,6 +81,7 @@ namespace Debond
       write_file(directory.file(file_name("interface", number)),
                  interface_vtu(slave, interface, chuck));
     times.push_back(time);
+    n_pieces.push_back(Ranks::number());
     write_series();
   }
 

@@ -282,6 +282,7 @@ namespace Debond
     check_sensitivities(*this);
     if (bone.bulk_solver == BulkSolver::lattice && !why_not_lattice().empty())
       throw EntryError("Bone / Bulk solver",
-                       why_not_lattice() + ": expected auto or direct");
+                       why_not_lattice() +
+                         ": expected auto, direct or multigrid");
   }
 } // namespace Debond

@@ -15,6 +15,9 @@ namespace Debond
     // Not ended with the static objects: those of other libraries may be gone.
     dealii::Utilities::MPI::MPI_InitFinalize *mpi = nullptr;
 
+    /** Of the group that this process belongs to for the time being. */
+    MPI_Comm at_work = MPI_COMM_NULL;
+
 
 
     int
@@ -52,8 +55,9 @@ namespace Debond
       static char   name[]      = "debond";
       static char  *words[]     = {name, nullptr};
       static char **arguments   = words;
-      mpi = new dealii::Utilities::MPI::MPI_InitFinalize(
+      mpi                       = new dealii::Utilities::MPI::MPI_InitFinalize(
         n_arguments, arguments, dealii::MultithreadInfo::n_threads());
+      at_work = MPI_COMM_WORLD;
     }
 
 
@@ -71,7 +75,7 @@ namespace Debond
     communicator()
     {
       start();
-      return MPI_COMM_WORLD;
+      return at_work;
     }
 
 
@@ -79,7 +83,7 @@ namespace Debond
     unsigned int
     number()
     {
-      return mpi ? dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) : 1;
+      return mpi ? dealii::Utilities::MPI::n_mpi_processes(at_work) : 1;
     }
 
 
@@ -87,7 +91,7 @@ namespace Debond
     unsigned int
     own()
     {
-      return mpi ? dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) : 0;
+      return mpi ? dealii::Utilities::MPI::this_mpi_process(at_work) : 0;
     }
 
 
@@ -95,13 +99,13 @@ namespace Debond
     unsigned int
     number_on_this_machine()
     {
-      if (number() == 1)
+      if (mpi == nullptr)
         return 1;
       static const int result = [] {
         MPI_Comm here;
         int      n = 1;
         MPI_Comm_split_type(
-          communicator(), MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here);
+          MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here);
         MPI_Comm_size(here, &n);
         MPI_Comm_free(&here);
         return n;
@@ -149,10 +153,58 @@ namespace Debond
 
 
 
+    Groups::Groups(const unsigned int size)
+    {
+      const int rank = own();
+      MPI_Comm_split(MPI_COMM_WORLD, rank / size, rank, &group);
+      MPI_Win_allocate(rank == 0 ? sizeof(int) : 0,
+                       sizeof(int),
+                       MPI_INFO_NULL,
+                       MPI_COMM_WORLD,
+                       &counter,
+                       &window);
+      if (rank == 0)
+        {
+          MPI_Win_lock(MPI_LOCK_EXCLUSIVE, 0, 0, window);
+          *counter = 0;
+          MPI_Win_unlock(0, window);
+        }
+      MPI_Barrier(MPI_COMM_WORLD);
+      at_work = group;
+    }
+
+
+
+    Groups::~Groups()
+    {
+      at_work = MPI_COMM_WORLD;
+      MPI_Win_free(&window);
+      MPI_Comm_free(&group);
+    }
+
+
+
+    unsigned int
+    Groups::next()
+    {
+      int number = 0;
+      if (is_first())
+        {
+          const int one = 1;
+          MPI_Win_lock(MPI_LOCK_SHARED, 0, 0, window);
+          MPI_Fetch_and_op(&one, &number, MPI_INT, 0, 0, MPI_SUM, window);
+          MPI_Win_unlock(0, window);
+        }
+      MPI_Bcast(&number, 1, MPI_INT, 0, group);
+      return number;
+    }
+
+
+
     void
     end_all(const int code)
     {
-      MPI_Abort(communicator(), code);
+      MPI_Abort(MPI_COMM_WORLD, code);
       std::abort();
     }
   } // namespace Ranks

@@ -1,5 +1,10 @@
+#include <debond/bulk/body_mesh.h>
 #include <debond/bulk/modulus_field.h>
+#include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
+#include <debond/support/runtime.h>
+#include <debond/system/bulk_memory.h>
 #include <debond/system/load_step_parameters.h>
 
 #include <algorithm>
@@ -143,7 +148,7 @@ namespace Debond
 
 
   std::string
-  ModelParameters::why_direct() const
+  ModelParameters::why_off_lattice() const
   {
     if (bone.bulk_solver == BulkSolver::direct)
       return "asked for";
@@ -155,13 +160,100 @@ namespace Debond
 
 
 
+  namespace
+  {
+    /** What the machine had when the program began, so that the choice is the
+     *  same at all times. */
+    double
+    memory_of_machine_MB()
+    {
+      static const double MB = available_memory_MB();
+      return MB;
+    }
+
+
+
+    /** Seconds of one processor for a run, measured (doc/scaling.md): to
+     *  factorise and condense, and with multigrid, of which each iteration of
+     *  Newton's method takes some cycles. */
+    double
+    seconds_of_direct(const double bytes)
+    {
+      return 4e-14 * std::pow(bytes, 1.5);
+    }
+
+    double
+    seconds_of_multigrid(const ModelParameters &model)
+    {
+      const auto  &n          = model.bone.cells;
+      const double n_unknowns = 3. * (n[0] + 1.) * (n[1] + 1.) * (n[2] + 1.);
+      const double iterations = 1.5 * model.load_steps.n_steps();
+      const double per_cycle =
+        model.bone.element == ElementKind::spline ? 1.1e-6 : 2.2e-7;
+      return n_unknowns * (1.3e-5 + 7. * per_cycle * iterations);
+    }
+  } // namespace
+
+
+
+  // Where memory is enough factors mostly win: they are made once, and an
+  // iteration with them costs next to nothing.
+  std::string
+  ModelParameters::why_multigrid() const
+  {
+    if (Ranks::number() > 1)
+      return "for " + std::to_string(Ranks::number()) + " processes";
+    if (bone.bulk_solver == BulkSolver::multigrid)
+      return "as asked for";
+    if (bone.bulk_solver != BulkSolver::automatic)
+      return "";
+    double       n_condensed;
+    const double sparse = bytes_of_body(
+                   *this, Side::bone, BulkSolver::direct, false, n_condensed),
+                 bytes = sparse + 16. * n_condensed * n_condensed;
+    if (1e-6 * bytes > 0.9 * memory_of_machine_MB())
+      return "as factors would take some " + to_text(1e-9 * bytes, 2) +
+             " GB of memory, of " + to_text(1e-3 * memory_of_machine_MB(), 2);
+    const double direct    = seconds_of_direct(bytes),
+                 multigrid = seconds_of_multigrid(*this);
+    if (multigrid < direct)
+      return "in some " + to_text(multigrid, 2) + " s, where factors take " +
+             to_text(direct, 2);
+    return "";
+  }
+
+
+
+  void
+  ModelParameters::check_ranks() const
+  {
+    const unsigned int n      = Ranks::number();
+    const auto         refuse = [](const std::string &why) {
+      throw EntryError("Bone / Bulk solver", why);
+    };
+    if (n > 1 && (bone.bulk_solver == BulkSolver::direct ||
+                  bone.bulk_solver == BulkSolver::lattice))
+      refuse("that solver is for one process, and here are " +
+             std::to_string(n) + ": expected auto or multigrid, or no mpirun");
+    if (bulk_solver() == BulkSolver::multigrid &&
+        parts_across(bone.cells, n)[0] == 0)
+      refuse(std::to_string(n) + " processes cannot share columns of " +
+             std::to_string(bone.cells[0]) + " x " +
+             std::to_string(bone.cells[1]) + " cells: expected fewer");
+  }
+
+
+
   BulkSolver
   ModelParameters::bulk_solver() const
   {
-    if (!bone.is_rigid() &&
-        (bone.bulk_solver == BulkSolver::multigrid || Ranks::number() > 1))
+    if (bone.is_rigid())
+      return BulkSolver::direct; // there is nothing to solve
+    if (Ranks::number() > 1 || bone.bulk_solver == BulkSolver::multigrid)
       return BulkSolver::multigrid;
-    return why_direct().empty() ? BulkSolver::lattice : BulkSolver::direct;
+    if (why_off_lattice().empty())
+      return BulkSolver::lattice;
+    return why_multigrid().empty() ? BulkSolver::direct : BulkSolver::multigrid;
   }
 
 
@@ -188,14 +280,11 @@ namespace Debond
     switch (bulk_solver())
       {
         case BulkSolver::multigrid:
-          return whose + "multigrid, " +
-                 (Ranks::number() > 1 ?
-                    "for " + std::to_string(Ranks::number()) + " processes" :
-                    std::string("as asked for"));
+          return whose + "multigrid, " + why_multigrid();
         case BulkSolver::lattice:
           return whose + "lattice, for cells of equal width";
         default:
-          return whose + "direct, as " + why_direct();
+          return whose + "direct, as " + why_off_lattice();
       }
   }
 } // namespace Debond

@@ -31,6 +31,7 @@ namespace Debond
     BodyParameters
     with_solver(const ModelParameters &parameters)
     {
+      parameters.check_ranks();
       BodyParameters bone = parameters.bone;
       bone.bulk_solver    = parameters.bulk_solver();
       return bone;

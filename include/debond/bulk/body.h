@@ -200,6 +200,10 @@ namespace Debond
       AcceptedState<Eigen::VectorXd> known   = accepted;
       known.value                            = to_archive(accepted.value);
       known.before                           = to_archive(accepted.before);
+      int                            solver  = solver_in_archive();
+      archive                       &solver;
+      if (solver != solver_in_archive())
+        refuse_archive(solver);
       archive &contact &state &known;
       if (Archive::is_loading::value)
         {
@@ -237,6 +241,14 @@ namespace Debond
     std::vector<unsigned int>      unknown_dofs; ///< 3 node + component
 
   private:
+    /** Checkpoints of another solver for the bulk have other nodes. */
+    int
+    solver_in_archive() const
+    {
+      return static_cast<int>(body_mesh.parameters().bulk_solver);
+    }
+    [[noreturn]] void
+    refuse_archive(int solver) const;
     /** A displacement as a checkpoint holds it, which is the same for any number
      *  of ranks, and back. */
     Eigen::VectorXd

@@ -69,6 +69,19 @@ namespace Debond
 
 
 
+  /** What scenes agree in if they can share bodies: what the bodies are, and
+   *  where they are when the interface is set up. Empty if the scene shares
+   *  them with none. */
+  std::string
+  what_bodies_depend_on(const Scene &scene);
+
+  /** Runs a variant in this process, from the checkpoint of a run that was
+   *  ended, if it left one. */
+  void
+  run_variant(const Scene &scene, const std::shared_ptr<BodyPair> &bodies);
+
+
+
   /** A process that runs a variant. It does not outlive its study. It leaves
    *  its results in its directory and, if it fails, says why on a pipe. */
   struct VariantProcess

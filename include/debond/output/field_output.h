@@ -76,18 +76,21 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &times;
+      archive &times &n_pieces;
     }
 
   private:
     void
     write_series() const;
+    std::string
+    file_name(const std::string &series, unsigned int number) const;
 
     const ResultDirectory            &directory;
     const std::array<const Body *, 2> bodies; ///< bone, implant
     const ContactInterface           &interface;
     const Chuck                      &chuck;
     std::vector<double>               times;         ///< of the files
+    std::vector<unsigned int>         n_pieces;      ///< of the bulk in each
     std::size_t                       n_on_disk = 0; ///< files of each series
   };
 

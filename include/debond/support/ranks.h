@@ -61,6 +61,29 @@ namespace Debond
     void
     meet();
 
+    /**
+     * Deals all ranks out in groups of @p size that follow each other. While
+     * such an object lives all other functions speak of the own group, which
+     * has a first rank of its own. Collective over all.
+     */
+    class Groups
+    {
+    public:
+      explicit Groups(unsigned int size);
+      Groups(const Groups &) = delete;
+      ~Groups();
+
+      /** The next number from 0 on that no group has been given yet. Whoever
+       *  asks first gets it, and nobody has to answer. Collective. */
+      unsigned int
+      next();
+
+    private:
+      MPI_Comm group;
+      MPI_Win  window;  ///< on the counter
+      int     *counter; ///< of the first rank of all
+    };
+
     /** Ends all ranks, with an exit code. */
     [[noreturn]] void
     end_all(int code);

@@ -129,11 +129,19 @@ namespace Debond
     std::string
     bulk_solver_in_words() const;
 
+    /** Refuses a bone that the ranks there are cannot solve, or not by the
+     *  solver that is asked for. Throws EntryError. */
+    void
+    check_ranks() const;
+
   private:
-    /** Why the bone is solved directly, as the rest of a sentence; empty: it is
-     *  solved on the lattice. */
+    /** Why the bone is not solved on the lattice, as the rest of a sentence;
+     *  empty: it is. */
     std::string
-    why_direct() const;
+    why_off_lattice() const;
+    /** Why it is solved by multigrid, in the same way. */
+    std::string
+    why_multigrid() const;
   };
 } // namespace Debond
 #endif

@@ -1,0 +1,106 @@
+// A run that several ranks have begun goes on with another number of them, from
+// what a checkpoint holds: as if it had never stopped, to 1e-9 of the largest
+// torque. A checkpoint is the same on all ranks.
+
+#include <debond/models/simulation.h>
+#include <debond/support/ranks.h>
+#include <debond/support/runtime.h>
+#include <debond/support/serialization.h>
+
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+
+#include <sstream>
+
+#include "../checks.h"
+
+using namespace Debond;
+
+
+
+Scene
+scene_of(const std::string &change)
+{
+  return Scene::from_text(R"(
+subsection Bone
+  set Cells       = 10, 10, 4
+  set Material    = linear
+  set Bulk solver = multigrid
+end
+subsection Implant
+  set Cells    = 3, 2
+  set Material = linear
+end
+subsection Chuck
+  subsection Translation z
+    set Value = -0.0049 * min(t, 1)
+  end
+  subsection Rotation z
+    set Value = 10 * max(t - 1, 0)
+  end
+end
+subsection Load steps
+  set Times              = 0, 1, 1.1
+  set Steps              = 1, 8
+  set Residual tolerance = 1e-11
+end
+)",
+                          {change});
+}
+
+
+
+std::string
+saved(Simulation &simulation)
+{
+  std::ostringstream              bytes(std::ios::binary);
+  boost::archive::binary_oarchive archive(bytes);
+  archive << simulation;
+  return bytes.str();
+}
+
+
+
+void
+go_on_alone(const std::string &change)
+{
+  Simulation begun(scene_of(change));
+  for (unsigned int row = 0; row < 5; ++row)
+    begun.advance();
+  const std::string checkpoint = saved(begun);
+  begun.run();
+
+  double difference = 0., largest = 0.;
+  {
+    const Ranks::Groups             alone(1);
+    Simulation                      resumed(scene_of(change));
+    std::istringstream              bytes(checkpoint, std::ios::binary);
+    boost::archive::binary_iarchive archive(bytes);
+    archive >> resumed;
+    resumed.run();
+    for (unsigned int i = 0; i < begun.rows().size(); ++i)
+      {
+        grow(difference,
+             std::abs(begun.rows()[i].torque_Nmm -
+                      resumed.rows()[i].torque_Nmm));
+        grow(largest, std::abs(begun.rows()[i].torque_Nmm));
+      }
+  }
+  double of_all = difference / largest;
+  Ranks::take_largest(&of_all, 1);
+  if (Ranks::is_first())
+    report(change, of_all, 1e-9);
+}
+
+
+
+int
+main()
+{
+  set_up_libraries();
+  Ranks::start();
+  go_on_alone("Bone/Material=linear");
+  go_on_alone("Bone/Material=neo-hookean");
+  go_on_alone("Bone/Element=spline");
+  Ranks::finish();
+}

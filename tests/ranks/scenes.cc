@@ -1,0 +1,135 @@
+// Bones solved by multigrid on several ranks, against the direct solver on one:
+// torques and reactions of all rows, to 1e-8 of the largest, with a residual
+// tolerance of 1e-11 and the same steps. The direct solver is what the other
+// tests compare with exact solutions and independent codes.
+//
+// Eight scenes: trilinear and spline elements, Neo-Hooke, a loaded chuck with a
+// compliant machine, a pattern, the bone as slave, a path that is followed, and
+// two bones whose modulus varies.
+
+#include <debond/models/simulation.h>
+#include <debond/support/ranks.h>
+#include <debond/support/runtime.h>
+
+#include "../checks.h"
+
+using namespace Debond;
+
+using Changes = std::vector<std::string>;
+
+
+
+const std::string coin = R"(
+subsection Bone
+  set Cells    = 12, 12, 4
+  set Material = linear
+end
+subsection Implant
+  set Cells    = 4, 2
+  set Material = linear
+end
+subsection Chuck
+  subsection Translation z
+    set Value = -0.0049 * min(t, 1)
+  end
+  subsection Rotation z
+    set Value = 10 * max(t - 1, 0)
+  end
+end
+subsection Load steps
+  set Times              = 0, 1, 1.05, 1.2
+  set Steps              = 1, 4, 3
+  set Residual tolerance = 1e-11
+end
+)";
+
+const Changes splines{"Bone/Element=spline", "Bone/Layer grading=1.5"};
+
+Changes
+operator+(Changes a, const Changes &b)
+{
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+
+
+std::vector<TorqueRow>
+rows_of(const Changes &changes)
+{
+  Simulation simulation(Scene::from_text(coin, changes));
+  simulation.run();
+  return simulation.rows();
+}
+
+
+
+/** Largest difference of forces and moments over the largest of them, a moment
+ *  counting as a force at the distance R. */
+double
+difference(const std::vector<TorqueRow> &one,
+           const std::vector<TorqueRow> &other)
+{
+  if (one.size() != other.size())
+    return std::numeric_limits<double>::infinity();
+  constexpr double R      = 2.5;
+  double           change = 0., largest = 0.;
+  for (unsigned int i = 0; i < one.size(); ++i)
+    for (unsigned int k = 0; k < 6; ++k)
+      {
+        const double scale = k < 3 ? 1. : R;
+        const double a     = one[i].chuck_reaction[k] / scale,
+                     b     = other[i].chuck_reaction[k] / scale;
+        grow(change, std::abs(a - b));
+        grow(largest, std::abs(b));
+      }
+  return change / largest;
+}
+
+
+
+void
+compare(const std::string &name, const Changes &changes)
+{
+  const auto whole = rows_of(changes + Changes{"Bone/Bulk solver=multigrid"});
+  std::vector<TorqueRow> direct;
+  {
+    const Ranks::Groups alone(1);
+    direct = rows_of(changes + Changes{"Bone/Bulk solver=direct"});
+  }
+  const double result = difference(whole, direct);
+  if (Ranks::is_first())
+    report(name, result, 1e-8);
+}
+
+
+
+int
+main()
+{
+  set_up_libraries();
+  Ranks::start();
+  compare("trilinear", {});
+  compare("Neo-Hooke",
+          {"Bone/Material=neo-hookean", "Implant/Material=neo-hookean"});
+  compare("splines", splines);
+  compare("pressed by a force, turned by a compliant machine",
+          {"Chuck/Translation z/Control=force",
+           "Chuck/Translation z/Value=-10 - 41.5 * min(t, 1)",
+           "Chuck/Rotation z/Stiffness=4000"});
+  compare("pattern, the bone as slave",
+          {"Interface/Bonding/Pattern=expression",
+           "Interface/Bonding/Expression=x > 0.3",
+           "Interface/Slave=bone"});
+  compare("a path that is followed",
+          {"Load steps/Path following=slip",
+           "Load steps/Times=0,1,1.1",
+           "Load steps/Steps=1,15",
+           "Load steps/Residual tolerance=1e-10"});
+  compare("modulus by the place",
+          {"Bone/Young modulus=18000 * exp(0.3 * x - (z + 1)^2)"});
+  compare("splines, modulus of 1 to 100 by the place, Neo-Hooke",
+          splines + Changes{"Bone/Young modulus=if(x + z > -1, 18000, 180)",
+                            "Bone/Material=neo-hookean"});
+  Ranks::finish();
+}

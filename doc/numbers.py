@@ -20,6 +20,7 @@ import os
 import re
 import subprocess
 import sys
+import time
 import zlib
 
 os.chdir(os.path.join(os.path.dirname(os.path.abspath(__file__)), '..'))
@@ -42,9 +43,12 @@ def numbers(cost):
     return register
 
 
-def debond(scene, directory, *changes, force=True):
+def debond(scene, directory, *changes, force=True, ranks=0):
+    """ranks: under mpirun with so many processes."""
     changes = ('Output/Directory=' + directory, 'Output/Console=quiet') + changes
-    command = [options.debond, scene] + ['--force'] * force + [word for change in changes for word in ('--set', change)]
+    mpirun = ['mpirun', '--oversubscribe', '-np', str(ranks)] * (ranks > 0)
+    os.environ.update({'OMPI_ALLOW_RUN_AS_ROOT': '1', 'OMPI_ALLOW_RUN_AS_ROOT_CONFIRM': '1'})
+    command = mpirun + [options.debond, scene] + ['--force'] * force + [word for change in changes for word in ('--set', change)]
     if subprocess.run(command, stdout=subprocess.DEVNULL, check=False).returncode:
         sys.exit('numbers.py: this failed: ' + ' '.join('"%s"' % word if ' ' in word else word for word in command))
 
@@ -962,6 +966,116 @@ def lattice():
             line += ['', '']
         lines.append(['%s, %s' % (cells.replace(', ', ' x '), name)] + line)
     return table(['bone', 'lattice', 'memory', 'direct', 'memory'], lines)
+
+
+TURN = ('Load steps/Times=0, 1, 1.05', 'Load steps/Steps=1, 1', 'Load steps/Residual tolerance=1e-7', 'Output/Fields every=0',
+        'Implant/Cells=12, 4') + LINEAR + LAYERED
+MULTIGRID = ('Bone/Bulk solver=multigrid',)
+
+
+@functools.lru_cache(None)
+def run_on(ranks, *changes):
+    """The summary of a run of the main scene, a thread in each of so many processes."""
+    directory = directory_of('ranks %d' % ranks, changes)
+    debond(MAIN, directory, *changes, ranks=ranks)
+    with open(directory + '/summary.json', encoding='utf-8') as text:
+        return json.load(text)
+
+
+def n_unknowns(cells):
+    x, y, z = (int(n) for n in cells.split(','))
+    return 3 * ((x + 1) * (y + 1) * (z - 1) + (x + 2) * (y + 2))
+
+
+def pair(rows, name, form='%.2g', scale=1):
+    return ' / '.join(form % (scale * row[name]) for row in rows)
+
+
+@numbers('minutes')
+def multigrid_sizes():
+    lines = []
+    for cells in ('25, 25, 5', '40, 40, 10', '75, 75, 15', '130, 130, 25'):
+        rows = [run_on(ranks, 'Bone/Cells=' + cells, *TURN, *MULTIGRID) for ranks in (1, 2)]
+        for row in rows:
+            row['cycle'] = row['seconds_multigrid'] / row['multigrid_cycles']
+        lines.append([cells.replace(', ', ' x '), '%d k' % round(n_unknowns(cells) / 1000), pair(rows, 'multigrid_most_cycles', '%d'),
+                      pair(rows, 'seconds_condensation'), pair(rows, 'cycle', '%.3g', 1000), '%.2f' % (rows[0]['wall_seconds'] / rows[1]['wall_seconds']),
+                      pair(rows, 'peak_memory_MB', '%.0f')])
+    return table(['cells', 'unknowns', 'cycles to 1e-8, one / two processes', 'K and set-up [s]', 'a cycle, with all of the iteration [ms]',
+                  'whole run, one / two', 'memory of a process [MB]'], lines)
+
+
+@numbers('minutes')
+def multigrid_contrast():
+    def cycles(*changes):
+        return '%d' % run_on(1, 'Bone/Cells=40, 40, 10', *TURN, *MULTIGRID, *changes)['multigrid_most_cycles']
+    lines = [['penalty stiffness 585, 1800, 18 000, 180 000 MPa/mm',
+              ', '.join(cycles('Interface/Penalty stiffness=%d' % eps) for eps in (585, 1800, 18000, 180000))],
+             ['the same, coefficients of friction 10 and 5', ', '.join(
+                 cycles('Interface/Penalty stiffness=%d' % eps, 'Interface/Friction coefficient unbroken=10',
+                        'Interface/Friction coefficient broken=5') for eps in (585, 18000))]]
+    for name, where in (('cubes of 0.6 mm', 'sin(pi * x / 0.6) * sin(pi * y / 0.6) * sin(pi * z / 0.6) > 0'), ('a layer of 1 mm', 'z > -1'),
+                        ('a layer of 1 mm, softer on top', 'z < -1')):
+        lines.append(['modulus of 18 000 MPa and less by 10, 100, 1000: ' + name,
+                      ', '.join(cycles('Bone/Young modulus=if(%s, 18000, %g)' % (where, 18000 / k)) for k in (10, 100, 1000))])
+    splines = ('Bone/Element=spline', 'Bone/Cells=30, 30, 8')
+    lines.append(['splines, 30 x 30 x 8: the same modulus everywhere; cubes of 0.6 mm, less by 100',
+                  ', '.join(cycles(*splines, *change) for change in (
+                      (), ('Bone/Young modulus=if(sin(pi * x / 0.6) * sin(pi * y / 0.6) * sin(pi * z / 0.6) > 0, 18000, 180)',)))])
+    return table(['what varies', 'cycles to 1e-8'], lines)
+
+
+@numbers('minutes')
+def multigrid_crossover():
+    curve = ('Output/Fields every=0', 'Implant/Cells=12, 4', 'Load steps/Tolerance=1e-3') + LINEAR + LAYERED + ADAPTIVE
+    varies = ('Bone/Young modulus=18000 * exp(x / 10)',)
+    lines = []
+    for cells in ('40, 40, 10', '75, 75, 15', '100, 100, 20'):
+        for name, changes in (('', ()), (', modulus varies', varies)):
+            if cells == '100, 100, 20' and not changes:
+                continue
+            line = [cells.replace(', ', ' x ') + name, '%d k' % round(n_unknowns(cells) / 1000)]
+            for solver in ('direct', 'multigrid'):
+                row = run_on(1, 'Bone/Cells=' + cells, 'Bone/Bulk solver=' + solver, *curve, *changes)
+                line += ['%.2g' % row['wall_seconds'], '%.2g' % (row['peak_memory_MB'] / 1000)]
+            lines.append(line)
+    return table(['cells', 'unknowns', 'direct [s]', '[GB]', 'multigrid [s]', '[GB]'], lines)
+
+
+@numbers('minutes')
+def study_on_ranks():
+    directories = [directory_of('prm/studies/ensemble.prm', ('ranks=%d' % ranks,)) for ranks in (1, 2)]
+    seconds = []
+    for ranks, directory in zip((1, 2), directories):
+        start = time.monotonic()
+        debond('prm/studies/ensemble.prm', directory, ranks=ranks)
+        seconds.append(time.monotonic() - start)
+    return '\nAn ensemble of 200 members (`prm/studies/ensemble.prm`), a thread in each process: %.0f s on one, %.0f s on two processes, %.2f of the time.\n' % (
+        *seconds, seconds[1] / seconds[0])
+
+
+@numbers('minutes')
+def multigrid_model():
+    """Seconds of a cycle on P processes: what is dealt out, what all do, and messages of an assumed network."""
+    measured = run_on(1, 'Bone/Cells=75, 75, 15', *TURN, *MULTIGRID)
+    cycles = measured['multigrid_cycles']
+    of_all = measured['seconds_contact_tangent'] / cycles
+    per_unknown = measured['seconds_multigrid'] / cycles / n_unknowns('75, 75, 15') - of_all / n_unknowns('75, 75, 15')
+    latency, bandwidth, last_level = 2e-6, 10e9, 1e-3
+    lines = []
+    for name, n in (('1.3 M', 1.3e6), ('10 M', 1e7), ('100 M', 1e8)):
+        line = [name]
+        for processes in (1, 16, 64, 256, 1024):
+            n_levels = max(1, math.log(n / 2000, 20))
+            side = 3 * (n / 3 / processes) ** (2 / 3)  # unknowns on a side of a part
+            messages = n_levels * 8 * 4 * (latency + 8 * side / bandwidth) + 8 * 2 * latency * math.log2(processes)
+            seconds = per_unknown * n / processes + (last_level + of_all) + messages * (processes > 1)
+            line.append('%.3g' % (1000 * seconds) + (' (%.0f %%)' % (100 * per_unknown * n / processes / seconds) if processes > 1 else ''))
+        lines.append(line)
+    text = ('\nMeasured in one process with 75 x 75 x 15 cells: %.2g us of a cycle for each unknown, %.2g ms for the product with the tangent of the interface, which every process makes. '
+            'Assumed: 1 ms for the last level, which is gathered; on each level, of which there are log_20(n / 2000), eight exchanges with four neighbours of 2 us and 10 GB/s; eight sums '
+            'over all in an iteration. Milliseconds for a cycle (share of it that is dealt out):\n') % (1e6 * per_unknown, 1000 * of_all)
+    return text + table(['unknowns of the bone', '1 process', '16', '64', '256', '1024'], lines)
 
 
 @functools.lru_cache(None)

@@ -300,6 +300,12 @@ namespace Debond
           {"converged", converged},
           {"reason", reason},
           {"wall_seconds", seconds.at("all")}};
+        if (const auto *const effort_of_multigrid = system.multigrid_effort())
+          facts.update(
+            {{"processes", Ranks::number()},
+             {"multigrid_systems", effort_of_multigrid->systems},
+             {"multigrid_cycles", effort_of_multigrid->cycles},
+             {"multigrid_most_cycles", effort_of_multigrid->most_cycles}});
         std::vector<std::string> parts;
         for (const auto &section :
              timer.get_summary_data(dealii::TimerOutput::total_wall_time))
@@ -352,6 +358,7 @@ namespace Debond
     : scene(scene)
     , bodies(std::move(bodies))
   {
+    scene.check_ranks();
     require_memory(scene);
   }
 

@@ -1,5 +1,6 @@
 #include <debond/models/run_report.h>
 #include <debond/support/number_text.h>
+#include <debond/support/ranks.h>
 #include <debond/support/runtime.h>
 
 #include <nlohmann/json.hpp>
@@ -83,7 +84,11 @@ namespace Debond
     for (const std::string &remark : comparison.remarks)
       console.warn(remark, output.reference_curve + ": " + remark);
     summary["warnings"]       = console.warnings;
-    summary["peak_memory_MB"] = peak_memory_MB();
+    // of several ranks the largest; a rank that failed may be alone here
+    double peak_memory = peak_memory_MB();
+    if (converged)
+      Ranks::take_largest(&peak_memory, 1);
+    summary["peak_memory_MB"] = peak_memory;
     write_json(directory.file("summary.json"), summary);
     if (!converged)
       return;

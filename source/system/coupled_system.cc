@@ -1,7 +1,6 @@
 #include <debond/interface/interface_configuration.h>
 #include <debond/support/runtime.h>
 #include <debond/system/coupled_system.h>
-#include <debond/system/whole_solver.h>
 
 #include <Eigen/Geometry>
 
@@ -491,11 +490,8 @@ namespace Debond
       }
     if (whole_bone)
       {
-        const TimedSection  t(timer, "multigrid");
         const WholeSolution solution =
-          solve_whole(matrix,
-                      *whole_bone,
-                      residual.unknowns,
+          solve_whole(residual.unknowns,
                       bulk_residual[Side::bone].interior,
                       relative_tolerance);
         result.unknowns = -solution.unknowns;
@@ -543,6 +539,22 @@ namespace Debond
 
 
 
+  WholeSolution
+  CoupledSystem::solve_whole(const Eigen::VectorXd &b,
+                             const Eigen::VectorXd &b_of_bone,
+                             const double           relative_tolerance) const
+  {
+    WholeSolution solution = Debond::solve_whole(
+      matrix, *whole_bone, b, b_of_bone, relative_tolerance, timer);
+    ++effort_of_multigrid.systems;
+    effort_of_multigrid.cycles += solution.cycles;
+    effort_of_multigrid.most_cycles =
+      std::max(effort_of_multigrid.most_cycles, solution.cycles);
+    return solution;
+  }
+
+
+
   // With forces at the unknowns only.
   Eigen::VectorXd
   CoupledSystem::solve_with_whole_bone(const Eigen::VectorXd &right,
@@ -551,7 +563,7 @@ namespace Debond
     Eigen::VectorXd of_bone = Eigen::VectorXd::Zero(whole_bone->n_owned());
     whole_bone->add_unknowns(right.data(), of_bone.data());
     const WholeSolution solution =
-      solve_whole(matrix, *whole_bone, right, of_bone, relative_tolerance);
+      solve_whole(right, of_bone, relative_tolerance);
     return solution.converged ?
              solution.unknowns :
              Eigen::VectorXd::Constant(right.size(), std::nan(""));

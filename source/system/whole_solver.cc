@@ -1,4 +1,5 @@
 #include <debond/support/ranks.h>
+#include <debond/support/runtime.h>
 #include <debond/system/whole_solver.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
@@ -51,9 +52,11 @@ namespace Debond
       WholeSystem(const CoupledTangent &A,
                   const WholeBulk      &bone,
                   const unsigned int    n_unknowns,
-                  const unsigned int    n_beside)
+                  const unsigned int    n_beside,
+                  dealii::TimerOutput  *timer)
         : A(A)
         , bone(bone)
+        , timer(timer)
         , n_bone(bone.n_owned())
         , n_unknowns(n_unknowns)
         , n_beside(n_beside)
@@ -92,7 +95,11 @@ namespace Debond
       multiply(Vector &y, const Vector &x) const
       {
         const Eigen::VectorXd at_unknowns = unknowns_of(x);
-        const Eigen::VectorXd forces      = A.interface_product(at_unknowns);
+        Eigen::VectorXd       forces;
+        {
+          const TimedSection t(timer, "contact tangent");
+          forces = A.interface_product(at_unknowns);
+        }
         bone.multiply(x.begin(), y.begin());
         bone.add_unknowns(forces.data(), y.begin());
         if (n_own_beside > 0)
@@ -103,7 +110,10 @@ namespace Debond
       void
       precondition(Vector &y, const Vector &x) const
       {
-        bone.cycle(x.begin(), y.begin());
+        {
+          const TimedSection t(timer, "cycles");
+          bone.cycle(x.begin(), y.begin());
+        }
         if (n_own_beside > 0)
           put_beside(A.solve_beside_bone(beside(x)), y);
       }
@@ -130,6 +140,7 @@ namespace Debond
 
       const CoupledTangent &A;
       const WholeBulk      &bone;
+      dealii::TimerOutput  *timer;
       const unsigned int    n_bone, n_unknowns, n_beside, n_own_beside;
     };
   } // namespace
@@ -141,12 +152,14 @@ namespace Debond
               const WholeBulk       &bone,
               const Eigen::VectorXd &b,
               const Eigen::VectorXd &b_of_bone,
-              const double           relative_tolerance)
+              const double           relative_tolerance,
+              dealii::TimerOutput   *timer)
   {
+    const TimedSection     t(timer, "multigrid");
     constexpr unsigned int most_cycles = 300, most_vectors = 60;
     const unsigned int     n_in_contact = bone.n_unknowns();
-    const WholeSystem      system(A, bone, b.size(), b.size() - n_in_contact);
-    Vector                 right = system.vector(), x(right);
+    const WholeSystem system(A, bone, b.size(), b.size() - n_in_contact, timer);
+    Vector            right = system.vector(), x(right);
     std::copy(b_of_bone.begin(), b_of_bone.end(), right.begin());
     if (Ranks::is_first())
       system.put_beside(b.tail(b.size() - n_in_contact), right);

@@ -3,10 +3,10 @@
 
 #include <debond/bulk/body.h>
 #include <debond/bulk/chuck.h>
-#include <debond/bulk/whole_bulk.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/system/coupled_tangent.h>
 #include <debond/system/load_step_parameters.h>
+#include <debond/system/whole_solver.h>
 
 #include <memory>
 #include <string>
@@ -152,6 +152,12 @@ namespace Debond
      * what follows is the same to the last digit. */
     Eigen::MatrixXd
     solve_all(const Eigen::MatrixXd &right, double relative_tolerance) const;
+    /** Null where the bone is condensed. */
+    const MultigridEffort *
+    multigrid_effort() const
+    {
+      return whole_bone ? &effort_of_multigrid : nullptr;
+    }
     /** Adds @p fraction of a correction to the trial state. */
     void
     correct(const Correction &correction, double fraction = 1.);
@@ -285,13 +291,19 @@ namespace Debond
       return is_rotation(chuck_component) ? R : 1.;
     }
 
-    /** Solves with the tangent, for forces at the unknowns only. */
+    /** Solves with the tangent where the bone is a WholeBulk. */
+    WholeSolution
+    solve_whole(const Eigen::VectorXd &b,
+                const Eigen::VectorXd &b_of_bone,
+                double                 relative_tolerance) const;
+    /** The same for forces at the unknowns only. */
     Eigen::VectorXd
     solve_with_whole_bone(const Eigen::VectorXd &right,
                           double                 relative_tolerance) const;
 
     dealii::TimerOutput *const timer;
     const WholeBulk *const     whole_bone; ///< null: the bone is condensed
+    mutable MultigridEffort    effort_of_multigrid;
     unsigned int               unknowns    = 0;
     double                     force_floor = 0; ///< [N]
     /** Of each body in the last evaluate(). */

@@ -4,8 +4,21 @@
 #include <debond/bulk/whole_bulk.h>
 #include <debond/system/coupled_tangent.h>
 
+namespace dealii
+{
+  class TimerOutput;
+}
+
 namespace Debond
 {
+  /** What multigrid has done so far. */
+  struct MultigridEffort
+  {
+    unsigned int systems     = 0; ///< linear systems
+    unsigned int cycles      = 0; ///< of all of them
+    unsigned int most_cycles = 0; ///< of one
+  };
+
   /** What solve_whole() returns. */
   struct WholeSolution
   {
@@ -22,13 +35,16 @@ namespace Debond
    * the implant.
    *
    * @p b: in the unknowns; what it has for the bone is left aside for @p
-   * b_of_bone, which is what this rank owns. Collective.
+   * b_of_bone, which is what this rank owns. Seconds go to the sections
+   * `multigrid`, all of them, and `cycles` and `contact tangent`, parts of
+   * these. Collective.
    */
   WholeSolution
   solve_whole(const CoupledTangent  &A,
               const WholeBulk       &bone,
               const Eigen::VectorXd &b,
               const Eigen::VectorXd &b_of_bone,
-              double                 relative_tolerance);
+              double                 relative_tolerance,
+              dealii::TimerOutput   *timer);
 } // namespace Debond
 #endif

@@ -1,0 +1,86 @@
+#!/bin/sh
+# program.sh MPIRUN.sh MPIRUN DEBOND: the program under mpirun, as a user starts it. Prints what must be so.
+set -u
+run=$1 mpirun=$2 debond=$3
+scene=scene.prm
+cat > $scene <<'END'
+subsection Bone
+  set Cells    = 10, 10, 3
+  set Material = linear
+end
+subsection Implant
+  set Material = linear
+end
+subsection Chuck
+  subsection Translation z
+    set Value = -0.0049 * min(t, 1)
+  end
+  subsection Rotation z
+    set Value = 10 * max(t - 1, 0)
+  end
+end
+subsection Load steps
+  set Times = 0, 1, 1.2
+  set Steps = 1, 4
+end
+subsection Output
+  set Directory    = out
+  set Fields every = 2
+end
+END
+
+# what mpirun says itself is not compared
+ranks() {
+  n=$1
+  shift
+  "$run" "$mpirun" "$n" "$debond" "$@" > said 2>&1
+}
+said() { grep -o -e "$1" said | head -n 1; }
+
+echo "two processes"
+ranks 2 $scene || cat said
+said "multigrid, for 2 processes"
+ls out | grep -c "\.vtu$"
+grep -c "Piece Source" out/bulk-0001.pvtu
+grep -o "bulk-0002.pvtu" out/bulk.pvd
+"$debond" $scene --set Output/Directory=alone > /dev/null
+cut -d, -f1-6 out/torque.csv > rows-2
+cut -d, -f1-6 alone/torque.csv > rows-1
+numdiff -q -r 1e-7 -a 1e-9 -s ,'\n' rows-1 rows-2 && echo "the rows of one process"
+
+echo "refused"
+ranks 2 $scene --set "Bone/Bulk solver=direct" --set Output/Directory=no || said "that solver is for one process, and here are 2"
+ranks 7 $scene --set "Bone/Cells=6,6,2" --set Output/Directory=no || said "7 processes cannot share columns of 6 x 6 cells"
+ranks 2 $scene --set "Model=auto" --set Output/Directory=no || said "auto runs in one process"
+ranks 2 $scene --set "Bone/Cells=four" --set Output/Directory=no || said "--set: Bone / Cells = 'four'"
+ls no 2> /dev/null
+
+echo "a study"
+ranks 2 $scene --set "Interface/Sliding threshold={{0.02|1e-6|0.04}}" --set Output/Directory=study
+said "1 of 3 variants failed"
+cut -d, -f1,2 study/study.csv
+for n in 1 3; do cut -d, -f4 study/variant-00$n/torque.csv; done > torques
+"$debond" $scene --set "Interface/Sliding threshold={{0.02|0.04}}" --set "Bone/Bulk solver=direct" --set Output/Directory=serial > /dev/null
+for n in 1 2; do cut -d, -f4 serial/variant-00$n/torque.csv; done > serial-torques
+numdiff -q -r 1e-9 -a 1e-9 torques serial-torques && echo "as in one process"
+ranks 4 $scene --set "Interface/Sliding threshold={{0.02|0.04}}" --set "Study/Processes per variant=2" --set Output/Directory=groups
+for n in 1 2; do cut -d, -f4 groups/variant-00$n/torque.csv; done > group-torques
+numdiff -q -r 1e-7 -a 1e-8 group-torques serial-torques && echo "as in groups of two"
+
+echo "a process that is killed"
+"$run" "$mpirun" 2 "$debond" $scene --set "Load steps/Steps=1,400" --set "Output/Checkpoint every=1" --set "Output/Fields every=0" --set Output/Directory=killed > said 2>&1 &
+job=$!
+while [ ! -e killed/checkpoint-2 ]; do sleep 0.1; done
+kill -9 "$(pgrep -f "Output/Directory=killed" | tail -n 1)"
+for second in 1 2 3 4 5 6 7 8 9 10; do
+  kill -0 $job 2> /dev/null || break
+  sleep 1
+done
+kill -0 $job 2> /dev/null || echo "ends the others within 10 s"
+wait $job
+ranks 3 --resume killed || cat said
+said "Going on after step"
+"$debond" $scene --set "Load steps/Steps=1,400" --set "Output/Fields every=0" --set Output/Directory=whole > /dev/null
+tail -n 1 killed/torque.csv | cut -d, -f1-4 > last-1
+tail -n 1 whole/torque.csv | cut -d, -f1-4 > last-2
+numdiff -q -r 1e-6 -s ,'\n' last-1 last-2 && echo "goes on with three"

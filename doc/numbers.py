@@ -44,11 +44,12 @@ def numbers(cost):
 
 
 def debond(scene, directory, *changes, force=True, ranks=0):
-    """ranks: under mpirun with so many processes."""
+    """ranks: under mpirun with so many processes of a thread each."""
     changes = ('Output/Directory=' + directory, 'Output/Console=quiet') + changes
     mpirun = ['mpirun', '--oversubscribe', '-np', str(ranks)] * (ranks > 0)
     os.environ.update({'OMPI_ALLOW_RUN_AS_ROOT': '1', 'OMPI_ALLOW_RUN_AS_ROOT_CONFIRM': '1'})
-    command = mpirun + [options.debond, scene] + ['--force'] * force + [word for change in changes for word in ('--set', change)]
+    alone = ['--threads', '1'] * (ranks > 0) + ['--jobs', '1'] * (ranks == 1)
+    command = mpirun + [options.debond, scene] + alone + ['--force'] * force + [word for change in changes for word in ('--set', change)]
     if subprocess.run(command, stdout=subprocess.DEVNULL, check=False).returncode:
         sys.exit('numbers.py: this failed: ' + ' '.join('"%s"' % word if ' ' in word else word for word in command))
 

@@ -174,9 +174,9 @@ manufactured_error(const ElementKind element, const unsigned int n)
       load.segment<3>(3 * cell.nodes[a]) +=
         JxW * (sigma * (J.inverse().transpose() * shape.derivative[a]));
   });
-  const Bulk::Residual  r = body->bulk()->condense(-load);
+  const Bulk::Residual  r = body->condensing()->condense(-load);
   const Eigen::VectorXd v =
-    body->bulk()->correction(body->bulk()->solve(-r.condensed), r);
+    body->condensing()->correction(body->condensing()->solve(-r.condensed), r);
 
   double error = 0., size = 0.;
   for_each_point([&](const auto &cell,

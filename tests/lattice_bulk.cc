@@ -2,7 +2,7 @@
 // whole stiffness, condensed here as a dense matrix, of motions without slope
 // at the sides.
 
-#include <debond/bulk/bulk.h>
+#include <debond/bulk/bulk_solvers.h>
 #include <debond/support/input_error.h>
 
 #include <Eigen/LU>
@@ -57,8 +57,11 @@ check(const std::string &name, BodyParameters parameters)
   parameters.element     = ElementKind::spline;
   parameters.material    = Material::linear;
   parameters.bulk_solver = BulkSolver::lattice;
-  const BodyMesh    mesh(parameters, Side::bone);
-  const auto        bulk = make_bulk(mesh);
+  const BodyMesh mesh(parameters, Side::bone);
+  const auto     bulk =
+    make_lattice_bulk(mesh,
+                      NeoHookean::from_young(parameters.young_modulus,
+                                             parameters.poisson_ratio));
   std::vector<bool> contact(mesh.surface().n_control_points(), false);
   contact[parameters.cells[0] + 3]  = true; // not at a side
   const std::vector<unsigned int> c = bulk->set_contact(contact);

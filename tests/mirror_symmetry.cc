@@ -3,7 +3,7 @@
 // here as a dense matrix: even and odd numbers of cells, trilinear and spline,
 // and contact on a part of the face that is not symmetric itself.
 
-#include <debond/bulk/bulk.h>
+#include <debond/bulk/bulk_solvers.h>
 
 #include <Eigen/LU>
 
@@ -21,8 +21,11 @@ void
 check(const std::string &name, BodyParameters parameters, const Side side)
 {
   parameters.material = Material::linear;
-  const BodyMesh     mesh(parameters, side);
-  const auto         bulk = make_bulk(mesh);
+  const BodyMesh mesh(parameters, side);
+  const auto     bulk =
+    make_condensed_bulk(mesh,
+                        NeoHookean::from_young(parameters.young_modulus,
+                                               parameters.poisson_ratio));
   const unsigned int n_cp = mesh.surface().n_control_points();
   std::vector<bool>  contact(n_cp, false);
   for (unsigned int A = 0; A < n_cp; ++A)

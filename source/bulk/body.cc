@@ -23,6 +23,8 @@ namespace Debond
              const StressLaw       law)
     : body_mesh(parameters, side)
     , own_bulk(law ? make_bulk(body_mesh) : nullptr)
+    , condensing_bulk(dynamic_cast<const CondensingBulk *>(own_bulk.get()))
+    , whole_bulk(dynamic_cast<const WholeBulk *>(own_bulk.get()))
     , v(Eigen::VectorXd::Zero(3 * body_mesh.n_nodes()))
     , accepted(v)
     , law(law)
@@ -93,7 +95,7 @@ namespace Debond
     // bone's face, beyond the reach of contact.
     beside_unknowns = false;
     for (unsigned int i = 0; i < unknown_numbers.size(); ++i)
-      if (own_bulk->condenses() && unknown_numbers[i] < 0 &&
+      if (condensing_bulk && unknown_numbers[i] < 0 &&
           !body_mesh.is_fixed(body_mesh.control_point_node(i / 3), i % 3))
         beside_unknowns = true;
   }
@@ -131,15 +133,13 @@ namespace Debond
   Eigen::VectorXd
   Body::to_archive(const Eigen::VectorXd &state) const
   {
-    const bool is_dealt_out = own_bulk && !own_bulk->condenses();
-    return is_dealt_out && state.size() > 0 ? body_mesh.gathered(state) : state;
+    return whole_bulk && state.size() > 0 ? body_mesh.gathered(state) : state;
   }
 
   Eigen::VectorXd
   Body::from_archive(const Eigen::VectorXd &state) const
   {
-    const bool is_dealt_out = own_bulk && !own_bulk->condenses();
-    return is_dealt_out && state.size() > 0 ? body_mesh.own_part(state) : state;
+    return whole_bulk && state.size() > 0 ? body_mesh.own_part(state) : state;
   }
 
 

@@ -37,7 +37,7 @@ namespace Debond
       {
         const Eigen::VectorXd v_c = v(unknown_dofs);
         Residual              result;
-        result.condensed         = own_bulk->product(v_c);
+        result.condensed         = condensing()->product(v_c);
         result.energy            = 0.5 * v_c.dot(result.condensed);
         const unsigned int first = 3 * body_mesh.n_inner_nodes();
         // Forces on control points that are no unknowns are left out: there is
@@ -68,13 +68,14 @@ namespace Debond
       double
       change_at_large_strains() const override
       {
-        const Eigen::VectorXd v_c = v(unknown_dofs), f = own_bulk->product(v_c);
-        Eigen::VectorXd       forces = Eigen::VectorXd::Zero(v.size());
-        double                energy;
+        const Eigen::VectorXd v_c = v(unknown_dofs),
+                              f   = condensing()->product(v_c);
+        Eigen::VectorXd forces    = Eigen::VectorXd::Zero(v.size());
+        double          energy;
         if (!own_bulk->internal_forces(full_displacement(v), forces, energy))
           return std::numeric_limits<double>::infinity();
-        const Eigen::VectorXd r = own_bulk->condense(forces).condensed - f;
-        return std::sqrt(r.dot(own_bulk->solve(r)) / v_c.dot(f));
+        const Eigen::VectorXd r = condensing()->condense(forces).condensed - f;
+        return std::sqrt(r.dot(condensing()->solve(r)) / v_c.dot(f));
       }
 
     protected:
@@ -85,7 +86,7 @@ namespace Debond
       full_displacement(const Eigen::VectorXd &state) const override
       {
         return Body::full_displacement(
-          n_unknowns() > 0 ? own_bulk->correction(state(unknown_dofs), {}) :
+          n_unknowns() > 0 ? condensing()->correction(state(unknown_dofs), {}) :
                              state);
       }
 
@@ -107,7 +108,8 @@ namespace Debond
           support_modes(Eigen::VectorXd::Zero(v.size())));
         reaction_operator.resize(6, n_unknowns());
         for (unsigned int k = 0; k < 6; ++k)
-          reaction_operator.row(k) = own_bulk->condense(rows.col(k)).condensed;
+          reaction_operator.row(k) =
+            condensing()->condense(rows.col(k)).condensed;
         return true;
       }
 
@@ -159,7 +161,7 @@ namespace Debond
           return result;
         Eigen::VectorXd r = result.internal_force;
         r.tail(contact_force.size()) += contact_force.reshaped();
-        static_cast<Bulk::Residual &>(result) = own_bulk->condense(r);
+        static_cast<Bulk::Residual &>(result) = condensing()->condense(r);
         return result;
       }
 
@@ -179,7 +181,7 @@ namespace Debond
       correction(const Eigen::VectorXd &dv,
                  const Residual        &residual) const override
       {
-        return own_bulk->correction(dv, residual);
+        return condensing()->correction(dv, residual);
       }
 
     protected:
@@ -206,7 +208,7 @@ namespace Debond
                side,
                parameters.has_large_strains() ? &NeoHookean::cauchy_stress :
                                                 &NeoHookean::linear_stress)
-        , bulk(dynamic_cast<const WholeBulk &>(*own_bulk))
+        , bulk(*whole())
       {}
 
       // r = K v + f, or r = R(v) + f [N] with the true internal forces. Contact

@@ -1,4 +1,3 @@
-#include <debond/bulk/bulk_of_cells.h>
 #include <debond/bulk/bulk_solvers.h>
 #include <debond/bulk/condensation.h>
 #include <debond/bulk/dof_classes.h>
@@ -29,7 +28,7 @@ namespace Debond
 {
   namespace
   {
-    class CondensedBulk : public BulkOfCells
+    class CondensedBulk : public CondensingBulk
     {
     public:
       // Vertices of the contact face follow the control points, v_vertex =
@@ -41,7 +40,7 @@ namespace Debond
       // A body with small strains is its own mirror image, if its modulus is,
       // and K falls into blocks.
       CondensedBulk(const BodyMesh &mesh, const NeoHookean &material)
-        : BulkOfCells(mesh, material)
+        : CondensingBulk(mesh, material)
         , is_symmetric(!mesh.parameters().has_large_strains() &&
                        cells.are_mirror_images())
       {
@@ -367,7 +366,7 @@ namespace Debond
 
 
 
-  std::unique_ptr<Bulk>
+  std::unique_ptr<CondensingBulk>
   make_condensed_bulk(const BodyMesh &mesh, const NeoHookean &material)
   {
     return std::make_unique<CondensedBulk>(mesh, material);

@@ -1,4 +1,3 @@
-#include <debond/bulk/bulk_of_cells.h>
 #include <debond/bulk/bulk_solvers.h>
 #include <debond/support/input_error.h>
 #include <debond/support/runtime.h>
@@ -172,11 +171,11 @@ namespace Debond
 
 
 
-    class LatticeBulk : public BulkOfCells
+    class LatticeBulk : public CondensingBulk
     {
     public:
       LatticeBulk(const BodyMesh &mesh, const NeoHookean &material)
-        : BulkOfCells(mesh, material)
+        : CondensingBulk(mesh, material)
         , across{{Waves(mesh.parameters().cells[0], mesh.parameters().size[0]),
                   Waves(mesh.parameters().cells[1], mesh.parameters().size[1])}}
         , along_depth(
@@ -566,7 +565,7 @@ namespace Debond
 
 
 
-  std::unique_ptr<Bulk>
+  std::unique_ptr<CondensingBulk>
   make_lattice_bulk(const BodyMesh &mesh, const NeoHookean &material)
   {
     return std::make_unique<LatticeBulk>(mesh, material);

@@ -88,43 +88,6 @@ namespace Debond
 
 
 
-  Eigen::VectorXd
-  WholeBulk::product(const Eigen::VectorXd &) const
-  {
-    AssertThrow(false, dealii::ExcInternalError());
-    return {};
-  }
-
-  Eigen::VectorXd
-  WholeBulk::solve(const Eigen::VectorXd &) const
-  {
-    AssertThrow(false, dealii::ExcInternalError());
-    return {};
-  }
-
-  Eigen::MatrixXd
-  WholeBulk::dense_stiffness() const
-  {
-    AssertThrow(false, dealii::ExcInternalError());
-    return {};
-  }
-
-  Bulk::Residual
-  WholeBulk::condense(const Eigen::VectorXd &) const
-  {
-    AssertThrow(false, dealii::ExcInternalError());
-    return {};
-  }
-
-  Eigen::VectorXd
-  WholeBulk::correction(const Eigen::VectorXd &, const Residual &) const
-  {
-    AssertThrow(false, dealii::ExcInternalError());
-    return {};
-  }
-
-
-
   namespace
   {
     /** Index lists of owned and of local degrees of freedom for Trilinos. */
@@ -441,7 +404,7 @@ namespace Debond
 
 
 
-  std::unique_ptr<Bulk>
+  std::unique_ptr<WholeBulk>
   make_multigrid_bulk(const BodyMesh &mesh, const NeoHookean &material)
   {
     Ranks::start(); // before anything of Trilinos

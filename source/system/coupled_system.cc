@@ -79,7 +79,7 @@ namespace Debond
     , interface(parameters.interface, bone.mesh(), implant.mesh())
     , R(parameters.implant.characteristic_radius())
     , timer(timer)
-    , whole_bone(dynamic_cast<const WholeBulk *>(bone.bulk()))
+    , whole_bone(bone.whole())
     , force_floor(parameters.interface.law().normal->initial_stiffness() *
                   interface.implant_area() * 1e-6 * R)
     , matrix(body, interface, configuration, path)

@@ -195,9 +195,10 @@ namespace Debond
   CoupledTangent::product(const Eigen::VectorXd &x) const
   {
     Eigen::VectorXd y = product_without_bulk(x);
-    for_each_bulk([&](const Bulk &bulk, const int first, const int n) {
-      y.segment(first, n) += bulk.product(x.segment(first, n));
-    });
+    for_each_bulk(
+      [&](const CondensingBulk &bulk, const int first, const int n) {
+        y.segment(first, n) += bulk.product(x.segment(first, n));
+      });
     return y;
   }
 
@@ -208,9 +209,10 @@ namespace Debond
   bool
   CoupledTangent::can_be_assembled() const
   {
-    bool result = true;
-    for_each_bulk(
-      [&](const Bulk &bulk, int, int) { result = result && bulk.is_dense(); });
+    bool result = !bodies[0]->whole();
+    for_each_bulk([&](const CondensingBulk &bulk, int, int) {
+      result = result && bulk.is_dense();
+    });
     return result;
   }
 
@@ -224,9 +226,10 @@ namespace Debond
   CoupledTangent::solve_bulk(const Eigen::VectorXd &b) const
   {
     Eigen::VectorXd x = b;
-    for_each_bulk([&](const Bulk &bulk, const int first, const int n) {
-      x.segment(first, n) = bulk.solve(b.segment(first, n));
-    });
+    for_each_bulk(
+      [&](const CondensingBulk &bulk, const int first, const int n) {
+        x.segment(first, n) = bulk.solve(b.segment(first, n));
+      });
     for (const auto &[k, row] : configuration.chuck_unknowns)
       x[row] /= chuck_stiffness_of_bulk(k);
     return x;
@@ -243,8 +246,8 @@ namespace Debond
     const unsigned int n_bone = bodies[0]->n_unknowns(),
                        n      = bodies[1]->n_unknowns();
     Eigen::VectorXd y         = Eigen::VectorXd::Zero(x.size());
-    if (bodies[1]->bulk())
-      y.head(n) = bodies[1]->bulk()->product(x.head(n));
+    if (bodies[1]->condensing())
+      y.head(n) = bodies[1]->condensing()->product(x.head(n));
     for (const auto &[k, row] : configuration.chuck_unknowns)
       y[row - n_bone] = chuck_stiffness_of_bulk(k) * x[row - n_bone];
     return y;
@@ -256,8 +259,8 @@ namespace Debond
     const unsigned int n_bone = bodies[0]->n_unknowns(),
                        n      = bodies[1]->n_unknowns();
     Eigen::VectorXd x         = b;
-    if (bodies[1]->bulk())
-      x.head(n) = bodies[1]->bulk()->solve(b.head(n));
+    if (bodies[1]->condensing())
+      x.head(n) = bodies[1]->condensing()->solve(b.head(n));
     for (const auto &[k, row] : configuration.chuck_unknowns)
       x[row - n_bone] /= chuck_stiffness_of_bulk(k);
     return x;
@@ -269,9 +272,10 @@ namespace Debond
   CoupledTangent::solve_bulk_all(const Eigen::MatrixXd &B) const
   {
     Eigen::MatrixXd X = B;
-    for_each_bulk([&](const Bulk &bulk, const int first, const int n) {
-      X.middleRows(first, n) = bulk.solve_all(B.middleRows(first, n));
-    });
+    for_each_bulk(
+      [&](const CondensingBulk &bulk, const int first, const int n) {
+        X.middleRows(first, n) = bulk.solve_all(B.middleRows(first, n));
+      });
     for (const auto &[k, row] : configuration.chuck_unknowns)
       X.row(row) /= chuck_stiffness_of_bulk(k);
     return X;
@@ -286,9 +290,10 @@ namespace Debond
   CoupledTangent::assemble(Eigen::MatrixXd &matrix) const
   {
     matrix.setZero(size(), size());
-    for_each_bulk([&](const Bulk &bulk, const int first, const int n) {
-      matrix.block(first, first, n, n) = bulk.dense_stiffness();
-    });
+    for_each_bulk(
+      [&](const CondensingBulk &bulk, const int first, const int n) {
+        matrix.block(first, first, n, n) = bulk.dense_stiffness();
+      });
     interface.add_tangent(configuration, matrix);
     const unsigned int n_v = bodies[0]->n_unknowns() + bodies[1]->n_unknowns();
     Eigen::VectorXd    column(size());

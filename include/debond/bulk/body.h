@@ -1,7 +1,8 @@
 #ifndef debond_bulk_body_h
 #define debond_bulk_body_h
 
-#include <debond/bulk/bulk.h>
+#include <debond/bulk/condensing_bulk.h>
+#include <debond/bulk/whole_bulk.h>
 #include <debond/support/accepted_state.h>
 
 #include <memory>
@@ -44,6 +45,17 @@ namespace Debond
     {
       return own_bulk.get();
     }
+    /** The same of one kind; null if it is of the other. */
+    const CondensingBulk *
+    condensing() const
+    {
+      return condensing_bulk;
+    }
+    const WholeBulk *
+    whole() const
+    {
+      return whole_bulk;
+    }
 
     /** Whether its strains are small, if it has any: its tangent is the same in
      *  every state, and moments balance with the lever arms of the reference
@@ -66,8 +78,7 @@ namespace Debond
     {
       return is_contact;
     }
-    /** Number of unknowns: those of the contact surface, and what a bulk does
-     *  not condense. */
+    /** Number of unknowns, those of the contact surface. */
     unsigned int
     n_unknowns() const
     {
@@ -236,6 +247,8 @@ namespace Debond
 
     const BodyMesh                 body_mesh;
     const std::unique_ptr<Bulk>    own_bulk;
+    const CondensingBulk *const    condensing_bulk;
+    const WholeBulk *const         whole_bulk;
     Eigen::VectorXd                v; ///< trial displacement, 3 n_nodes [mm]
     AcceptedState<Eigen::VectorXd> accepted;
     std::vector<unsigned int>      unknown_dofs; ///< 3 node + component

@@ -17,13 +17,9 @@ namespace Debond
    * deformable body is built on. Other elements, or another solver, are another
    * class of this kind and a line in make_bulk().
    *
-   * A bulk brings some of its degrees of freedom c into the coupled system as
-   * unknowns and takes care of the others, i, itself:
-   *
-   *   S = K_cc - K_ci K_ii^-1 K_ic.
-   *
-   * One that condenses nothing, for which K takes part as it is, is a
-   * WholeBulk.
+   * There are two kinds. A CondensingBulk brings some of its degrees of freedom,
+   * c, into the coupled system and takes care of the others, i, itself. A
+   * WholeBulk takes part with all of them.
    *
    * Vectors of displacements v [mm] and forces [N] have 3 n_nodes entries; what
    * stands in fixed ones is ignored, and is zero in what is returned. Nothing
@@ -45,53 +41,17 @@ namespace Debond
     virtual bool
     linearise(const Eigen::VectorXd &v) = 0;
 
-    /** S x, S^-1 b. */
-    virtual Eigen::VectorXd
-    product(const Eigen::VectorXd &x) const = 0;
-    virtual Eigen::VectorXd
-    solve(const Eigen::VectorXd &b) const = 0;
-    /** The same for each column of @p B. */
-    virtual Eigen::MatrixXd
-    solve_all(const Eigen::MatrixXd &B) const
-    {
-      Eigen::MatrixXd X(B.rows(), B.cols());
-      for (unsigned int j = 0; j < B.cols(); ++j)
-        X.col(j) = solve(B.col(j));
-      return X;
-    }
-    /** Whether there is S as a dense matrix; the coupled system must else do
-     *  with products and solves. */
-    virtual bool
-    is_dense() const = 0;
-    /** That matrix; formed at every call. */
-    virtual Eigen::MatrixXd
-    dense_stiffness() const = 0;
-
-    /** Whether there are degrees of freedom that it takes care of itself; if
-     *  not it is a WholeBulk. */
-    virtual bool
-    condenses() const
-    {
-      return true;
-    }
-
     /** A residual r, as far as the coupled system is concerned. */
     struct Residual
     {
-      /** r_c - K_ci K_ii^-1 r_i, in the unknowns. */
+      /** r_c - K_ci K_ii^-1 r_i in the unknowns, or r_c of a WholeBulk. */
       Eigen::VectorXd condensed;
-      /** What correction() needs to know of r_i; empty: r_i = 0. */
+      /** What CondensingBulk::correction() needs to know of r_i, empty: r_i = 0;
+       *  or what this rank owns of the r of a WholeBulk. */
       Eigen::VectorXd interior;
       double          norm_squared     = 0; ///< |r|^2 [N^2]
       double          interior_squared = 0; ///< |r_i|^2 [N^2]
     };
-    virtual Residual
-    condense(const Eigen::VectorXd &r) const = 0;
-    /** The displacement dv whose unknowns are @p dv_c and whose others follow,
-     *  dv_i = -K_ii^-1 (r_i + K_ic dv_c). */
-    virtual Eigen::VectorXd
-    correction(const Eigen::VectorXd &dv_c, const Residual &r) const = 0;
-
     /** Internal forces [N] and strain energy [N mm] at the displacement v.
      *  False if a cell is turned inside out or a value is not finite. */
     virtual bool

@@ -1,7 +1,8 @@
 #ifndef debond_bulk_bulk_solvers_h
 #define debond_bulk_bulk_solvers_h
 
-#include <debond/bulk/bulk.h>
+#include <debond/bulk/condensing_bulk.h>
+#include <debond/bulk/whole_bulk.h>
 
 namespace Debond
 {
@@ -10,18 +11,18 @@ namespace Debond
    *  reach. A linear body uses it as a spring of many degrees of freedom, a
    *  Neo-Hookean one as an approximate inverse beside its true internal
    *  forces. */
-  std::unique_ptr<Bulk>
+  std::unique_ptr<CondensingBulk>
   make_condensed_bulk(const BodyMesh &mesh, const NeoHookean &material);
 
   /** A bone of equal splines across (BodyParameters::has_equal_splines), which
    *  sines and cosines make diagonal. Its unknowns are all control points of
    *  the contact face but those at the sides, which contact must not reach:
    *  set_contact() throws EntryError. */
-  std::unique_ptr<Bulk>
+  std::unique_ptr<CondensingBulk>
   make_lattice_bulk(const BodyMesh &mesh, const NeoHookean &material);
 
   /** A WholeBulk with algebraic multigrid, on all ranks. */
-  std::unique_ptr<Bulk>
+  std::unique_ptr<WholeBulk>
   make_multigrid_bulk(const BodyMesh &mesh, const NeoHookean &material);
 } // namespace Debond
 #endif

@@ -67,31 +67,6 @@ namespace Debond
     Residual
     whole_residual(Eigen::VectorXd owned) const;
 
-    bool
-    is_dense() const override
-    {
-      return false;
-    }
-    bool
-    condenses() const override
-    {
-      return false;
-    }
-    /** @name Of bulks that condense
-     *  Not to be called. */
-    //@{
-    Eigen::VectorXd
-    product(const Eigen::VectorXd &x) const override;
-    Eigen::VectorXd
-    solve(const Eigen::VectorXd &b) const override;
-    Eigen::MatrixXd
-    dense_stiffness() const override;
-    Residual
-    condense(const Eigen::VectorXd &r) const override;
-    Eigen::VectorXd
-    correction(const Eigen::VectorXd &dv_c, const Residual &r) const override;
-    //@}
-
     /** Over all ranks. Collective. */
     bool
     internal_forces(const Eigen::VectorXd &v,

@@ -108,8 +108,8 @@ namespace Debond
     add_geometric_part(const Eigen::VectorXd &x, Eigen::VectorXd &y) const;
 
   private:
-    /** Calls work(bulk, first, n) for the n unknowns of each body that deforms,
-     *  of which the first has the number @p first. */
+    /** Calls work(bulk, first, n) for the n unknowns of each body that is
+     *  condensed, of which the first has the number @p first. */
     template <typename Work>
     void
     for_each_bulk(const Work &work) const
@@ -117,8 +117,8 @@ namespace Debond
       unsigned int first = 0;
       for (const Body *body : bodies)
         {
-          if (body->bulk())
-            work(*body->bulk(), first, body->n_unknowns());
+          if (body->condensing())
+            work(*body->condensing(), first, body->n_unknowns());
           first += body->n_unknowns();
         }
     }

@@ -1,0 +1,48 @@
+#ifndef debond_bulk_condensing_bulk_h
+#define debond_bulk_condensing_bulk_h
+
+#include <debond/bulk/bulk_of_cells.h>
+
+namespace Debond
+{
+  /** A bulk that condenses its stiffness K on the degrees of freedom c of the
+   *  control points that contact can reach, its unknowns:
+   *
+   *   S = K_cc - K_ci K_ii^-1 K_ic. */
+  class CondensingBulk : public BulkOfCells
+  {
+  public:
+    /** S x, S^-1 b. */
+    virtual Eigen::VectorXd
+    product(const Eigen::VectorXd &x) const = 0;
+    virtual Eigen::VectorXd
+    solve(const Eigen::VectorXd &b) const = 0;
+    /** The same for each column of @p B. */
+    virtual Eigen::MatrixXd
+    solve_all(const Eigen::MatrixXd &B) const
+    {
+      Eigen::MatrixXd X(B.rows(), B.cols());
+      for (unsigned int j = 0; j < B.cols(); ++j)
+        X.col(j) = solve(B.col(j));
+      return X;
+    }
+    /** Whether there is S as a dense matrix; the coupled system must else do
+     *  with products and solves. */
+    virtual bool
+    is_dense() const = 0;
+    /** That matrix; formed at every call. */
+    virtual Eigen::MatrixXd
+    dense_stiffness() const = 0;
+
+    virtual Residual
+    condense(const Eigen::VectorXd &r) const = 0;
+    /** The displacement dv whose unknowns are @p dv_c and whose others follow,
+     *  dv_i = -K_ii^-1 (r_i + K_ic dv_c). */
+    virtual Eigen::VectorXd
+    correction(const Eigen::VectorXd &dv_c, const Residual &r) const = 0;
+
+  protected:
+    using BulkOfCells::BulkOfCells;
+  };
+} // namespace Debond
+#endif

@@ -432,10 +432,10 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
 
-  // A mistake of the user is found by all ranks, and the first one says it.
-  // What one rank alone has met, as a lack of memory, it says itself, if the
-  // first one does not end the program before: others wait for it in a sum that
-  // it will never add to.
+  // Mostly all ranks have met the same, and the first one says it. What one rank
+  // alone has met, as a lack of memory, it says itself, if the first one does
+  // not end the program before: others wait for it in a sum that it will never
+  // add to. What has been said takes a moment to get through mpirun.
   [[noreturn]] void
   end_of_ranks(const std::string &message, const int code)
   {
@@ -445,6 +445,7 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
                     "" :
                     "rank " + std::to_string(Ranks::own()) + ": ")
               << message << std::endl;
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
     Ranks::end_all(code);
   }
 } // namespace

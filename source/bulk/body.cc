@@ -1,4 +1,5 @@
 #include <debond/bulk/body.h>
+#include <debond/bulk/bulk_solvers.h>
 #include <debond/support/input_error.h>
 
 #include <deal.II/base/exceptions.h>

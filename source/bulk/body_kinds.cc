@@ -198,7 +198,7 @@ namespace Debond
     /**
      * A body whose bulk condenses nothing, of either law: its interior is part
      * of the residual and of the state in every iteration, and the coupled
-     * system solves for all of it (WholeSolver). A rank has its part.
+     * system solves for all of it (solve_whole()). A rank has its part.
      */
     class WholeBody : public Body
     {

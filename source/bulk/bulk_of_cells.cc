@@ -1,5 +1,4 @@
 #include <debond/bulk/bulk_of_cells.h>
-#include <debond/bulk/bulk_solvers.h>
 
 #include <array>
 
@@ -91,26 +90,5 @@ namespace Debond
     for (unsigned int vertex = 0; vertex < mesh.n_vertices(); ++vertex)
       stress[vertex] /= n_cells[vertex];
     return stress;
-  }
-
-
-
-  // G and Lambda [MPa] from E and nu by Eq. (2). Other elements, or another
-  // solver, get their place here.
-  std::unique_ptr<Bulk>
-  make_bulk(const BodyMesh &mesh)
-  {
-    const BodyParameters &body = mesh.parameters();
-    const NeoHookean      material =
-      NeoHookean::from_young(body.young_modulus, body.poisson_ratio);
-    switch (body.bulk_solver)
-      {
-        case BulkSolver::lattice:
-          return make_lattice_bulk(mesh, material);
-        case BulkSolver::multigrid:
-          return make_multigrid_bulk(mesh, material);
-        default:
-          return make_condensed_bulk(mesh, material);
-      }
   }
 } // namespace Debond

@@ -162,7 +162,7 @@ namespace Debond
           {
             const Eigen::Vector3d corner =
               lower + part.cwiseProduct(Eigen::Vector3d(i, j, k));
-            sum += over_box(corner, corner + part, corner + 0.5 * part);
+            sum += at(corner + 0.5 * part);
           }
     return sum / (n * n * n);
   }

@@ -18,7 +18,7 @@
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <optional>
 
 // A bulk of any size, of any modulus and on any number of ranks: step-40's
 // matrix of Trilinos and its algebraic multigrid, ML, for elasticity.
@@ -136,11 +136,17 @@ namespace Debond
         number_of_dof.assign(3 * mesh.n_nodes(), -1);
         for (unsigned int k = 0; k < dofs.size(); ++k)
           number_of_dof[dofs[k]] = numbers[k];
-        maps = std::make_unique<Maps>(partition, numbers);
         dof_of_owned.resize(end - first);
         for (unsigned int k = 0; k < dofs.size(); ++k)
           if (numbers[k] >= first && numbers[k] < end)
             dof_of_owned[numbers[k] - first] = dofs[k];
+      }
+
+      /** To be called once by all ranks. */
+      void
+      make_maps()
+      {
+        maps = std::make_unique<Maps>(partition, numbers);
       }
 
       // Those that this rank owns are known to the others by their places in
@@ -171,9 +177,17 @@ namespace Debond
       bool
       linearise(const Eigen::VectorXd &v) override
       {
-        if (v.size() == linearised_at.size() && v == linearised_at)
+        const bool is_new =
+          v.size() != linearised_at.size() || v != linearised_at;
+        if (Ranks::sum(is_new) == 0.)
           return true;
         assemble(v);
+        if (!has_positive_diagonal())
+          {
+            if (linearised_at.size() > 0)
+              assemble(linearised_at);
+            return false;
+          }
         set_up_multigrid();
         linearised_at = v;
         return true;
@@ -340,6 +354,18 @@ namespace Debond
         K.compress(dealii::VectorOperation::add);
       }
 
+      // All that is cheap to know; GMRES finds out the rest.
+      bool
+      has_positive_diagonal() const
+      {
+        Epetra_Vector diagonal(maps->owned);
+        K.trilinos_matrix().ExtractDiagonalCopy(diagonal);
+        double n_bad = 0.;
+        for (unsigned int k = 0; k < n_owned(); ++k)
+          n_bad += diagonal[k] > 0. && std::isfinite(diagonal[k]) ? 0. : 1.;
+        return Ranks::sum(n_bad) == 0.;
+      }
+
       void
       set_up_multigrid()
       {
@@ -408,6 +434,19 @@ namespace Debond
   make_multigrid_bulk(const BodyMesh &mesh, const NeoHookean &material)
   {
     Ranks::start(); // before anything of Trilinos
-    return std::make_unique<MultigridBulk>(mesh, material);
+    // a modulus that makes no sense in the cells of one rank is told to all
+    std::unique_ptr<MultigridBulk> bulk;
+    std::optional<EntryError>      mistake;
+    try
+      {
+        bulk = std::make_unique<MultigridBulk>(mesh, material);
+      }
+    catch (const EntryError &error)
+      {
+        mistake.emplace(error);
+      }
+    Ranks::agree_on(mistake ? &*mistake : nullptr);
+    bulk->make_maps();
+    return bulk;
   }
 } // namespace Debond

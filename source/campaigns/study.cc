@@ -298,30 +298,52 @@ namespace Debond
 
 
 
-      /** Runs a variant in this group of ranks. Returns why it failed. */
-      static std::string
-      run_here(const Scene &scene, const std::shared_ptr<BodyPair> &bodies)
+      /** Sends what is written to the console nowhere: the lines of a variant
+       *  are not those of the study. */
+      struct SilentConsole
       {
-        // its lines are not those of the study
-        std::ostringstream unseen;
-        std::streambuf    *console = std::cout.rdbuf(unseen.rdbuf());
-        std::string        why;
+        std::ostringstream    unseen;
+        std::streambuf *const console = std::cout.rdbuf(unseen.rdbuf());
+
+        ~SilentConsole()
+        {
+          std::cout.rdbuf(console);
+        }
+      };
+
+
+
+      /** Runs a variant in this group of ranks, with @p bodies or, if there are
+       *  none, new ones, which are left there if @p may_share. Returns why it
+       *  failed. */
+      static std::string
+      run_here(const Scene               &scene,
+               const bool                 may_share,
+               std::shared_ptr<BodyPair> &bodies)
+      {
+        const SilentConsole silent;
         try
           {
+            if (bodies)
+              bodies->return_to_rest();
+            else if (may_share)
+              bodies = std::make_shared<BodyPair>(scene);
             run_variant(scene, bodies);
+            return "";
           }
         catch (const std::exception &error)
           {
+            bodies.reset();
             // what one rank alone has met the others wait for in vain
-            const bool is_of_one =
-              dynamic_cast<const WriteError *>(&error) != nullptr ||
-              dynamic_cast<const std::bad_alloc *>(&error) != nullptr;
-            if (is_of_one && Ranks::number() > 1)
+            const bool is_of_all =
+              dynamic_cast<const WriteError *>(&error) == nullptr &&
+              (dynamic_cast<const InputError *>(&error) != nullptr ||
+               dynamic_cast<const RunError *>(&error) != nullptr ||
+               dynamic_cast<const Interrupted *>(&error) != nullptr);
+            if (!is_of_all && Ranks::number() > 1)
               throw;
-            why = error.what();
+            return error.what();
           }
-        std::cout.rdbuf(console);
-        return why;
       }
 
 
@@ -340,25 +362,30 @@ namespace Debond
         for (const auto &[bodies, numbers] : by_bodies)
           for (const unsigned int number : numbers)
             order.emplace_back(bodies, number);
+        const std::string next = directory + "/next-variant";
+        write_file(next, "0\n");
+        Ranks::meet();
 
         std::vector<std::pair<unsigned int, std::string>> failures;
         {
-          Ranks::Groups             groups(group_size);
+          const Ranks::Groups       groups(group_size);
           std::shared_ptr<BodyPair> bodies;
           std::string               kind;
-          for (unsigned int k; (k = groups.next()) < order.size();)
+          while (true)
             {
-              Variant &variant = variants[order[k].second];
-              if (order[k].first.empty())
+              double k = Ranks::is_first() ? take_number(next) : 0.;
+              Ranks::take_largest(&k, 1);
+              if (k >= order.size())
+                break;
+              const auto &[own_kind, number] = order[k];
+              Variant &variant               = variants[number];
+              if (own_kind != kind)
                 bodies.reset();
-              else if (!bodies || order[k].first != kind)
-                bodies = std::make_shared<BodyPair>(variant.scene);
-              else
-                bodies->return_to_rest();
-              kind                  = order[k].first;
-              const std::string why = run_here(variant.scene, bodies);
+              kind = own_kind;
+              const std::string why =
+                run_here(variant.scene, !kind.empty(), bodies);
               if (!why.empty())
-                failures.emplace_back(order[k].second, why);
+                failures.emplace_back(number, why);
               Ranks::meet();
               variant.end_run(why);
               out << variant.name << ": " << outcome_of(variant) << std::endl;
@@ -368,6 +395,8 @@ namespace Debond
                 break;
             }
         }
+        Ranks::meet();
+        remove_file(next);
         collect(failures);
       }
 

@@ -6,6 +6,7 @@
 #include <debond/scene/scene.h>
 #include <debond/support/interruption.h>
 #include <debond/support/number_text.h>
+#include <debond/support/ranks.h>
 #include <debond/support/runtime.h>
 #include <debond/system/coupled_system.h>
 
@@ -31,7 +32,10 @@ namespace Debond
   std::string
   what_bodies_depend_on(const Scene &scene)
   {
-    if (scene.model != ModelKind::finite_elements)
+    // a process that has begun with MPI may not fork
+    if (scene.model != ModelKind::finite_elements ||
+        (Ranks::number() == 1 &&
+         scene.bulk_solver() == BulkSolver::multigrid))
       return "";
     static const std::regex of_bodies(
       "(Bone|Implant) / [^/]*|Interface / (Slave|Quadrature points)");

@@ -1,3 +1,4 @@
+#include <debond/bulk/modulus_field.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/models/memory_estimate.h>
 #include <debond/scene/scene.h>
@@ -46,7 +47,9 @@ namespace Debond
                                                              scene.implant),
                           2);
         constexpr double program = 150e6; // with its libraries
-        total                    = program + bone + implant + points;
+        if (scene.bone.modulus && scene.bone.modulus->voxels())
+          bone += 4. * scene.bone.modulus->voxels()->grey.size();
+        total = program + bone + implant + points;
         for (double *const part : {&bone, &implant, &points, &total})
           *part *= 1e-6;
       }

@@ -117,7 +117,12 @@ namespace Debond
       {
         std::ostringstream text;
         dealii::DataOutBase::write_pvtu_record(text, pieces, names, ranges, {});
-        return text.str();
+        // which begins with a comment that holds the date
+        std::string list  = text.str();
+        const auto  begin = list.find("<!--"), end = list.find("-->");
+        if (begin != list.npos && end != list.npos)
+          list.erase(begin, end + 4 - begin);
+        return list;
       }
 
     private:

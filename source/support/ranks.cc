@@ -3,7 +3,10 @@
 #include <deal.II/base/mpi.h>
 
 #include <cstdlib>
+#include <exception>
+#include <optional>
 #include <string>
+#include <vector>
 
 // MPI where there is more than one process, or a library that works with it.
 // Initialising it takes 0.3 s, as long as whole runs of this program, so that
@@ -17,6 +20,8 @@ namespace Debond
 
     /** Of the group that this process belongs to for the time being. */
     MPI_Comm at_work = MPI_COMM_NULL;
+
+    unsigned int n_here = 1; ///< processes on this machine
 
 
 
@@ -58,6 +63,11 @@ namespace Debond
       mpi                       = new dealii::Utilities::MPI::MPI_InitFinalize(
         n_arguments, arguments, dealii::MultithreadInfo::n_threads());
       at_work = MPI_COMM_WORLD;
+      MPI_Comm here;
+      MPI_Comm_split_type(
+        MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here);
+      n_here = dealii::Utilities::MPI::n_mpi_processes(here);
+      MPI_Comm_free(&here);
     }
 
 
@@ -99,18 +109,7 @@ namespace Debond
     unsigned int
     number_on_this_machine()
     {
-      if (mpi == nullptr)
-        return 1;
-      static const int result = [] {
-        MPI_Comm here;
-        int      n = 1;
-        MPI_Comm_split_type(
-          MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here);
-        MPI_Comm_size(here, &n);
-        MPI_Comm_free(&here);
-        return n;
-      }();
-      return result;
+      return n_here;
     }
 
 
@@ -157,19 +156,6 @@ namespace Debond
     {
       const int rank = own();
       MPI_Comm_split(MPI_COMM_WORLD, rank / size, rank, &group);
-      MPI_Win_allocate(rank == 0 ? sizeof(int) : 0,
-                       sizeof(int),
-                       MPI_INFO_NULL,
-                       MPI_COMM_WORLD,
-                       &counter,
-                       &window);
-      if (rank == 0)
-        {
-          MPI_Win_lock(MPI_LOCK_EXCLUSIVE, 0, 0, window);
-          *counter = 0;
-          MPI_Win_unlock(0, window);
-        }
-      MPI_Barrier(MPI_COMM_WORLD);
       at_work = group;
     }
 
@@ -178,25 +164,28 @@ namespace Debond
     Groups::~Groups()
     {
       at_work = MPI_COMM_WORLD;
-      MPI_Win_free(&window);
-      MPI_Comm_free(&group);
+      if (std::uncaught_exceptions() == 0)
+        MPI_Comm_free(&group);
     }
 
 
 
-    unsigned int
-    Groups::next()
+    void
+    agree_on(const EntryError *const mistake)
     {
-      int number = 0;
-      if (is_first())
-        {
-          const int one = 1;
-          MPI_Win_lock(MPI_LOCK_SHARED, 0, 0, window);
-          MPI_Fetch_and_op(&one, &number, MPI_INT, 0, 0, MPI_SUM, window);
-          MPI_Win_unlock(0, window);
-        }
-      MPI_Bcast(&number, 1, MPI_INT, 0, group);
-      return number;
+      std::vector<std::string> own_words;
+      if (mistake)
+        own_words = {mistake->entry, mistake->why, mistake->value.value_or("")};
+      for (const auto &words :
+           number() == 1 ?
+             std::vector<std::vector<std::string>>{own_words} :
+             dealii::Utilities::MPI::all_gather(communicator(), own_words))
+        if (!words.empty())
+          throw EntryError(words[0],
+                           words[1],
+                           words[2].empty() ?
+                             std::nullopt :
+                             std::optional<std::string>(words[2]));
     }
 
 

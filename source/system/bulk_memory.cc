@@ -53,9 +53,6 @@ namespace Debond
       return body.has_large_strains() ||
              (body.modulus && !body.modulus->is_layered());
     }
-
-
-
   } // namespace
 
 

@@ -168,7 +168,7 @@ namespace Debond
     memory_of_machine_MB()
     {
       static const double MB = available_memory_MB();
-      return MB;
+      return MB / Ranks::number_on_this_machine();
     }
 
 
@@ -231,6 +231,8 @@ namespace Debond
     const auto         refuse = [](const std::string &why) {
       throw EntryError("Bone / Bulk solver", why);
     };
+    if (bone.is_rigid())
+      return; // nothing is dealt out
     if (n > 1 && (bone.bulk_solver == BulkSolver::direct ||
                   bone.bulk_solver == BulkSolver::lattice))
       refuse("that solver is for one process, and here are " +

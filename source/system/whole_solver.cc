@@ -165,7 +165,7 @@ namespace Debond
       system.put_beside(b.tail(b.size() - n_in_contact), right);
     const double  norm = right.l2_norm();
     WholeSolution result;
-    if (norm > 0.)
+    if (norm != 0.) // NaN included, which does not converge
       {
         const WholeOperator product{
           [&](Vector &y, const Vector &v) { system.multiply(y, v); }};

@@ -7,7 +7,6 @@
 #include <Eigen/Core>
 
 #include <cmath>
-#include <memory>
 #include <vector>
 
 namespace Debond
@@ -17,9 +16,9 @@ namespace Debond
    * deformable body is built on. Other elements, or another solver, are another
    * class of this kind and a line in make_bulk().
    *
-   * There are two kinds. A CondensingBulk brings some of its degrees of freedom,
-   * c, into the coupled system and takes care of the others, i, itself. A
-   * WholeBulk takes part with all of them.
+   * There are two kinds. A CondensingBulk brings some of its degrees of
+   * freedom, c, into the coupled system and takes care of the others, i,
+   * itself. A WholeBulk takes part with all of them.
    *
    * Vectors of displacements v [mm] and forces [N] have 3 n_nodes entries; what
    * stands in fixed ones is ignored, and is zero in what is returned. Nothing
@@ -46,8 +45,8 @@ namespace Debond
     {
       /** r_c - K_ci K_ii^-1 r_i in the unknowns, or r_c of a WholeBulk. */
       Eigen::VectorXd condensed;
-      /** What CondensingBulk::correction() needs to know of r_i, empty: r_i = 0;
-       *  or what this rank owns of the r of a WholeBulk. */
+      /** What CondensingBulk::correction() needs to know of r_i, empty: r_i =
+       * 0; or what this rank owns of the r of a WholeBulk. */
       Eigen::VectorXd interior;
       double          norm_squared     = 0; ///< |r|^2 [N^2]
       double          interior_squared = 0; ///< |r_i|^2 [N^2]
@@ -86,11 +85,5 @@ namespace Debond
       stress - stress.trace() / 3. * Eigen::Matrix3d::Identity();
     return std::sqrt(1.5) * deviator.norm();
   }
-
-  /** The bulk of a body with the given @p mesh, which must outlive it; direct
-   *  unless the mesh asks for another solver (ModelParameters says whether it
-   *  may). */
-  std::unique_ptr<Bulk>
-  make_bulk(const BodyMesh &mesh);
 } // namespace Debond
 #endif

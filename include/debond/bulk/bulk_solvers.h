@@ -4,6 +4,8 @@
 #include <debond/bulk/condensing_bulk.h>
 #include <debond/bulk/whole_bulk.h>
 
+#include <memory>
+
 namespace Debond
 {
   /** NURBS-enriched hexahedra or splines whose stiffness is factorised by
@@ -24,5 +26,11 @@ namespace Debond
   /** A WholeBulk with algebraic multigrid, on all ranks. */
   std::unique_ptr<WholeBulk>
   make_multigrid_bulk(const BodyMesh &mesh, const NeoHookean &material);
+
+  /** The bulk of a body with the given @p mesh, which must outlive it; direct
+   *  unless the mesh asks for another solver (ModelParameters says whether it
+   *  may). */
+  std::unique_ptr<Bulk>
+  make_bulk(const BodyMesh &mesh);
 } // namespace Debond
 #endif

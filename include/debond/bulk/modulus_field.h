@@ -31,7 +31,7 @@ namespace Debond
              const Eigen::Vector3d &upper,
              const Eigen::Vector3d &point) const;
 
-    /** Mean over a box [MPa]. */
+    /** Mean over a box [MPa], by some thousand points. */
     double
     mean(const Eigen::Vector3d &lower, const Eigen::Vector3d &upper) const;
 

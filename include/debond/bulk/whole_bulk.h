@@ -17,7 +17,7 @@ namespace Debond
    * with C the interface's. It has products with K and, in the place of an
    * inverse, a V-cycle of algebraic multigrid. Its unknowns are those of
    * the control points that contact can reach, which all ranks know; the others
-   * are found together with them (WholeSolver).
+   * are found together with them (solve_whole()).
    *
    * Three kinds of vectors:
    *

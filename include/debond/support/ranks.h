@@ -1,6 +1,8 @@
 #ifndef debond_support_ranks_h
 #define debond_support_ranks_h
 
+#include <debond/support/input_error.h>
+
 #include <Eigen/Core>
 #include <mpi.h>
 
@@ -61,11 +63,10 @@ namespace Debond
     void
     meet();
 
-    /**
-     * Deals all ranks out in groups of @p size that follow each other. While
-     * such an object lives all other functions speak of the own group, which
-     * has a first rank of its own. Collective over all.
-     */
+    /** Deals all ranks out in groups of @p size that follow each other. While
+     *  such an object lives all other functions speak of the own group, which
+     *  has a first rank of its own. Collective over all; where an exception
+     *  ends it nothing waits for other ranks. */
     class Groups
     {
     public:
@@ -73,16 +74,14 @@ namespace Debond
       Groups(const Groups &) = delete;
       ~Groups();
 
-      /** The next number from 0 on that no group has been given yet. Whoever
-       *  asks first gets it, and nobody has to answer. Collective. */
-      unsigned int
-      next();
-
     private:
       MPI_Comm group;
-      MPI_Win  window;  ///< on the counter
-      int     *counter; ///< of the first rank of all
     };
+
+    /** Throws the EntryError that the first of the ranks has met that have met
+     *  one: each gives the @p mistake that it has met, or null. Collective. */
+    void
+    agree_on(const EntryError *mistake);
 
     /** Ends all ranks, with an exit code. */
     [[noreturn]] void

@@ -125,7 +125,7 @@ namespace Debond
                      "the run was begun with " + names[solver & 3] +
                        ", and cannot go on with " + names[solver_in_archive()] +
                        (solver == static_cast<int>(BulkSolver::multigrid) ?
-                          "" :
+                          ": --set \"Bone/Bulk solver=multigrid\" does" :
                           ": it takes one process, without mpirun"));
   }
 

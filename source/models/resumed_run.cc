@@ -19,10 +19,12 @@ namespace Debond
   {
     namespace fs = std::filesystem;
 
-    /** Entries that change nothing in the results. */
+    /** Entries that change nothing in the results; what the solver was for the
+     *  bone the state itself says. */
     const std::set<std::string> free_entries{"Title",
                                              "Output / Directory",
                                              "Output / Console",
+                                             "Bone / Bulk solver",
                                              "Output / Checkpoint every"};
 
 

@@ -67,6 +67,18 @@ ranks 4 $scene --set "Interface/Sliding threshold={{0.02|0.04}}" --set "Study/Pr
 for n in 1 2; do cut -d, -f4 groups/variant-00$n/torque.csv; done > group-torques
 numdiff -q -r 1e-7 -a 1e-8 group-torques serial-torques && echo "as in groups of two"
 
+# a modulus that makes no sense in the cells of one process only, in a variant whose bodies others could share
+wrong='18000 + if(abs(y + 5.986) < 0.01, -1e5, 0) * abs(x)'
+ranks 2 $scene --set "Bone/Young modulus={{18000|$wrong}}" --set "Study/Processes per variant=2" --set Output/Directory=wrong
+said "1 of 2 variants failed"
+grep -c "expected 1e-6 to 1e12 MPa" wrong/study.csv
+ranks 2 $scene --set "Bone/Young modulus={{18000|$wrong}}" --set Output/Directory=wrong-alone
+said "1 of 2 variants failed"
+ranks 2 $scene --set "Bone/Young modulus=$wrong" --set Output/Directory=wrong-scene || said "expected 1e-6 to 1e12 MPa"
+# more processes than variants, and a network without memory in common
+ranks 4 $scene --set "Interface/Sliding threshold={{0.02|0.04}}" --threads 1 --jobs 1 --set Output/Directory=idle && echo "some have nothing to do"
+OMPI_MCA_btl=tcp,self ranks 2 $scene --set "Interface/Sliding threshold={{0.02|0.03|0.04}}" --set Output/Directory=tcp && echo "by TCP"
+
 echo "a process that is killed"
 "$run" "$mpirun" 2 "$debond" $scene --set "Load steps/Steps=1,400" --set "Output/Checkpoint every=1" --set "Output/Fields every=0" --set Output/Directory=killed > said 2>&1 &
 job=$!

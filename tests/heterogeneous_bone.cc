@@ -20,6 +20,7 @@
 #include <fstream>
 
 #include "checks.h"
+#include "pressed_and_turned.h"
 
 using namespace Debond;
 
@@ -350,7 +351,7 @@ check_voxels()
 
 
 
-const std::string coin = R"(
+const std::string coin = pressed_and_turned + R"(
 subsection Bone
   set Cells         = 24, 24, 4
   set Layer grading = 2
@@ -361,14 +362,6 @@ subsection Implant
   set Cells         = 3, 2
   set Element       = spline
   set Material      = linear
-end
-subsection Chuck
-  subsection Translation z
-    set Value = -0.0049 * min(t, 1)
-  end
-  subsection Rotation z
-    set Value = 10 * max(t - 1, 0)
-  end
 end
 subsection Load steps
   set Times              = 0, 1, 1.05, 1.2

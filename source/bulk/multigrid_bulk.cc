@@ -124,8 +124,6 @@ namespace Debond
         : WholeBulk(mesh, material)
         , partition(mesh)
       {
-        const int first = 3 * partition.first_owned(),
-                  end   = first + 3 * int(partition.n_owned());
         for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
           if (const int number = partition.number_of(node); number >= 0)
             for (unsigned int c = 0; c < 3; ++c)
@@ -136,10 +134,10 @@ namespace Debond
         number_of_dof.assign(3 * mesh.n_nodes(), -1);
         for (unsigned int k = 0; k < dofs.size(); ++k)
           number_of_dof[dofs[k]] = numbers[k];
-        dof_of_owned.resize(end - first);
+        dof_of_owned.resize(n_owned());
         for (unsigned int k = 0; k < dofs.size(); ++k)
-          if (numbers[k] >= first && numbers[k] < end)
-            dof_of_owned[numbers[k] - first] = dofs[k];
+          if (const int place = place_of(numbers[k]); place >= 0)
+            dof_of_owned[place] = dofs[k];
       }
 
       /** To be called once by all ranks. */
@@ -154,8 +152,6 @@ namespace Debond
       std::vector<unsigned int>
       set_contact(const std::vector<bool> &control_points) override
       {
-        const int first = 3 * partition.first_owned(),
-                  end   = first + 3 * int(partition.n_owned());
         unknowns.clear();
         owned_unknowns.clear();
         for (unsigned int A = 0; A < control_points.size(); ++A)
@@ -164,9 +160,9 @@ namespace Debond
               const unsigned int node = mesh.control_point_node(A);
               if (!control_points[A] || mesh.is_fixed(node, c))
                 continue;
-              const int number = number_of_dof[3 * node + c];
-              if (number >= first && number < end)
-                owned_unknowns.emplace_back(unknowns.size(), number - first);
+              if (const int place = place_of(number_of_dof[3 * node + c]);
+                  place >= 0)
+                owned_unknowns.emplace_back(unknowns.size(), place);
               unknowns.push_back(3 * node + c);
             }
         return unknowns;
@@ -269,6 +265,14 @@ namespace Debond
       }
 
     private:
+      /** Of a degree of freedom of the matrix, among those that this rank owns;
+       *  -1: it does not. */
+      int
+      place_of(const int number) const
+      {
+        const int place = number - 3 * int(partition.first_owned());
+        return place >= 0 && place < int(n_owned()) ? place : -1;
+      }
       Eigen::VectorXd
       zero() const
       {

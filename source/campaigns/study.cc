@@ -263,14 +263,7 @@ namespace Debond
                     kill(process.id, SIGTERM);
                     end_of(process);
                   }
-                write_table();
-                throw Interrupted(
-                  interrupting_signal(),
-                  Text() << "interrupted by "
-                         << signal_name(interrupting_signal()) << ": "
-                         << n_done() << " of " << variants.size()
-                         << " variants are done; the same study "
-                            "without --force goes on with the others");
+                stop(interrupting_signal());
               }
             const unsigned int number  = ended->variant;
             Variant           &variant = variants[number];
@@ -389,9 +382,7 @@ namespace Debond
               Ranks::meet();
               variant.end_run(why);
               out << variant.name << ": " << outcome_of(variant) << std::endl;
-              double stop = interrupting_signal();
-              Ranks::take_largest(&stop, 1);
-              if (stop != 0.)
+              if (interrupting_signal_of_any() != 0)
                 break;
             }
         }
@@ -408,8 +399,7 @@ namespace Debond
       {
         const auto all =
           dealii::Utilities::MPI::gather(Ranks::communicator(), failures);
-        double stop = interrupting_signal();
-        Ranks::take_largest(&stop, 1);
+        const int signal = interrupting_signal_of_any();
         for (Variant &variant : variants)
           variant.look_up();
         for (const auto &of_rank : all)
@@ -418,12 +408,20 @@ namespace Debond
               variants[number].failure = why;
               variants[number].done    = false;
             }
-        if (stop == 0.)
-          return;
+        if (signal != 0)
+          stop(signal);
+      }
+
+
+
+      /** After a signal that has ended the study. */
+      [[noreturn]] void
+      stop(const int signal)
+      {
         write_table();
-        throw Interrupted(stop,
+        throw Interrupted(signal,
                           Text()
-                            << "interrupted by " << signal_name(stop) << ": "
+                            << "interrupted by " << signal_name(signal) << ": "
                             << n_done() << " of " << variants.size()
                             << " variants are done; the same study without "
                                "--force goes on with the others");

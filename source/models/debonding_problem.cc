@@ -196,10 +196,7 @@ namespace Debond
       void
       stop_if_interrupted()
       {
-        // mpirun tells all ranks, but not at the same time
-        double arrived = interrupting_signal();
-        Ranks::take_largest(&arrived, 1);
-        const int signal = static_cast<int>(arrived);
+        const int signal = interrupting_signal_of_any();
         if (signal == 0)
           return;
         std::string text = "interrupted by " + signal_name(signal) +

@@ -270,6 +270,8 @@ namespace Debond
       bodies[0]->mesh().has_splines() || bodies[1]->mesh().has_splines();
     for (const Body *const body : bodies)
       {
+        if (body->mesh().side() == Side::implant && !Ranks::is_first())
+          continue;
         const DrawnBody          drawn(*body, chuck, curved_cells, has_modulus);
         std::vector<PatchSet<3>> parts(n_chunks, fields);
         for_each_chunk(body->mesh().cells().size(),
@@ -279,9 +281,8 @@ namespace Debond
                          for (unsigned int k = first; k < end; ++k)
                            drawn.draw(k, parts[chunk]);
                        });
-        if (body->mesh().side() == Side::bone || Ranks::is_first())
-          for (PatchSet<3> &part : parts)
-            output.add_patches(std::move(part));
+        for (PatchSet<3> &part : parts)
+          output.add_patches(std::move(part));
       }
     return output.vtu(curved_cells);
   }

@@ -1,4 +1,5 @@
 #include <debond/support/interruption.h>
+#include <debond/support/ranks.h>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -70,6 +71,16 @@ namespace Debond
   interrupting_signal()
   {
     return arrived;
+  }
+
+
+
+  int
+  interrupting_signal_of_any()
+  {
+    double signal = arrived;
+    Ranks::take_largest(&signal, 1);
+    return static_cast<int>(signal);
   }
 
 

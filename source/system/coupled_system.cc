@@ -79,7 +79,6 @@ namespace Debond
     , interface(parameters.interface, bone.mesh(), implant.mesh())
     , R(parameters.implant.characteristic_radius())
     , timer(timer)
-    , whole_bone(bone.whole())
     , force_floor(parameters.interface.law().normal->initial_stiffness() *
                   interface.implant_area() * 1e-6 * R)
     , matrix(body, interface, configuration, path)
@@ -488,7 +487,7 @@ namespace Debond
                      "are not in contact";
         return result;
       }
-    if (whole_bone)
+    if (bone.whole())
       {
         const WholeSolution solution =
           solve_whole(residual.unknowns,
@@ -498,7 +497,7 @@ namespace Debond
         if (!solution.converged)
           result.why = "multigrid has not solved the linear system in " +
                        std::to_string(solution.cycles) + " cycles";
-        result.bodies[Side::bone] = -whole_bone->at_nodes(solution.bone);
+        result.bodies[Side::bone] = -bone.whole()->at_nodes(solution.bone);
       }
     else
       {
@@ -545,7 +544,7 @@ namespace Debond
                              const double           relative_tolerance) const
   {
     WholeSolution solution = Debond::solve_whole(
-      matrix, *whole_bone, b, b_of_bone, relative_tolerance, timer);
+      matrix, *bone.whole(), b, b_of_bone, relative_tolerance, timer);
     ++effort_of_multigrid.systems;
     effort_of_multigrid.cycles += solution.cycles;
     effort_of_multigrid.most_cycles =
@@ -560,8 +559,8 @@ namespace Debond
   CoupledSystem::solve_with_whole_bone(const Eigen::VectorXd &right,
                                        const double relative_tolerance) const
   {
-    Eigen::VectorXd of_bone = Eigen::VectorXd::Zero(whole_bone->n_owned());
-    whole_bone->add_unknowns(right.data(), of_bone.data());
+    Eigen::VectorXd of_bone = Eigen::VectorXd::Zero(bone.whole()->n_owned());
+    bone.whole()->add_unknowns(right.data(), of_bone.data());
     const WholeSolution solution =
       solve_whole(right, of_bone, relative_tolerance);
     return solution.converged ?
@@ -575,7 +574,7 @@ namespace Debond
   CoupledSystem::solve_all(const Eigen::MatrixXd &right,
                            const double           relative_tolerance) const
   {
-    if (!whole_bone)
+    if (!bone.whole())
       return solver.solve_all(matrix, right, relative_tolerance);
     Eigen::MatrixXd result(right.rows(), right.cols());
     for (unsigned int j = 0; j < right.cols(); ++j)
@@ -760,7 +759,7 @@ namespace Debond
         change[n_v + k] - chuck.machine_load_per_value(k) * given[k];
     {
       const TimedSection    t(timer, "dense solve");
-      const Eigen::VectorXd response = whole_bone ?
+      const Eigen::VectorXd response = bone.whole() ?
                                          -solve_with_whole_bone(right, 1e-4) :
                                          -solver.solve(matrix, right, 1e-4);
       motion.head(n_v)               = response.head(n_v);

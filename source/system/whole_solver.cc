@@ -2,6 +2,7 @@
 #include <debond/support/runtime.h>
 #include <debond/system/whole_solver.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/lac/la_parallel_vector.h>
 #include <deal.II/lac/solver_control.h>
 #include <deal.II/lac/solver_gmres.h>
@@ -66,17 +67,10 @@ namespace Debond
       Vector
       vector() const
       {
-        const unsigned int n_here = n_bone + n_own_beside;
-        unsigned int       before = 0, all = 0;
-        MPI_Exscan(
-          &n_here, &before, 1, MPI_UNSIGNED, MPI_SUM, Ranks::communicator());
-        MPI_Allreduce(
-          &n_here, &all, 1, MPI_UNSIGNED, MPI_SUM, Ranks::communicator());
-        if (Ranks::is_first())
-          before = 0;
-        dealii::IndexSet owned(all);
-        owned.add_range(before, before + n_here);
-        return Vector(owned, Ranks::communicator());
+        const auto owned =
+          dealii::Utilities::MPI::create_ascending_partitioning(
+            Ranks::communicator(), n_bone + n_own_beside);
+        return Vector(owned[Ranks::own()], Ranks::communicator());
       }
 
       /** The values at the unknowns, the same on all ranks. */

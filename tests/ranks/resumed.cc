@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "../checks.h"
+#include "../pressed_and_turned.h"
 
 using namespace Debond;
 
@@ -21,7 +22,7 @@ using namespace Debond;
 Scene
 scene_of(const std::string &change)
 {
-  return Scene::from_text(R"(
+  return Scene::from_text(pressed_and_turned + R"(
 subsection Bone
   set Cells       = 10, 10, 4
   set Material    = linear
@@ -30,14 +31,6 @@ end
 subsection Implant
   set Cells    = 3, 2
   set Material = linear
-end
-subsection Chuck
-  subsection Translation z
-    set Value = -0.0049 * min(t, 1)
-  end
-  subsection Rotation z
-    set Value = 10 * max(t - 1, 0)
-  end
 end
 subsection Load steps
   set Times              = 0, 1, 1.1

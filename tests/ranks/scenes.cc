@@ -12,6 +12,7 @@
 #include <debond/support/runtime.h>
 
 #include "../checks.h"
+#include "../pressed_and_turned.h"
 
 using namespace Debond;
 
@@ -19,7 +20,7 @@ using Changes = std::vector<std::string>;
 
 
 
-const std::string coin = R"(
+const std::string coin = pressed_and_turned + R"(
 subsection Bone
   set Cells    = 12, 12, 4
   set Material = linear
@@ -27,14 +28,6 @@ end
 subsection Implant
   set Cells    = 4, 2
   set Material = linear
-end
-subsection Chuck
-  subsection Translation z
-    set Value = -0.0049 * min(t, 1)
-  end
-  subsection Rotation z
-    set Value = 10 * max(t - 1, 0)
-  end
 end
 subsection Load steps
   set Times              = 0, 1, 1.05, 1.2

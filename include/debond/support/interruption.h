@@ -33,6 +33,11 @@ namespace Debond
   int
   interrupting_signal();
 
+  /** The same on all ranks, which a signal reaches one after the other.
+   *  Collective. */
+  int
+  interrupting_signal_of_any();
+
   /** "SIGTERM". */
   std::string
   signal_name(int signal);

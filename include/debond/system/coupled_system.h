@@ -156,7 +156,7 @@ namespace Debond
     const MultigridEffort *
     multigrid_effort() const
     {
-      return whole_bone ? &effort_of_multigrid : nullptr;
+      return bone.whole() ? &effort_of_multigrid : nullptr;
     }
     /** Adds @p fraction of a correction to the trial state. */
     void
@@ -302,7 +302,6 @@ namespace Debond
                           double                 relative_tolerance) const;
 
     dealii::TimerOutput *const timer;
-    const WholeBulk *const     whole_bone; ///< null: the bone is condensed
     mutable MultigridEffort    effort_of_multigrid;
     unsigned int               unknowns    = 0;
     double                     force_floor = 0; ///< [N]

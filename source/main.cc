@@ -81,8 +81,8 @@ study: all variants are run and gathered in study.csv.
   --help              print this text
   --version           print the version
 
-SIGINT, SIGTERM and SIGHUP end a run after the step at work and leave a checkpoint
-for --resume; a second one ends it at once.
+SIGINT, SIGTERM, SIGHUP and SIGUSR1 end a run after the step at work and leave a
+checkpoint for --resume; a second one ends it at once.
 
 Exit codes: 0 success, 1 wrong usage or scene, 2 the run failed or its files could
 not be written, 3 internal error, 128 + N interrupted by signal N.
@@ -432,13 +432,17 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
 
-  // Mostly all ranks have met the same, and the first one says it. What one rank
-  // alone has met, as a lack of memory, it says itself, if the first one does
-  // not end the program before: others wait for it in a sum that it will never
-  // add to. What has been said takes a moment to get through mpirun.
+  // Mostly all ranks have met the same, and the first one says it. What one
+  // rank alone has met, as a lack of memory, it says itself, if the first one
+  // does not end the program before: others wait for it in a sum that it will
+  // never add to. That a signal has come all know, and the first one, which may
+  // still be writing, says it. What has been said takes a moment to get through
+  // mpirun.
   [[noreturn]] void
   end_of_ranks(const std::string &message, const int code)
   {
+    if (!Ranks::is_first() && code > 128)
+      Ranks::meet();
     if (!Ranks::is_first())
       std::this_thread::sleep_for(std::chrono::seconds(3));
     std::cerr << (Ranks::is_first() ?
@@ -466,9 +470,8 @@ main(int argc, char *argv[])
   if (Ranks::are_launched())
     {
       Ranks::start();
-      if (!Ranks::is_first() &&
-          std::freopen("/dev/null", "w", stdout) == nullptr)
-        Ranks::end_all(3);
+      if (!Ranks::is_first())
+        std::cout.rdbuf(nullptr);
     }
   try
     {

@@ -188,6 +188,35 @@ check_differences()
 
 
 
+/** A number within a modulus that depends on the place: closed forms know no
+ *  such bone, and runs are compared. */
+void
+check_varying_modulus()
+{
+  const auto scene = [](const std::string &factor, const std::string &more) {
+    return scene_text(truth, more)
+      .replace(scene_text(truth, "").find("  set Cells = 8, 8, 2\n"),
+               0,
+               "  set Young modulus = max(20, " + factor + " * (x + 8)^2)\n");
+  };
+  Simulation simulation(Scene::from_text(scene("10", "")));
+  simulation.run();
+  std::ofstream("varying.csv") << torque_table(simulation.rows());
+  const auto result =
+    calibrate(scene("<<c: 8 in 2..40 log>>",
+                    "subsection Calibration\n  set Starts = 1\nend\n"
+                    "subsection Output\n  set Directory = results/varying\n"
+                    "  set Reference curve = varying.csv\nend\n"),
+              "varying",
+              1,
+              true);
+  report("a number within a varying modulus",
+         std::abs(result["unknowns"]["c"]["value"].get<double>() / 10. - 1.),
+         1e-4);
+}
+
+
+
 /** A bond that breaks too fast for the closed form, not for the bodies. */
 void
 check_without_closed_form()
@@ -386,6 +415,7 @@ main()
   check_interrupted();
   check_intervals();
   check_differences();
+  check_varying_modulus();
   check_without_closed_form();
   check_reversal();
   check_small_turn();

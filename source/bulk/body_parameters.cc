@@ -115,23 +115,24 @@ namespace Debond
               "distances R s^g from it within, and (L/2 - R) s^g beside, with "
               "s equally spaced from 0 to 1, R the radius of the implant and L "
               "the edge length.");
-    table.add("Bulk solver",
-              bulk_solver,
-              Allowed::choice("auto | direct | lattice | multigrid"),
-              "How the stiffness of the bone is solved. `direct': by a sparse "
-              "factorisation, condensed on the contact face. `lattice': by "
-              "sines and cosines across, exact for a bone of splines with "
-              "cells of equal width, at the cost of a few products of "
-              "matrices; the bone has no shear at its sides then, which is "
-              "what sides that slide come to with ever finer cells. The "
-              "stiffness of a Neo-Hookean bone stays that at rest, which leads "
-              "Newton's method to the same solution as long as strains are "
-              "small. `multigrid': "
-              "by iterations for the whole system with algebraic multigrid, "
-              "for bones that are too large to be factorised, on any number "
-              "of processes (mpirun). `auto': lattice where that is possible, the implant "
-              "stays away from the sides, and strains are below some 1 %. The "
-              "program says which, and why.");
+    table.add(
+      "Bulk solver",
+      bulk_solver,
+      Allowed::choice("auto | direct | lattice | multigrid"),
+      "How the stiffness of the bone is solved. `direct': by a sparse "
+      "factorisation, condensed on the contact face. `lattice': by "
+      "sines and cosines across, exact for a bone of splines with "
+      "cells of equal width, at the cost of a few products of "
+      "matrices; the bone has no shear at its sides then, which is "
+      "what sides that slide come to with ever finer cells. The "
+      "stiffness of a Neo-Hookean bone stays that at rest, which leads "
+      "Newton's method to the same solution as long as strains are "
+      "small. `multigrid': "
+      "by iterations for the whole system with algebraic multigrid, "
+      "for bones that are too large to be factorised, on any number "
+      "of processes (mpirun). `auto': lattice where that is possible, the implant "
+      "stays away from the sides, and strains are below some 1 %. The "
+      "program says which, and why.");
     declare_material(table, true);
     table.leave_subsection();
   }
@@ -201,10 +202,15 @@ namespace Debond
                   what + " A rigid body ignores it.");
         return;
       }
-    // what names no place is a number, maybe with a mistake
-    static const std::regex place("(^|[^A-Za-z_])(x|y|z|grey)([^A-Za-z_]|$)");
-    const auto              is_expression = [](const std::string &text) {
-      return std::regex_search(text, place);
+    // what names no place, and nothing in a formula, is a number, maybe with a
+    // mistake
+    static const std::regex place(
+      "(^|[^A-Za-z_])(x|y|z|[Gg][Rr][EeAa][Yy])([^A-Za-z_]|$)"),
+      name("(^|[^A-Za-z_0-9.])[A-Za-z_]"), formula("[-+*/^(<>]");
+    const auto is_expression = [](const std::string &text) {
+      return std::regex_search(text, place) ||
+             (std::regex_search(text, name) &&
+              std::regex_search(text, formula));
     };
     AllowedValues number_or_expression = number;
     number_or_expression.test = [number, is_expression](const auto &text) {
@@ -259,23 +265,43 @@ namespace Debond
                        voxel_file);
     if (modulus_expression.empty())
       return;
-    std::optional<VoxelImage> image;
+    std::shared_ptr<const VoxelImage> image;
+    std::array<double, 3>             corner{};
     if (!voxel_file.empty())
       {
         image = read_voxel_image(voxel_file, "Bone / Voxel file");
-        if (voxel_corner == "centred")
-          image->corner = {{-0.5 * image->length(0),
-                            -0.5 * image->length(1),
-                            -image->length(2)}};
-        else if (voxel_corner != "file")
-          read_entry(voxel_corner, image->corner);
+        if (voxel_corner == "file")
+          corner = image->corner;
+        else if (voxel_corner == "centred")
+          corner = {{-0.5 * image->length(0),
+                     -0.5 * image->length(1),
+                     -image->length(2)}};
+        else
+          read_entry(voxel_corner, corner);
       }
-    const auto corners = corners_of_bone();
     modulus            = std::make_shared<ModulusField>(modulus_expression,
                                              std::move(image),
+                                             corner,
                                              radius);
-    young_modulus      = modulus->mean(Eigen::Vector3d(corners[0].data()),
-                                  Eigen::Vector3d(corners[1].data()));
+    const auto corners = corners_of_bone();
+    young_modulus      = modulus
+                      ->range(Eigen::Vector3d(corners[0].data()),
+                              Eigen::Vector3d(corners[1].data()))
+                      .mean;
+  }
+
+
+
+  std::string
+  BodyParameters::modulus_in_words() const
+  {
+    const auto corners = corners_of_bone();
+    const auto range   = modulus->range(Eigen::Vector3d(corners[0].data()),
+                                      Eigen::Vector3d(corners[1].data()));
+    return modulus->voxels_text() +
+           "Young's modulus of the bone: " + to_text(range.smallest, 3) +
+           " to " + to_text(range.largest, 3) + " MPa, mean " +
+           to_text(range.mean, 3);
   }
 
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <regex>
 
 namespace Debond
 {
@@ -19,6 +20,12 @@ namespace Debond
            const std::string &text,
            const double       radius)
     {
+      static const std::regex grey("\\bgrey\\b");
+      if (variables == "x,y,z" && std::regex_search(text, grey))
+        throw EntryError(entry,
+                         "grey is the grey value of a voxel, and there is no "
+                         "Voxel file",
+                         text);
       try
         {
           return read_expression(variables, text, radius);
@@ -62,11 +69,13 @@ namespace Debond
 
 
 
-  ModulusField::ModulusField(const std::string        &expression,
-                             std::optional<VoxelImage> voxels,
-                             const double              radius)
+  ModulusField::ModulusField(const std::string                &expression,
+                             std::shared_ptr<const VoxelImage> voxels,
+                             const std::array<double, 3>      &corner,
+                             const double                      radius)
     : text(expression)
     , image(std::move(voxels))
+    , corner(corner)
     , layered(!image && can_be_parsed("z", expression, radius))
     , modulus(parsed(image ? "x,y,z,grey" : "x,y,z", expression, radius))
   {
@@ -89,12 +98,13 @@ namespace Debond
         for (unsigned int d = 0; d < 3; ++d)
           {
             // rounding may leave the grid at its sides
-            const double i = (X[d] - image->corner[d]) / image->spacing[d];
+            const double i = (X[d] - corner[d]) / image->spacing[d];
             if (!(i >= -1e-6 && i <= image->n[d] + 1e-6))
               throw EntryError("Bone / Voxel file",
                                "there is no voxel at " + in_words(X) +
-                                 ": expected voxels all over the bone, or "
-                                 "another Voxel corner");
+                                 ": they are " + extent_text() +
+                                 ", expected all over the bone (Bone / Size, "
+                                 "Voxel corner)");
             index[d] = std::clamp(static_cast<int>(std::floor(i)),
                                   0,
                                   static_cast<int>(image->n[d]) - 1);
@@ -106,17 +116,16 @@ namespace Debond
       }
     const double value = modulus(variables);
     if (!(value >= 1e-6 && value <= 1e12))
-      throw EntryError(entry,
-                       "it is " +
-                         (std::isfinite(value) ? to_text(value, 6) + " MPa" :
-                                                 std::string("no number")) +
-                         " at " + in_words(X) +
-                         (image ?
-                            ", where grey = " + to_text(variables.back(), 6) :
-                            "") +
-                         ": expected 1e-6 to 1e12 MPa; max(10, ...) makes "
-                         "what is empty soft",
-                       text);
+      throw EntryError(
+        entry,
+        "it is " +
+          (std::isfinite(value) ? to_text(value, 6) + " MPa" :
+                                  std::string("no number")) +
+          " at " + in_words(X) +
+          (image ? ", where grey = " + to_text(variables.back(), 6) : "") +
+          ": expected 1e-6 to 1e12 MPa" +
+          (value < 1e-6 ? "; max(10, ...) makes what is empty soft" : ""),
+        text);
     return value;
   }
 
@@ -149,21 +158,56 @@ namespace Debond
 
 
 
-  double
-  ModulusField::mean(const Eigen::Vector3d &lower,
-                     const Eigen::Vector3d &upper) const
+  ModulusField::Range
+  ModulusField::range(const Eigen::Vector3d &lower,
+                      const Eigen::Vector3d &upper) const
   {
     constexpr unsigned int n    = 20;
     const Eigen::Vector3d  part = (upper - lower) / n;
-    double                 sum  = 0.;
+    Range                  range{1e300, 0., 0.};
     for (unsigned int k = 0; k < n; ++k)
       for (unsigned int j = 0; j < n; ++j)
         for (unsigned int i = 0; i < n; ++i)
           {
-            const Eigen::Vector3d corner =
-              lower + part.cwiseProduct(Eigen::Vector3d(i, j, k));
-            sum += at(corner + 0.5 * part);
+            const double value =
+              at(lower +
+                 part.cwiseProduct(Eigen::Vector3d(i + 0.5, j + 0.5, k + 0.5)));
+            range.smallest = std::min(range.smallest, value);
+            range.largest  = std::max(range.largest, value);
+            range.mean += value / (n * n * n);
           }
-    return sum / (n * n * n);
+    return range;
+  }
+
+
+
+  std::string
+  ModulusField::extent_text() const
+  {
+    std::string from, to;
+    // no 1e-16
+    const auto text = [&](const double x, const unsigned int d) {
+      return to_text(std::abs(x) < 1e-9 * image->length(d) ? 0. : x, 6);
+    };
+    for (unsigned int d = 0; d < 3; ++d)
+      {
+        from += (d == 0 ? "" : ", ") + text(corner[d], d);
+        to += (d == 0 ? "" : ", ") + text(corner[d] + image->length(d), d);
+      }
+    return "from (" + from + ") to (" + to + ") mm";
+  }
+
+
+
+  std::string
+  ModulusField::voxels_text() const
+  {
+    if (!image)
+      return "";
+    const auto [least, largest] =
+      std::minmax_element(image->grey.begin(), image->grey.end());
+    return image->grid_text() + " voxels " + extent_text() +
+           ", grey values from " + to_text(*least, 6) + " to " +
+           to_text(*largest, 6) + "\n";
   }
 } // namespace Debond

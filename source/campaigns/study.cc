@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
@@ -66,6 +67,8 @@ namespace Debond
       std::string              directory;
       unsigned int             reference  = 0; ///< number of a variant, 0: none
       unsigned int             group_size = 1; ///< processes for a variant
+      dealii::Timer            since_table;
+      double                   time_between_tables = 2; ///< [s]
 
       /** Reads all variants. */
       Study(const std::vector<SceneEntry> &entries, const std::string &name)
@@ -242,8 +245,6 @@ namespace Debond
         for (unsigned int i = 0; i < variants.size(); ++i)
           if (!variants[i].done)
             waiting.add(i, variants[i].scene, variants[i].n_repetitions == 1);
-        dealii::Timer since_table;
-        double        time_between_tables = 2; // [s]
         while (true)
           {
             while (!waiting.empty() && running.size() < n_jobs)
@@ -278,15 +279,25 @@ namespace Debond
             out << ++n_ended << '/' << variants.size() << ' ' << variant.name
                 << ": " << outcome_of(variant) << std::endl;
 
-            // The table of a large study takes a while: most of the time is not
-            // to go into it.
-            if (since_table.wall_time() < time_between_tables)
-              continue;
-            const dealii::Timer clock;
-            write_table();
-            time_between_tables = std::max(2., 50. * clock.wall_time());
-            since_table.restart();
+            write_table_at_times([] {});
           }
+      }
+
+
+
+      /** The table of a large study takes a while: most of the time is not to
+       *  go into it. @p prepare is called before. */
+      template <typename Prepare>
+      void
+      write_table_at_times(const Prepare &prepare)
+      {
+        if (since_table.wall_time() < time_between_tables)
+          return;
+        const dealii::Timer clock;
+        prepare();
+        write_table();
+        time_between_tables = std::max(2., 50. * clock.wall_time());
+        since_table.restart();
       }
 
 
@@ -341,6 +352,19 @@ namespace Debond
 
 
 
+      /** A line on the console; of other groups than the first one, whose
+       *  std::cout is silent, past it. */
+      static void
+      say(const std::string &line, std::ostream *const out)
+      {
+        if (out != nullptr)
+          *out << line << std::endl;
+        else
+          dprintf(STDOUT_FILENO, "%s\n", line.c_str());
+      }
+
+
+
       // Variants that share bodies follow each other, and a group keeps those
       // of the last one. Who gets free takes the next one; what has been done
       // is in the directories of the variants.
@@ -355,8 +379,11 @@ namespace Debond
         for (const auto &[bodies, numbers] : by_bodies)
           for (const unsigned int number : numbers)
             order.emplace_back(bodies, number);
-        const std::string next = directory + "/next-variant";
+        const std::string next  = directory + "/next-variant",
+                          ended = directory + "/ended-variants";
         write_file(next, "0\n");
+        write_file(ended, std::to_string(n_done()) + "\n");
+        const bool is_first_of_all = Ranks::is_first();
         Ranks::meet();
 
         std::vector<std::pair<unsigned int, std::string>> failures;
@@ -381,13 +408,24 @@ namespace Debond
                 failures.emplace_back(number, why);
               Ranks::meet();
               variant.end_run(why);
-              out << variant.name << ": " << outcome_of(variant) << std::endl;
+              if (Ranks::is_first()) // of its group
+                say(Text() << take_number(ended) + 1 << '/' << variants.size()
+                           << ' ' << variant.name << ": "
+                           << outcome_of(variant),
+                    is_first_of_all ? &out : nullptr);
+              if (is_first_of_all)
+                write_table_at_times([&] {
+                  for (Variant &other : variants)
+                    if (other.failure.empty())
+                      other.look_up();
+                });
               if (interrupting_signal_of_any() != 0)
                 break;
             }
         }
         Ranks::meet();
         remove_file(next);
+        remove_file(ended);
         collect(failures);
       }
 

@@ -20,6 +20,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <set>
 
 namespace Debond
@@ -80,6 +81,13 @@ namespace Debond
     {
       return {sizeof(Number), &append_numbers<Number>};
     }
+
+
+
+    const char *const unturned = "1 0 0 0 1 0 0 0 1";
+    const char *const axes_as_stored =
+      ": the axes are not turned; x, y, z are those of the rows, columns and "
+      "slices as they are stored";
 
 
 
@@ -156,7 +164,7 @@ namespace Debond
         {"MET_UINT", number_type<std::uint32_t>()},
         {"MET_FLOAT", number_type<float>()},
         {"MET_DOUBLE", number_type<double>()}};
-      std::string      bytes = read_input_bytes(filename, refuse, largest_image_MB);
+      std::string bytes = read_input_bytes(filename, refuse, largest_image_MB);
       const MetaHeader header(bytes, refuse);
       VoxelImage       image;
       const auto       size = header.numbers("DimSize", "");
@@ -170,6 +178,11 @@ namespace Debond
                        header.text("Position", header.text("Origin", "0 0 0")));
       for (unsigned int d = 0; d < 3; ++d)
         image.corner[d] -= 0.5 * image.spacing[d];
+      for (const char *const name :
+           {"TransformMatrix", "Rotation", "Orientation"})
+        if (header.text(name, unturned) != unturned)
+          image.remarks.push_back(name + (" = " + header.text(name, "")) +
+                                  axes_as_stored);
       if (header.is_true("CompressedData"))
         refuse("its data are compressed: expected CompressedData = False");
       if (header.text("ElementNumberOfChannels", "1") != "1")
@@ -231,13 +244,27 @@ namespace Debond
                           file->xyz_units == NIFTI_UNITS_MICRON ? 1e-3 :
                                                                   1.;
       VoxelImage   image;
-      image.n         = {{static_cast<unsigned int>(file->nx),
-                          static_cast<unsigned int>(file->ny),
-                          static_cast<unsigned int>(file->nz)}};
-      image.spacing   = {{unit * file->dx, unit * file->dy, unit * file->dz}};
-      image.corner    = {{unit * (file->qoffset_x - 0.5 * file->dx),
-                          unit * (file->qoffset_y - 0.5 * file->dy),
-                          unit * (file->qoffset_z - 0.5 * file->dz)}};
+      image.n       = {{static_cast<unsigned int>(file->nx),
+                        static_cast<unsigned int>(file->ny),
+                        static_cast<unsigned int>(file->nz)}};
+      image.spacing = {{unit * file->dx, unit * file->dy, unit * file->dz}};
+      image.corner  = {{unit * (file->qoffset_x - 0.5 * file->dx),
+                        unit * (file->qoffset_y - 0.5 * file->dy),
+                        unit * (file->qoffset_z - 0.5 * file->dz)}};
+      if (file->xyz_units == NIFTI_UNITS_UNKNOWN)
+        image.remarks.push_back("it says no unit of length: taken as mm");
+      const auto is_turned = [](const auto &to_place) {
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int j = 0; j < 3; ++j)
+            if ((std::abs(to_place.m[i][j]) > 1e-6) != (i == j) ||
+                (i == j && to_place.m[i][j] < 0.))
+              return true;
+        return false;
+      };
+      if ((file->qform_code > 0 && is_turned(file->qto_xyz)) ||
+          (file->sform_code > 0 && is_turned(file->sto_xyz)))
+        image.remarks.push_back(
+          std::string("its header turns or mirrors the axes") + axes_as_stored);
       const auto type = types.find(file->datatype);
       if (type == types.end())
         refuse("its voxels are of the type " +
@@ -330,13 +357,8 @@ namespace Debond
           image.corner[d]  = grid[d].first - 0.5 * grid[d].spacing;
         }
       const std::size_t n = n_voxels(image, refuse);
-      if (rows.size() != n)
-        refuse("it has " + std::to_string(rows.size()) +
-               " rows: expected one for each of the " +
-               std::to_string(image.n[0]) + " x " + std::to_string(image.n[1]) +
-               " x " + std::to_string(image.n[2]) + " voxels");
       image.grey.assign(n, std::nanf(""));
-      for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t i = 0; i < rows.size(); ++i)
         {
           const std::size_t place =
             grid[0].index(rows[i][0]) +
@@ -347,38 +369,102 @@ namespace Debond
                    ": there is another row for this voxel");
           image.grey[place] = static_cast<float>(rows[i][3]);
         }
+      const std::size_t missing =
+        std::find_if(image.grey.begin(),
+                     image.grey.end(),
+                     [](const float grey) { return std::isnan(grey); }) -
+        image.grey.begin();
+      if (missing < n)
+        {
+          const std::array<std::size_t, 3> index{
+            {missing % image.n[0],
+             missing / image.n[0] % image.n[1],
+             missing / image.n[0] / image.n[1]}};
+          std::string where;
+          for (unsigned int d = 0; d < 3; ++d)
+            where += (d == 0 ? "" : ", ") + std::string(1, "xyz"[d]) + " = " +
+                     to_text(grid[d].first + index[d] * grid[d].spacing, 6);
+          refuse("it has " + std::to_string(rows.size()) +
+                 " rows: expected one for each of the " + image.grid_text() +
+                 " voxels; the first that is missing is at " + where);
+        }
       return image;
     }
   } // namespace
 
 
 
-  VoxelImage
+  namespace
+  {
+    VoxelImage
+    read_anew(const std::string &filename, const std::string &entry)
+    {
+      const FileRefusal refuse = [&](const std::string &why) {
+        throw EntryError(entry, why, filename);
+      };
+      const std::string lower   = boost::to_lower_copy(filename);
+      const auto        ends_in = [&](const std::string &end) {
+        return boost::ends_with(lower, end);
+      };
+      VoxelImage image;
+      if (ends_in(".mhd") || ends_in(".mha"))
+        image = read_meta_image(filename, refuse);
+      else if (ends_in(".nii") || ends_in(".nii.gz"))
+        {
+          read_input_bytes(filename, refuse, largest_image_MB); // it is there
+          image = read_nifti(filename, refuse);
+        }
+      else if (ends_in(".csv"))
+        image = read_csv_voxels(filename, entry, refuse);
+      else
+        refuse("expected the name of a .mhd, .mha, .nii, .nii.gz or .csv file");
+      for (const double edge : image.spacing)
+        if (!(edge > 0. && std::isfinite(edge)))
+          refuse("its voxels have an edge of " + to_text(edge) +
+                 " mm: expected more than 0");
+      return image;
+    }
+  } // namespace
+
+
+
+  std::string
+  VoxelImage::grid_text() const
+  {
+    return std::to_string(n[0]) + " x " + std::to_string(n[1]) + " x " +
+           std::to_string(n[2]);
+  }
+
+
+
+  std::shared_ptr<const VoxelImage>
   read_voxel_image(const std::string &filename, const std::string &entry)
   {
-    const FileRefusal refuse = [&](const std::string &why) {
-      throw EntryError(entry, why, filename);
+    struct Known
+    {
+      std::weak_ptr<const VoxelImage> image;
+      std::filesystem::file_time_type time;
     };
-    const std::string lower   = boost::to_lower_copy(filename);
-    const auto        ends_in = [&](const std::string &end) {
-      return boost::ends_with(lower, end);
+    static std::map<std::string, Known> known;
+    static std::mutex                   one_at_a_time;
+    const std::lock_guard<std::mutex>   lock(one_at_a_time);
+    // that of the latest of its files
+    const auto time_of = [&](const VoxelImage &image) {
+      std::error_code none;
+      auto            time = std::filesystem::last_write_time(filename, none);
+      if (!image.data_file.empty())
+        time =
+          std::max(time,
+                   std::filesystem::last_write_time(image.data_file, none));
+      return time;
     };
-    VoxelImage image;
-    if (ends_in(".mhd") || ends_in(".mha"))
-      image = read_meta_image(filename, refuse);
-    else if (ends_in(".nii") || ends_in(".nii.gz"))
+    Known &file  = known[filename];
+    auto   image = file.image.lock();
+    if (!image || time_of(*image) != file.time)
       {
-        read_input_bytes(filename, refuse, largest_image_MB); // it is there
-        image = read_nifti(filename, refuse);
+        image = std::make_shared<VoxelImage>(read_anew(filename, entry));
+        file  = {image, time_of(*image)};
       }
-    else if (ends_in(".csv"))
-      image = read_csv_voxels(filename, entry, refuse);
-    else
-      refuse("expected the name of a .mhd, .mha, .nii, .nii.gz or .csv file");
-    for (const double edge : image.spacing)
-      if (!(edge > 0. && std::isfinite(edge)))
-        refuse("its voxels have an edge of " + to_text(edge) +
-               " mm: expected more than 0");
     return image;
   }
 } // namespace Debond

@@ -333,6 +333,8 @@ namespace Debond
   std::string
   why_no_closed_form(const Scene &scene)
   {
+    if (scene.bone.modulus)
+      return "Young's modulus of the bone varies";
     try
       {
         const LoadHistory history(scene);

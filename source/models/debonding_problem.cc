@@ -137,6 +137,8 @@ namespace Debond
         Console              &console = report.console;
         report.begin(simulation.rows());
         console.headline(unknowns_of(simulation.system()));
+        if (scene.bone.modulus)
+          console.headline(scene.bone.modulus_in_words());
         if (scene.bone.element == ElementKind::spline ||
             scene.bulk_solver() == BulkSolver::multigrid)
           console.headline(scene.bulk_solver_in_words());
@@ -409,6 +411,8 @@ namespace Debond
     const ContactInterface    &interface = system.interface;
     const std::vector<double> &times     = scene.load_steps.times;
     out << unknowns_of(system) << '\n';
+    if (scene.bone.modulus)
+      out << scene.bone.modulus_in_words() << '\n';
     if (scene.bone.element == ElementKind::spline ||
         scene.bulk_solver() == BulkSolver::multigrid)
       out << scene.bulk_solver_in_words() << '\n';

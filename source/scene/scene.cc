@@ -70,12 +70,8 @@ namespace Debond
       scene.load_steps.adaptive = true;
     try
       {
-        scene.interface.friction =
-          create_friction_law(scene.interface.friction_choice);
         scene.chuck.read_tables();
-        scene.bone.rim = {
-          {0.5 * scene.implant.width(0), 0.5 * scene.implant.width(1)}};
-        scene.bone.read_modulus(scene.implant.characteristic_radius());
+        scene.take_values();
         scene.check();
       }
     catch (const InputError &error)
@@ -84,6 +80,16 @@ namespace Debond
       }
     scene.completed_parameters = table.text() + identities(scene);
     return scene;
+  }
+
+
+
+  void
+  Scene::take_values()
+  {
+    interface.friction = create_friction_law(interface.friction_choice);
+    bone.rim           = {{0.5 * implant.width(0), 0.5 * implant.width(1)}};
+    bone.read_modulus(implant.characteristic_radius());
   }
 
 

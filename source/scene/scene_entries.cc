@@ -265,8 +265,8 @@ namespace Debond
                       0),
         "Entries by which the rows are differentiated, into "
         "sensitivities.csv, as --set names them: Interface/Sliding threshold, "
-        "Bone/Young modulus, Chuck/Rotation z/Value. A Value of the chuck is "
-        "varied by a factor. Exactly with finite elements, for friction laws "
+        "Bone/Young modulus, Chuck/Rotation z/Value. A Value of the chuck, or a "
+        "Young modulus that is an expression, is varied by a factor. Exactly with finite elements, for friction laws "
         "that do not depend on the rate, penalty stiffnesses, viscosity, "
         "bonding, Young's moduli and motion of the chuck; by differences with "
         "closed forms. Empty: none.");
@@ -299,7 +299,7 @@ namespace Debond
         Allowed::whole_number(0, std::numeric_limits<int>::max()),
         "Planned steps (where rows are accepted steps: rows) between "
         "checkpoints, from which `debond --resume DIR' goes on. 0: only when "
-        "SIGINT, SIGTERM or SIGHUP interrupts the run. For Model = finite "
+        "SIGINT, SIGTERM, SIGHUP or SIGUSR1 interrupts the run. For Model = finite "
         "elements.");
       table.add("Console",
                 output.quiet,

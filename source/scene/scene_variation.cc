@@ -161,7 +161,14 @@ namespace Debond
     variation_by(const Scene &scene, const SceneEntry &entry)
     {
       const double h = scene.model == ModelKind::finite_elements ? 1e-5 : 1e-3;
-      const bool   is_factor =
+      if (scene.bone.modulus && entry.full_name() == "Bone / Young modulus")
+        { // one that varies, by a factor
+          SceneVariation result{entry.full_name(), scene, scene, 2. * h};
+          result.plus.bone.young_modulus *= 1. + h;
+          result.minus.bone.young_modulus *= 1. - h;
+          return result;
+        }
+      const bool is_factor =
         entry.subsections[0] == "Chuck" && entry.name == "Value";
       const auto   number = read_number(entry.value);
       const double value  = is_factor ? 1. : number.value_or(0.);

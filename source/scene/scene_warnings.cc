@@ -1,3 +1,4 @@
+#include <debond/bulk/modulus_field.h>
 #include <debond/input/entry_table.h>
 #include <debond/scene/scene.h>
 #include <debond/support/number_text.h>
@@ -55,6 +56,9 @@ namespace Debond
                  "body is too stiff: compare with finer Cells, or take "
                  "Element = spline");
         }
+      if (scene.bone.modulus && scene.bone.modulus->voxels() != nullptr)
+        for (const std::string &remark : scene.bone.modulus->voxels()->remarks)
+          note(true, "Voxel file", scene.bone.voxel_file + ": " + remark);
       for (const unsigned int d : {0, 1})
         note(scene.implant.width(d) == scene.bone.size[d],
              "width",

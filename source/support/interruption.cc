@@ -43,7 +43,7 @@ namespace Debond
   {
     if (pipe_ends[0] < 0 && pipe2(pipe_ends, O_CLOEXEC | O_NONBLOCK) != 0)
       return; // then signals end the process as they always do
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1})
       {
         struct sigaction action = {};
         sigaction(signal, nullptr, &action);
@@ -62,6 +62,7 @@ namespace Debond
   {
     std::signal(SIGINT, SIG_IGN);
     std::signal(SIGHUP, SIG_IGN);
+    std::signal(SIGUSR1, SIG_IGN);
     std::signal(SIGTERM, SIG_DFL);
   }
 

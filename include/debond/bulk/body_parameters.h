@@ -155,6 +155,9 @@ namespace Debond
      *  EntryError. */
     void
     read_modulus(double radius);
+    /** What `modulus` is and where its voxels are, as lines of text. */
+    std::string
+    modulus_in_words() const;
 
     /** Refuses what makes no sense together. Throws EntryError; @p section is
      *  "Bone" or "Implant". */

@@ -6,7 +6,8 @@
 
 #include <Eigen/Core>
 
-#include <optional>
+#include <array>
+#include <memory>
 #include <string>
 
 namespace Debond
@@ -16,11 +17,13 @@ namespace Debond
   class ModulusField
   {
   public:
-    /** @p image, with its corner where it is in the scene, or none. @p radius:
-     *  the constant R [mm]. Throws EntryError if the expression is invalid. */
-    ModulusField(const std::string        &expression,
-                 std::optional<VoxelImage> image,
-                 double                    radius);
+    /** @p image: voxels, whose lowest corner is at @p corner [mm] in the scene,
+     *  or null. @p radius: the constant R [mm]. Throws EntryError if the
+     *  expression is invalid. */
+    ModulusField(const std::string                &expression,
+                 std::shared_ptr<const VoxelImage> image,
+                 const std::array<double, 3>      &corner,
+                 double                            radius);
 
     /** What stands for the box with these corners [MPa]: the mean over a sample
      *  for each voxel in it, or, without voxels, the value at @p point. Throws
@@ -31,9 +34,13 @@ namespace Debond
              const Eigen::Vector3d &upper,
              const Eigen::Vector3d &point) const;
 
-    /** Mean over a box [MPa], by some thousand points. */
-    double
-    mean(const Eigen::Vector3d &lower, const Eigen::Vector3d &upper) const;
+    /** Moduli in a box [MPa], by some thousand points. */
+    struct Range
+    {
+      double smallest, mean, largest;
+    };
+    Range
+    range(const Eigen::Vector3d &lower, const Eigen::Vector3d &upper) const;
 
     /** Whether it is the same everywhere at the same z. */
     bool
@@ -41,20 +48,29 @@ namespace Debond
     {
       return layered;
     }
-    const std::optional<VoxelImage> &
+    const VoxelImage *
     voxels() const
     {
-      return image;
+      return image.get();
     }
+    /** A line "125 x 125 x 50 voxels from (-6.25, -6.25, -5) to (6.25, 6.25, 0)
+     *  mm, grey values from 0 to 200"; empty without voxels. */
+    std::string
+    voxels_text() const;
 
   private:
     double
     at(const Eigen::Vector3d &X) const;
 
-    const std::string               text;
-    const std::optional<VoxelImage> image;
-    const bool                      layered;
-    const Expression                modulus;
+    /** From where to where there are voxels. */
+    std::string
+    extent_text() const;
+
+    const std::string                       text;
+    const std::shared_ptr<const VoxelImage> image;
+    const std::array<double, 3>             corner;
+    const bool                              layered;
+    const Expression                        modulus;
   };
 } // namespace Debond
 #endif

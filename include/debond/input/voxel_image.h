@@ -2,6 +2,7 @@
 #define debond_input_voxel_image_h
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,12 +18,17 @@ namespace Debond
     std::array<double, 3> corner{{0, 0, 0}};
     std::vector<float>    grey;      ///< x is fastest
     std::string           data_file; ///< that the file refers to, if any
+    /** What the file says, or does not say, and is not heeded, as sentences. */
+    std::vector<std::string> remarks;
 
     double
     length(const unsigned int direction) const
     {
       return n[direction] * spacing[direction];
     }
+    /** "125 x 125 x 50" */
+    std::string
+    grid_text() const;
   };
 
   /**
@@ -35,9 +41,10 @@ namespace Debond
    *  - `.csv`: columns x, y, z [mm], the centres of all voxels in any order,
    *    and grey.
    *
+   * An image that is in use is not read again unless the file has changed.
    * Throws EntryError for the @p entry of the scene that gave the file.
    */
-  VoxelImage
+  std::shared_ptr<const VoxelImage>
   read_voxel_image(const std::string &filename, const std::string &entry);
 } // namespace Debond
 #endif

@@ -48,10 +48,10 @@ namespace Debond
   /** The subsection `Study`, for scenes whose entries hold several values. */
   struct StudyParameters
   {
-    unsigned int reference_variant = 0; ///< 0: none
-    unsigned int factors_at_once   = 0; ///< 0: all combinations
+    unsigned int reference_variant     = 0; ///< 0: none
+    unsigned int factors_at_once       = 0; ///< 0: all combinations
     unsigned int processes_per_variant = 1; ///< of mpirun
-    unsigned int repetitions       = 1; ///< runs of each variant
+    unsigned int repetitions           = 1; ///< runs of each variant
   };
 
   /** What a calibration makes small. */
@@ -72,15 +72,15 @@ namespace Debond
      *  all; 0: from the residuals. */
     std::vector<double>      noise{0.};
     std::vector<std::string> noise_columns; ///< of the file, instead of noise
-    double              angle_offset       = 0; ///< [deg]
-    double              slack              = 0; ///< [deg]
-    double              machine_compliance = 0; ///< [deg/(N mm)]
-    double              torque_offset      = 0; ///< [N mm]
-    MisfitMeasure       measure            = MisfitMeasure::least_squares;
-    double              largest_misfit     = 0.1; ///< e_rel
-    unsigned int        starts             = 20;
-    unsigned int        seed               = 1;
-    bool                profiles           = false; ///< of the likelihood
+    double                   angle_offset       = 0; ///< [deg]
+    double                   slack              = 0; ///< [deg]
+    double                   machine_compliance = 0; ///< [deg/(N mm)]
+    double                   torque_offset      = 0; ///< [N mm]
+    MisfitMeasure            measure            = MisfitMeasure::least_squares;
+    double                   largest_misfit     = 0.1; ///< e_rel
+    unsigned int             starts             = 20;
+    unsigned int             seed               = 1;
+    bool                     profiles           = false; ///< of the likelihood
   };
 
   /** The subsection `Output` of a scene. */
@@ -176,6 +176,11 @@ namespace Debond
 
     void
     declare(EntryTable &table);
+
+    /** Makes what entries stand for: the friction law, the modulus of the bone,
+     *  and where the rim is. After entries have been set. Throws InputError. */
+    void
+    take_values();
 
     /** Fills completed_parameters of a scene that a program has made. */
     void

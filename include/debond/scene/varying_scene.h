@@ -30,8 +30,7 @@ namespace Debond
     {
       for (const SceneEntry &entry : entries)
         table.set(entry);
-      scene.interface.friction =
-        create_friction_law(scene.interface.friction_choice);
+      scene.take_values();
       return scene;
     }
 

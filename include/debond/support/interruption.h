@@ -19,8 +19,8 @@ namespace Debond
     const int signal;
   };
 
-  /** From now on SIGINT, SIGTERM and SIGHUP, but for those that are ignored,
-   *  only ask to stop; a second one ends the process at once. */
+  /** From now on SIGINT, SIGTERM, SIGHUP and SIGUSR1, but for those that are
+   * ignored, only ask to stop; a second one ends the process at once. */
   void
   catch_interruptions();
 

@@ -1011,10 +1011,11 @@ def multigrid_contrast():
     def cycles(*changes):
         return '%d' % run_on(1, 'Bone/Cells=40, 40, 10', *TURN, *MULTIGRID, *changes)['multigrid_most_cycles']
     lines = [['penalty stiffness 585, 1800, 18 000, 180 000 MPa/mm',
-              ', '.join(cycles('Interface/Penalty stiffness=%d' % eps) for eps in (585, 1800, 18000, 180000))],
-             ['the same, coefficients of friction 10 and 5', ', '.join(
-                 cycles('Interface/Penalty stiffness=%d' % eps, 'Interface/Friction coefficient unbroken=10',
-                        'Interface/Friction coefficient broken=5') for eps in (585, 18000))]]
+              ', '.join(cycles('Interface/Penalty stiffness=%d' % eps) for eps in (585, 1800, 18000, 180000))]]
+    for eps, text in ((585, '585'), (18000, '18 000')):
+        lines.append(['Coulomb friction of 0.4, 2, 10, turned by 5 degrees at once, ' + text + ' MPa/mm', ', '.join(
+            cycles('Load steps/Times=0, 1, 1.5', 'Interface/Penalty stiffness=%d' % eps, 'Interface/Friction law=coulomb',
+                   'Interface/Friction coefficient broken=%g' % mu) for mu in (0.4, 2, 10))])
     for name, where in (('cubes of 0.6 mm', 'sin(pi * x / 0.6) * sin(pi * y / 0.6) * sin(pi * z / 0.6) > 0'), ('a layer of 1 mm', 'z > -1'),
                         ('a layer of 1 mm, softer on top', 'z < -1')):
         lines.append(['modulus of 18 000 MPa and less by 10, 100, 1000: ' + name,

@@ -4,6 +4,7 @@
 #include <debond/input/entry_table.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
+#include <debond/support/ranks.h>
 
 #include <algorithm>
 #include <cmath>
@@ -357,7 +358,7 @@ namespace Debond
     void
     check_cells(const BodyParameters &body, const EntryCheck &refuse)
     {
-      constexpr double largest_number = 2e6;
+      const double largest_number = 2e6 * Ranks::number();
       const double     n_cells =
         static_cast<double>(body.cells[0]) * body.cells[1] * body.cells[2];
       refuse(n_cells > largest_number,

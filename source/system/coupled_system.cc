@@ -18,7 +18,9 @@
 // on the fine one. The interior of a body is condensed, as step-44 condenses
 // pressure and dilatation; but there it is done cell by cell and in every
 // iteration, here it is the whole inside of a body, and once, since the
-// stiffness in the body's own frame hardly changes.
+// stiffness in the body's own frame hardly changes. A bone too large for that
+// is not condensed: its nodes are found together with these unknowns
+// (solve_whole()).
 //
 // A step calls predict(), then evaluate(), solve() and correct() in turn until
 // the residual is small, then commit() or rollback(). All that happens before

@@ -3,13 +3,16 @@
 // tolerance of 1e-11 and the same steps. The direct solver is what the other
 // tests compare with exact solutions and independent codes.
 //
-// Eight scenes: trilinear and spline elements, Neo-Hooke, a loaded chuck with a
-// compliant machine, a pattern, the bone as slave, a path that is followed, and
-// two bones whose modulus varies.
+// Scenes: trilinear and spline elements, Neo-Hooke, a loaded chuck with a
+// compliant machine, a pattern, the bone as slave, a path that is followed, two
+// bones whose modulus varies, a cap with bilinear faces and adaptive steps; and
+// derivatives by parameters.
 
 #include <debond/models/simulation.h>
 #include <debond/support/ranks.h>
 #include <debond/support/runtime.h>
+
+#include <algorithm>
 
 #include "../checks.h"
 #include "../pressed_and_turned.h"
@@ -47,13 +50,28 @@ operator+(Changes a, const Changes &b)
 
 
 
-std::vector<TorqueRow>
-rows_of(const Changes &changes)
+/** Of a run: its rows, and the derivatives of their forces and moments. */
+struct Results
 {
-  Simulation simulation(Scene::from_text(coin, changes));
-  simulation.run();
-  return simulation.rows();
-}
+  std::vector<TorqueRow>                  rows;
+  std::vector<Simulation::RowDerivatives> derivatives;
+
+  Results() = default;
+  explicit Results(const Changes &changes)
+  {
+    const Scene scene = Scene::from_text(coin, changes);
+    Simulation  simulation(scene);
+    simulation.differentiate(variations_of(scene));
+    simulation.run();
+    // Where adaptive steps end depends on the last digits of their estimates.
+    const auto &times = scene.load_steps.times;
+    for (const TorqueRow &row : simulation.rows())
+      if (!scene.load_steps.adaptive ||
+          std::count(times.begin(), times.end(), row.time) > 0)
+        rows.push_back(row);
+    derivatives = simulation.row_derivatives();
+  }
+};
 
 
 
@@ -81,18 +99,45 @@ difference(const std::vector<TorqueRow> &one,
 
 
 
+/** The same of derivatives of the torque, for each parameter by itself. */
+double
+difference(const std::vector<Simulation::RowDerivatives> &one,
+           const std::vector<Simulation::RowDerivatives> &other)
+{
+  if (one.size() != other.size())
+    return std::numeric_limits<double>::infinity();
+  double result = 0.;
+  for (unsigned int j = 0; j < other.front().torque.size(); ++j)
+    {
+      double change = 0., largest = 0.;
+      for (unsigned int i = 0; i < one.size(); ++i)
+        {
+          grow(change, std::abs(one[i].torque[j] - other[i].torque[j]));
+          grow(largest, std::abs(other[i].torque[j]));
+        }
+      grow(result, change / largest);
+    }
+  return result;
+}
+
+
+
 void
 compare(const std::string &name, const Changes &changes)
 {
-  const auto whole = rows_of(changes + Changes{"Bone/Bulk solver=multigrid"});
-  std::vector<TorqueRow> direct;
+  const Results whole(changes + Changes{"Bone/Bulk solver=multigrid"});
+  Results       direct;
   {
     const Ranks::Groups alone(1);
-    direct = rows_of(changes + Changes{"Bone/Bulk solver=direct"});
+    direct = Results(changes + Changes{"Bone/Bulk solver=direct"});
   }
-  const double result = difference(whole, direct);
-  if (Ranks::is_first())
-    report(name, result, 1e-8);
+  if (!Ranks::is_first())
+    return;
+  report(name, difference(whole.rows, direct.rows), 1e-8);
+  if (!direct.derivatives.empty())
+    report(name + ", derivatives",
+           difference(whole.derivatives, direct.derivatives),
+           1e-6);
 }
 
 
@@ -124,5 +169,15 @@ main()
   compare("splines, modulus of 1 to 100 by the place, Neo-Hooke",
           splines + Changes{"Bone/Young modulus=if(x + z > -1, 18000, 180)",
                             "Bone/Material=neo-hookean"});
+  compare("a cap with bilinear faces, adaptive steps",
+          {"Implant/Shape=cap",
+           "Implant/Contact surface=bilinear",
+           "Bone/Contact surface=bilinear",
+           "Load steps/Adaptive=true",
+           "Load steps/Steps=1, 1, 1"});
+  compare("a modulus along x",
+          {"Bone/Young modulus=18000 * exp(0.3 * x)",
+           "Output/Sensitivities=Interface/Sliding threshold, Bone/Young "
+           "modulus, Chuck/Translation z/Value"});
   Ranks::finish();
 }

@@ -58,10 +58,11 @@ check(const std::string &name, BodyParameters parameters)
   parameters.material    = Material::linear;
   parameters.bulk_solver = BulkSolver::lattice;
   const BodyMesh mesh(parameters, Side::bone);
-  const auto     bulk =
-    make_lattice_bulk(mesh,
-                      NeoHookean::from_young(parameters.young_modulus,
-                                             parameters.poisson_ratio));
+  const auto     bulk = make_lattice_bulk(
+    mesh,
+    EnrichedCells(mesh,
+                  NeoHookean::from_young(parameters.young_modulus,
+                                         parameters.poisson_ratio)));
   std::vector<bool> contact(mesh.surface().n_control_points(), false);
   contact[parameters.cells[0] + 3]  = true; // not at a side
   const std::vector<unsigned int> c = bulk->set_contact(contact);

@@ -13,7 +13,7 @@ namespace Debond
     switch (body.bulk_solver)
       {
         case BulkSolver::lattice:
-          return make_lattice_bulk(mesh, material);
+          return make_lattice_bulk(mesh, EnrichedCells(mesh, material));
         case BulkSolver::multigrid:
           return make_multigrid_bulk(mesh, material);
         default:

@@ -174,8 +174,8 @@ namespace Debond
     class LatticeBulk : public CondensingBulk
     {
     public:
-      LatticeBulk(const BodyMesh &mesh, const NeoHookean &material)
-        : CondensingBulk(mesh, material)
+      LatticeBulk(const BodyMesh &mesh, const EnrichedCells &cells)
+        : CondensingBulk(mesh, cells)
         , across{{Waves(mesh.parameters().cells[0], mesh.parameters().size[0]),
                   Waves(mesh.parameters().cells[1], mesh.parameters().size[1])}}
         , along_depth(
@@ -314,15 +314,16 @@ namespace Debond
       static constexpr int half_band = 8;
       using Column = Eigen::Matrix<double, half_band + 1, Eigen::Dynamic>;
 
-      /** Of Young's modulus, at the Gauss point @p q of all cells of a layer.
-       */
+      /** Of Young's modulus, the mean over the Gauss points of a layer from
+       *  @p q to q + 3, which are at the same depth. */
       double
       factor_of_layer(const unsigned int layer, const unsigned int q) const
       {
-        unsigned int cell = 0;
-        while (mesh.cells()[cell].layer != layer)
-          ++cell;
-        return cells.stiffness_factors(cell)[q];
+        double sum = 0.;
+        for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
+          if (mesh.cells()[cell].layer == layer)
+            sum += cells.stiffness_factors(cell).segment<4>(q).mean();
+        return sum / (across[0].n * across[1].n);
       }
 
       Level
@@ -566,8 +567,8 @@ namespace Debond
 
 
   std::unique_ptr<CondensingBulk>
-  make_lattice_bulk(const BodyMesh &mesh, const NeoHookean &material)
+  make_lattice_bulk(const BodyMesh &mesh, const EnrichedCells &cells)
   {
-    return std::make_unique<LatticeBulk>(mesh, material);
+    return std::make_unique<LatticeBulk>(mesh, cells);
   }
 } // namespace Debond

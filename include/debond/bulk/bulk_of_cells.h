@@ -31,6 +31,10 @@ namespace Debond
       : mesh(mesh)
       , cells(mesh, material)
     {}
+    BulkOfCells(const BodyMesh &mesh, const EnrichedCells &cells)
+      : mesh(mesh)
+      , cells(cells)
+    {}
 
     /** Adds to sums over the cells of this rank those of others, one entry for
      *  each vertex. */

@@ -56,7 +56,8 @@ namespace Debond
     virtual void
     add_unknowns(const double *unknowns, double *owned) const = 0;
 
-    /** y = K x, and a V-cycle for K y = x. Collective. */
+    /** y = K x, and a V-cycle, or what stands in its place, for K y = x.
+     *  Collective. */
     virtual void
     multiply(const double *x, double *y) const = 0;
     virtual void

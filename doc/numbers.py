@@ -141,8 +141,8 @@ def table(head, rows):
 
 
 def two_digits(value):
-    """3900"""
-    return '%.0f' % float('%.1e' % value)
+    """3900, 0.42"""
+    return '%.0f' % float('%.1e' % value) if value >= 10 else '%.2g' % value
 
 
 def percent(value, digits=2):
@@ -988,10 +988,6 @@ def n_unknowns(cells):
     return 3 * ((x + 1) * (y + 1) * (z - 1) + (x + 2) * (y + 2))
 
 
-def two_digits(value):
-    return '%.2g' % value if value < 100 else '%.0f' % value
-
-
 def pair(rows, name, form=None, scale=1):
     return ' / '.join(form % (scale * row[name]) if form else two_digits(scale * row[name]) for row in rows)
 
@@ -1042,20 +1038,43 @@ def multigrid_splines():
 
 
 @numbers('minutes')
+def multigrid_on_splines():
+    """Largest difference of the torque on two processes from that of the lattice solver, over the largest torque."""
+    changes = ('Bone/Cells=100, 100, 8', 'Implant/Cells=8, 4', 'Load steps/Adaptive=false', 'Load steps/Times=0, 1, 1.5', 'Load steps/Steps=1, 10',
+               'Load steps/Residual tolerance=1e-11', 'Output/Fields every=0')
+    curves = []
+    for ranks, more in ((0, ()), (2, MULTIGRID)):
+        directory = directory_of('ranks %d' % ranks, ('prm/coin_mode3_spline.prm',) + changes + more)
+        debond('prm/coin_mode3_spline.prm', directory, *changes, *more, ranks=ranks)
+        curves.append([row['torque_Nmm'] for row in rows_of(directory + '/torque.csv')])
+    return small(max(abs(a - b) for a, b in zip(*curves)) / max(curves[0]))
+
+
+CURVE = ('Output/Fields every=0', 'Implant/Cells=12, 4', 'Load steps/Tolerance=1e-3') + LINEAR + LAYERED + ADAPTIVE
+VARIES = ('Bone/Young modulus=18000 * exp(x / 10)',)
+
+
+@numbers('minutes')
 def multigrid_crossover():
-    curve = ('Output/Fields every=0', 'Implant/Cells=12, 4', 'Load steps/Tolerance=1e-3') + LINEAR + LAYERED + ADAPTIVE
-    varies = ('Bone/Young modulus=18000 * exp(x / 10)',)
     lines = []
     for cells in ('40, 40, 10', '75, 75, 15', '100, 100, 20'):
-        for name, changes in (('', ()), (', modulus varies', varies)):
+        for name, changes in (('', ()), (', modulus varies', VARIES)):
             if cells == '100, 100, 20' and not changes:
                 continue
             line = [cells.replace(', ', ' x ') + name, '%d k' % round(n_unknowns(cells) / 1000)]
             for solver in ('direct', 'multigrid'):
-                row = run_on(1, 'Bone/Cells=' + cells, 'Bone/Bulk solver=' + solver, *curve, *changes)
+                row = run_on(1, 'Bone/Cells=' + cells, 'Bone/Bulk solver=' + solver, *CURVE, *changes)
                 line += [two_digits(row['wall_seconds']), two_digits(row['peak_memory_MB'] / 1000)]
-            lines.append(line)
-    return table(['cells', 'unknowns', 'direct [s]', '[GB]', 'multigrid [s]', '[GB]'], lines)
+            lines.append(line + ['%d' % row['multigrid_systems'], '%d' % row['multigrid_cycles']])
+    return table(['cells', 'unknowns', 'direct [s]', '[GB]', 'multigrid [s]', '[GB]', 'linear systems', 'cycles in all'], lines)
+
+
+@numbers('minutes')
+def multigrid_large():
+    cells = '130, 130, 25'
+    row = run_on(2, 'Bone/Cells=' + cells, *CURVE)
+    return '%.0f minutes and %s GB in each of two processes (%s cells, %.2g M unknowns)' % (
+        row['wall_seconds'] / 60, two_digits(row['peak_memory_MB'] / 1000), cells.replace(', ', ' x '), n_unknowns(cells) / 1e6)
 
 
 @numbers('minutes')
@@ -1072,25 +1091,31 @@ def study_on_ranks():
 
 @numbers('minutes')
 def multigrid_model():
-    """Seconds of a cycle on P processes: what is dealt out, what all do, and messages of an assumed network."""
-    measured = run_on(1, 'Bone/Cells=75, 75, 15', *TURN, *MULTIGRID)
+    """Seconds of a whole curve on P processes: what is dealt out, what all of them do, and messages of an assumed network."""
+    measured = run_on(1, 'Bone/Cells=75, 75, 15', 'Bone/Bulk solver=multigrid', *CURVE, *VARIES)
     cycles = measured['multigrid_cycles']
-    of_all = measured['seconds_contact_tangent'] / cycles
-    per_unknown = measured['seconds_multigrid'] / cycles / n_unknowns('75, 75, 15') - of_all / n_unknowns('75, 75, 15')
+    of_all = measured['seconds_contact'] + measured['seconds_contact_tangent']
+    dealt_out = (measured['seconds_before_steps'] + measured['seconds_multigrid'] + measured['seconds_bulk'] -
+                 measured['seconds_contact_tangent']) / n_unknowns('75, 75, 15')
     latency, bandwidth, last_level = 2e-6, 10e9, 1e-3
     lines = []
     for name, n in (('1.3 M', 1.3e6), ('10 M', 1e7), ('100 M', 1e8)):
+        across = (5 * n / 3) ** (1 / 3)  # cells across a block of their shape
+        of_contact = 8 * 3 * 0.13 * across ** 2  # bytes of the unknowns under the implant
         line = [name]
         for processes in (1, 16, 64, 256, 1024):
             n_levels = max(1, math.log(n / 2000, 20))
-            side = 3 * (n / 3 / processes) ** (2 / 3)  # unknowns on a side of a part
-            messages = n_levels * 8 * 4 * (latency + 8 * side / bandwidth) + 8 * 2 * latency * math.log2(processes)
-            seconds = per_unknown * n / processes + (last_level + of_all) + messages * (processes > 1)
-            line.append('%.3g' % (1000 * seconds) + (' (%.0f %%)' % (100 * per_unknown * n / processes / seconds) if processes > 1 else ''))
+            side = 3 * (across / 5) * across / math.sqrt(processes)  # unknowns on a side of a part
+            neighbours = n_levels * 8 * 4 * (latency + 8 * side / bandwidth)
+            sums = math.log2(processes) * (8 * 2 * latency + 2 * of_contact / bandwidth)
+            own = dealt_out * n / processes
+            seconds = own + of_all + cycles * (last_level + (neighbours + sums) * (processes > 1))
+            line.append('%.0f (%.0f %%)' % (seconds, 100 * own / seconds))
         lines.append(line)
-    text = ('\nMeasured in one process with 75 x 75 x 15 cells: %.2g us of a cycle for each unknown, %.2g ms for the product with the tangent of the interface, which every process makes. '
-            'Assumed: 1 ms for the last level, which is gathered; on each level, of which there are log_20(n / 2000), eight exchanges with four neighbours of 2 us and 10 GB/s; eight sums '
-            'over all in an iteration. Milliseconds for a cycle (share of it that is dealt out):\n') % (1e6 * per_unknown, 1000 * of_all)
+    text = ('\nFrom the curve with 75 x 75 x 15 cells above: %.2g ms for each unknown of the bone, in %d cycles, are dealt out; %.2g s for points and their tangent are '
+            'not. Assumed: 1 ms in each cycle for the last level, which is gathered; on each level, of which there are log_20(n / 2000), eight exchanges with four neighbours of 2 us and 10 GB/s; eight '
+            'sums over all in an iteration, one of them of the unknowns under the implant. Seconds for the curve (share of them that is dealt out):\n'
+            ) % (1000 * dealt_out, cycles, of_all)
     return text + table(['unknowns of the bone', '1 process', '16', '64', '256', '1024'], lines)
 
 

@@ -134,7 +134,7 @@ namespace Debond
                                 const std::string &why) {
           throw first.with_place(EntryError("Study / " + entry, why));
         };
-        if (n % group_size != 0)
+        if (n > 1 && n % group_size != 0)
           refuse("Processes per variant",
                  "mpirun has started " + std::to_string(n) +
                    " processes, which are no groups of so many");

@@ -56,7 +56,8 @@ namespace
 Simulates the tangential debonding of an implant from bone as the scene file
 describes it, and writes torque curve, summary and fields into the directory
 that the scene names. A scene whose entries hold several values, {{a|b|c}}, is a
-study: all variants are run and gathered in study.csv.
+study: all variants are run and gathered in study.csv. `mpirun -np N debond ...`
+deals a large bone, or the variants of a study, out among N processes.
 
   --set ENTRY=VALUE   override an entry of the scene; may be repeated
                       --set "Interface/Penalty stiffness=1800"
@@ -470,8 +471,16 @@ main(int argc, char *argv[])
   if (Ranks::are_launched())
     {
       Ranks::start();
+      static struct : std::streambuf
+      {
+        int_type
+        overflow(const int_type c) override
+        {
+          return traits_type::not_eof(c);
+        }
+      } unheard;
       if (!Ranks::is_first())
-        std::cout.rdbuf(nullptr);
+        std::cout.rdbuf(&unheard);
     }
   try
     {

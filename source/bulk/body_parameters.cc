@@ -131,8 +131,9 @@ namespace Debond
       "small. `multigrid': "
       "by iterations for the whole system with algebraic multigrid, "
       "for bones that are too large to be factorised, on any number "
-      "of processes (mpirun). `auto': lattice where that is possible, the implant "
-      "stays away from the sides, and strains are below some 1 %. The "
+      "of processes (mpirun). `auto': multigrid with mpirun, or where factors "
+      "would not fit into the memory; lattice where that is possible, the "
+      "implant stays away from the sides, and strains are below some 1 %. The "
       "program says which, and why.");
     declare_material(table, true);
     table.leave_subsection();
@@ -359,7 +360,7 @@ namespace Debond
     check_cells(const BodyParameters &body, const EntryCheck &refuse)
     {
       const double largest_number = 2e6 * Ranks::number();
-      const double     n_cells =
+      const double n_cells =
         static_cast<double>(body.cells[0]) * body.cells[1] * body.cells[2];
       refuse(n_cells > largest_number,
              "Cells",

@@ -55,6 +55,8 @@ namespace Debond
       };
       return variant.done ? "T_max " + number_of("T_max_Nmm") + " N mm, " +
                               number_of("wall_seconds") + " s" :
+             variant.failure.rfind("interrupted", 0) == 0 ?
+                            variant.failure :
                             "failed: " + variant.failure;
     }
 

@@ -172,6 +172,9 @@ namespace Debond
         image.n[d] = static_cast<unsigned int>(std::max(0., size[d]));
       image.spacing =
         header.numbers("ElementSpacing", header.text("ElementSize", "1 1 1"));
+      if (header.text("ElementSpacing", header.text("ElementSize", "")) == "")
+        image.remarks.push_back(
+          "it has no ElementSpacing: edges of voxels are taken as 1 mm");
       // its place is that of the centre of the first voxel
       image.corner =
         header.numbers("Offset",

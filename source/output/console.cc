@@ -1,4 +1,5 @@
 #include <debond/output/console.h>
+#include <debond/support/ranks.h>
 
 #include <unistd.h>
 
@@ -12,7 +13,9 @@ namespace Debond
   Console::Console(const bool quiet, std::ostream &out)
     : quiet(quiet)
     , out(out)
-    , on_terminal(&out == &std::cout && isatty(STDOUT_FILENO))
+    // mpirun writes to a terminal of its own, whatever becomes of it
+    , on_terminal(&out == &std::cout && isatty(STDOUT_FILENO) &&
+                  !Ranks::are_launched())
     , start(std::chrono::steady_clock::now())
   {}
 

@@ -18,6 +18,24 @@ namespace Debond
 
 
     void
+    judge_voxels(const Scene &scene, const VoxelImage &voxels, const Note &note)
+    {
+      const std::string &file = scene.bone.voxel_file;
+      for (const std::string &remark : voxels.remarks)
+        note(true, "Voxel file", file + ": " + remark);
+      const auto  &size    = scene.bone.size;
+      const double largest = *std::max_element(voxels.spacing.begin(),
+                                               voxels.spacing.end()),
+                   extent  = *std::min_element(size.begin(), size.end());
+      note(largest > 0.5 * extent,
+           "size of voxels",
+           file + ": voxels of " + to_text(largest) + " mm in a bone of " +
+             to_text(extent) + " mm: is the file in um?");
+    }
+
+
+
+    void
     judge_bodies(const Scene &scene, const Note &note)
     {
       for (const bool is_bone : {true, false})
@@ -57,8 +75,7 @@ namespace Debond
                  "Element = spline");
         }
       if (scene.bone.modulus && scene.bone.modulus->voxels() != nullptr)
-        for (const std::string &remark : scene.bone.modulus->voxels()->remarks)
-          note(true, "Voxel file", scene.bone.voxel_file + ": " + remark);
+        judge_voxels(scene, *scene.bone.modulus->voxels(), note);
       for (const unsigned int d : {0, 1})
         note(scene.implant.width(d) == scene.bone.size[d],
              "width",

@@ -1,6 +1,7 @@
 #include <debond/bulk/body.h>
 #include <debond/bulk/bulk_solvers.h>
 #include <debond/support/input_error.h>
+#include <debond/support/ranks.h>
 
 #include <deal.II/base/exceptions.h>
 
@@ -126,7 +127,9 @@ namespace Debond
                        ", and cannot go on with " + names[solver_in_archive()] +
                        (solver == static_cast<int>(BulkSolver::multigrid) ?
                           ": --set \"Bone/Bulk solver=multigrid\" does" :
-                          ": it takes one process, without mpirun"));
+                        Ranks::number() > 1 ?
+                          ": it takes one process, without mpirun" :
+                          ": leave this entry as it was"));
   }
 
 

@@ -182,15 +182,18 @@ namespace Debond
         if (Ranks::sum(is_new) == 0.)
           return true;
         assemble(v);
-        if (!has_positive_diagonal())
+        if (!has_positive_diagonal() ||
+            (lattice && !lattice->set_up(K.trilinos_matrix())))
           {
             if (linearised_at.size() > 0)
-              assemble(linearised_at);
+              {
+                assemble(linearised_at);
+                if (lattice)
+                  lattice->set_up(K.trilinos_matrix());
+              }
             return false;
           }
-        if (lattice)
-          lattice->set_up(K.trilinos_matrix());
-        else
+        if (!lattice)
           set_up_multigrid();
         linearised_at = v;
         return true;
@@ -450,16 +453,8 @@ namespace Debond
     Ranks::start(); // before anything of Trilinos
     // a modulus that makes no sense in the cells of one rank is told to all
     std::unique_ptr<MultigridBulk> bulk;
-    std::optional<EntryError>      mistake;
-    try
-      {
-        bulk = std::make_unique<MultigridBulk>(mesh, material);
-      }
-    catch (const EntryError &error)
-      {
-        mistake.emplace(error);
-      }
-    Ranks::agree_on(mistake ? &*mistake : nullptr);
+    Ranks::in_agreement(
+      [&] { bulk = std::make_unique<MultigridBulk>(mesh, material); });
     bulk->make_maps();
     return bulk;
   }

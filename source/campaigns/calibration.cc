@@ -2,6 +2,7 @@
 #include <debond/output/result_files.h>
 #include <debond/support/interruption.h>
 #include <debond/support/number_text.h>
+#include <debond/support/ranks.h>
 #include <debond/support/runtime.h>
 
 #include <deal.II/base/timer.h>
@@ -118,9 +119,20 @@ namespace Debond
              const unsigned int n_threads)
         : unknowns(unknowns)
       {
-        for (unsigned int i = 0; i < n_threads; ++i)
+        const auto add_worker = [&] {
           workers.push_back(
             std::make_unique<Misfit>(unknowns, n_experiments, name));
+        };
+        add_worker();
+        const auto &experiments   = first().experiments;
+        const bool  one_at_a_time = std::any_of(
+          experiments.begin(), experiments.end(), [](const auto &experiment) {
+            return experiment->scene.bulk_solver() == BulkSolver::multigrid;
+          });
+        if (one_at_a_time) // Trilinos, which solves there, knows one thread
+          Ranks::start();
+        for (unsigned int i = 1; i < n_threads && !one_at_a_time; ++i)
+          add_worker();
       }
 
       Misfit &

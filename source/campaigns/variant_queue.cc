@@ -77,7 +77,7 @@ namespace Debond
         set_number_of_threads(1);
         try
           {
-            require_memory(scene);
+            require_memory(scene, false);
             dealii::Timer clock;
             CoupledSystem system(scene);
             system.start(scene.load_steps.times.front());

@@ -169,7 +169,13 @@ namespace Debond
       VoxelImage       image;
       const auto       size = header.numbers("DimSize", "");
       for (unsigned int d = 0; d < 3; ++d)
-        image.n[d] = static_cast<unsigned int>(std::max(0., size[d]));
+        {
+          if (!(size[d] >= 1. && size[d] <= 1e9 &&
+                size[d] == std::floor(size[d])))
+            refuse("DimSize = " + header.text("DimSize", "") +
+                   ": expected three whole numbers from 1 to 1e9");
+          image.n[d] = static_cast<unsigned int>(size[d]);
+        }
       image.spacing =
         header.numbers("ElementSpacing", header.text("ElementSize", "1 1 1"));
       if (header.text("ElementSpacing", header.text("ElementSize", "")) == "")
@@ -251,9 +257,12 @@ namespace Debond
                         static_cast<unsigned int>(file->ny),
                         static_cast<unsigned int>(file->nz)}};
       image.spacing = {{unit * file->dx, unit * file->dy, unit * file->dz}};
-      image.corner  = {{unit * (file->qoffset_x - 0.5 * file->dx),
-                        unit * (file->qoffset_y - 0.5 * file->dy),
-                        unit * (file->qoffset_z - 0.5 * file->dz)}};
+      // there are two ways to say where the centre of the first voxel is
+      const auto &to_place = file->qform_code > 0 || file->sform_code <= 0 ?
+                               file->qto_xyz :
+                               file->sto_xyz;
+      for (unsigned int d = 0; d < 3; ++d)
+        image.corner[d] = unit * to_place.m[d][3] - 0.5 * image.spacing[d];
       if (file->xyz_units == NIFTI_UNITS_UNKNOWN)
         image.remarks.push_back("it says no unit of length: taken as mm");
       const auto is_turned = [](const auto &to_place) {
@@ -399,6 +408,25 @@ namespace Debond
 
   namespace
   {
+    /** Any formula could make a modulus of them: max(10, nan) is 10. */
+    void
+    refuse_no_numbers(const VoxelImage &image, const FileRefusal &refuse)
+    {
+      const std::size_t first =
+        std::find_if(image.grey.begin(),
+                     image.grey.end(),
+                     [](const float grey) { return !std::isfinite(grey); }) -
+        image.grey.begin();
+      if (first < image.grey.size())
+        refuse("the grey value of voxel (" +
+               std::to_string(first % image.n[0]) + ", " +
+               std::to_string(first / image.n[0] % image.n[1]) + ", " +
+               std::to_string(first / image.n[0] / image.n[1]) +
+               "), counted from 0, is no finite number");
+    }
+
+
+
     VoxelImage
     read_anew(const std::string &filename, const std::string &entry)
     {
@@ -425,6 +453,7 @@ namespace Debond
         if (!(edge > 0. && std::isfinite(edge)))
           refuse("its voxels have an edge of " + to_text(edge) +
                  " mm: expected more than 0");
+      refuse_no_numbers(image, refuse);
       return image;
     }
   } // namespace

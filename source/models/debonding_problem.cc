@@ -24,34 +24,48 @@ namespace Debond
 {
   namespace
   {
+    void
+    refuse_checkpoint(const ResultDirectory &directory)
+    {
+      try
+        {
+          std::vector<std::string> damaged; // of no use to anyone
+          if (const auto checkpoint =
+                CheckpointFiles(directory).newest(damaged))
+            throw InputError(
+              Text() << directory.path()
+                     << " holds the checkpoint of a run that was interrupted "
+                        "after step "
+                     << checkpoint->step << ": debond --resume "
+                     << directory.path()
+                     << " goes on with it, --force begins anew");
+        }
+      catch (const OtherProgram &error)
+        {
+          throw InputError(std::string(error.what()) + "; --force begins anew");
+        }
+    }
+
+
+
     /** A run that begins anew leaves nothing of an earlier one that would be
-     *  taken for its own, but does not destroy a checkpoint either. */
+     *  taken for its own, but does not destroy a checkpoint either. Only the
+     *  first rank finds that the directory is locked or cannot be written. */
     ResultDirectory
     open_directory(const Scene &scene, const bool resumes)
     {
-      if (resumes)
-        return ResultDirectory(scene.output.directory);
-      const ResultDirectory directory(scene.output, scene.completed_parameters);
-      CheckpointFiles       files(directory);
-      if (!scene.output.overwrite_other_results)
-        try
+      std::optional<ResultDirectory> directory;
+      Ranks::in_agreement([&] {
+        if (resumes)
           {
-            std::vector<std::string> damaged; // of no use to anyone
-            if (const auto checkpoint = files.newest(damaged))
-              throw InputError(
-                Text() << directory.path()
-                       << " holds the checkpoint of a run that was interrupted "
-                          "after step "
-                       << checkpoint->step << ": debond --resume "
-                       << directory.path()
-                       << " goes on with it, --force begins anew");
+            directory.emplace(scene.output.directory);
+            return;
           }
-        catch (const OtherProgram &error)
-          {
-            throw InputError(std::string(error.what()) +
-                             "; --force begins anew");
-          }
-      return directory;
+        directory.emplace(scene.output, scene.completed_parameters);
+        if (!scene.output.overwrite_other_results)
+          refuse_checkpoint(*directory);
+      });
+      return *directory;
     }
 
 
@@ -358,7 +372,7 @@ namespace Debond
     , bodies(std::move(bodies))
   {
     scene.check_ranks();
-    require_memory(scene);
+    require_memory(scene, this->bodies != nullptr);
   }
 
 

@@ -79,24 +79,39 @@ namespace Debond
 
 
 
-  void
-  require_memory(const Scene &scene)
+  namespace
   {
-    const Parts  parts(scene);
-    const double available =
-      available_memory_MB() / Ranks::number_on_this_machine();
-    if (parts.total <= available)
-      return;
-    throw NotEnoughMemory(
-      parts.points > std::max(parts.bone, parts.implant) ?
-        "Interface / Quadrature points" :
-      parts.bone > parts.implant ? "Bone / Cells" :
-                                   "Implant / Cells",
-      "this scene needs some " + in_words(parts.total) + " of memory" +
-        (Ranks::number() > 1 ? " in each process" : "") + ", and " +
-        in_words(available) +
-        " are available: lower this first (of the memory, Bone / Cells take " +
-        in_words(parts.bone) + ", Implant / Cells " + in_words(parts.implant) +
-        ", Interface / Quadrature points " + in_words(parts.points) + ")");
+    void
+    require_own_memory(const Scene &scene, const bool has_bodies)
+    {
+      const Parts  parts(scene);
+      const double needed = has_bodies ? parts.points : parts.total,
+                   available =
+                     available_memory_MB() / Ranks::number_on_this_machine();
+      if (needed <= available)
+        return;
+      throw NotEnoughMemory(
+        has_bodies || parts.points > std::max(parts.bone, parts.implant) ?
+          "Interface / Quadrature points" :
+        parts.bone > parts.implant ? "Bone / Cells" :
+                                     "Implant / Cells",
+        "this scene needs some " + in_words(needed) + " of memory" +
+          (Ranks::number() > 1 ? " in each process" : "") + ", and " +
+          in_words(available) +
+          " are available: lower this first (of the memory, Bone / Cells "
+          "take " +
+          in_words(parts.bone) + ", Implant / Cells " +
+          in_words(parts.implant) + ", Interface / Quadrature points " +
+          in_words(parts.points) + ")");
+    }
+  } // namespace
+
+
+
+  void
+  require_memory(const Scene &scene, const bool has_bodies)
+  {
+    // machines may have more or less of it
+    Ranks::in_agreement([&] { require_own_memory(scene, has_bodies); });
   }
 } // namespace Debond

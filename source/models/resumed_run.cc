@@ -2,6 +2,7 @@
 #include <debond/models/resumed_run.h>
 #include <debond/output/result_files.h>
 #include <debond/support/input_error.h>
+#include <debond/support/ranks.h>
 
 #include <boost/algorithm/string/join.hpp>
 
@@ -133,19 +134,20 @@ namespace Debond
   std::optional<Checkpoint>
   find_checkpoint(const Scene &scene)
   {
-    std::vector<std::string> remarks;
-    try
-      {
-        auto checkpoint =
-          CheckpointFiles(ResultDirectory(scene.output.directory))
-            .newest(remarks);
-        if (checkpoint &&
-            differences(scene.completed_parameters, checkpoint->parameters)
-              .empty())
-          return checkpoint;
-      }
-    catch (const OtherProgram &)
-      {}
-    return std::nullopt;
+    std::optional<Checkpoint> checkpoint;
+    Ranks::in_agreement([&] { // another run may be at work there
+      try
+        {
+          std::vector<std::string> remarks;
+          checkpoint = CheckpointFiles(ResultDirectory(scene.output.directory))
+                         .newest(remarks);
+        }
+      catch (const OtherProgram &)
+        {}
+    });
+    const bool is_of_scene =
+      checkpoint &&
+      differences(scene.completed_parameters, checkpoint->parameters).empty();
+    return is_of_scene ? checkpoint : std::nullopt;
   }
 } // namespace Debond

@@ -26,7 +26,7 @@ namespace Debond
           std::shared_ptr<BodyPair> bodies,
           dealii::TimerOutput      *timer)
     {
-      require_memory(scene);
+      require_memory(scene, bodies != nullptr);
       const TimedSection t(timer, "set-up");
       return CoupledSystem(scene, std::move(bodies), timer);
     }

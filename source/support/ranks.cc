@@ -1,3 +1,4 @@
+#include <debond/support/input_error.h>
 #include <debond/support/ranks.h>
 
 #include <deal.II/base/mpi.h>
@@ -171,21 +172,37 @@ namespace Debond
 
 
     void
-    agree_on(const EntryError *const mistake)
+    in_agreement(const std::function<void()> &work)
     {
-      std::vector<std::string> own_words;
-      if (mistake)
-        own_words = {mistake->entry, mistake->why, mistake->value.value_or("")};
+      if (number() == 1)
+        return work();
+      std::vector<std::string> own_words; // of an error, one or four
+      try
+        {
+          work();
+        }
+      catch (const EntryError &error)
+        {
+          own_words = {error.entry,
+                       error.why,
+                       error.value.value_or(""),
+                       error.place};
+        }
+      catch (const InputError &error)
+        {
+          own_words = {error.what()};
+        }
       for (const auto &words :
-           number() == 1 ?
-             std::vector<std::vector<std::string>>{own_words} :
-             dealii::Utilities::MPI::all_gather(communicator(), own_words))
-        if (!words.empty())
+           dealii::Utilities::MPI::all_gather(communicator(), own_words))
+        if (words.size() == 1)
+          throw InputError(words[0]);
+        else if (words.size() == 4)
           throw EntryError(words[0],
                            words[1],
                            words[2].empty() ?
                              std::nullopt :
-                             std::optional<std::string>(words[2]));
+                             std::optional<std::string>(words[2]),
+                           words[3]);
     }
 
 

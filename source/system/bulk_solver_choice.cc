@@ -189,9 +189,7 @@ namespace Debond
       const double n_unknowns = 3. * (n[0] + 1.) * (n[1] + 1.) * (n[2] + 1.);
       const double iterations = 1.5 * model.load_steps.n_steps();
       const double per_cycle =
-        model.bone.element != ElementKind::spline ? 2.2e-7 :
-        model.bone.has_equal_splines()            ? 3e-7 : // on the lattice
-                                                    1.1e-6;
+        model.bone.element == ElementKind::spline ? 1.1e-6 : 2.2e-7;
       return n_unknowns * (1.3e-5 + 7. * per_cycle * iterations);
     }
   } // namespace

@@ -75,6 +75,16 @@ grep -c "expected 1e-6 to 1e12 MPa" wrong/study.csv
 ranks 2 $scene --set "Bone/Young modulus={{18000|$wrong}}" --set Output/Directory=wrong-alone
 said "1 of 2 variants failed"
 ranks 2 $scene --set "Bone/Young modulus=$wrong" --set Output/Directory=wrong-scene || said "expected 1e-6 to 1e12 MPa"
+# what only the first process of a group meets: another run at work, a file that cannot be written
+mkdir -p locked/variant-001 blocked/variant-002/parameters.prm.partial
+exec 9< locked/variant-001
+flock 9
+for directory in locked blocked; do
+  ranks 2 $scene --set "Interface/Sliding threshold={{0.02|0.04}}" --set "Study/Processes per variant=2" --set Output/Directory=$directory
+  said "1 of 2 variants failed"
+  grep -o -e "another run of debond is at work" -e "cannot write" $directory/study.csv
+done
+exec 9<&-
 # more processes than variants, and a network without memory in common
 ranks 4 $scene --set "Interface/Sliding threshold={{0.02|0.04}}" --threads 1 --jobs 1 --set Output/Directory=idle && echo "some have nothing to do"
 OMPI_MCA_btl=tcp,self ranks 2 $scene --set "Interface/Sliding threshold={{0.02|0.03|0.04}}" --set Output/Directory=tcp && echo "by TCP"

@@ -169,6 +169,10 @@ main()
   compare("splines, modulus of 1 to 100 by the place, Neo-Hooke",
           splines + Changes{"Bone/Young modulus=if(x + z > -1, 18000, 180)",
                             "Bone/Material=neo-hookean"});
+  compare("splines, an oblique jump of 10, stiff contact",
+          splines +
+            Changes{"Bone/Young modulus=if(z + 0.2 * x > -1, 1800, 18000)",
+                    "Interface/Penalty stiffness=18000"});
   compare("a cap with bilinear faces, adaptive steps",
           {"Implant/Shape=cap",
            "Implant/Contact surface=bilinear",

@@ -37,8 +37,8 @@ namespace Debond
     static bool
     pays(const BodyMesh &mesh, const EnrichedCells &cells);
 
-    /** For another tangent. */
-    void
+    /** For another tangent. False: it is not positive definite. */
+    bool
     set_up(const Epetra_CrsMatrix &K);
 
     /** y ~ K^-1 x. */

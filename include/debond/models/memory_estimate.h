@@ -3,7 +3,6 @@
 
 #include <debond/support/input_error.h>
 
-
 namespace Debond
 {
   struct Scene;
@@ -20,17 +19,17 @@ namespace Debond
 
   /**
    * Memory that a finite element run of a scene needs at its peak [MB], of
-   * several ranks each, from
-   * the numbers of its cells, quadrature points and unknowns alone: nothing is
-   * built. Measured peaks of linear and Neo-Hookean bodies of flat and of thick
+   * several ranks each, from the numbers of its cells, quadrature points and
+   * unknowns alone: nothing is built. Measured peaks of linear and Neo-Hookean bodies of flat and of thick
    * meshes are within a factor of 2 (test `memory_estimate`).
    */
   double
   estimated_memory_MB(const Scene &scene);
 
-  /** Throws NotEnoughMemory, which names the entry
-   *  that needs most, if the estimate is more than what is available. */
+  /** Throws NotEnoughMemory, which names the entry that needs most, if the
+   *  estimate is more than what is available. @p has_bodies: those of the scene
+   *  are in the memory already. Collective. */
   void
-  require_memory(const Scene &scene);
+  require_memory(const Scene &scene, bool has_bodies);
 } // namespace Debond
 #endif

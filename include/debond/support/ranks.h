@@ -1,10 +1,10 @@
 #ifndef debond_support_ranks_h
 #define debond_support_ranks_h
 
-#include <debond/support/input_error.h>
-
 #include <Eigen/Core>
 #include <mpi.h>
+
+#include <functional>
 
 namespace Debond
 {
@@ -78,10 +78,11 @@ namespace Debond
       MPI_Comm group;
     };
 
-    /** Throws the EntryError that the first of the ranks has met that have met
-     *  one: each gives the @p mistake that it has met, or null. Collective. */
+    /** Does some @p work of each rank's own. Where it throws an InputError on
+     *  some of them, which others would wait for in vain, all throw that of the
+     *  first of these. Collective. */
     void
-    agree_on(const EntryError *mistake);
+    in_agreement(const std::function<void()> &work);
 
     /** Ends all ranks, with an exit code. */
     [[noreturn]] void

@@ -1005,7 +1005,7 @@ def multigrid_sizes():
                       pair(rows, 'seconds_condensation'), pair(rows, 'cycle', '%.3g', 1000), '%.2f' % (rows[0]['wall_seconds'] / rows[1]['wall_seconds']),
                       pair(rows, 'peak_memory_MB', '%.0f')])
     return table(['cells', 'unknowns', 'cycles to 1e-8, one / two processes', 'K and set-up [s]', 'a cycle, with all of the iteration [ms]',
-                  'whole run, one / two', 'memory of a process [MB]'], lines)
+                  'speed-up of the whole run by the second process', 'memory of a process [MB]'], lines)
 
 
 @numbers('minutes')

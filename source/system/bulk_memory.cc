@@ -69,7 +69,7 @@ namespace Debond
     constexpr double per_unknown = 2500., per_spline_cell = 8000.,
                      per_spline_unknown = 7000.;
     // K, its multigrid and the vectors of GMRES
-    constexpr double of_multigrid = 4300., of_multigrid_for_splines = 10000.;
+    constexpr double of_multigrid = 4300., of_multigrid_for_splines = 12000.;
     const double     per_cell = draws ? 8000. : 3000.;
     const double     x = body.cells[0], y = body.cells[1], z = body.cells[2];
     n_condensed = 0.;

@@ -69,6 +69,22 @@ check_limit()
   report("there is some memory", before > 0.);
   report("a limit of 8000 MB leaves less than that, as some is taken",
          taken > 0. && within < 8000. && within <= before + 1000.);
+  const auto large      = Debond::Scene::from_text(scene_text,
+                                              {"Bone/Cells=100, 100, 10",
+                                                    "Implant/Cells=60, 20"});
+  const auto is_refused = [&](const bool has_bodies) {
+    try
+      {
+        Debond::require_memory(large, has_bodies);
+        return false;
+      }
+    catch (const Debond::NotEnoughMemory &)
+      {
+        return true;
+      }
+  };
+  report("a scene that needs more is refused", is_refused(false));
+  report("not if its bodies are there already", !is_refused(true));
 }
 
 

@@ -7,14 +7,19 @@
 #include <debond/models/debonding_problem.h>
 #include <debond/models/memory_estimate.h>
 #include <debond/models/resumed_run.h>
+#include <debond/output/report.h>
 #include <debond/scene/scene.h>
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
+#include <debond/support/progress.h>
+#include <debond/support/provenance.h>
 #include <debond/support/ranks.h>
 #include <debond/support/runtime.h>
 
 #include <deal.II/base/config.h>
 #include <deal.II/base/exceptions.h>
+
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -52,6 +57,7 @@ namespace
     R"(usage: debond [OPTIONS] SCENE.prm
        debond --resume DIR [OPTIONS] [SCENE.prm]
        debond --compare DIR CURVE [--columns LIST]
+       debond --report DIR
 
 Simulates the tangential debonding of an implant from bone as the scene file
 describes it, and writes torque curve, summary and fields into the directory
@@ -71,10 +77,12 @@ deals a large bone, or the variants of a study, out among N processes.
                       ensemble, with a measured one; nothing is run
   --columns LIST      which columns of CURVE are angle and torque, as Output /
                       Reference columns: "2 [deg], 3 [N m]"
+  --report DIR        write report.html of the results in DIR anew; nothing is run
   --jobs N            run N variants of a study at a time (default: as many as
                       there are processors)
   --threads N         use N threads (default: as many as there are processors, in
                       a study shared among the variants that run at a time)
+  --verbose           print where the time went
   --check             read the scene, build the meshes, say what to expect, and
                       run nothing
   --print-parameters  print all entries with documentation and values: those of
@@ -103,12 +111,13 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
   struct Arguments
   {
     std::string scene_file;
-    std::string directory_to_resume;    ///< empty: a run begins anew
-    std::string directory_to_compare;   ///< with the curve in scene_file
+    std::string directory_to_resume;  ///< empty: a run begins anew
+    std::string directory_to_compare; ///< with the curve in scene_file
+    std::string directory_to_report;
     std::string columns;                ///< of that curve; empty: recognised
     std::vector<std::string> overrides; ///< "Subsection/Entry=value", in order
     bool force = false, check = false, print_parameters = false, help = false,
-         version           = false;
+         version = false, verbose = false;
     unsigned int n_jobs    = 0; ///< 0: as many as processors
     unsigned int n_threads = 0; ///< 0: as many as processors
   };
@@ -157,6 +166,7 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
                                               {"--check", &arguments.check},
                                               {"--print-parameters",
                                                &arguments.print_parameters},
+                                              {"--verbose", &arguments.verbose},
                                               {"--force", &arguments.force}};
     // The tables point to where a word is to be kept, so that a new flag or
     // number is one line here and one in the help text.
@@ -187,6 +197,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
           arguments.directory_to_resume = value("the directory of a run");
         else if (option == "--compare")
           arguments.directory_to_compare = value("a directory of results");
+        else if (option == "--report")
+          arguments.directory_to_report = value("a directory of results");
         else if (option == "--columns")
           arguments.columns = value("two columns, the angle and the torque");
         else if (option.size() > 1 && option[0] == '-')
@@ -213,12 +225,15 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
       refuse_usage("--compare goes with a curve and --columns only");
     if (compares && arguments.scene_file.empty())
       refuse_usage("--compare needs a measured curve: --compare DIR CURVE.csv");
+    const bool reports = !arguments.directory_to_report.empty();
+    if (reports && words.size() != 2)
+      refuse_usage("--report goes with nothing else");
     if (!compares && !arguments.columns.empty())
       refuse_usage("--columns is for --compare; a scene has Output / Reference "
                    "columns");
     // With --print-parameters alone the defaults are printed.
     const bool needs_no_scene =
-      resumes || arguments.help || arguments.version ||
+      resumes || reports || arguments.help || arguments.version ||
       (arguments.print_parameters && arguments.overrides.empty());
     if (arguments.scene_file.empty() && !needs_no_scene)
       refuse_usage("no scene file is given");
@@ -291,6 +306,47 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
 
+  // What has been run is shown on a page, however it has ended: what failed is
+  // what people want to look at first. A page that cannot be written is no
+  // reason to lose sight of why the run failed.
+  template <typename Run>
+  void
+  with_report(const Scene &scene, const Run &run)
+  {
+    const auto report = [&] {
+      const std::string &directory = scene.output.directory;
+      if (!scene.output.report)
+        return;
+      write_report(directory);
+      if (!scene.output.quiet)
+        std::cout << "Open " << directory << "/report.html in a browser"
+                  << (scene.output.fields_every > 0 &&
+                          scene.model == ModelKind::finite_elements ?
+                        ", interface.pvd and bulk.pvd there in ParaView" :
+                        "")
+                  << std::endl;
+    };
+    try
+      {
+        run();
+      }
+    catch (const std::exception &error)
+      {
+        // a scene that was refused has left nothing
+        if (dynamic_cast<const InputError *>(&error) == nullptr)
+          try
+            {
+              report();
+            }
+          catch (const std::exception &)
+            {}
+        throw;
+      }
+    report();
+  }
+
+
+
   // A run that was interrupted goes on from its last checkpoint, to the same
   // files, to the last bit, as if it never had been.
   //
@@ -318,7 +374,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
       std::cout << "warning: " << remark << ", the other checkpoint is used\n";
     set_number_of_threads(or_processors(arguments.n_threads));
     catch_interruptions();
-    DebondingProblem(run->scene).run(&run->checkpoint);
+    with_report(run->scene,
+                [&] { DebondingProblem(run->scene).run(&run->checkpoint); });
   }
 
 
@@ -345,6 +402,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
                              arguments.scene_file,
                              split_list(arguments.columns),
                              std::cout);
+    if (!arguments.directory_to_report.empty())
+      return write_report(arguments.directory_to_report);
     if (arguments.scene_file.empty())
       return print_parameters(std::cout);
 
@@ -385,6 +444,7 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     // A directory that holds results of another scene is left alone, unless the
     // user says otherwise.
     scene.output.overwrite_other_results = arguments.force;
+    scene.output.timings                 = arguments.verbose;
     // --check goes as far as building the meshes, so that it finds everything
     // that a run would refuse.
     if (arguments.check)
@@ -398,7 +458,7 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     // the entry `Model` says. It throws RunError where the load cannot be
     // followed and Interrupted after a signal; the rows before are on the disk
     // by then.
-    run_scene(scene);
+    with_report(scene, [&] { run_scene(scene); });
   }
 
 
@@ -466,6 +526,10 @@ main(int argc, char *argv[])
   // One thread to begin with; deal.II's errors as exceptions, not aborts. How
   // many threads there are to be is said once it is known what is run.
   set_up_libraries();
+  note_command(argc, argv);
+  // mpirun writes to a terminal of its own, whatever becomes of it
+  if (isatty(STDOUT_FILENO) && !Ranks::are_launched())
+    show_progress_on_terminal();
   // As one of several processes of MPI all of them do the same, and the first
   // one speaks.
   if (Ranks::are_launched())
@@ -504,6 +568,7 @@ main(int argc, char *argv[])
                        fails_to_run           ? 2 :
                                                 3;
       const std::string message = message_of(error, code == 3);
+      hide_progress();
       if (Ranks::number() == 1)
         {
           std::cerr << message << std::endl;

@@ -17,6 +17,8 @@ contents_of(const std::filesystem::path &file)
   for (std::string line; std::getline(stream, line);)
     if (line.find("seconds") == std::string::npos &&
         line.find("peak_memory_MB") == std::string::npos &&
+        line.find("\"date\"") == std::string::npos &&
+        line.find("# Written by") == std::string::npos &&
         line.find("set Directory") == std::string::npos)
       text += line + (stream.eof() ? "" : "\n");
   return text;

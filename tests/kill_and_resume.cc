@@ -109,8 +109,9 @@ ends_with(const std::string &text, const std::string &end)
 
 
 
-/** Whether the lines of a CSV file are all there as a whole. A system that kills
- *  a program in the middle of a write may do so where a page of the file ends. */
+/** Whether the lines of a CSV file are all there as a whole. A system that
+ * kills a program in the middle of a write may do so where a page of the file
+ * ends. */
 bool
 has_whole_lines(const std::string &text)
 {
@@ -143,9 +144,9 @@ all_are_whole()
       const bool        is_whole =
         ends_with(name, ".partial") || name.rfind("checkpoint-", 0) == 0 ||
         name == "parameters.prm" ||
-        (name == "torque.csv"   ? has_whole_lines(text) :
-         name == "summary.json" ? ends_with(text, "}\n") :
-                                  ends_with(text, "</VTKFile>\n"));
+        (ends_with(name, ".csv") ? has_whole_lines(text) :
+         name == "summary.json"  ? ends_with(text, "}\n") :
+                                   ends_with(text, "</VTKFile>\n"));
       if (!is_whole)
         std::cout << "  torn: " << name << std::endl;
       whole = whole && is_whole;

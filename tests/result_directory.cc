@@ -32,7 +32,7 @@ namespace
       {
         const Debond::ResultDirectory directory(output, parameters);
         std::ostringstream            text;
-        text << std::ifstream(directory.file("parameters.prm")).rdbuf();
+        text << Debond::parameters_in(path).value_or("");
         std::cout << directory.path() << ": " << text.str() << '\n';
       }
     catch (const Debond::InputError &error)
@@ -54,7 +54,7 @@ namespace
                                    "interface-0012.vtu",
                                    "repetition-2.json",
                                    "rung-1/parameters.prm",
-                                   "torque.png",
+                                   "my_picture.png",
                                    "bulk-notes.txt"})
       std::ofstream(path + "/" + file) << "left\n";
   }

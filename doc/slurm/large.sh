@@ -1,6 +1,7 @@
 #!/bin/bash
 # One large bone on 64 processes, on two nodes here. It leaves a checkpoint after every tenth step and when its time is
-# over; submitted again, on any number of processes, it goes on from there.
+# over; submitted again, on any number of processes from two, it goes on from there. A run that is finished is left alone.
+# Submit it from the root of the repository. Where srun starts processes that do not know of each other: srun --mpi=pmix.
 #   sbatch doc/slurm/large.sh SCENE.prm DIRECTORY
 #SBATCH --job-name=debond-large
 #SBATCH --nodes=2
@@ -10,7 +11,9 @@
 #SBATCH --time=12:00:00
 #SBATCH --signal=TERM@300
 scene=$1 directory=$2
-if compgen -G "$directory/checkpoint-?" > /dev/null; then
+if grep -qs '"converged": true' "$directory/summary.json"; then
+  echo "$directory is finished"
+elif compgen -G "$directory/checkpoint-?" > /dev/null; then
   srun build/release/debond --resume "$directory" --threads 1
 else
   srun build/release/debond "$scene" --set "Output/Directory=$directory" --set "Output/Checkpoint every=10" --threads 1

@@ -1,5 +1,6 @@
 #!/bin/bash
 # A study on a cluster: 32 processes take variants as they get free. The same command again goes on with what is missing.
+# Submit it from the root of the repository. Where srun starts processes that do not know of each other: srun --mpi=pmix.
 #   sbatch doc/slurm/sweep.sh prm/studies/ensemble.prm
 #SBATCH --job-name=debond-sweep
 #SBATCH --ntasks=32

@@ -122,14 +122,15 @@ namespace Debond
   Body::refuse_archive(const int solver) const
   {
     const std::string names[]{"auto", "direct", "lattice", "multigrid"};
-    throw EntryError("Bone / Bulk solver",
-                     "the run was begun with " + names[solver & 3] +
-                       ", and cannot go on with " + names[solver_in_archive()] +
-                       (solver == static_cast<int>(BulkSolver::multigrid) ?
-                          ": --set \"Bone/Bulk solver=multigrid\" does" :
-                        Ranks::number() > 1 ?
-                          ": it takes one process, without mpirun" :
-                          ": leave this entry as it was"));
+    throw ForeignCheckpoint("Bone / Bulk solver: "
+                            "the run was begun with " +
+                            names[solver & 3] + ", and cannot go on with " +
+                            names[solver_in_archive()] +
+                            (solver == static_cast<int>(BulkSolver::multigrid) ?
+                               ": --set \"Bone/Bulk solver=multigrid\" does" :
+                             Ranks::number() > 1 ?
+                               ": it takes one process, without mpirun" :
+                               ": leave this entry as it was"));
   }
 
 

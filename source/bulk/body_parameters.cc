@@ -233,7 +233,8 @@ namespace Debond
       what +
         " Or an expression in the place x, y, z [mm], z = 0 at the top and "
         "negative below, with R the radius of the implant: if(z > -1, 18000, "
-        "500) is a cortical layer of 1 mm. With a Voxel file also in its grey "
+        "500) is a cortical layer of 1 mm. It is taken at the Gauss points of "
+        "the cells: let it jump at sides of cells. With a Voxel file also in its grey "
         "value: max(10, 6850 * (grey / 1000)^1.49). A rigid body ignores it.");
     table.add("Voxel file",
               voxel_file,
@@ -286,10 +287,18 @@ namespace Debond
                                              corner,
                                              radius);
     const auto corners = corners_of_bone();
-    young_modulus      = modulus
-                      ->range(Eigen::Vector3d(corners[0].data()),
-                              Eigen::Vector3d(corners[1].data()))
-                      .mean;
+    const auto range   = modulus->range(Eigen::Vector3d(corners[0].data()),
+                                      Eigen::Vector3d(corners[1].data()));
+    young_modulus      = range.mean;
+    smallest_modulus   = range.smallest;
+  }
+
+
+
+  double
+  BodyParameters::softest_modulus() const
+  {
+    return modulus ? smallest_modulus : young_modulus;
   }
 
 

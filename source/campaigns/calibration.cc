@@ -1,4 +1,5 @@
 #include <debond/campaigns/calibration.h>
+#include <debond/output/report.h>
 #include <debond/output/result_files.h>
 #include <debond/support/interruption.h>
 #include <debond/support/number_text.h>
@@ -601,6 +602,8 @@ namespace Debond
     result.n_evaluations = log.n_evaluations;
     result.seconds       = clock.wall_time();
     report(result, misfit, out);
+    if (scene.output.report)
+      write_report_of_calibration(directory.path());
     if (result.statistics->e_rel > scene.calibration.largest_misfit)
       throw RunError(
         "no parameters of this scene fit the measured curve: the best ones "

@@ -126,6 +126,7 @@ namespace Debond
       key_of(unknowns, evaluation.derivatives.cols() > 0, steps);
     known[key] = evaluation;
     ++n_evaluations;
+    progress.show(std::to_string(n_evaluations) + " evaluations", -1.);
     file.append(line_of(key, evaluation));
   }
 

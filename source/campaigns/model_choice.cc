@@ -391,9 +391,9 @@ namespace Debond
   void
   run_auto(const Scene &scene)
   {
-    const dealii::Timer   clock;
-    ModelChoice           choice(scene);
-    Console               console(scene.output.quiet, std::cout);
+    const dealii::Timer clock;
+    ModelChoice         choice(scene);
+    Console console(scene.output.quiet, scene.load_steps.times, std::cout);
     const ResultDirectory directory(scene.output, scene.completed_parameters);
     remove_results(directory.path(), true);
     if (!scene.title.empty())

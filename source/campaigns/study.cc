@@ -5,9 +5,12 @@
 #include <debond/campaigns/variant_queue.h>
 #include <debond/input/csv_table.h>
 #include <debond/input/parameter_loop.h>
+#include <debond/models/memory_estimate.h>
+#include <debond/output/report.h>
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
 #include <debond/support/number_text.h>
+#include <debond/support/progress.h>
 #include <debond/support/ranks.h>
 #include <debond/support/written_files.h>
 #include <debond/system/coupled_system.h>
@@ -69,6 +72,7 @@ namespace Debond
       std::string              directory;
       unsigned int             reference  = 0; ///< number of a variant, 0: none
       unsigned int             group_size = 1; ///< processes for a variant
+      bool                     reports    = true;
       dealii::Timer            since_table;
       double                   time_between_tables = 2; ///< [s]
 
@@ -91,6 +95,7 @@ namespace Debond
         directory  = first.output.directory;
         reference  = first.study.reference_variant;
         group_size = first.study.processes_per_variant;
+        reports    = first.output.report;
         check_ranks(first);
         auto combinations =
           study_variants(entries, first.study.factors_at_once);
@@ -111,6 +116,7 @@ namespace Debond
                                              "Study/Repetitions=1",
                                              "Study/Processes per variant=1",
                                              "Output/Console=quiet",
+                                             "Output/Report=false",
                                              "Output/Directory=" + directory +
                                                "/" + variant_name});
             Variant    next;
@@ -229,7 +235,10 @@ namespace Debond
         write_table();
         write_ensemble(out);
         name_best(out);
-        out << "Results are in " << directory << "/study.csv" << std::endl;
+        if (reports)
+          write_report_of_study(directory);
+        out << "Results are in " << directory << "/study.csv"
+            << (reports ? " and report.html" : "") << std::endl;
         if (n_done() < variants.size())
           throw RunError(Text() << variants.size() - n_done() << " of "
                                 << variants.size() << " variants failed: "
@@ -244,6 +253,8 @@ namespace Debond
         VariantQueue                waiting(n_jobs);
         std::vector<VariantProcess> running;
         unsigned int                n_ended = n_done();
+        Progress                    progress;
+        progress.show("", double(n_ended) / variants.size());
         for (unsigned int i = 0; i < variants.size(); ++i)
           if (!variants[i].done)
             waiting.add(i, variants[i].scene, variants[i].n_repetitions == 1);
@@ -280,6 +291,8 @@ namespace Debond
               }
             out << ++n_ended << '/' << variants.size() << ' ' << variant.name
                 << ": " << outcome_of(variant) << std::endl;
+            progress.show(std::to_string(running.size()) + " at work",
+                          double(n_ended) / variants.size());
 
             write_table_at_times([] {});
           }
@@ -333,7 +346,10 @@ namespace Debond
             if (bodies)
               bodies->return_to_rest();
             else if (may_share)
-              bodies = std::make_shared<BodyPair>(scene);
+              {
+                require_memory(scene, false);
+                bodies = std::make_shared<BodyPair>(scene);
+              }
             run_variant(scene, bodies);
             return "";
           }
@@ -373,14 +389,6 @@ namespace Debond
       void
       run_in_groups(std::ostream &out)
       {
-        std::map<std::string, std::vector<unsigned int>> by_bodies;
-        for (unsigned int i = 0; i < variants.size(); ++i)
-          if (!variants[i].done)
-            by_bodies[what_bodies_depend_on(variants[i].scene)].push_back(i);
-        std::vector<std::pair<std::string, unsigned int>> order;
-        for (const auto &[bodies, numbers] : by_bodies)
-          for (const unsigned int number : numbers)
-            order.emplace_back(bodies, number);
         const std::string next  = directory + "/next-variant",
                           ended = directory + "/ended-variants";
         write_file(next, "0\n");
@@ -390,7 +398,13 @@ namespace Debond
 
         std::vector<std::pair<unsigned int, std::string>> failures;
         {
-          const Ranks::Groups       groups(group_size);
+          const Ranks::Groups groups(group_size);
+          // kinds of bodies depend on the number of ranks that solve for them
+          std::vector<std::pair<std::string, unsigned int>> order;
+          for (unsigned int i = 0; i < variants.size(); ++i)
+            if (!variants[i].done)
+              order.emplace_back(what_bodies_depend_on(variants[i].scene), i);
+          std::sort(order.begin(), order.end());
           std::shared_ptr<BodyPair> bodies;
           std::string               kind;
           while (true)
@@ -459,6 +473,8 @@ namespace Debond
       stop(const int signal)
       {
         write_table();
+        if (reports && Ranks::is_first())
+          write_report_of_study(directory);
         throw Interrupted(signal,
                           Text()
                             << "interrupted by " << signal_name(signal) << ": "
@@ -499,6 +515,8 @@ namespace Debond
                          variant.values.end());
               for (const auto &[name, value] : summary.items())
                 {
+                  if (value.is_object()) // of the program, not of the variant
+                    continue;
                   const std::size_t column =
                     column_of.emplace(name, header.size()).first->second;
                   header.resize(std::max(header.size(), column + 1), name);

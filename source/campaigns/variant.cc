@@ -68,7 +68,7 @@ namespace Debond
   Variant::look_up()
   {
     const OutputParameters &output = scene.output;
-    const auto existing = read_whole_file(output.directory + "/parameters.prm");
+    const auto existing = parameters_in(output.directory);
     has_this_scene      = existing == scene.completed_parameters;
     has_other_scene     = existing && !has_this_scene;
     if (has_this_scene)

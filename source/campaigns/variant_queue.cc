@@ -34,8 +34,7 @@ namespace Debond
   {
     // a process that has begun with MPI may not fork
     if (scene.model != ModelKind::finite_elements ||
-        (Ranks::number() == 1 &&
-         scene.bulk_solver() == BulkSolver::multigrid))
+        (Ranks::number() == 1 && scene.bulk_solver() == BulkSolver::multigrid))
       return "";
     static const std::regex of_bodies(
       "(Bone|Implant) / [^/]*|Interface / (Slave|Quadrature points)");
@@ -134,7 +133,15 @@ namespace Debond
     const bool without = scene.model != ModelKind::finite_elements ||
                          scene.output.overwrite_other_results;
     if (const auto checkpoint = without ? std::nullopt : find_checkpoint(scene))
-      return DebondingProblem(scene, bodies).run(&*checkpoint);
+      try
+        {
+          return DebondingProblem(scene, bodies).run(&*checkpoint);
+        }
+      catch (const ForeignCheckpoint &) // of groups, or from before them
+        {
+          if (bodies)
+            bodies->return_to_rest();
+        }
     // a checkpoint that is of no use is not kept; the study has made sure
     // that there are no results of another scene
     Scene anew                          = scene;

@@ -125,9 +125,10 @@ namespace Debond
       }
 
       bool
-      is_true(const std::string &name) const
+      is_true(const std::string &name,
+              const std::string &otherwise = "False") const
       {
-        return boost::iequals(text(name, "False"), "True");
+        return boost::iequals(text(name, otherwise), "True");
       }
 
       /** Three numbers; of a name that is missing @p otherwise. */
@@ -192,6 +193,8 @@ namespace Debond
         if (header.text(name, unturned) != unturned)
           image.remarks.push_back(name + (" = " + header.text(name, "")) +
                                   axes_as_stored);
+      if (!header.is_true("BinaryData", "True"))
+        refuse("its data are text: expected BinaryData = True");
       if (header.is_true("CompressedData"))
         refuse("its data are compressed: expected CompressedData = False");
       if (header.text("ElementNumberOfChannels", "1") != "1")

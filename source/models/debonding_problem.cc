@@ -40,7 +40,7 @@ namespace Debond
                      << directory.path()
                      << " goes on with it, --force begins anew");
         }
-      catch (const OtherProgram &error)
+      catch (const ForeignCheckpoint &error)
         {
           throw InputError(std::string(error.what()) + "; --force begins anew");
         }
@@ -100,7 +100,7 @@ namespace Debond
       const Scene                  &scene;
       std::string                   parameters; ///< as in the directory
       dealii::TimerOutput           timer;
-      dealii::Timer                 wall_clock;
+      dealii::Timer                 wall_clock, since_checkpoint;
       double                        seconds_before_steps = 0;
       std::map<std::string, double> earlier_seconds; ///< before a checkpoint
       const ResultDirectory         directory;
@@ -169,7 +169,6 @@ namespace Debond
             console.headline(Text() << "Going on after step " << last.step
                                     << ", time " << last.time << ", angle "
                                     << last.angle_deg << " deg");
-            console.first_step = last.step;
             stop_if_interrupted();
           }
         seconds_before_steps = wall_clock.wall_time();
@@ -201,12 +200,26 @@ namespace Debond
                simulation.is_finished()))
             fields.write(row.time);
         }
-        if (output.resumable && output.checkpoint_every > 0 && row.step > 0 &&
-            row.step % output.checkpoint_every == 0 &&
-            !simulation.is_finished())
+        if (is_time_for_checkpoint(row))
           save();
         if (!simulation.is_finished())
           stop_if_interrupted();
+      }
+
+      // Ranks have clocks of their own: if one says so, all do.
+      bool
+      is_time_for_checkpoint(const TorqueRow &row)
+      {
+        const OutputParameters &output = scene.output;
+        if (!output.resumable || row.step == 0 || simulation.is_finished())
+          return false;
+        double is_late =
+          output.checkpoint_minutes > 0. &&
+          since_checkpoint.wall_time() >= 60. * output.checkpoint_minutes;
+        if (output.checkpoint_minutes > 0.)
+          Ranks::take_largest(&is_late, 1);
+        return is_late > 0. || (output.checkpoint_every > 0 &&
+                                row.step % output.checkpoint_every == 0);
       }
 
       void
@@ -239,6 +252,7 @@ namespace Debond
         fields.put_on_disk();
         checkpoints.write(
           {simulation.rows().back().step, parameters, bytes.str()});
+        since_checkpoint.restart();
       }
 
       void
@@ -345,7 +359,7 @@ namespace Debond
         if (!converged)
           return;
         checkpoints.remove(); // there is nothing to go on with
-        if (!report.console.quiet)
+        if (scene.output.timings)
           timer.print_summary();
       }
 
@@ -387,6 +401,10 @@ namespace Debond
       {
         run.emplace(scene, bodies, checkpoint);
         run->run();
+      }
+    catch (const ForeignCheckpoint &)
+      {
+        throw;
       }
     catch (const std::exception &error)
       {

@@ -26,7 +26,9 @@ namespace Debond
                                              "Output / Directory",
                                              "Output / Console",
                                              "Bone / Bulk solver",
-                                             "Output / Checkpoint every"};
+                                             "Output / Checkpoint every",
+                                             "Output / Checkpoint minutes",
+                                             "Output / Report"};
 
 
 
@@ -142,7 +144,7 @@ namespace Debond
           checkpoint = CheckpointFiles(ResultDirectory(scene.output.directory))
                          .newest(remarks);
         }
-      catch (const OtherProgram &)
+      catch (const ForeignCheckpoint &)
         {}
     });
     const bool is_of_scene =

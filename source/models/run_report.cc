@@ -1,5 +1,6 @@
 #include <debond/models/run_report.h>
 #include <debond/support/number_text.h>
+#include <debond/support/provenance.h>
 #include <debond/support/ranks.h>
 #include <debond/support/runtime.h>
 
@@ -11,12 +12,13 @@
 namespace Debond
 {
   RunReport::RunReport(const Scene &scene, const ResultDirectory &directory)
-    : console(scene.output.quiet, std::cout)
+    : console(scene.output.quiet, scene.load_steps.times, std::cout)
     , scene(scene)
     , directory(directory)
     , reference(read_reference_curve(scene.output.reference_curve,
                                      scene.output.reference_columns))
     , profiles(scene, directory)
+    , maps(scene)
   {}
 
 
@@ -39,6 +41,8 @@ namespace Debond
     torque_curve->append(torque_line(row));
     console.row(row, n_steps);
     profiles.write(row.angle_deg, points);
+    maps.look(row, points);
+    points_of_last_row = points;
   }
 
 
@@ -83,13 +87,17 @@ namespace Debond
                      " could not be compared with: " + comparison.why_none);
     for (const std::string &remark : comparison.remarks)
       console.warn(remark, output.reference_curve + ": " + remark);
-    summary["warnings"]       = console.warnings;
+    summary["warnings"] = console.warnings;
     // of several ranks the largest; a rank that failed may be alone here
     double peak_memory = peak_memory_MB();
     if (converged)
       Ranks::take_largest(&peak_memory, 1);
     summary["peak_memory_MB"] = peak_memory;
+    for (const auto &[name, text] : provenance())
+      summary["provenance"][name] = text;
     write_json(directory.file("summary.json"), summary);
+    if (points_of_last_row)
+      maps.write(directory, rows.back(), points_of_last_row);
     if (!converged)
       return;
 

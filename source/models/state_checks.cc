@@ -219,7 +219,7 @@ namespace Debond
         const ControlNet v      = system.body[side]->contact_displacement();
         ControlNet      &judged = judged_displacement[side];
         if (body->material != Material::linear ||
-            max_traction < 5e-4 * body->young_modulus ||
+            max_traction < 5e-4 * body->softest_modulus() ||
             (judged.size() > 0 && (v - judged).norm() < 0.2 * v.norm()))
           continue;
         judged = v;

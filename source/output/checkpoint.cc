@@ -107,7 +107,7 @@ namespace Debond
       }
     if (newest && (newest->format != std::to_string(format) ||
                    newest->program != DEBOND_VERSION))
-      throw OtherProgram("'" + files[1 - next] + "' was written by debond " +
+      throw ForeignCheckpoint("'" + files[1 - next] + "' was written by debond " +
                          newest->program + ", format " + newest->format +
                          ", and this is debond " DEBOND_VERSION ", format " +
                          std::to_string(format) +

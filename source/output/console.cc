@@ -1,7 +1,5 @@
 #include <debond/output/console.h>
-#include <debond/support/ranks.h>
-
-#include <unistd.h>
+#include <debond/support/number_text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,24 +8,13 @@
 
 namespace Debond
 {
-  Console::Console(const bool quiet, std::ostream &out)
+  Console::Console(const bool                 quiet,
+                   const std::vector<double> &times,
+                   std::ostream              &out)
     : quiet(quiet)
+    , times(times)
     , out(out)
-    // mpirun writes to a terminal of its own, whatever becomes of it
-    , on_terminal(&out == &std::cout && isatty(STDOUT_FILENO) &&
-                  !Ranks::are_launched())
-    , start(std::chrono::steady_clock::now())
   {}
-
-
-
-  void
-  Console::erase_progress()
-  {
-    if (progress_shown)
-      out << "\r\033[K";
-    progress_shown = false;
-  }
 
 
 
@@ -40,14 +27,18 @@ namespace Debond
 
 
 
+  // On a terminal the last row is enough; a file keeps them, of very many
+  // planned ones a hundred, which tell as much.
   void
   Console::row(const TorqueRow &row, const unsigned int n_steps)
   {
-    // of very many planned steps some hundred lines tell as much
-    const unsigned int stride = std::max(1U, n_steps / 100);
-    if (quiet || (row.step % stride != 0 && row.step != n_steps))
+    if (quiet)
       return;
-    erase_progress();
+    if (progress_is_shown())
+      return show_progress_of(row, n_steps);
+    const unsigned int stride = std::max(1U, n_steps / 100);
+    if (row.step % stride != 0 && row.step != n_steps)
+      return;
     if (!columns_named)
       out
         << "   step  angle/deg  torque/Nmm  pressure/MPa  slipping/%  iterations\n";
@@ -67,19 +58,29 @@ namespace Debond
                   100. * row.share_slip,
                   row.newton_iterations);
     out << line;
-    if (!on_terminal || row.step <= first_step || row.step >= n_steps)
-      return;
-    const std::chrono::duration<double> seconds =
-      std::chrono::steady_clock::now() - start;
-    std::snprintf(line,
-                  sizeof(line),
-                  "%5.1f %% done, %.0f s so far, about %.0f s to go",
-                  100. * row.step / n_steps,
-                  seconds.count(),
-                  seconds.count() * (n_steps - row.step) /
-                    (row.step - first_step));
-    out << line << std::flush;
-    progress_shown = true;
+  }
+
+
+
+  void
+  Console::show_progress_of(const TorqueRow &row, const unsigned int n_steps)
+  {
+    const unsigned int n_phases = times.size() - 1;
+    const unsigned int phase =
+      std::lower_bound(times.begin() + 1, times.end() - 1, row.time) -
+      times.begin();
+    const double length = times.back() - times.front();
+    char         text[120];
+    std::snprintf(text,
+                  sizeof(text),
+                  "phase %u of %u, %.3f deg, %.3f N mm",
+                  phase,
+                  n_phases,
+                  row.angle_deg,
+                  row.torque_Nmm);
+    progress.show(text,
+                  n_steps > 0 ? double(row.step) / n_steps :
+                                (row.time - times.front()) / length);
   }
 
 
@@ -93,7 +94,6 @@ namespace Debond
       return;
     warning_keys.push_back(key);
     warnings.push_back(text);
-    erase_progress();
     out << "warning: " << text << std::endl;
   }
 } // namespace Debond

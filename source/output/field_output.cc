@@ -6,6 +6,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <filesystem>
+#include <regex>
 #include <sstream>
 
 namespace Debond
@@ -112,20 +113,28 @@ namespace Debond
   std::string
   FieldOutput::forget_later_files()
   {
+    namespace fs = std::filesystem;
+    // of any number of ranks
+    static const std::regex later(
+      "(bulk|interface)-([0-9]+)(\\.[0-9]+)?\\.p?vtu");
+    const fs::directory_iterator files(directory.path());
+    if (Ranks::is_first())
+      for (const fs::path &file :
+           std::vector<fs::path>(fs::begin(files), fs::end(files)))
+        {
+          const std::string name = file.filename().string();
+          std::smatch       parts;
+          std::error_code   none;
+          if (std::regex_match(name, parts, later) &&
+              std::stoul(parts[2]) >= times.size())
+            fs::remove(file, none);
+        }
     std::string missing;
     for (const std::string &series : all_series)
-      for (unsigned int i = 0;; ++i)
-        {
-          const std::string name = file_name(series, i);
-          std::error_code   none;
-          if (i >= times.size() &&
-              (!Ranks::is_first() ||
-               !std::filesystem::remove(directory.file(name), none)))
-            break;
-          if (i < times.size() &&
-              !std::filesystem::exists(directory.file(name)))
-            missing += (missing.empty() ? "" : ", ") + name;
-        }
+      for (unsigned int i = 0; i < times.size(); ++i)
+        if (const std::string name = file_name(series, i);
+            !fs::exists(directory.file(name)))
+          missing += (missing.empty() ? "" : ", ") + name;
     write_series();
     n_on_disk = times.size();
     return missing.empty() ?

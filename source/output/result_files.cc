@@ -1,9 +1,11 @@
 #include <debond/output/result_files.h>
 #include <debond/support/input_error.h>
+#include <debond/support/provenance.h>
 #include <debond/support/ranks.h>
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -19,7 +21,8 @@ namespace Debond
       return;
     static const std::regex rung("rung-[0-9]+"),
       file("(summary|repetition-[0-9]+)\\.json|checkpoint-[12]|"
-           "(torque|curve|curve_at|auto|bonding|profiles|friction_law|"
+           "report\\.html|torque\\.(svg|png)|"
+           "(torque|curve|curve_at|auto|bonding|profiles|friction_law|maps|"
            "sensitivities)\\.csv|"
            "(bulk|interface)(-[0-9]+(\\.[0-9]+)?\\.p?vtu|\\.pvd)");
     const fs::directory_iterator entries(directory);
@@ -32,6 +35,35 @@ namespace Debond
         if (is_rung || (!rungs_only && std::regex_match(name, file)))
           fs::remove_all(path);
       }
+  }
+
+
+
+  namespace
+  {
+    const std::string origin_begins = "# Written by ";
+
+    /** The first line of parameters.prm. */
+    std::string
+    origin_line()
+    {
+      std::string line;
+      for (const auto &[name, text] : provenance())
+        line += (line.empty() ? origin_begins : ", " + name + " ") + text;
+      std::replace(line.begin(), line.end(), '\n', ' ');
+      return line + "\n";
+    }
+  } // namespace
+
+
+
+  std::optional<std::string>
+  parameters_in(const std::string &directory)
+  {
+    auto text = read_whole_file(directory + "/parameters.prm");
+    if (text && text->rfind(origin_begins, 0) == 0)
+      text->erase(0, text->find('\n') + 1);
+    return text;
   }
 
 
@@ -60,7 +92,7 @@ namespace Debond
     if (!lock) // there was no directory yet
       lock = lock_directory(directory);
 
-    const auto existing          = read_whole_file(file("parameters.prm"));
+    const auto existing          = parameters_in(directory);
     const bool is_of_other_scene = existing && existing != completed_parameters;
     if (is_of_other_scene && !output.overwrite_other_results)
       refuse("this directory holds results of another scene (compare its "
@@ -71,7 +103,8 @@ namespace Debond
       {
         if (is_of_other_scene) // nobody must take them for this scene's
           remove_results(directory);
-        write_file(file("parameters.prm"), completed_parameters);
+        write_file(file("parameters.prm"),
+                   origin_line() + completed_parameters);
       }
     catch (const std::exception &reason)
       {

@@ -301,12 +301,29 @@ namespace Debond
         "checkpoints, from which `debond --resume DIR' goes on. 0: only when "
         "SIGINT, SIGTERM, SIGHUP or SIGUSR1 interrupts the run. For Model = finite "
         "elements.");
+      table.add("Checkpoint minutes",
+                output.checkpoint_minutes,
+                Allowed::number_from(0, "min"),
+                "Time [min] after which the next row leaves a checkpoint, beside "
+                "those of Checkpoint every. 0: none. For Model = finite "
+                "elements.");
+      table.add("Report",
+                output.report,
+                Allowed::choice("false | true"),
+                "Write report.html, a page with curve, maps of the interface, "
+                "results in words and warnings, its pictures torque.svg and "
+                "torque.png, and maps.csv. Variants of a study write none.");
+      table.add("Published values",
+                output.published,
+                Allowed::list(Allowed::number(""), 0, 4),
+                "T_max, T_inf [N mm], theta_lin, theta_max [deg], the first of "
+                "them or all, that the report marks in the curve. Empty: none.");
       table.add("Console",
                 output.quiet,
                 Allowed::choice("steps | quiet"),
                 "`steps': lines about the steps (a hundred if very many are "
-                "planned), progress and timings. `quiet': warnings and errors "
-                "only.");
+                "planned), on a terminal a line of progress instead. `quiet': "
+                "warnings and errors only.");
       table.leave_subsection();
     }
   } // namespace

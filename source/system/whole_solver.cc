@@ -150,7 +150,7 @@ namespace Debond
               dealii::TimerOutput   *timer)
   {
     const TimedSection     t(timer, "multigrid");
-    constexpr unsigned int most_cycles = 300, most_vectors = 60;
+    constexpr unsigned int most_cycles = 600, most_vectors = 60;
     const unsigned int     n_in_contact = bone.n_unknowns();
     const WholeSystem system(A, bone, b.size(), b.size() - n_in_contact, timer);
     Vector            right = system.vector(), x(right);

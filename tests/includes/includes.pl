@@ -24,7 +24,7 @@ sub lines_of
 # Every include line of the sources.
 for my $path (sort glob("source/*/* source/*.* include/debond/*/* include/debond/*.*"))
 {
-  next if $path =~ m{/CMakeLists\.txt$};
+  next if $path =~ m{\.(txt|cmake)$} || -d $path; # of the build
   my ($room, $name) = $path =~ m{^(?:source|include/debond)/(\w+)/(\w+)\.(?:cc|h)$};
   my $is_main = $path eq 'source/main.cc';
   if (!$is_main && (!defined $room || !exists $rank{$room}))

@@ -70,7 +70,7 @@ check_limit()
   report("a limit of 8000 MB leaves less than that, as some is taken",
          taken > 0. && within < 8000. && within <= before + 1000.);
   const auto large      = Debond::Scene::from_text(scene_text,
-                                              {"Bone/Cells=100, 100, 10",
+                                              {"Bone/Cells=200, 200, 20",
                                                     "Implant/Cells=60, 20"});
   const auto is_refused = [&](const bool has_bodies) {
     try

@@ -69,9 +69,10 @@ namespace Debond
      *  are; see read_modulus(). */
     std::string modulus_expression, voxel_file, voxel_corner = "centred";
     std::shared_ptr<const ModulusField> modulus; ///< null: young_modulus
-    double                              poisson_ratio   = 0.3;
-    SurfaceKind                         contact_surface = SurfaceKind::nurbs;
-    BulkSolver bulk_solver = BulkSolver::automatic; ///< bone
+    double      smallest_modulus = 0;            ///< of `modulus` [MPa]
+    double      poisson_ratio    = 0.3;
+    SurfaceKind contact_surface  = SurfaceKind::nurbs;
+    BulkSolver  bulk_solver      = BulkSolver::automatic; ///< bone
 
     /** Whether the body does not deform, and has no unknowns. */
     bool
@@ -155,6 +156,8 @@ namespace Debond
      *  EntryError. */
     void
     read_modulus(double radius);
+    double
+    softest_modulus() const; ///< [MPa]
     /** What `modulus` is and where its voxels are, as lines of text. */
     std::string
     modulus_in_words() const;

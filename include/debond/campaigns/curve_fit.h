@@ -2,6 +2,7 @@
 #define debond_campaigns_curve_fit_h
 
 #include <debond/campaigns/experiment.h>
+#include <debond/support/progress.h>
 #include <debond/support/written_files.h>
 
 #include <map>
@@ -57,6 +58,7 @@ namespace Debond
 
   private:
     std::mutex                        access;
+    Progress                          progress;
     std::map<std::string, Evaluation> known;
     GrowingFile                       file;
   };

@@ -2,6 +2,7 @@
 #define debond_models_run_report_h
 
 #include <debond/output/console.h>
+#include <debond/output/interface_maps.h>
 #include <debond/output/profile_output.h>
 
 #include <nlohmann/json_fwd.hpp>
@@ -30,8 +31,7 @@ namespace Debond
         const std::function<std::vector<InterfacePoint>()> &points);
     /** Writes summary.json: the measures of the torque curve of all @p rows,
      *  and @p facts, which tell the effort and the end. Area and mean bonding
-     * of
-     *  @p settings are set, where the scene does not observe the latter. */
+     *  of @p settings are set, where the scene does not observe the latter. */
     void
     finish(const std::vector<TorqueRow> &rows,
            CurveSettings                 settings,
@@ -42,7 +42,7 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &console &profiles;
+      archive &console &profiles &maps;
     }
 
     Console                    console;
@@ -53,6 +53,8 @@ namespace Debond
     const ResultDirectory &directory;
     const ReferenceCurve   reference;
     ProfileOutput          profiles;
+    InterfaceMaps          maps;
+    InterfaceMaps::Points  points_of_last_row;
   };
 } // namespace Debond
 #endif

@@ -12,13 +12,6 @@ namespace Debond
 {
   class ResultDirectory;
 
-  /** A checkpoint that only another version of the program can go on from. */
-  class OtherProgram : public InputError
-  {
-  public:
-    using InputError::InputError;
-  };
-
   /** A run after one of its rows. */
   struct Checkpoint
   {
@@ -41,7 +34,7 @@ namespace Debond
   {
   public:
     /** To be raised when the state of any class has other members. */
-    static constexpr unsigned int format = 4;
+    static constexpr unsigned int format = 5;
 
     explicit CheckpointFiles(const ResultDirectory &directory);
 
@@ -51,7 +44,7 @@ namespace Debond
 
     /** The newest checkpoint that is whole; none if there is none. @p remarks
      *  gets a line for each file that is damaged. Throws InputError if a file
-     *  cannot be read, OtherProgram if it is one of another version of the
+     *  cannot be read, ForeignCheckpoint if it is one of another version of the
      *  program. */
     std::optional<Checkpoint>
     newest(std::vector<std::string> &remarks);

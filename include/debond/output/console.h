@@ -3,20 +3,21 @@
 
 #include <debond/output/result_files.h>
 #include <debond/output/torque_curve.h>
+#include <debond/support/progress.h>
 
-#include <chrono>
 #include <iosfwd>
 #include <string>
 #include <vector>
 
 namespace Debond
 {
-  /** What a run says on its standard output: lines about the steps, one of
-   *  progress that is overwritten if the output is a terminal, warnings. */
+  /** What a run says on its standard output: lines about the steps, or one of
+   *  progress if that is shown, and warnings. */
   class Console
   {
   public:
-    Console(bool quiet, std::ostream &out);
+    /** @p times: `Load steps / Times`. */
+    Console(bool quiet, const std::vector<double> &times, std::ostream &out);
 
     void
     headline(const std::string &text);
@@ -29,10 +30,7 @@ namespace Debond
     void
     warn(const std::string &key, const std::string &text);
 
-    const bool quiet; ///< warnings only
-    /** The steps up to this one were not this run's: its pace is that of those
-     *  that follow. */
-    unsigned int             first_step = 0;
+    const bool               quiet;    ///< warnings only
     std::vector<std::string> warnings; ///< those printed
 
     /** See serialization.h. */
@@ -45,13 +43,13 @@ namespace Debond
 
   private:
     void
-    erase_progress();
+    show_progress_of(const TorqueRow &row, unsigned int n_steps);
 
-    std::ostream            &out;
-    const bool               on_terminal;
-    bool                     progress_shown = false, columns_named = false;
-    std::vector<std::string> warning_keys;
-    const std::chrono::steady_clock::time_point start;
+    const std::vector<double> times;
+    std::ostream             &out;
+    bool                      columns_named = false;
+    std::vector<std::string>  warning_keys;
+    Progress                  progress;
   };
 } // namespace Debond
 #endif

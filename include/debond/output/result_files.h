@@ -6,6 +6,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <optional>
 #include <string>
 
 namespace Debond
@@ -51,6 +52,12 @@ namespace Debond
     std::string   directory;
     DirectoryLock lock;
   };
+
+  /** The completed parameters of the scene whose results are in a directory:
+   *  its parameters.prm without the first line, which says when it was written
+   *  and by what. None if there is no such file. */
+  std::optional<std::string>
+  parameters_in(const std::string &directory);
 
   /** The file in a directory of results with the finest torque curve:
    *  curve.csv, or torque.csv where there is none. */

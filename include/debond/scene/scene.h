@@ -100,7 +100,11 @@ namespace Debond
     std::vector<double> profile_angles; ///< [deg]
     bool                friction_law_curve = false; ///< write friction_law.csv
     unsigned int        checkpoint_every = 0; ///< rows; 0: if interrupted only
+    double              checkpoint_minutes = 5.; ///< 0: no such checkpoints
     bool                quiet            = false; ///< warnings only
+    bool                report           = true;  ///< write report.html
+    /** T_max, T_inf [N mm], theta_lin, theta_max [deg] to mark in the report. */
+    std::vector<double> published;
     /** Use a directory that holds results of another scene, or the checkpoint
      * of an interrupted run. No entry of the scene: the option --force of the
      *  program. */
@@ -108,6 +112,8 @@ namespace Debond
     /** Whether a run leaves a checkpoint when it is interrupted. No entry of
      *  the scene: false for runs that are part of a larger one. */
     bool resumable = true;
+    /** Print a table of run times. No entry: the option --verbose. */
+    bool timings = false;
   };
 
   /** What a user has to know, once; @p check names what has not been passed. */

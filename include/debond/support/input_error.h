@@ -54,6 +54,14 @@ namespace Debond
     const std::string                place;
   };
 
+  /** A checkpoint that a run cannot go on from: another program, or another
+   *  way to solve for the bone, has left it. */
+  class ForeignCheckpoint : public InputError
+  {
+  public:
+    using InputError::InputError;
+  };
+
   /** A run that could not be finished; the message says where and why. */
   class RunError : public std::runtime_error
   {

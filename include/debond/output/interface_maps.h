@@ -1,0 +1,81 @@
+#ifndef debond_output_interface_maps_h
+#define debond_output_interface_maps_h
+
+#include <debond/output/profile_output.h>
+#include <debond/output/torque_curve.h>
+
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace Debond
+{
+  /**
+   * Pressure, sliding distance and friction coefficient on the contact face at
+   * the rows where something happens: sliding begins, half and all of what is
+   * in contact slides, half of the bond and all of it is broken, the load is
+   * largest, the run ends. Written to maps.csv at the end, as values on a grid
+   * of 48 x 48 places for pictures.
+   */
+  class InterfaceMaps
+  {
+  public:
+    explicit InterfaceMaps(const Scene &scene);
+
+    using Points = std::function<std::vector<InterfacePoint>()>;
+
+    /** @p points are those of the interface at this row. */
+    void
+    look(const TorqueRow &row, const Points &points);
+
+    /** Writes maps.csv, whose first columns are x_mm and y_mm; the others are
+     *  named "EVENT | ANGLE | TIME | QUANTITY", with the angle in degrees. nan
+     *  where there is no point. @p last_row and its @p points end the run. */
+    void
+    write(const ResultDirectory &directory,
+          const TorqueRow       &last_row,
+          const Points          &points);
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &n_rows &first_phi &largest_load &has_been &snapshots &largest;
+    }
+
+  private:
+    struct Snapshot
+    {
+      std::string                 events;
+      unsigned int                step      = 0;
+      double                      angle_deg = 0, time = 0;
+      std::vector<InterfacePoint> points;
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &events &step &angle_deg &time &points;
+      }
+    };
+
+    static Snapshot
+    snapshot(const std::string &event,
+             const TorqueRow   &row,
+             const Points      &points);
+
+    const bool   wanted;
+    const double radius; ///< R [mm], of a torque's force
+    const bool   is_round;
+    const double half_x, half_y; ///< of the grid [mm]
+    unsigned int n_rows    = 0;
+    double       first_phi = 0.,
+           largest_load    = 0.;    ///< [N], of a snapshot
+    std::set<std::string> has_been; ///< events
+    std::vector<Snapshot> snapshots;
+    Snapshot              largest; ///< at the largest load so far
+  };
+} // namespace Debond
+#endif

@@ -1,0 +1,20 @@
+#ifndef debond_support_provenance_h
+#define debond_support_provenance_h
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace Debond
+{
+  /** To be called by a program with the words that started it. */
+  void
+  note_command(int argc, const char *const *argv);
+
+  /** Where results come from, as pairs of a name and a text: program (with its
+   *  version), commit, deal.II, date (that of the call, ISO 8601), host,
+   *  command. What is not known is left out. */
+  std::vector<std::pair<std::string, std::string>>
+  provenance();
+} // namespace Debond
+#endif

@@ -1,0 +1,173 @@
+#include <debond/input/csv_table.h>
+#include <debond/output/interface_maps.h>
+#include <debond/output/result_files.h>
+#include <debond/scene/scene.h>
+#include <debond/support/number_text.h>
+
+#include <deal.II/base/point.h>
+#include <deal.II/numerics/rtree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Debond
+{
+  namespace
+  {
+    constexpr unsigned int n_across = 48; ///< places of the grid
+
+    // of an InterfacePoint
+    constexpr unsigned int of_pressure = 3, of_slip = 5, of_mu = 7;
+
+
+
+    /** What torque and forces along the face, or away from it, come to [N]. */
+    double
+    load_of(const TorqueRow &row, const double radius)
+    {
+      const auto &F = row.chuck_reaction;
+      return std::abs(row.torque_Nmm) / radius + std::hypot(F[0], F[1]) +
+             std::max(0., -row.force_N);
+    }
+  } // namespace
+
+
+
+  InterfaceMaps::InterfaceMaps(const Scene &scene)
+    : wanted(scene.output.report && scene.model == ModelKind::finite_elements)
+    , radius(scene.implant.characteristic_radius())
+    , is_round(scene.implant.is_round())
+    , half_x(0.5 * scene.implant.width(0))
+    , half_y(0.5 * scene.implant.width(1))
+  {}
+
+
+
+  InterfaceMaps::Snapshot
+  InterfaceMaps::snapshot(const std::string &event,
+                          const TorqueRow   &row,
+                          const Points      &points)
+  {
+    return {event, row.step, row.angle_deg, row.time, points()};
+  }
+
+
+
+  void
+  InterfaceMaps::look(const TorqueRow &row, const Points &points)
+  {
+    if (!wanted)
+      return;
+    if (n_rows++ == 0)
+      first_phi = row.phi_mean;
+    const double closed = row.share_stick + row.share_slip;
+    const auto   is_new = [&](const std::string &event, const bool is_so) {
+      if (is_so && has_been.insert(event).second)
+        snapshots.push_back(snapshot(event, row, points));
+    };
+    is_new("sliding has begun", row.share_slip >= 0.01 * closed && closed > 0.);
+    is_new("half of the contact slides",
+           row.share_slip >= 0.5 * closed && closed > 0.);
+    is_new("all of the contact slides",
+           row.share_slip >= 0.999 * closed && closed > 0.);
+    is_new("half of the bond is broken",
+           row.phi_mean <= 0.5 * first_phi && first_phi > 0.);
+    is_new("the bond is broken",
+           row.phi_mean <= 0.01 * first_phi && first_phi > 0.);
+    // a load that grows by less looks the same, and snapshots take time
+    constexpr double growth = 1.001, noise = 1e-6; // N
+    const double     load = load_of(row, radius);
+    if (load > std::max(noise, growth * largest_load))
+      {
+        largest_load = load;
+        largest      = snapshot("largest load", row, points);
+      }
+  }
+
+
+
+  namespace
+  {
+    using Entry = std::pair<dealii::Point<2>, unsigned int>;
+
+    dealii::RTree<Entry>
+    tree_of(const std::vector<InterfacePoint> &points)
+    {
+      std::vector<Entry> entries;
+      for (unsigned int i = 0; i < points.size(); ++i)
+        entries.emplace_back(dealii::Point<2>(points[i][0], points[i][1]), i);
+      return dealii::pack_rtree(entries);
+    }
+
+
+
+    /** The point closest to a place; null if there are none. */
+    const InterfacePoint *
+    closest(const std::vector<InterfacePoint> &points,
+            const dealii::RTree<Entry>        &tree,
+            const dealii::Point<2>            &place)
+    {
+      std::vector<Entry> nearest;
+      tree.query(boost::geometry::index::nearest(place, 1),
+                 std::back_inserter(nearest));
+      return nearest.empty() ? nullptr : &points[nearest[0].second];
+    }
+  } // namespace
+
+
+
+  void
+  InterfaceMaps::write(const ResultDirectory &directory,
+                       const TorqueRow       &last_row,
+                       const Points          &points)
+  {
+    if (!wanted || n_rows == 0)
+      return;
+    std::vector<Snapshot> all = snapshots;
+    if (largest_load > 0.)
+      all.push_back(largest);
+    all.push_back(snapshot("end", last_row, points));
+    std::stable_sort(all.begin(), all.end(), [](const auto &a, const auto &b) {
+      return a.step < b.step;
+    });
+    for (unsigned int i = 1; i < all.size();)
+      if (all[i].step == all[i - 1].step)
+        {
+          all[i - 1].events += " and " + all[i].events;
+          all.erase(all.begin() + i);
+        }
+      else
+        ++i;
+
+    std::vector<std::string>          names{"x_mm", "y_mm"};
+    std::vector<dealii::RTree<Entry>> trees;
+    for (const Snapshot &one : all)
+      {
+        trees.push_back(tree_of(one.points));
+        for (const char *const quantity : {"pressure_MPa", "slip_mm", "mu"})
+          names.push_back(one.events + " | " + to_text(one.angle_deg, 3) +
+                          " | " + to_text(one.time, 6) + " | " + quantity);
+      }
+    std::string  table = csv_line(names);
+    const double dx = 2. * half_x / n_across, dy = 2. * half_y / n_across;
+    for (unsigned int j = 0; j < n_across; ++j)
+      for (unsigned int i = 0; i < n_across; ++i)
+        {
+          const dealii::Point<2> place((i + 0.5) * dx - half_x,
+                                       (j + 0.5) * dy - half_y);
+          std::string line = to_text(place[0], 6) + "," + to_text(place[1], 6);
+          for (unsigned int k = 0; k < all.size(); ++k)
+            {
+              const auto *const point =
+                is_round && place.norm() > half_x ?
+                  nullptr :
+                  closest(all[k].points, trees[k], place);
+              for (const unsigned int q : {of_pressure, of_slip, of_mu})
+                line += "," + (point ? to_text((*point)[q], 4) : "nan");
+            }
+          table += line + "\n";
+        }
+    write_file(directory.file("maps.csv"), table);
+  }
+} // namespace Debond

@@ -1,0 +1,424 @@
+#include <debond/input/csv_table.h>
+#include <debond/output/report.h>
+#include <debond/output/report_page.h>
+#include <debond/output/result_files.h>
+#include <debond/scene/reference_data.h>
+#include <debond/support/number_text.h>
+#include <debond/support/ranks.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+// made by the build of the files in report/
+#include <debond_report_files.h>
+
+namespace Debond
+{
+  using namespace ReportPage;
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    /** What the page is made of. */
+    struct Results
+    {
+      std::string            directory;
+      nlohmann::ordered_json summary;
+      Scene                  scene;
+
+      explicit Results(const std::string &path)
+        : directory(path)
+        , summary(read_json(path + "/summary.json"))
+      {
+        const std::string parameters = path + "/parameters.prm";
+        if (summary.empty() || !fs::exists(parameters))
+          throw InputError("there are no results of a run in '" + path +
+                           "' (summary.json, parameters.prm)");
+        scene = Scene::from_file(parameters);
+      }
+
+      /** A member of the summary; NaN if there is none. */
+      double
+      number(const std::string &name) const
+      {
+        const auto found = summary.find(name);
+        return found != summary.end() && found->is_number() ?
+                 found->get<double>() :
+                 std::numeric_limits<double>::quiet_NaN();
+      }
+
+      /** "<b>53.8 N mm</b>"; nothing if it is not known. */
+      std::optional<std::string>
+      in_words(const std::string &name,
+               const std::string &unit,
+               const double       factor = 1.) const
+      {
+        const double value = factor * number(name);
+        if (!std::isfinite(value))
+          return {};
+        return "<b>" + to_text(value, 4) + (unit == "°" ? "" : " ") + unit +
+               "</b>";
+      }
+    };
+
+
+
+    // <h3>The curve</h3>
+
+    /** What is drawn over what: columns of torque.csv, and their names. */
+    struct Axes
+    {
+      std::string x = "angle_deg", y = "torque_Nmm",
+                  x_label = "Rotation angle {/:Italic θ} [°]",
+                  y_label = "Torque {/:Italic T} [N mm]";
+    };
+
+
+
+    /** The torque over the angle of an implant that turns; otherwise force or
+     *  moment of the component of the chuck that moves most over its way. */
+    Axes
+    axes_of(const std::string &file)
+    {
+      const std::string entry = "torque.csv";
+      const auto        ways  = [&](const std::vector<std::string> &columns) {
+        std::vector<double> result;
+        const auto          rows = read_csv_columns(file, entry, columns, true);
+        for (unsigned int c = 0; c < columns.size(); ++c)
+          {
+            double least = 1e300, most = -1e300;
+            for (const auto &row : rows)
+              {
+                least = std::min(least, row[c]);
+                most  = std::max(most, row[c]);
+              }
+            result.push_back(most - least);
+          }
+        return result;
+      };
+      if (ways({"angle_deg"})[0] > 1e-9)
+        return {};
+      const auto known = read_csv_header(file, entry);
+      Axes       axes;
+      double     largest = 0.;
+      for (unsigned int k = 0; k < 6; ++k)
+        {
+          const std::string way  = ChuckParameters::column_name(k, false),
+                            load = ChuckParameters::column_name(k, true);
+          if (std::count(known.begin(), known.end(), way) == 0)
+            continue;
+          // a degree at a radius of some mm
+          const double length = ways({way})[0] * (is_rotation(k) ? 0.05 : 1.);
+          if (length <= largest)
+            continue;
+          largest = length;
+          const std::string direction(1, "xyz"[k % 3]);
+          axes = is_rotation(k) ?
+                   Axes{way,
+                        load,
+                        "Rotation about " + direction + " [°]",
+                        "Moment about " + direction + " [N mm]"} :
+                   Axes{way,
+                        load,
+                        "Displacement along " + direction + " [mm]",
+                        "Force along " + direction + " [N]"};
+        }
+      return axes;
+    }
+
+
+
+    /** Maps: for each event the words of its columns, and the largest values of
+     *  the three quantities. */
+    struct Maps
+    {
+      struct Event
+      {
+        std::string name, angle, time;
+      };
+      std::vector<Event>    events;
+      std::array<double, 3> largest{};
+
+      explicit Maps(const std::string &file)
+      {
+        if (!fs::exists(file))
+          return;
+        const auto header = read_csv_header(file, "maps.csv");
+        for (unsigned int i = 2; i + 2 < header.size(); i += 3)
+          {
+            std::vector<std::string> words =
+              dealii::Utilities::split_string_list(header[i], " | ");
+            words.resize(4);
+            events.push_back({words[0], words[1], words[2]});
+          }
+        for (const auto &row : read_csv_columns(file, "maps.csv", header, true))
+          for (unsigned int i = 2; i < row.size(); ++i)
+            if (row[i] > largest[(i - 2) % 3])
+              largest[(i - 2) % 3] = row[i];
+      }
+    };
+
+
+
+    /** The names that report/pictures.gp asks for. */
+    std::string
+    names_for_pictures(const Results     &results,
+                       const Maps        &maps,
+                       const std::string &scratch)
+    {
+      const std::string file = finest_curve(results.directory);
+      const Axes        axes = axes_of(file);
+      Text              text;
+      text << "file = " << quoted(file) << "\nx = " << quoted(axes.x)
+           << "\ny = " << quoted(axes.y)
+           << "\nx_label = " << quoted(axes.x_label)
+           << "\ny_label = " << quoted(axes.y_label)
+           << "\nsvg = " << quoted(results.directory + "/torque.svg")
+           << "\npng = " << quoted(results.directory + "/torque.png") << "\n";
+      ReferenceCurve reference;
+      const bool     turns = axes.x == Axes().x;
+      if (turns && fs::exists(results.scene.output.reference_curve))
+        reference =
+          read_reference_curve(results.scene.output.reference_curve,
+                               results.scene.output.reference_columns);
+      text << "$reference << EOD\nangle,torque\n";
+      for (const auto &[angle, torque] : reference)
+        text << angle << "," << torque << "\n";
+      text << "EOD\nn_reference = " << reference.size() << "\npublished = '";
+      for (const double value : results.scene.output.published)
+        text << (turns ? to_text(value) + " " : "");
+      text << "'\nmaps = " << quoted(results.directory + "/maps.csv")
+           << "\nn_maps = " << maps.events.size() << "\nlargest = '";
+      for (const double largest : maps.largest)
+        text << (largest > 0. ? largest : 1.) << " ";
+      text << "'\nmap_file(k, q) = sprintf('%s/%d-%d.svg', " << quoted(scratch)
+           << ", k, q)\n";
+      return text;
+    }
+
+
+
+    std::string
+    section_of_maps(const Maps &maps, const std::string &scratch)
+    {
+      static const struct
+      {
+        const char *name, *unit;
+      } quantities[]{{"Pressure", " MPa"},
+                     {"Sliding distance g_s", " mm"},
+                     {"Friction coefficient mu", ""}};
+      const bool  turns = std::any_of(maps.events.begin(),
+                                     maps.events.end(),
+                                     [](const Maps::Event &event) {
+                                       return event.angle != "0";
+                                     });
+      std::string text;
+      for (unsigned int q = 0; q < 3; ++q)
+        {
+          text += Text() << "<div class=\"scale\">" << quantities[q].name
+                         << ": 0 <span class=\"bar\"></span> "
+                         << to_text(maps.largest[q], 3) << quantities[q].unit
+                         << "</div>\n<div class=\"maps\">\n";
+          for (unsigned int k = 0; k < maps.events.size(); ++k)
+            {
+              const auto       &event = maps.events[k];
+              const std::string words =
+                (turns ? event.angle + "°: " : "time " + event.time + ": ") +
+                event.name;
+              text += "<figure>" +
+                      image(scratch + "/" + std::to_string(k + 1) + "-" +
+                              std::to_string(q + 1) + ".svg",
+                            quantities[q].name + (" at " + words)) +
+                      "<figcaption>" + escaped(words) +
+                      "</figcaption></figure>\n";
+            }
+          text += "</div>\n";
+        }
+      return maps.events.empty() ? "" : text;
+    }
+
+
+
+    // <h3>Words and tables</h3>
+
+    std::vector<std::string>
+    findings(const Results &results)
+    {
+      std::vector<std::string> list;
+      const auto               value = [&](const char *const name,
+                             const char *const unit,
+                             const double      factor = 1.) {
+        return results.in_words(name, unit, factor);
+      };
+      if (const auto angle = value("theta_max_deg", "°"))
+        {
+          const auto full = value("theta_full_deg", "°");
+          list.push_back(
+            "The torque is largest, " + *value("T_max_Nmm", "N mm") + ", at " +
+            *angle +
+            (full ? ", and stays within 0.1 % of that up to " + *full : "") +
+            ". At the end it is " +
+            value("T_inf_Nmm", "N mm").value_or("not known") + ".");
+        }
+      if (const auto angle = value("theta_debonding_deg", "°"))
+        list.push_back("The bond begins to break at " + *angle + ".");
+      if (const auto pressure = value("pressure_MPa", "MPa");
+          pressure && results.number("pressure_MPa") > 0.)
+        list.push_back("The implant is pressed on with a mean pressure of " +
+                       *pressure + ".");
+      if (const auto force = value("force_end_N", "N"))
+        list.push_back("The axial force at the end is " + *force +
+                       " (positive in compression).");
+      if (const auto stiffness =
+            value("initial_stiffness_Nm_per_rad", "N m/rad"))
+        list.push_back("The initial torsional stiffness is " + *stiffness +
+                       ".");
+      if (const auto work = value("W_adh_Nm", "N mm", 1e3))
+        list.push_back(
+          "The work of adhesion read off the curve is " + *work + ", or " +
+          value("w_adh_N_per_m", "N/m").value_or("not known") +
+          " of the bonded face; the law spends " +
+          value("D_adh_Nm", "N mm", 1e3).value_or("nothing") + " on adhesion.");
+      if (const auto mean = value("difference_mean", "%", 100.))
+        list.push_back("The torque differs from that of " +
+                       escaped(results.scene.output.reference_curve) + " by " +
+                       *mean + " of the largest in the mean and " +
+                       value("difference_max", "%", 100.).value_or("") +
+                       " at most.");
+      return list;
+    }
+
+
+
+    std::string
+    energies(const Results &results)
+    {
+      static const struct
+      {
+        const char *name, *words;
+      } parts[]{{"work_Nm", "work of the chuck"},
+                {"E_bulk_Nm", "stored in the bodies at the end"},
+                {"E_interface_Nm", "stored in the interface at the end"},
+                {"dissipation_Nm", "dissipated"},
+                {"D_adh_Nm", "of that by the bond"},
+                {"viscous_dissipation_Nm", "of that by viscosity"},
+                {"released_energy_Nm", "released by jumps"}};
+      double largest = 0.;
+      for (const auto &part : parts)
+        largest = std::fmax(largest, 1e3 * std::abs(results.number(part.name)));
+      std::vector<std::vector<std::string>> rows;
+      for (const auto &part : parts)
+        if (const double mJ = 1e3 * results.number(part.name);
+            std::abs(mJ) > 1e-9 * largest)
+          rows.push_back({part.words, to_text(mJ, 4) + " N mm"});
+      std::string text = table_of({}, rows);
+      if (const double defect = results.number("largest_energy_defect");
+          std::isfinite(defect))
+        text += "<p>Work and energies differ by " + to_text(defect, 2) +
+                " of the largest work at most, forces on both sides of the "
+                "implant by " +
+                to_text(results.number("largest_reaction_defect"), 2) + ".</p>";
+      return text;
+    }
+
+
+
+    std::string
+    changed_entries(const Scene &scene)
+    {
+      std::vector<std::vector<std::string>> rows;
+      for (const SceneEntry &entry : scene.changed_entries)
+        rows.push_back({escaped(entry.full_name()),
+                        "<code>" + escaped(entry.value) + "</code>"});
+      return table_of({}, rows);
+    }
+
+
+
+    std::string
+    origin(const Results &results)
+    {
+      std::vector<std::vector<std::string>> rows;
+      const auto found = results.summary.find("provenance");
+      if (found != results.summary.end())
+        for (const auto &[name, text] : found->items())
+          rows.push_back(
+            {name, "<code>" + escaped(text.get<std::string>()) + "</code>"});
+      if (const double seconds = results.number("wall_seconds");
+          std::isfinite(seconds))
+        rows.push_back({"run time", to_text(seconds, 3) + " s"});
+      return table_of({}, rows);
+    }
+
+
+
+    std::vector<std::string>
+    warnings_of(const Results &results)
+    {
+      std::vector<std::string> list;
+      for (const char *const name : {"warnings", "remarks"})
+        if (const auto found = results.summary.find(name);
+            found != results.summary.end())
+          for (const std::string text : *found)
+            if (std::find(list.begin(), list.end(), escaped(text)) ==
+                list.end())
+              list.push_back(escaped(text));
+      return list;
+    }
+  } // namespace
+
+
+
+  void
+  write_report_of_run(const std::string &directory)
+  {
+    const Results results(directory);
+    const Maps    maps(directory + "/maps.csv");
+    const Scratch scratch;
+    const bool is_drawn = draw(names_for_pictures(results, maps, scratch.path) +
+                               report_file_pictures_gp);
+    std::string sections =
+      state(results.summary.value("converged", false),
+            results.summary.value("reason", "")) +
+      section("Results", list_of(findings(results))) +
+      section("Warnings",
+              list_of(warnings_of(results), " class=\"warnings\"")) +
+      section("Curve",
+              curve(is_drawn,
+                    directory + "/torque.svg",
+                    "curve of the run",
+                    directory));
+    if (is_drawn)
+      sections += section("Contact face", section_of_maps(maps, scratch.path));
+    sections += section("Energies", energies(results)) +
+                section("Entries that differ from the defaults",
+                        changed_entries(results.scene)) +
+                section("Origin", origin(results));
+    write(directory,
+          results.scene.title.empty() ? "Results in " + directory :
+                                        results.scene.title,
+          sections);
+  }
+
+
+
+  void
+  write_report(const std::string &directory)
+  {
+    if (!Ranks::is_first())
+      return;
+    if (fs::exists(directory + "/study.csv"))
+      write_report_of_study(directory);
+    else if (fs::exists(directory + "/calibration.json"))
+      write_report_of_calibration(directory);
+    else
+      write_report_of_run(directory);
+  }
+} // namespace Debond

@@ -1,0 +1,77 @@
+#include <debond/support/provenance.h>
+
+#include <deal.II/base/config.h>
+
+#include <unistd.h>
+
+#include <ctime>
+
+// made by the build, of `git describe'
+#include <debond_commit.h>
+
+namespace Debond
+{
+  namespace
+  {
+    std::string command; // as a shell would read it
+
+
+
+    std::string
+    quoted(const std::string &word)
+    {
+      if (word.find_first_not_of("abcdefghijklmnopqrstuvwxyz"
+                                 "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                 "0123456789-_./=,:+@%") == std::string::npos)
+        return word;
+      std::string text = "'";
+      for (const char c : word)
+        text += c == '\'' ? "'\\''" : std::string(1, c);
+      return text + "'";
+    }
+
+
+
+    std::string
+    date_now()
+    {
+      const std::time_t now = std::time(nullptr);
+      std::tm           local{};
+      char              text[40];
+      localtime_r(&now, &local);
+      std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%S%z", &local);
+      return text;
+    }
+  } // namespace
+
+
+
+  void
+  note_command(const int argc, const char *const *const argv)
+  {
+    command.clear();
+    for (int i = 0; i < argc; ++i)
+      command += (i == 0 ? "" : " ") + quoted(argv[i]);
+  }
+
+
+
+  std::vector<std::pair<std::string, std::string>>
+  provenance()
+  {
+    char host[256] = "";
+    gethostname(host, sizeof(host) - 1);
+    std::vector<std::pair<std::string, std::string>> all{
+      {"program", "debond " DEBOND_VERSION},
+      {"commit", DEBOND_COMMIT},
+      {"deal.II", DEAL_II_PACKAGE_VERSION},
+      {"date", date_now()},
+      {"host", host},
+      {"command", command}};
+    std::vector<std::pair<std::string, std::string>> known;
+    for (auto &item : all)
+      if (!item.second.empty())
+        known.push_back(std::move(item));
+    return known;
+  }
+} // namespace Debond

@@ -1,0 +1,79 @@
+#!/bin/bash
+# report.sh DEBOND: the pages that runs, studies and calibrations leave. Prints what must be so.
+set -u
+debond=$1
+cat > scene.prm <<'END'
+set Title = A <coin> & bone
+subsection Bone
+  set Cells    = 10, 10, 3
+  set Material = linear
+end
+subsection Implant
+  set Material = linear
+end
+subsection Chuck
+  subsection Translation z
+    set Value = -0.0049 * min(t, 1)
+  end
+  subsection Rotation z
+    set Value = 10 * max(t - 1, 0)
+  end
+end
+subsection Load steps
+  set Times = 0, 1, 1.3
+  set Steps = 1, 30
+end
+subsection Output
+  set Directory        = run
+  set Fields every     = 0
+  set Console          = quiet
+  set Published values = 53.8, 36.8
+end
+END
+# the words of a page, without the pictures
+words() { sed 's/src="data[^"]*"//g' "$1/report.html"; }
+# "a run: 1 curve, 12 maps, nothing from elsewhere"
+pictures() {
+  echo "$1: $(grep -c 'class="curve"><img' "$1/report.html") curves, $(grep -c '<figure>' "$1/report.html") maps," \
+    "$(words "$1" | grep -c -i -e 'http' -e '<script' -e '<link') from elsewhere," \
+    "$(($(stat -c %s "$1/report.html") < 3000000)) below 3 MB"
+}
+
+"$debond" scene.prm
+pictures run
+words run | grep -o -e "<h1>.*</h1>" -e "The torque is largest" -e "Load steps / Steps" -e "half of the bond is broken" -e "command" | sort -u
+head -c 5 run/torque.svg
+echo " $(head -c 4 run/torque.png | tail -c 3)"
+grep -c '"command"' run/summary.json
+head -n 1 run/parameters.prm | grep -o "^# Written by debond"
+# made anew it is the same page
+cp run/report.html before.html
+"$debond" --report run && cmp before.html run/report.html && echo "the same page"
+
+echo "a run that fails, and one without a report"
+"$debond" scene.prm --set "Interface/Sliding threshold=1e-6" --set Output/Directory=failed > /dev/null 2>&1
+words failed | grep -o -e "not finished" | head -n 1
+"$debond" scene.prm --set Output/Report=false --set Output/Directory=without
+ls without | grep -c -e report -e maps
+
+echo "without gnuplot"
+mkdir -p path && for tool in sh env; do ln -sf "$(command -v $tool)" path/; done
+PATH=$PWD/path "$debond" scene.prm --set Output/Directory=plain
+words plain | grep -o "There are no pictures: gnuplot"
+
+echo "a pull, a study, a calibration"
+"$debond" scene.prm --set "Chuck/Rotation z/Value=0" --set "Chuck/Translation x/Value=0.05 * max(t - 1, 0)" --set Output/Directory=shear
+pictures shear
+"$debond" scene.prm --set "Interface/Sliding threshold={{0.02|1e-6|0.04}}" --set Output/Directory=study > /dev/null 2>&1
+pictures study
+words study | grep -o -e "2 of 3 variants are done" -e "variant 2, Sliding threshold = 1e-6"
+"$debond" scene.prm --set "Interface/Friction coefficient broken=<<mu_b: 0.3 in 0.1..1>>" --set Task=calibrate \
+  --set "Output/Reference curve=run/torque.csv" --set Output/Directory=calibration > /dev/null
+pictures calibration
+words calibration | grep -o -e "<td>mu_b</td>"
+
+echo "refused"
+mkdir -p nothing
+"$debond" --report nothing 2>&1
+"$debond" --report run --force 2>&1
+true

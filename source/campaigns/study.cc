@@ -254,7 +254,7 @@ namespace Debond
         std::vector<VariantProcess> running;
         unsigned int                n_ended = n_done();
         Progress                    progress;
-        progress.show("", double(n_ended) / variants.size());
+        progress.show("starting", double(n_ended) / variants.size());
         for (unsigned int i = 0; i < variants.size(); ++i)
           if (!variants[i].done)
             waiting.add(i, variants[i].scene, variants[i].n_repetitions == 1);

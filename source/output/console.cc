@@ -8,6 +8,18 @@
 
 namespace Debond
 {
+  namespace
+  {
+    /** No negative zeros. */
+    double
+    rounded(const double value)
+    {
+      return std::abs(value) < 5e-5 ? 0. : value;
+    }
+  } // namespace
+
+
+
   Console::Console(const bool                 quiet,
                    const std::vector<double> &times,
                    std::ostream              &out)
@@ -44,10 +56,6 @@ namespace Debond
         << "   step  angle/deg  torque/Nmm  pressure/MPa  slipping/%  iterations\n";
     columns_named = true;
     char line[120];
-    // no negative zeros
-    const auto rounded = [](const double value) {
-      return std::abs(value) < 5e-5 ? 0. : value;
-    };
     std::snprintf(line,
                   sizeof(line),
                   "%7u %10.4f %11.4f %13.4f %11.1f %11u\n",
@@ -73,11 +81,11 @@ namespace Debond
     char         text[120];
     std::snprintf(text,
                   sizeof(text),
-                  "phase %u of %u, %.3f deg, %.3f N mm",
+                  "phase %u of %u, %.4f deg, %.4f N mm",
                   phase,
                   n_phases,
-                  row.angle_deg,
-                  row.torque_Nmm);
+                  rounded(row.angle_deg),
+                  rounded(row.torque_Nmm));
     progress.show(text,
                   n_steps > 0 ? double(row.step) / n_steps :
                                 (row.time - times.front()) / length);

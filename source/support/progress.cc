@@ -138,7 +138,9 @@ namespace Debond
         line += "  [" + std::string(filled, '#') +
                 std::string(length - filled, '.') + "]  " +
                 std::to_string(int(100. * fraction)) + " %";
-        if (const double pace = fraction - first_fraction; pace > 0.)
+        // the beginning of a run is no measure of its pace
+        if (const double pace = fraction - first_fraction;
+            pace > 0. && since(start) > 1.)
           line +=
             ", " + duration(since(start) * (1. - fraction) / pace) + " to go";
       }

@@ -1,5 +1,5 @@
 # Options that do not exist, and numbers that these do not take.
-debond --verbose scene.prm
+debond --loud scene.prm
 debond --jobs 0 scene.prm
 debond --threads 2.5 scene.prm
 debond --jobs

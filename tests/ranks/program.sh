@@ -90,7 +90,7 @@ ranks 4 $scene --set "Interface/Sliding threshold={{0.02|0.04}}" --threads 1 --j
 OMPI_MCA_btl=tcp,self ranks 2 $scene --set "Interface/Sliding threshold={{0.02|0.03|0.04}}" --set Output/Directory=tcp && echo "by TCP"
 
 echo "a process that is killed"
-"$run" "$mpirun" 2 "$debond" $scene --set "Load steps/Steps=1,400" --set "Output/Checkpoint every=1" --set "Output/Fields every=0" --set Output/Directory=killed > said 2>&1 &
+"$run" "$mpirun" 2 "$debond" $scene --set "Load steps/Steps=1,400" --set "Output/Checkpoint minutes=1e-9" --set "Output/Fields every=0" --set Output/Directory=killed > said 2>&1 &
 job=$!
 while [ ! -e killed/checkpoint-2 ]; do sleep 0.1; done
 kill -9 "$(pgrep -f "Output/Directory=killed" | tail -n 1)"

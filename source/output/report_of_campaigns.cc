@@ -8,13 +8,12 @@
 
 #include <boost/algorithm/string/predicate.hpp>
 
+#include <debond_report_files.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-
-#include <debond_report_files.h>
 
 namespace Debond
 {
@@ -325,8 +324,8 @@ namespace Debond
                           {},
                           "x = " + quoted(header[0]) +
                             "\ny = " + quoted(column) +
-                            "\nx_label = " + quoted(header[0]) +
-                            "\ny_label = " + quoted(column) +
+                            "\nx_label = " + quoted(in_words(header[0])) +
+                            "\ny_label = " + quoted(in_words(column)) +
                             "\nis_fit = 1\nis_ensemble = 0\n");
             pictures +=
               curve(is_drawn, base + ".svg", "fit of " + column, directory);

@@ -2,6 +2,7 @@
 #include <debond/input/csv_table.h>
 #include <debond/output/result_files.h>
 #include <debond/support/number_text.h>
+#include <debond/support/provenance.h>
 
 #include <nlohmann/json.hpp>
 
@@ -78,7 +79,11 @@ namespace Debond
           candidates.push_back({{"experiment", candidate.experiment + 1},
                                 {"half_widths", widths}});
         }
+      nlohmann::ordered_json origin;
+      for (const auto &[name, text] : provenance())
+        origin[name] = text;
       return {{"version", DEBOND_VERSION},
+              {"provenance", origin},
               {"seconds", calibration.seconds},
               {"evaluations", calibration.n_evaluations},
               {"failures", calibration.failures.n},

@@ -7,6 +7,7 @@
 #include <debond/input/parameter_loop.h>
 #include <debond/models/memory_estimate.h>
 #include <debond/output/report.h>
+#include <debond/output/result_files.h>
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
 #include <debond/support/number_text.h>
@@ -25,7 +26,6 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
-#include <iomanip>
 #include <iostream>
 #include <ostream>
 #include <sstream>
@@ -106,9 +106,8 @@ namespace Debond
                          " variants"));
         for (StudyVariant &combination : combinations)
           {
-            const std::string variant_name =
-              Text() << "variant-" << std::setw(3) << std::setfill('0')
-                     << variants.size() + 1;
+            const std::string directory_name =
+              variant_name(variants.size() + 1);
             // what only the study uses must not make another scene of a variant
             const auto own = with_overrides(std::move(combination.entries),
                                             {"Study/Reference variant=0",
@@ -118,9 +117,9 @@ namespace Debond
                                              "Output/Console=quiet",
                                              "Output/Report=false",
                                              "Output/Directory=" + directory +
-                                               "/" + variant_name});
+                                               "/" + directory_name});
             Variant    next;
-            next.name = variant_name + ":";
+            next.name = directory_name + ":";
             for (unsigned int i = 0; i < varied.size(); ++i)
               next.name += (i == 0 ? " " : "; ") + varied[i] + " = " +
                            combination.values[i];

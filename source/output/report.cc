@@ -87,45 +87,47 @@ namespace Debond
     Axes
     axes_of(const std::string &file)
     {
-      const std::string entry = "torque.csv";
-      const auto        ways  = [&](const std::vector<std::string> &columns) {
-        std::vector<double> result;
-        const auto          rows = read_csv_columns(file, entry, columns, true);
-        for (unsigned int c = 0; c < columns.size(); ++c)
-          {
-            double least = 1e300, most = -1e300;
-            for (const auto &row : rows)
-              {
-                least = std::min(least, row[c]);
-                most  = std::max(most, row[c]);
-              }
-            result.push_back(most - least);
-          }
-        return result;
-      };
-      if (ways({"angle_deg"})[0] > 1e-9)
-        return {};
-      const auto known = read_csv_header(file, entry);
-      Axes       axes;
-      double     largest = 0.;
+      const std::string         entry = "torque.csv";
+      const auto                known = read_csv_header(file, entry);
+      std::vector<std::string>  names{"angle_deg"};
+      std::vector<unsigned int> components;
       for (unsigned int k = 0; k < 6; ++k)
+        if (const std::string name = ChuckParameters::column_name(k, false);
+            std::count(known.begin(), known.end(), name) > 0)
+          {
+            names.push_back(name);
+            components.push_back(k);
+          }
+      const auto rows = read_csv_columns(file, entry, names, true);
+      const auto way  = [&](const unsigned int column) {
+        const auto [least, most] =
+          std::minmax_element(rows.begin(),
+                              rows.end(),
+                              [=](const auto &a, const auto &b) {
+                                return a[column] < b[column];
+                              });
+        return rows.empty() ? 0. : (*most)[column] - (*least)[column];
+      };
+      Axes axes;
+      if (way(0) > 1e-9)
+        return axes;
+      double largest = 0.;
+      for (unsigned int i = 0; i < components.size(); ++i)
         {
-          const std::string way  = ChuckParameters::column_name(k, false),
-                            load = ChuckParameters::column_name(k, true);
-          if (std::count(known.begin(), known.end(), way) == 0)
-            continue;
+          const unsigned int k = components[i];
           // a degree at a radius of some mm
-          const double length = ways({way})[0] * (is_rotation(k) ? 0.05 : 1.);
-          if (length <= largest)
+          const double length = way(i + 1) * (is_rotation(k) ? 0.05 : 1.);
+          if (!(length > largest))
             continue;
-          largest = length;
-          const std::string direction(1, "xyz"[k % 3]);
+          largest                = length;
+          const std::string load = ChuckParameters::column_name(k, true),
+                            direction(1, "xyz"[k % 3]);
           axes = is_rotation(k) ?
-                   Axes{way,
+                   Axes{names[i + 1],
                         load,
                         "Rotation about " + direction + " [°]",
                         "Moment about " + direction + " [N mm]"} :
-                   Axes{way,
+                   Axes{names[i + 1],
                         load,
                         "Displacement along " + direction + " [mm]",
                         "Force along " + direction + " [N]"};
@@ -342,23 +344,6 @@ namespace Debond
 
 
 
-    std::string
-    origin(const Results &results)
-    {
-      std::vector<std::vector<std::string>> rows;
-      const auto found = results.summary.find("provenance");
-      if (found != results.summary.end())
-        for (const auto &[name, text] : found->items())
-          rows.push_back(
-            {name, "<code>" + escaped(text.get<std::string>()) + "</code>"});
-      if (const double seconds = results.number("wall_seconds");
-          std::isfinite(seconds))
-        rows.push_back({"run time", to_text(seconds, 3) + " s"});
-      return table_of({}, rows);
-    }
-
-
-
     std::vector<std::string>
     warnings_of(const Results &results)
     {
@@ -400,7 +385,7 @@ namespace Debond
     sections += section("Energies", energies(results)) +
                 section("Entries that differ from the defaults",
                         changed_entries(results.scene)) +
-                section("Origin", origin(results));
+                section("Origin", origin(results.summary));
     write(directory,
           results.scene.title.empty() ? "Results in " + directory :
                                         results.scene.title,

@@ -4,7 +4,6 @@
 #include <debond/output/result_files.h>
 #include <debond/scene/reference_data.h>
 #include <debond/support/number_text.h>
-#include <debond/support/provenance.h>
 
 #include <boost/algorithm/string/predicate.hpp>
 
@@ -14,6 +13,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <regex>
+#include <set>
 
 namespace Debond
 {
@@ -73,17 +74,6 @@ namespace Debond
                 "");
         }
       return table_of(head, rows);
-    }
-
-
-
-    std::string
-    origin_now()
-    {
-      std::vector<Fields> rows;
-      for (const auto &[name, text] : provenance())
-        rows.push_back({name, "<code>" + escaped(text) + "</code>"});
-      return table_of({}, rows);
     }
 
 
@@ -154,16 +144,6 @@ namespace Debond
                   header[i].substr(header[i].rfind(" / ") + 3) + " = " + row[i];
       return text;
     }
-
-
-
-    std::string
-    variant_directory(const std::string &number)
-    {
-      return "variant-" +
-             std::string(3 - std::min<std::size_t>(3, number.size()), '0') +
-             number;
-    }
   } // namespace
 
 
@@ -182,7 +162,7 @@ namespace Debond
     for (std::size_t i = 1; i < table.size(); ++i)
       {
         const std::string own =
-          directory + "/" + variant_directory(table[i][0]);
+          directory + "/" + variant_name(std::stoul(table[i][0]));
         if (converged < table[i].size() && table[i][converged] == "true")
           {
             files.push_back(finest_curve(own));
@@ -221,10 +201,10 @@ namespace Debond
     const bool        is_ensemble =
       fs::exists(ensemble) &&
       read_csv_header(ensemble, "ensemble")[0] == "angle_deg";
+    const std::string a_variant =
+      n_done > 0 ? fs::path(files[0]).parent_path().string() : "";
     const OutputParameters output =
-      n_done > 0 ? Scene::from_file(fs::path(files[0]).parent_path().string() +
-                                    "/parameters.prm")
-                     .output :
+      n_done > 0 ? Scene::from_file(a_variant + "/parameters.prm").output :
                    OutputParameters();
     ReferenceCurve reference;
     if (fs::exists(output.reference_curve))
@@ -261,8 +241,9 @@ namespace Debond
                     {"W_adh_Nm", "W_adh [N mm]"},
                     {"difference_mean", "mean difference from the reference"},
                     {"wall_seconds", "time [s]"}});
-    sections += section("Variants", columns_of(table, columns)) +
-                section("Origin", origin_now());
+    sections +=
+      section("Variants", columns_of(table, columns)) +
+      section("Origin", origin(read_json(a_variant + "/summary.json"), false));
     write(directory, "Study in " + directory, sections);
   }
 
@@ -302,14 +283,14 @@ namespace Debond
     sections += section("Warnings", list_of(remarks, " class=\"warnings\""));
 
     std::string pictures;
-    for (unsigned int e = 0;; ++e)
+    // fit.csv, or of several experiments fit-1.csv and so on
+    static const std::regex of_fit("fit(-[0-9]+)?\\.csv");
+    std::set<std::string>   files;
+    for (const auto &entry : fs::directory_iterator(directory))
+      if (std::regex_match(entry.path().filename().string(), of_fit))
+        files.insert(entry.path().string());
+    for (const std::string &file : files)
       {
-        const std::string several = "-" + std::to_string(e + 1);
-        std::string       file    = directory + "/fit" + several + ".csv";
-        if (e == 0 && !fs::exists(file))
-          file = directory + "/fit.csv";
-        if (!fs::exists(file) || (e > 0 && fs::path(file).stem() == "fit"))
-          break;
         const Fields header = read_csv_header(file, "fit");
         for (std::size_t c = 1; c + 3 < header.size(); c += 4)
           {
@@ -337,7 +318,7 @@ namespace Debond
                                   "e_rel",
                                   "root mean square over the largest value"},
                                  curves)) +
-                section("Origin", origin_now());
+                section("Origin", origin(json));
     write(directory, "Calibration in " + directory, sections);
   }
 } // namespace Debond

@@ -1,10 +1,13 @@
 #include <debond/output/report_page.h>
 #include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
 #include <debond/support/written_files.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <boost/algorithm/string.hpp>
+
+#include <nlohmann/json.hpp>
 
 #include <cstdlib>
 #include <filesystem>
@@ -89,6 +92,23 @@ namespace Debond
       return std::string("<p><span class=\"state") +
              (finished ? "\">finished" : " failed\">not finished") +
              "</span> " + escaped(reason) + "</p>\n";
+    }
+
+
+
+    std::string
+    origin(const nlohmann::ordered_json &summary, const bool with_seconds)
+    {
+      std::vector<std::vector<std::string>> rows;
+      const auto                            found = summary.find("provenance");
+      if (found != summary.end())
+        for (const auto &[name, text] : found->items())
+          rows.push_back(
+            {name, "<code>" + escaped(text.get<std::string>()) + "</code>"});
+      const auto seconds = summary.find("wall_seconds");
+      if (with_seconds && seconds != summary.end() && seconds->is_number())
+        rows.push_back({"run time", to_text(seconds->get<double>(), 3) + " s"});
+      return table_of({}, rows);
     }
 
 

@@ -115,6 +115,17 @@ namespace Debond
 
 
   std::string
+  variant_name(const unsigned int number)
+  {
+    const std::string digits = std::to_string(number);
+    return "variant-" +
+           std::string(3 - std::min<std::size_t>(3, digits.size()), '0') +
+           digits;
+  }
+
+
+
+  std::string
   finest_curve(const std::string &directory)
   {
     const std::string fine = directory + "/curve.csv";

@@ -3,8 +3,7 @@
 # whether all pictures are there, and whether the page has to be moved sideways.
 set -eu
 debond=$1 chromium=$2
-sed -n "/^cat > scene.prm/,/^END/p" "$(dirname "$0")/report.sh" | bash
-"$debond" scene.prm
+"$debond" "$(dirname "$0")/scene.prm"
 {
   cat run/report.html
   echo '<p id="seen"></p><script>

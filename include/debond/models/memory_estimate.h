@@ -20,8 +20,9 @@ namespace Debond
   /**
    * Memory that a finite element run of a scene needs at its peak [MB], of
    * several ranks each, from the numbers of its cells, quadrature points and
-   * unknowns alone: nothing is built. Measured peaks of linear and Neo-Hookean bodies of flat and of thick
-   * meshes are within a factor of 2 (test `memory_estimate`).
+   * unknowns alone: nothing is built. Measured peaks of linear and Neo-Hookean
+   * bodies of flat and of thick meshes are within a factor of 2 (test
+   * `memory_estimate`).
    */
   double
   estimated_memory_MB(const Scene &scene);

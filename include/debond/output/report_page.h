@@ -1,6 +1,8 @@
 #ifndef debond_output_report_page_h
 #define debond_output_report_page_h
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <string>
 #include <vector>
 
@@ -31,6 +33,11 @@ namespace Debond
     /** Whether all has ended as it should, and why. */
     std::string
     state(bool finished, const std::string &reason);
+
+    /** Where results come from: `provenance` and `wall_seconds` of a summary.
+     *  Those of a variant are no seconds of its study. */
+    std::string
+    origin(const nlohmann::ordered_json &summary, bool with_seconds = true);
 
     /** A text in gnuplot's language. */
     std::string

@@ -59,6 +59,10 @@ namespace Debond
   std::optional<std::string>
   parameters_in(const std::string &directory);
 
+  /** The directory of a variant within that of its study: variant-001. */
+  std::string
+  variant_name(unsigned int number);
+
   /** The file in a directory of results with the finest torque curve:
    *  curve.csv, or torque.csv where there is none. */
   std::string

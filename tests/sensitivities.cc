@@ -215,6 +215,25 @@ const std::vector<Parameter> bond{{"Interface/Bonding/Initial bonding", 0.8},
                                    0.58},
                                   {"Interface/Sliding threshold", 0.022}};
 
+// Nothing has moved yet, and nothing is determined by contact.
+void
+check_load_from_zero()
+{
+  const Overrides given{"Chuck/Translation z/Control=force",
+                        "Chuck/Translation z/Value=-50 * min(t, 1)",
+                        "Load steps/Times=0, 1",
+                        "Load steps/Steps=2"};
+  const auto      varied = [&](const std::string &mu) {
+    return Scene::from_text(
+      coin, with(given, "Interface/Friction coefficient unbroken=" + mu));
+  };
+  const Run run(coin, given, {{"mu_ub", varied("0.6"), varied("0.5"), 0.1}});
+  const RowDerivatives &first = run.derivatives.at(0);
+  report("Pressed by a force that begins at zero: no derivative there",
+         first.torque.isZero(0.) && first.reaction.isZero(0.) &&
+           first.position.isZero(0.));
+}
+
 int
 main()
 {
@@ -317,4 +336,5 @@ main()
          law[5],
          law[8],
          {"Chuck/Translation x/Value", 0.2, " * sin(pi * max(t - 1, 0))"}});
+  check_load_from_zero();
 }

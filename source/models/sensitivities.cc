@@ -206,8 +206,13 @@ namespace Debond
         return system.chuck.is_prescribed(k);
       });
     const auto forces = interface.forces(system.configuration, motions(moved));
-    const Eigen::MatrixXd solution =
-      -system.solve_all(right_hand_sides(forces, moved), tolerance);
+    const Eigen::MatrixXd right    = right_hand_sides(forces, moved);
+    Eigen::MatrixXd       solution = -system.solve_all(right, tolerance);
+    // A loaded implant that does not touch yet has no stiffness. It stays where
+    // it is, as its load does not change with the parameter.
+    for (Eigen::Index j = 0; j < right.cols(); ++j)
+      if (right.col(j).isZero(0.))
+        solution.col(j).setZero();
 
     Eigen::MatrixXd response = Eigen::MatrixXd::Zero(n_v + 6, moved.cols());
     response.topRows(n_v)    = solution.topRows(n_v);

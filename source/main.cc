@@ -11,6 +11,7 @@
 #include <debond/scene/scene.h>
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
+#include <debond/support/processor.h>
 #include <debond/support/progress.h>
 #include <debond/support/provenance.h>
 #include <debond/support/ranks.h>
@@ -71,8 +72,8 @@ deals a large bone, or the variants of a study, out among N processes.
                       scene, or the checkpoint of an interrupted run, which is
                       lost then; run variants of a study again that are done
   --resume DIR        go on with the interrupted run whose results are in DIR, from
-                      its last checkpoint; with SCENE.prm only if that is the
-                      same scene
+                      its last checkpoint; with SCENE.prm or --set only if that
+                      is the same scene, or one that goes on to later times
   --compare DIR CURVE compare the torque curves in DIR, of a run, a study or an
                       ensemble, with a measured one; nothing is run
   --columns LIST      which columns of CURVE are angle and torque, as Output /
@@ -358,14 +359,16 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
   {
     // The directory says what was run, and how far. If a scene is given it must
     // be the same one, but for what changes no result (the title, the console):
-    // else the rows before and after would not be of one curve.
+    // else the rows before and after would not be of one curve. It may go on to
+    // later times, also from the end of a run that was finished.
     const auto run = find_interrupted_run(arguments.directory_to_resume,
                                           arguments.scene_file,
                                           arguments.overrides);
     if (!run)
       {
         std::cout << "The run in " << arguments.directory_to_resume
-                  << " is finished: there is nothing to go on with\n";
+                  << " is finished. A scene, or --set, with further Load steps "
+                     "/ Times and Steps extends it.\n";
         return;
       }
     // There are two checkpoints, written in turn. One may be damaged, if the
@@ -513,6 +516,13 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     Ranks::end_all(code);
   }
+
+
+
+  // The first code of all that runs, before the constructors of the libraries:
+  // some of what they call, templates, the linker takes from this program.
+  __attribute__((section(".preinit_array"),
+                 used)) void (*const first_call)() = require_instructions;
 } // namespace
 
 

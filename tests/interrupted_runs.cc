@@ -16,6 +16,7 @@
 #include <csignal>
 #include <filesystem>
 #include <iostream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -165,6 +166,61 @@ check(const std::string               &name,
   report("  the same files", same_files(whole, parts));
   if (halves_steps)
     report("  steps are halved", has_halved_steps(whole));
+}
+
+
+
+/** A run that was finished goes on to turn back. */
+void
+check_extension(const std::string &name, const std::string &changes)
+{
+  std::cout << name << std::endl;
+  const std::string whole = "results/whole", parts = "results/parts";
+  for (const std::string &directory : {whole, parts})
+    std::filesystem::remove_all(directory);
+  const std::vector<std::string> further{
+    "Chuck/Rotation z/Value=3 * max(t - 1, 0) - 5 * max(t - 2, 0)",
+    "Load steps/Times=0, 1, 2, 2.5",
+    "Load steps/Steps=2, 12, 8"};
+  const auto scene_in = [&](const std::string       &directory,
+                            std::vector<std::string> overrides) {
+    overrides.push_back("Output/Directory=" + directory);
+    return Scene::from_text(base + changes, overrides, name);
+  };
+  const auto extended_by = [&](const std::vector<std::string> &overrides) {
+    return find_interrupted_run(parts, "", overrides);
+  };
+  const auto is_refused = [&](std::vector<std::string> overrides) {
+    try
+      {
+        return !extended_by(overrides).has_value();
+      }
+    catch (const InputError &)
+      {
+        return true;
+      }
+  };
+  run_in_process(scene_in(whole, further), false, 0);
+  run_in_process(scene_in(parts, {}), false, 0);
+  report("  no further times", is_refused({}));
+  report("  other steps before",
+         is_refused({further[0], further[1], "Load steps/Steps=2, 11, 8"}));
+  report("  other values before",
+         is_refused({"Chuck/Rotation z/Value=2.9 * max(t - 1, 0)",
+                     further[1],
+                     further[2]}));
+  report(
+    "  another stiffness",
+    is_refused(
+      {further[0], further[1], further[2], "Interface/Penalty stiffness=99"}));
+  std::ostringstream none;
+  auto *const        console = std::cout.rdbuf(none.rdbuf());
+  {
+    const auto run = extended_by(further);
+    DebondingProblem(run->scene).run(&run->checkpoint);
+  }
+  std::cout.rdbuf(console);
+  report("  the same files", same_files(whole, parts));
 }
 
 
@@ -326,4 +382,10 @@ main()
     end)",
         {1, 2, 6},
         true);
+  check_extension("Extended", linear);
+  check_extension("Extended, adaptive steps", linear + R"(
+    subsection Load steps
+      set Adaptive  = true
+      set Tolerance = 1e-2
+    end)");
 }

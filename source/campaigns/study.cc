@@ -127,6 +127,7 @@ namespace Debond
             next.n_repetitions = first.study.repetitions;
             next.scene         = Scene::from_entries(own, name);
             next.scene.changed_entries.clear();
+            next.scene.output.extendable = false;
             variants.push_back(std::move(next));
           }
       }

@@ -1,6 +1,7 @@
 #include <debond/models/debonding_problem.h>
 #include <debond/models/forecast.h>
 #include <debond/models/memory_estimate.h>
+#include <debond/models/resumed_run.h>
 #include <debond/models/run_report.h>
 #include <debond/models/simulation.h>
 #include <debond/output/checkpoint.h>
@@ -27,6 +28,8 @@ namespace Debond
     void
     refuse_checkpoint(const ResultDirectory &directory)
     {
+      if (read_json(directory.file("summary.json"))["converged"] == true)
+        return; // that of the end can be computed again
       try
         {
           std::vector<std::string> damaged; // of no use to anyone
@@ -200,10 +203,17 @@ namespace Debond
                simulation.is_finished()))
             fields.write(row.time);
         }
-        if (is_time_for_checkpoint(row))
+        if (is_time_for_checkpoint(row) ||
+            (simulation.is_finished() && keeps_last_state()))
           save();
         if (!simulation.is_finished())
           stop_if_interrupted();
+      }
+
+      bool
+      keeps_last_state() const
+      {
+        return scene.output.resumable && scene.output.extendable;
       }
 
       // Ranks have clocks of their own: if one says so, all do.
@@ -275,7 +285,10 @@ namespace Debond
           throw InputError("the checkpoint in '" + directory.path() +
                            "' does not fit this build of the program: only the "
                            "same program can go on with the run");
-        parameters = checkpoint.parameters;
+        if (extends(scene, checkpoint.parameters))
+          directory.write_parameters(parameters);
+        else
+          parameters = checkpoint.parameters;
         if (scene.output.fields_every > 0)
           report.console.warn("fields", fields.forget_later_files());
       }
@@ -300,23 +313,13 @@ namespace Debond
       void
       finish(const bool converged, const std::string &reason)
       {
-        const CoupledSystem &system    = simulation.system();
-        const BodyMesh      &bone      = system.bone.mesh(),
-                       &implant        = system.implant.mesh();
-        const auto           &bonding  = system.interface.bonding().report();
-        const auto           &released = simulation.checks().released();
-        CurveSettings         settings;
-        const BodyParameters &shape = scene.implant;
-        settings.mean_phi_0         = bonding.mean;
-        settings.is_bonded          = bonding.mean > 0.;
-        settings.contact_area_mm2 =
-          shape.shape == BodyShape::coin ?
-            M_PI * shape.radius * shape.radius :
-          shape.shape == BodyShape::cap ?
-            2. * M_PI * shape.cap_radius * shape.rise() :
-            system.interface.implant_area();
-        const auto            &effort  = simulation.effort();
-        const auto             seconds = this->seconds();
+        const CoupledSystem &system     = simulation.system();
+        const BodyMesh      &bone       = system.bone.mesh(),
+                       &implant         = system.implant.mesh();
+        const auto            &bonding  = system.interface.bonding().report();
+        const auto            &released = simulation.checks().released();
+        const auto            &effort   = simulation.effort();
+        const auto             seconds  = this->seconds();
         nlohmann::ordered_json facts{
           {"steps", effort.steps},
           {"smallest_step", effort.smallest_step},
@@ -355,10 +358,11 @@ namespace Debond
                      sensitivity_table(scene,
                                        simulation.rows(),
                                        simulation.row_derivatives()));
-        report.finish(simulation.rows(), settings, facts);
+        report.finish(simulation.rows(), simulation.curve_settings(), facts);
         if (!converged)
           return;
-        checkpoints.remove(); // there is nothing to go on with
+        // a run may be extended
+        keeps_last_state() ? checkpoints.remove_older() : checkpoints.remove();
         if (scene.output.timings)
           timer.print_summary();
       }

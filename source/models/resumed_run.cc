@@ -8,7 +8,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -32,10 +34,27 @@ namespace Debond
 
 
 
+    /** Entries that say where a load goes on to. */
+    bool
+    is_of_extension(const std::string &entry)
+    {
+      const auto ends_with = [&](const std::string &end) {
+        return entry.size() > end.size() &&
+               entry.compare(entry.size() - end.size(), end.size(), end) == 0;
+      };
+      return entry == "Load steps / Times" || entry == "Load steps / Steps" ||
+             (entry.rfind("Chuck / ", 0) == 0 && ends_with(" / Value"));
+    }
+
+
+
     /** "Interface / Viscosity is 0, the checkpoint's 1; ..."; empty if there
-     *  are no differences between completed parameters. */
+     *  are no differences between completed parameters but those of an
+     *  extension that is one. */
     std::string
-    differences(const std::string &parameters, const std::string &earlier)
+    differences(const std::string &parameters,
+                const std::string &earlier,
+                const bool         is_extension)
     {
       // by the names of entries, and of what the parameters say of files by
       // itself (Scene::completed_parameters)
@@ -48,7 +67,8 @@ namespace Debond
             values[name][which] = value.empty() ? "empty" : value;
           };
           for (const SceneEntry &entry : read_scene_text(text, "checkpoint"))
-            if (free_entries.count(entry.full_name()) == 0)
+            if (free_entries.count(entry.full_name()) == 0 &&
+                !(is_extension && is_of_extension(entry.full_name())))
               note(entry.full_name(), entry.value);
           std::istringstream lines(text);
           for (std::string line; std::getline(lines, line);)
@@ -109,7 +129,9 @@ namespace Debond
                     "' names another directory, but a run goes on in the "
                     "directory of its results");
       }
-    if (read_json(results.file("summary.json"))["converged"] == true)
+    const bool is_finished =
+      read_json(results.file("summary.json"))["converged"] == true;
+    if (is_finished && scene_file.empty() && overrides.empty())
       return std::nullopt;
 
     const auto checkpoint = CheckpointFiles(results).newest(run.remarks);
@@ -117,18 +139,47 @@ namespace Debond
               "there is no checkpoint to go on from; " +
                 boost::join(run.remarks, "; ") +
                 (run.remarks.empty() ? "" : "; ") + "run the scene again");
-    run.checkpoint = *checkpoint;
-    run.scene      = scene_file.empty() ?
-                       Scene::from_text(checkpoint->parameters,
+    run.checkpoint                 = *checkpoint;
+    run.scene                      = scene_file.empty() ?
+                                       Scene::from_text(checkpoint->parameters,
                                    overrides,
                                    results.file("parameters.prm")) :
-                       Scene::from_file(scene_file, overrides);
-    const std::string different =
-      differences(run.scene.completed_parameters, checkpoint->parameters);
+                                       Scene::from_file(scene_file, overrides);
+    const bool        goes_further = extends(run.scene, checkpoint->parameters);
+    const std::string different    = differences(run.scene.completed_parameters,
+                                              checkpoint->parameters,
+                                              goes_further);
     refuse_if(!different.empty(),
               "the scene is not that of the checkpoint: " + different);
+    if (is_finished && !goes_further)
+      return std::nullopt;
     run.scene.output.directory = results.path();
     return run;
+  }
+
+
+
+  bool
+  extends(const Scene &scene, const std::string &earlier)
+  {
+    const Scene before   = Scene::from_text(earlier, {}, "checkpoint");
+    const auto  is_begun = [](const auto &longer, const auto &shorter) {
+      return longer.size() > shorter.size() &&
+             std::equal(shorter.begin(), shorter.end(), longer.begin());
+    };
+    if (!is_begun(scene.load_steps.times, before.load_steps.times) ||
+        !is_begun(scene.load_steps.steps, before.load_steps.steps))
+      return false;
+    const double R = scene.implant.characteristic_radius();
+    for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
+      {
+        const auto now  = scene.chuck.value_over_time(k, R),
+                   then = before.chuck.value_over_time(k, R);
+        for (const double time : before.load_steps.sample_times())
+          if (std::abs(now(time) - then(time)) > 1e-12 * std::abs(then(time)))
+            return false;
+      }
+    return true;
   }
 
 
@@ -149,7 +200,8 @@ namespace Debond
     });
     const bool is_of_scene =
       checkpoint &&
-      differences(scene.completed_parameters, checkpoint->parameters).empty();
+      differences(scene.completed_parameters, checkpoint->parameters, false)
+        .empty();
     return is_of_scene ? checkpoint : std::nullopt;
   }
 } // namespace Debond

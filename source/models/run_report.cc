@@ -6,11 +6,90 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
 
 namespace Debond
 {
+  namespace
+  {
+    /** What a run has found, for the console; what is not known is left out. */
+    std::vector<std::string>
+    findings(const nlohmann::ordered_json &summary,
+             const TorqueRow              &end,
+             const std::size_t             n_warnings)
+    {
+      std::vector<std::string> lines;
+      const auto value = [&](const char *const name, const double factor = 1.) {
+        const auto found = summary.find(name);
+        return found != summary.end() && found->is_number() ?
+                 factor * found->get<double>() :
+                 std::numeric_limits<double>::quiet_NaN();
+      };
+      const auto number = [](const double value) { return to_text(value, 6); };
+      // a line is there if the first of its numbers is known
+      const auto add = [&](const double known, const std::string &line) {
+        if (std::isfinite(known))
+          lines.push_back(line);
+      };
+      const double theta_max  = value("theta_max_deg"),
+                   theta_full = value("theta_full_deg"),
+                   breaks     = value("theta_debonding_deg"),
+                   stiffness  = value("initial_stiffness_Nm_per_rad"),
+                   W_adh      = value("W_adh_Nm", 1e3),
+                   D_adh      = value("D_adh_Nm", 1e3),
+                   defect     = value("largest_energy_defect"),
+                   unbalanced = value("largest_reaction_defect");
+      add(theta_max,
+          "Largest torque " + number(value("T_max_Nmm")) + " N mm at " +
+            number(theta_max) + " deg" +
+            (std::isfinite(theta_full) ?
+               ", 99.9 % of it up to " + number(theta_full) + " deg" :
+               ""));
+      // sideways it is often nothing but rounding
+      const auto  &f = end.chuck_reaction;
+      const double largest =
+        std::max({std::abs(f[0]), std::abs(f[1]), std::abs(f[2])});
+      const auto force = [&](const unsigned int k) {
+        return number(std::abs(f[k]) < 1e-9 * largest ? 0. : f[k]);
+      };
+      lines.push_back("At the end: torque " + number(end.torque_Nmm) +
+                      " N mm, force " + force(0) + ", " + force(1) + ", " +
+                      force(2) + " N");
+      if (const double pressure = value("pressure_MPa"); pressure > 0.)
+        lines.push_back("Pressure before turning " + number(pressure) + " MPa");
+      add(stiffness,
+          "Initial torsional stiffness " + number(stiffness) + " N m/rad");
+      add(breaks, "The bond begins to break at " + number(breaks) + " deg");
+      if (std::isfinite(W_adh))
+        lines.push_back("Work of adhesion " + number(W_adh) +
+                        " N mm from the curve, " + number(D_adh) +
+                        " N mm by the law");
+      else if (D_adh != 0.)
+        add(D_adh, "Work on adhesion " + number(D_adh) + " N mm by the law");
+      // of closed forms, sums over rows: they say how coarse these are
+      add(unbalanced,
+          "Checks: energy to " + to_text(defect, 2) +
+            " of the work, forces on both sides of the implant to " +
+            to_text(unbalanced, 2));
+      add(value("wall_seconds"),
+          to_text(value("wall_seconds"), 2) + " s" +
+            (std::isfinite(value("steps")) ?
+               ", " + number(value("steps")) + " steps, " +
+                 number(value("newton_iterations")) + " Newton iterations" :
+               "") +
+            (n_warnings == 0 ? "" :
+             n_warnings == 1 ? ", 1 warning" :
+                               ", " + std::to_string(n_warnings) +
+                                 " warnings"));
+      return lines;
+    }
+  } // namespace
+
+
+
   RunReport::RunReport(const Scene &scene, const ResultDirectory &directory)
     : console(scene.output.quiet, scene.load_steps.times, std::cout)
     , scene(scene)
@@ -104,20 +183,9 @@ namespace Debond
     if (comparison.rows_used > 0)
       console.headline("The torque differs from that of " +
                        output.reference_curve + " by " + comparison.text());
-    Text        text;
-    const auto &end = rows.back().chuck_reaction;
-    if (const double theta_max = summary["theta_max_deg"],
-        theta_full             = summary["theta_full_deg"];
-        std::isfinite(theta_max))
-      text << "Largest torque " << summary["T_max_Nmm"].get<double>()
-           << " N mm at " << theta_max << " deg"
-           << (std::isfinite(theta_full) ?
-                 ", 99.9 % of it up to " + to_text(theta_full, 6) + " deg" :
-                 "")
-           << ", at the end " << rows.back().torque_Nmm << " N mm. ";
-    else
-      text << "Force of the chuck at the end: " << end[0] << ", " << end[1]
-           << ", " << end[2] << " N. ";
-    console.headline(text << "Results are in " << directory.path());
+    for (const std::string &line :
+         findings(summary, rows.back(), console.warnings.size()))
+      console.headline(line);
+    console.headline("Results are in " + directory.path());
   }
 } // namespace Debond

@@ -180,6 +180,25 @@ namespace Debond
 
 
 
+  CurveSettings
+  Simulation::curve_settings() const
+  {
+    const BodyParameters   &shape     = scene.implant;
+    const ContactInterface &interface = coupled_system.interface;
+    CurveSettings           settings;
+    settings.mean_phi_0       = interface.bonding().report().mean;
+    settings.is_bonded        = settings.mean_phi_0 > 0.;
+    settings.contact_area_mm2 = shape.shape == BodyShape::coin ?
+                                  M_PI * shape.radius * shape.radius :
+                                shape.shape == BodyShape::cap ?
+                                  2. * M_PI * shape.cap_radius * shape.rise() :
+                                  interface.implant_area();
+    settings.phase_times      = scene.load_steps.times;
+    return settings;
+  }
+
+
+
   // Row 0 is the state at the first time. It is solved like a step, but has no
   // state before it: no extrapolation, no friction in the past, and nothing to
   // make smaller if it fails.

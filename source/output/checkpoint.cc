@@ -118,6 +118,14 @@ namespace Debond
 
 
   void
+  CheckpointFiles::remove_older() const
+  {
+    remove_file(files[next]);
+  }
+
+
+
+  void
   CheckpointFiles::remove() const
   {
     for (const std::string &file : files)

@@ -103,13 +103,20 @@ namespace Debond
       {
         if (is_of_other_scene) // nobody must take them for this scene's
           remove_results(directory);
-        write_file(file("parameters.prm"),
-                   origin_line() + completed_parameters);
+        write_parameters(completed_parameters);
       }
     catch (const std::exception &reason)
       {
         refuse(reason.what());
       }
+  }
+
+
+
+  void
+  ResultDirectory::write_parameters(const std::string &completed) const
+  {
+    write_file(file("parameters.prm"), origin_line() + completed);
   }
 
 

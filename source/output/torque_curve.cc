@@ -473,16 +473,20 @@ namespace Debond
   nlohmann::ordered_json
   empty_summary()
   {
+    // how it ended; the curve; energies; how far from a reference; how well the
+    // equations hold; the effort
     const char *const names =
-      "T_max_Nmm theta_max_deg theta_full_deg T_inf_Nmm pressure_MPa E_deb_Nm "
-      "E_fric_Nm W_adh_Nm w_adh_N_per_m w_adh_star_N_per_m D_adh_Nm "
-      "dissipation_Nm e_mp e_rel difference_max difference_mean steps "
-      "newton_iterations dofs unknowns wall_seconds converged reason warnings "
-      "condensed_unknowns peak_memory_MB reference_rows_used "
-      "initial_stiffness_Nm_per_rad theta_debonding_deg force_end_N work_Nm "
-      "E_bulk_Nm E_interface_Nm largest_energy_defect largest_reaction_defect "
-      "viscous_dissipation_Nm smallest_step pressure_difference_rms "
-      "slip_difference_rms reference_angles_used difference_max_deg remarks";
+      "converged reason warnings remarks "
+      "T_max_Nmm theta_max_deg theta_full_deg T_inf_Nmm theta_debonding_deg "
+      "initial_stiffness_Nm_per_rad pressure_MPa force_end_N "
+      "E_deb_Nm E_fric_Nm W_adh_Nm w_adh_N_per_m w_adh_star_N_per_m D_adh_Nm "
+      "dissipation_Nm viscous_dissipation_Nm work_Nm E_bulk_Nm E_interface_Nm "
+      "e_mp e_rel difference_max difference_max_deg difference_mean "
+      "reference_rows_used pressure_difference_rms slip_difference_rms "
+      "reference_angles_used "
+      "largest_energy_defect largest_reaction_defect "
+      "steps smallest_step newton_iterations dofs unknowns condensed_unknowns "
+      "wall_seconds peak_memory_MB";
     nlohmann::ordered_json summary;
     for (const std::string &name : split(names, " "))
       summary[name] = std::numeric_limits<double>::quiet_NaN();

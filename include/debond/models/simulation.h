@@ -122,6 +122,11 @@ namespace Debond
       return all_warnings;
     }
 
+    /** What the measures of the torque curve refer to: contact area, initial
+     *  bonding and phases. */
+    CurveSettings
+    curve_settings() const;
+
     /** What summary.json is to tell of the steps: `steps`, `smallest_step`,
      *  `newton_iterations`, also of attempts that failed. */
     struct Effort

@@ -52,6 +52,9 @@ namespace Debond
     /** Removes both. Throws WriteError. */
     void
     remove() const;
+    /** Leaves the one that was written last. Throws WriteError. */
+    void
+    remove_older() const;
 
   private:
     std::array<std::string, 2> files;

@@ -41,6 +41,10 @@ namespace Debond
       return directory;
     }
 
+    /** Writes parameters.prm. Throws WriteError. */
+    void
+    write_parameters(const std::string &completed_parameters) const;
+
     /** The path of the file @p name in the directory. */
     std::string
     file(const std::string &name) const

@@ -112,6 +112,9 @@ namespace Debond
     /** Whether a run leaves a checkpoint when it is interrupted. No entry of
      *  the scene: false for runs that are part of a larger one. */
     bool resumable = true;
+    /** Whether the state at the end is kept, so that the run can be extended to
+     *  later times. No entry: false for variants. */
+    bool extendable = true;
     /** Print a table of run times. No entry: the option --verbose. */
     bool timings = false;
   };

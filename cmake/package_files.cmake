@@ -1,0 +1,19 @@
+# Run by cpack between the installation into a staging directory and the packages: what Debian wants in each of them.
+string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
+find_program(GZIP gzip REQUIRED)
+foreach(component ${CPACK_COMPONENTS_ALL})
+  string(TOUPPER ${component} COMPONENT)
+  set(share ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/${component}${CPACK_PACKAGING_INSTALL_PREFIX}/share)
+  set(pages ${share}/doc/${CPACK_DEBIAN_${COMPONENT}_PACKAGE_NAME})
+  file(REMOVE ${pages}/LICENSE) # it is in /usr/share/common-licenses
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/copyright ${pages}/copyright COPYONLY)
+  if(component STREQUAL program)
+    configure_file(${CMAKE_CURRENT_LIST_DIR}/README.Debian ${pages}/README.Debian COPYONLY)
+  endif()
+  file(WRITE ${pages}/changelog.Debian
+       "debond (${CPACK_PACKAGE_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}) bookworm; urgency=medium\n\n"
+       "  * What is new is in /usr/share/doc/debond/CHANGELOG.md of the package debond.\n\n"
+       " -- ${CPACK_PACKAGE_CONTACT}  ${date}\n")
+  file(GLOB manuals ${share}/man/man1/*.1)
+  execute_process(COMMAND ${GZIP} -9 --no-name --force ${pages}/changelog.Debian ${manuals} COMMAND_ERROR_IS_FATAL ANY)
+endforeach()

@@ -1,0 +1,237 @@
+"""debond from Python: scenes, curves as NumPy arrays, steps that a script drives, fits.
+
+    import debond
+    scene = debond.Scene("prm/coin_mode3_fast.prm", {"Interface/Sliding threshold": 0.03})
+    result = scene.run()
+    result.rows["torque_Nmm"].max()
+
+Units are those of scenes and of torque.csv: mm, N, N mm, MPa, degrees, s. Whatever is wrong with a scene raises SceneError
+with one line that names entry and place; a load that cannot be followed raises RunError. While the library computes, other
+threads of Python go on; Ctrl-C stops a run after the row at work.
+"""
+
+import json
+import os
+import tempfile
+from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple
+
+import numpy
+
+import _debond
+
+__version__ = _debond.version
+
+
+class SceneError(ValueError):
+    """A mistake in a scene or in a call. The text is one line; `entry` ("Interface / Sliding threshold"), `value` and `place`
+    ("scene.prm:12") say where, as far as they are known."""
+
+    entry = value = place = None
+
+
+class RunError(RuntimeError):
+    """A run that could not be finished; the text says where and why. Rows before are kept by Simulation."""
+
+
+def _text(value: Any) -> str:
+    """A value of Python as a scene writes it."""
+    if isinstance(value, (bool, numpy.bool_)):
+        return "true" if value else "false"
+    if isinstance(value, (int, float, numpy.number)):
+        return repr(value.item() if isinstance(value, numpy.generic) else value)
+    if isinstance(value, (list, tuple, numpy.ndarray)):
+        return ", ".join(_text(item) for item in value)
+    return os.fspath(value) if isinstance(value, os.PathLike) else str(value)
+
+
+def sample_law(law: Callable[[float], float], longest: float, tolerance: float = 1e-4) -> Tuple[numpy.ndarray, numpy.ndarray]:
+    """Sliding distances [mm] and bonding states such that a line through them is within `tolerance` of `law` from 0 to
+    `longest` [mm]. Raises SceneError if the law does not fall from 1, or is no number somewhere."""
+
+    def phi(slip):
+        value = law(slip)
+        try:
+            value = float(value)
+        except (TypeError, ValueError):
+            value = numpy.nan
+        if not 0 <= value <= 1:
+            raise SceneError(f"law: phi({slip:g} mm) = {value}: expected a number from 0 to 1")
+        return value
+
+    if not 0 < longest < numpy.inf:
+        raise SceneError(f"law: distance {longest}: expected the sliding distance [mm] after which phi is constant, above 0")
+    points = {slip: phi(slip) for slip in numpy.linspace(0, longest, 33)}
+    if abs(points[0] - 1) > 1e-12:
+        raise SceneError(f"law: phi(0) = {points[0]:g}: expected 1, the whole bond; Initial bonding makes it less")
+    intervals = list(zip(sorted(points)[:-1], sorted(points)[1:]))
+    while intervals and len(points) < 2000:
+        a, b = intervals.pop()
+        points[(a + b) / 2] = phi((a + b) / 2)
+        if abs(points[(a + b) / 2] - (points[a] + points[b]) / 2) > tolerance:
+            intervals += [(a, (a + b) / 2), ((a + b) / 2, b)]
+    slip = numpy.array(sorted(points))
+    values = numpy.array([points[s] for s in slip])
+    rises = numpy.flatnonzero(numpy.diff(values) > 0)
+    if rises.size:
+        raise SceneError(f"law: phi rises from {slip[rises[0]]:g} to {slip[rises[0] + 1]:g} mm: a bond only breaks")
+    return slip, values
+
+
+class Scene:
+    """What is simulated: the file `filename`, or `text` in the language of scenes, or neither: the defaults.
+
+    entries: {"Subsection/Entry": value} in addition or instead; numbers, truth values, text, or sequences for lists.
+    law: (function, distance): phi over the sliding distance [mm], falling from 1, constant beyond `distance` [mm]. It is
+    sampled once, to the law `table`.
+
+    Raises SceneError."""
+
+    def __init__(self, filename=None, entries: Optional[Mapping[str, Any]] = None, *, text: str = "",
+                 law: Optional[Tuple[Callable[[float], float], float]] = None):
+        if isinstance(filename, Mapping):
+            raise SceneError("a dictionary of entries is the second argument: Scene(None, {...}) or Scene(entries={...})")
+        if filename is not None and text:
+            raise SceneError("a scene is either a file or a text, not both")
+        overrides = [f"{name}={_text(value)}" for name, value in (entries or {}).items()]
+        self._name = os.fspath(filename) if filename is not None else "scene"
+        self._tables = []  # files live as long as the scene
+        if law is not None:
+            overrides += ["Interface/Friction law=table", "Interface/Friction table=" + self._write_table(*law)]
+        entries = _debond.read_text(text, "scene") if filename is None else _debond.read_file(self._name)
+        self._entries = _debond.changed(entries, overrides)
+
+    def _write_table(self, law, longest) -> str:
+        directory = tempfile.TemporaryDirectory(prefix="debond-")
+        self._tables.append(directory)
+        name = os.path.join(directory.name, "law.csv")
+        numpy.savetxt(name, numpy.column_stack(sample_law(law, longest)), "%.17g", ",", header="slip_mm,phi", comments="")
+        return name
+
+    @property
+    def _scene(self):
+        return _debond.Scene(self._entries, self._name)
+
+    @property
+    def parameters(self) -> str:
+        """All entries with their values, as the text of a scene."""
+        return self._scene.parameters
+
+    @property
+    def warnings(self) -> List[str]:
+        """What is allowed in it, but likely to be a mistake."""
+        return self._scene.warnings
+
+    def run(self, on_row: Optional[Callable[[Dict[str, float]], None]] = None) -> "Result":
+        """Runs it in memory and returns its rows. on_row is called with each row of finite elements. Raises RunError."""
+        scene = self._scene
+        if scene.is_automatic:
+            raise SceneError("Model = auto writes into a directory: write() does it")
+        if scene.has_closed_form:
+            return Result(_debond.closed_form(scene), {}, {}, scene.warnings)
+        simulation = Simulation(self)
+        simulation.run(on_row)
+        return simulation.result()
+
+    def write(self, directory=None, force: bool = False) -> str:
+        """Runs it as the program does, into a directory with all files and report.html; returns the directory. force: as the
+        option --force."""
+        entries = self._entries
+        if directory is not None:
+            entries = _debond.changed(entries, ["Output/Directory=" + os.fspath(directory)])
+        scene = _debond.Scene(entries, self._name)
+        _debond.run_into_directory(scene, force)
+        return scene.directory
+
+
+class Result:
+    """rows: {column of torque.csv: array with a value per row}; summary: the measures of the curve that summary.json has;
+    sensitivities: {entry of Output / Sensitivities: {column: array}}, derivatives per unit of the entry; warnings: texts."""
+
+    def __init__(self, rows, summary, sensitivities, warnings):
+        self.rows, self.summary, self.sensitivities, self.warnings = rows, summary, sensitivities, warnings
+
+    def frame(self):
+        """The rows as a pandas.DataFrame. Raises ImportError without pandas."""
+        import pandas
+
+        return pandas.DataFrame(self.rows)
+
+
+class Simulation:
+    """Finite elements, row by row.
+
+    drive: {component of the chuck: value at the first time}, "Translation x" ... "Rotation z", in mm or degrees, N or N mm if
+    its Control says so. advance() is told where they go; their Value in the scene does not count. Between rows they go along
+    straight lines, and rows are those of Load steps.
+
+        simulation = debond.Simulation(scene, drive={"Rotation z": 0, "Translation z": 0})
+        while not simulation.is_finished:
+            simulation.advance({"Rotation z": angle, "Translation z": -force})
+            angle += 0.1 if simulation.row["torque_Nmm"] < 40 else 0.02
+
+    Raises SceneError; advance() and run() raise RunError, and the simulation is then in its last row."""
+
+    def __init__(self, scene: Scene, drive: Optional[Mapping[str, float]] = None):
+        if not isinstance(scene, Scene):
+            raise SceneError(f"expected a debond.Scene, not {scene!r:.60}: debond.Scene(FILE) reads one")
+        self._scene = scene  # keeps the table of a law
+        self._run = _debond.Run(scene._scene, self._numbers(drive))
+
+    @staticmethod
+    def _numbers(values) -> Dict[str, float]:
+        values = dict(values or {})
+        for name, value in values.items():
+            try:
+                values[name] = float(value)
+            except (TypeError, ValueError):
+                values[name] = numpy.nan
+            if not numpy.isfinite(values[name]):
+                raise SceneError(f"{name}: {value!r:.60}: expected a finite number")
+        return values
+
+    @property
+    def is_finished(self) -> bool:
+        return self._run.is_finished
+
+    def advance(self, values: Optional[Mapping[str, float]] = None) -> None:
+        """Computes one more row; the first is the state at the first time. values: of driven components at the row's end;
+        those that are not named stay."""
+        self._run.advance(self._numbers(values))
+
+    def run(self, on_row: Optional[Callable[[Dict[str, float]], None]] = None) -> None:
+        """Computes all rows that are left. on_row is called with each; what it raises ends the run."""
+        if on_row is not None and not callable(on_row):
+            raise SceneError(f"on_row: {on_row!r:.60}: expected a function of a row")
+        self._run.run(None if on_row is None else lambda: on_row(self.row))
+
+    @property
+    def row(self) -> Dict[str, float]:
+        """The newest row, by the columns of torque.csv."""
+        return self._run.last_row()
+
+    def points(self) -> Dict[str, numpy.ndarray]:
+        """The contact face in the newest row, a value per quadrature point that faces the implant: x_mm, y_mm, r_mm
+        (reference position), pressure_MPa, traction_MPa (tangential), slip_mm (accumulated), phi, mu, state (0 open, 1 stick,
+        2 slip), area_mm2."""
+        return self._run.points()
+
+    def result(self) -> Result:
+        """All rows so far."""
+        run = self._run
+        return Result(run.rows(), json.loads(run.summary()), run.sensitivities(), run.warnings)
+
+
+def calibrate(scene: Scene, threads: int = 1, force: bool = False) -> Dict[str, Any]:
+    """Finds the unknowns <<...>> of a scene with `Task = calibrate` from measured curves, writes into its directory as the
+    program does, and returns what calibration.json holds: best fit, intervals, correlations. Raises SceneError, or RunError
+    if nothing fits."""
+    _debond.calibrate(scene._entries, scene._name, threads, force)
+    directories = [entry.value for entry in scene._entries if entry.name == "Output / Directory"]
+    directory = directories[-1] if directories else Scene()._scene.directory
+    with open(os.path.join(directory, "calibration.json"), encoding="utf-8") as file:
+        return json.load(file)
+
+
+def set_number_of_threads(n: int) -> None:
+    """Of one run; results do not depend on it. At first it is 1."""
+    _debond.set_number_of_threads(n)

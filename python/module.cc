@@ -1,0 +1,387 @@
+// The module _debond: what debond.py needs of the library. Numbers go to NumPy,
+// everything else is text; what is convenient in Python is written in Python.
+
+#include <debond/campaigns/calibration.h>
+#include <debond/campaigns/run_scene.h>
+#include <debond/models/closed_form_solution.h>
+#include <debond/models/simulation.h>
+#include <debond/output/profile_output.h>
+#include <debond/output/report.h>
+#include <debond/support/input_error.h>
+#include <debond/support/interruption.h>
+#include <debond/support/provenance.h>
+#include <debond/support/runtime.h>
+
+#include <nlohmann/json.hpp>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <sstream>
+
+namespace py = pybind11;
+using namespace Debond;
+
+namespace
+{
+  using Columns = std::map<std::string, std::vector<double>>;
+
+
+
+  py::dict
+  arrays(const Columns &columns)
+  {
+    py::dict result;
+    for (const auto &[name, values] : columns)
+      result[name.c_str()] = py::array_t<double>(values.size(), values.data());
+    return result;
+  }
+
+
+
+  py::dict
+  arrays(const std::vector<TorqueRow> &rows)
+  {
+    Columns columns;
+    for (TorqueRow row : rows)
+      row.for_each_column([&](const std::string &name, const double value) {
+        columns[name].push_back(value);
+      });
+    return arrays(columns);
+  }
+
+
+
+  /** What a script says it has said itself: no "--set" in messages. */
+  std::vector<SceneEntry>
+  changed(std::vector<SceneEntry>         entries,
+          const std::vector<std::string> &overrides)
+  {
+    entries = with_overrides(std::move(entries), overrides);
+    for (SceneEntry &entry : entries)
+      if (entry.place == "--set")
+        entry.place = "entries";
+    return entries;
+  }
+
+
+
+  /** Value of a component of the chuck that a script drives: from row to row
+   *  along a straight line. */
+  struct Drive
+  {
+    double begin = 0, end = 0, from = 0, to = 0; ///< times, values
+
+    double
+    operator()(const double time) const
+    {
+      if (time >= end)
+        return to;
+      return time <= begin ?
+               from :
+               from + (time - begin) / (end - begin) * (to - from);
+    }
+  };
+
+
+
+  /** A simulation and what a script does to it. While it computes other threads
+   *  of Python go on. */
+  class Run
+  {
+  public:
+    Run(Scene scene, const std::map<std::string, double> &driven)
+    {
+      for (const auto &[name, value] : driven)
+        {
+          const unsigned int k = component(name);
+          if (!scene.load_steps.rows_are_planned())
+            throw EntryError("Load steps / Adaptive",
+                             "rows whose chuck a script drives are planned "
+                             "ones: expected false, and no path to follow");
+          auto drive   = std::make_shared<Drive>();
+          drive->begin = drive->end = scene.load_steps.times.front();
+          drive->from = drive->to           = value;
+          drives[name]                      = drive;
+          scene.chuck.component[k].function = [drive](const double time) {
+            return (*drive)(time);
+          };
+        }
+      times = scene.load_steps.planned_times();
+      const py::gil_scoped_release others_go_on;
+      simulation = std::make_unique<Simulation>(scene);
+      simulation->differentiate(variations_of(scene));
+    }
+
+    void
+    advance(const std::map<std::string, double> &values)
+    {
+      if (simulation->is_finished())
+        throw InputError("the simulation is finished: there is no row left");
+      for (const auto &[name, value] : values)
+        if (drives.count(name) == 0)
+          throw InputError("'" + name +
+                           "' is not driven: name it when the simulation is "
+                           "made, Simulation(scene, drive={'" +
+                           name + "': 0})");
+      const std::size_t next = simulation->rows().size();
+      for (auto &[name, drive] : drives)
+        {
+          if (next == 0)
+            continue; // at the first time it is where it was placed
+          const auto value = values.find(name);
+          *drive           = {times[next - 1],
+                              times[next],
+                              drive->to,
+                    value == values.end() ? drive->to : value->second};
+        }
+      const py::gil_scoped_release others_go_on;
+      simulation->advance();
+    }
+
+    void
+    run(const py::object &on_row)
+    {
+      const boost::signals2::scoped_connection looks_on =
+        simulation->signals.row.connect([&](const TorqueRow &) {
+          const py::gil_scoped_acquire python;
+          if (PyErr_CheckSignals() != 0)
+            throw py::error_already_set();
+          if (!on_row.is_none())
+            on_row();
+        });
+      const py::gil_scoped_release others_go_on;
+      simulation->run();
+    }
+
+    py::dict
+    last_row() const
+    {
+      if (simulation->rows().empty())
+        throw InputError("there is no row yet: advance() or run() first");
+      py::dict result;
+      TorqueRow(simulation->rows().back())
+        .for_each_column([&](const std::string &name, const double value) {
+          result[name.c_str()] = value;
+        });
+      return result;
+    }
+
+    py::dict
+    points() const
+    {
+      constexpr auto    n        = std::tuple_size<InterfacePoint>::value;
+      const char *const names[n] = {"x_mm",
+                                    "y_mm",
+                                    "r_mm",
+                                    "pressure_MPa",
+                                    "traction_MPa",
+                                    "slip_mm",
+                                    "phi",
+                                    "mu",
+                                    "state",
+                                    "area_mm2"};
+      Columns           columns;
+      for (const auto &point : profile_points(simulation->system().interface))
+        for (unsigned int i = 0; i < n; ++i)
+          columns[names[i]].push_back(point[i]);
+      return arrays(columns);
+    }
+
+    /** By entry, of torque and of force and place of the chuck. */
+    std::map<std::string, py::dict>
+    sensitivities() const
+    {
+      std::map<std::string, py::dict> result;
+      const auto &entries = simulation->scene.output.sensitivities;
+      for (unsigned int j = 0; j < entries.size(); ++j)
+        {
+          Columns columns;
+          for (const auto &row : simulation->row_derivatives())
+            {
+              columns["torque_Nmm"].push_back(row.torque[j]);
+              for (unsigned int k = 0; k < 6; ++k)
+                {
+                  columns[ChuckParameters::column_name(k, true)].push_back(
+                    row.reaction(k, j));
+                  columns[ChuckParameters::column_name(k, false)].push_back(
+                    row.position(k, j));
+                }
+            }
+          result[entries[j]] = arrays(columns);
+        }
+      return result;
+    }
+
+    std::string
+    summary() const
+    {
+      return measure_torque_curve(simulation->rows(),
+                                  simulation->curve_settings())
+        .dump();
+    }
+
+    std::unique_ptr<Simulation> simulation;
+
+  private:
+    static unsigned int
+    component(const std::string &name)
+    {
+      const auto &names = ChuckParameters::names;
+      const auto  found = std::find(names.begin(), names.end(), name);
+      if (found == names.end())
+        throw InputError("the chuck has no component '" + name +
+                         "': expected Translation x, Translation y, "
+                         "Translation z, Rotation x, Rotation y or Rotation z");
+      return found - names.begin();
+    }
+
+    std::vector<double>                           times; ///< of all rows
+    std::map<std::string, std::shared_ptr<Drive>> drives;
+  };
+
+
+
+  void
+  run_into_directory(Scene scene, const bool force)
+  {
+    const py::gil_scoped_release others_go_on;
+    scene.output.overwrite_other_results = force;
+    run_scene(scene);
+    if (scene.output.report)
+      write_report(scene.output.directory);
+  }
+
+
+
+  /** Returns what is said on the console. */
+  std::string
+  calibrate(const std::vector<SceneEntry> &entries,
+            const std::string             &name,
+            const unsigned int             n_threads,
+            const bool                     force)
+  {
+    const py::gil_scoped_release others_go_on;
+    std::ostringstream           out;
+    run_calibration(entries, name, n_threads, force, out);
+    return out.str();
+  }
+
+
+
+  py::dict
+  closed_form(const Scene &scene)
+  {
+    try
+      {
+        return arrays(ClosedFormSolution(scene).rows);
+      }
+    catch (const InputError &error)
+      {
+        throw scene.with_place(error);
+      }
+  }
+
+
+
+  /** The library's errors as those of debond.py, whose classes it gives. */
+  void
+  translate(std::exception_ptr pointer)
+  {
+    const auto raise = [](const char *const type, const std::string &message) {
+      PyErr_SetString(
+        py::object(py::module_::import("debond").attr(type)).ptr(),
+        message.c_str());
+    };
+    try
+      {
+        std::rethrow_exception(pointer);
+      }
+    catch (const EntryError &error)
+      {
+        const py::object type =
+          py::module_::import("debond").attr("SceneError");
+        py::object value    = type(error.what());
+        value.attr("entry") = error.entry;
+        value.attr("value") = error.value;
+        value.attr("place") = error.place;
+        PyErr_SetObject(type.ptr(), value.ptr());
+      }
+    catch (const InputError &error)
+      {
+        raise("SceneError", error.what());
+      }
+    catch (const Interrupted &error)
+      {
+        PyErr_SetString(PyExc_KeyboardInterrupt, error.what());
+      }
+    catch (const RunError &error)
+      {
+        raise("RunError", error.what());
+      }
+  }
+} // namespace
+
+
+
+PYBIND11_MODULE(_debond, module)
+{
+  set_up_libraries();
+  module.attr("version")    = DEBOND_VERSION;
+  module.attr("components") = ChuckParameters::names;
+  py::register_exception_translator(translate);
+
+  py::class_<SceneEntry>(module, "Entry")
+    .def_property_readonly("name", &SceneEntry::full_name)
+    .def_readonly("value", &SceneEntry::value);
+  module.def("read_file", read_scene_file);
+  module.def("read_text", read_scene_text);
+  module.def("changed", changed);
+  py::class_<Scene>(module, "Scene")
+    .def(py::init(&Scene::from_entries))
+    .def_readonly("title", &Scene::title)
+    .def_readonly("parameters", &Scene::completed_parameters)
+    .def_property_readonly("directory",
+                           [](const Scene &s) { return s.output.directory; })
+    .def_property_readonly("has_closed_form",
+                           [](const Scene &s) {
+                             return s.model != ModelKind::finite_elements &&
+                                    s.model != ModelKind::automatic;
+                           })
+    .def_property_readonly("is_automatic",
+                           [](const Scene &s) {
+                             return s.model == ModelKind::automatic;
+                           })
+    .def_property_readonly("warnings", [](const Scene &s) {
+      std::vector<std::string> texts;
+      for (const Warning &warning : s.warnings())
+        texts.push_back(warning.text);
+      return texts;
+    });
+  py::class_<Run>(module, "Run")
+    .def(py::init<Scene, const std::map<std::string, double> &>())
+    .def("advance", &Run::advance)
+    .def("run", &Run::run)
+    .def("last_row", &Run::last_row)
+    .def("points", &Run::points)
+    .def("sensitivities", &Run::sensitivities)
+    .def("summary", &Run::summary)
+    .def("rows", [](const Run &run) { return arrays(run.simulation->rows()); })
+    .def_property_readonly("is_finished",
+                           [](const Run &run) {
+                             return run.simulation->is_finished();
+                           })
+    .def_property_readonly("warnings", [](const Run &run) {
+      std::vector<std::string> texts;
+      for (const Warning &warning : run.simulation->warnings())
+        texts.push_back(warning.text);
+      return texts;
+    });
+  module.def("closed_form", closed_form);
+  module.def("run_into_directory", run_into_directory);
+  module.def("calibrate", calibrate);
+  module.def("set_number_of_threads", set_number_of_threads);
+}

@@ -1,0 +1,71 @@
+#!/bin/bash
+# package.sh BUILD           makes the packages of a build, looks into them, and runs the program
+# package.sh BUILD EXAMPLE   makes a Debian 12, installs the packages there, runs the first scene as a user, and builds
+#                            a program of one's own; needs root, debootstrap and 4 GB. MIRROR: where Debian comes from
+# Prints what must be so.
+set -eu
+build=$1 example=${2:-}
+# what is mounted is gone with this process
+if [[ -n $example && -z ${DEBOND_UNSHARED:-} ]]; then DEBOND_UNSHARED=1 exec unshare --mount "$0" "$@"; fi
+mkdir work && cd work # ctest writes into a file output
+mkdir packages
+cpack --config "$build/CPackConfig.cmake" -B "$PWD/packages" > log 2>&1 || { cat log && exit 1; }
+rm -r packages/_CPack_Packages
+program=$(ls "$PWD"/packages/debond_*.deb) library=$(ls "$PWD"/packages/libdebond-dev_*.deb)
+
+if [[ -z $example ]]; then
+  dpkg-deb -f "$program" Package Recommends
+  dpkg-deb -f "$program" Depends | grep -oE "\b(libdeal.ii-9.4.1|libopenblas0|libpng16-16|libnifti2-2)\b" | sort
+  dpkg-deb -x "$program" root
+  dpkg-deb -x "$library" root
+  (cd root/usr/share/doc && ls debond/{README.md,README.Debian} {debond,libdebond-dev}/{copyright,changelog.Debian.gz})
+  find root -name libdebond_library.a -o -name debondConfig.cmake -o -name scene.h | sed 's|.*/||' | sort
+  zgrep -o "debond .- simulate" root/usr/share/man/man1/debond.1.gz
+  echo "libraries loaded for nothing: $(ldd -u root/usr/bin/debond | grep -c /)"
+  ln -s root/usr/share/debond/prm
+  root/usr/bin/debond prm/coin_mode3_fast.prm > log
+  grep -o "Largest torque 50" log
+  exit
+fi
+
+tree=$PWD/tree
+trap 'umount "$tree/proc" 2> /dev/null; rm -rf --one-file-system "$tree"' EXIT
+if ! debootstrap --variant=minbase bookworm "$tree" "${MIRROR:-http://deb.debian.org/debian}" > log 2>&1; then
+  if grep -q "Failed getting release file" log; then echo "no mirror of Debian"; fi
+  tail -n 5 log
+  exit 1
+fi
+mount -t proc proc "$tree/proc"
+cp "$program" "$library" "$tree/tmp"
+cp "$example" "$tree/tmp/own.cc"
+
+inside() {
+  chroot "$@" 2>&1 < /dev/null
+}
+install() {
+  inside "$tree" env DEBIAN_FRONTEND=noninteractive apt-get install --quiet --yes --no-install-recommends "$@" > log ||
+    { tail -n 20 log && exit 1; }
+}
+install man-db gnuplot-nox "/tmp/$(basename "$program")"
+inside "$tree" useradd --create-home user
+inside --userspec=user:user "$tree" env HOME=/home/user sh -euc '
+  cd
+  ln -s /usr/share/debond/prm
+  debond prm/paper/data_set_1_calibrated.prm | grep -o "Largest torque [0-9]*"
+  rm output/data_set_1_calibrated/report.html
+  debond --report output/data_set_1_calibrated
+  ls output/data_set_1_calibrated/report.html output/data_set_1_calibrated/torque.png
+  man debond | grep -o "simulate how .*"'
+install cmake make g++ "/tmp/$(basename "$library")"
+inside --userspec=user:user "$tree" env HOME=/home/user sh -euc '
+  mkdir ~/own && cd ~/own && cp /tmp/own.cc .
+  cat > CMakeLists.txt <<END
+cmake_minimum_required(VERSION 3.25)
+project(own CXX)
+find_package(debond REQUIRED)
+add_executable(own own.cc)
+target_link_libraries(own debond::debond_library)
+END
+  (cmake -B build -DCMAKE_BUILD_TYPE=Release && cmake --build build) > log 2>&1 || (cat log && exit 1)
+  cd
+  own/build/own | tail -n 1 | cut -c1-10'

@@ -1,0 +1,199 @@
+"""The module of Python against the program, its own steps against expressions, a law as a function against Eq. (13); what
+mistakes are answered with. Usage: python.py DEBOND, where `import debond` finds the module."""
+
+import os
+import subprocess
+import sys
+import threading
+
+import numpy
+
+import debond
+
+program = sys.argv[1]
+
+coin = """
+subsection Bone
+  set Cells    = 8, 8, 2
+  set Material = linear
+end
+subsection Implant
+  set Cells    = 4, 4
+  set Material = linear
+end
+subsection Interface
+  set Quadrature points = 4
+  set Penalty stiffness = 585
+  set Tangential penalty stiffness = 400
+end
+subsection Chuck
+  subsection Translation z
+    set Value = -0.0049 * min(t, 1)
+  end
+  subsection Rotation z
+    set Value = 5 * max(t - 1, 0)
+  end
+end
+subsection Load steps
+  set Times = 0, 1, 2
+  set Steps = 2, 40
+end
+subsection Output
+  set Fields every = 0
+end
+"""
+
+
+def check(what, is_so):
+    print(f"{what}: {'yes' if is_so else 'NO'}", flush=True)
+
+
+def mistake(call):
+    try:
+        call()
+        print("  NO error")
+    except (debond.SceneError, debond.RunError) as error:
+        print(f"  {type(error).__name__}: {error}")
+        return error
+
+
+def check_program():
+    with open("coin.prm", "w", encoding="utf-8") as file:
+        file.write(coin)
+    subprocess.run([program, "coin.prm", "--set", "Output/Directory=of_program", "--force"], check=True, stdout=subprocess.DEVNULL)
+    table = numpy.genfromtxt("of_program/torque.csv", delimiter=",", names=True)
+    rows = debond.Scene("coin.prm").run().rows
+    check("columns and numbers of torque.csv",
+          set(rows) == set(table.dtype.names)
+          and all(numpy.allclose(rows[name], table[name], rtol=1e-11, atol=0) for name in rows))
+    check("the same from a text", numpy.array_equal(rows["torque_Nmm"], debond.Scene(text=coin).run().rows["torque_Nmm"]))
+    directory = debond.Scene("coin.prm", {"Output/Console": "quiet"}).write("of_python", force=True)
+    check("the same files in a directory", open("of_program/torque.csv").read() == open(directory + "/torque.csv").read()
+          and os.path.exists(directory + "/report.html"))
+    try:
+        import pandas
+
+        check("a frame of pandas", isinstance(debond.Scene("coin.prm").run().frame(), pandas.DataFrame))
+    except ImportError:
+        check("a frame of pandas", True)
+
+
+def check_drive():
+    rows = debond.Scene(text=coin).run().rows
+    simulation = debond.Simulation(debond.Scene(text=coin), drive={"Translation z": 0, "Rotation z": 0})
+    for time in rows["time"]:
+        simulation.advance({"Translation z": -0.0049 * min(time, 1), "Rotation z": 5 * max(time - 1, 0)})
+    driven = simulation.result().rows
+    check("driven by a script, the same curve",
+          all(numpy.allclose(rows[name], driven[name], rtol=1e-9, atol=1e-9) for name in rows if name != "newton_iterations"))
+    points = simulation.points()
+    check("points of the face carry the force",
+          abs(numpy.sum(points["pressure_MPa"] * points["area_mm2"]) / simulation.row["force_N"] - 1) < 1e-3)
+    check("and their phi is the mean of the row",
+          abs(numpy.average(points["phi"], weights=points["area_mm2"]) - simulation.row["phi_mean"]) < 1e-3)
+
+    # a force that depends on what the run has answered
+    force = {"Chuck/Translation z/Control": "force", "Load steps/Times": [0, 1], "Load steps/Steps": 20}
+    simulation = debond.Simulation(debond.Scene(text=coin, entries=force), drive={"Translation z": -50, "Rotation z": 0})
+    simulation.advance()
+    while not simulation.is_finished:
+        row = simulation.row
+        simulation.advance({"Translation z": -50 - 0.5 * row["torque_Nmm"], "Rotation z": row["angle_deg"] + 0.2})
+    rows = simulation.result().rows
+    check("a force that follows the torque", numpy.allclose(rows["force_N"][1:], 50 + 0.5 * rows["torque_Nmm"][:-1], rtol=1e-6))
+
+
+def check_law():
+    a_s, b_s = 0.022, 0.74
+
+    def phi(slip):  # Eq. (13)
+        return 0.5 - 0.5 * numpy.sin(numpy.pi / 2 * numpy.clip((slip / a_s - 1) / b_s - 1, -1, 1))
+
+    of_paper = {"Interface/Sliding threshold": a_s, "Interface/Transition factor": b_s}
+    torque = [debond.Scene(**scene).run().rows["torque_Nmm"]
+              for scene in (dict(text=coin, entries=of_paper), dict(text=coin, law=(phi, (1 + 2 * b_s) * a_s)))]
+    check("a law as a function, Eq. (13) to 2e-4 of T_max", numpy.abs(torque[0] - torque[1]).max() < 2e-4 * torque[0].max())
+    check("and not that of another distance",
+          numpy.abs(torque[0] - debond.Scene(text=coin, law=(lambda s: phi(s / 1.01), 0.06)).run().rows["torque_Nmm"]).max()
+          > 1e-3 * torque[0].max())
+
+
+def check_more():
+    seen = []
+    scene = debond.Scene(text=coin, entries={"Output/Sensitivities": "Interface/Friction coefficient unbroken"})
+    result = scene.run(on_row=lambda row: seen.append(row["torque_Nmm"]))
+    check("each row is shown", seen == list(result.rows["torque_Nmm"]))
+    h = 1e-4
+    plus, minus = (debond.Scene(text=coin, entries={"Interface/Friction coefficient unbroken": 0.58 + sign * h}).run().rows
+                   for sign in (1, -1))
+    base = debond.Scene(text=coin, entries={"Interface/Friction coefficient unbroken": 0.58}).run().rows
+    slope = (plus["torque_Nmm"][-1] - minus["torque_Nmm"][-1]) / (2 * h)
+    exact = debond.Scene(text=coin, entries={"Interface/Friction coefficient unbroken": 0.58, "Output/Sensitivities":
+                         "Interface/Friction coefficient unbroken"}).run().sensitivities
+    exact = exact["Interface/Friction coefficient unbroken"]["torque_Nmm"]
+    check("sensitivities are slopes", len(exact) == len(base["torque_Nmm"]) and abs(exact[-1] / slope - 1) < 1e-3)
+    closed = debond.Scene(text=coin, entries={"Model": "foundation"}).run()
+    check("closed forms", abs(closed.rows["torque_Nmm"].max() / base["torque_Nmm"].max() - 1) < 0.1)
+
+    class Enough(Exception):
+        pass
+
+    def stop(row):
+        if row["step"] == 3:
+            raise Enough
+
+    simulation = debond.Simulation(debond.Scene(text=coin))
+    try:
+        simulation.run(on_row=stop)
+    except Enough:
+        pass
+    check("what on_row raises ends the run, and it can go on", simulation.row["step"] == 3)
+    simulation.run()
+    check("to the same end", simulation.row["torque_Nmm"] == debond.Scene(text=coin).run().rows["torque_Nmm"][-1])
+
+    others, done = [], threading.Event()
+    counter = threading.Thread(target=lambda: [others.append(1) or done.wait(0.01) for _ in iter(done.is_set, True)])
+    counter.start()
+    debond.Simulation(debond.Scene(text=coin)).run()
+    done.set()
+    counter.join()
+    check("other threads go on meanwhile", len(others) > 5)
+
+
+def check_calibration():
+    debond.Scene(text=coin, entries={"Output/Console": "quiet"}).write("measured", force=True)
+    fit = debond.calibrate(debond.Scene(text="set Task = calibrate\n" + coin, entries={
+        "Interface/Friction coefficient unbroken": "<<0.5 in 0.3..1.2>>",
+        "Interface/Sliding threshold": "<<0.015 in 0.006..0.1 log>>",
+        "Output/Reference curve": "measured/torque.csv", "Output/Reference columns": "angle_deg, torque_Nmm",
+        "Output/Directory": "fit", "Calibration/Starts": 4}), force=True)
+    found = [unknown["value"] for unknown in fit["unknowns"].values()]
+    defaults = debond.Scene(text=coin).parameters
+    truth = [float(next(line for line in defaults.splitlines() if f"set {name} " in line).split("=")[1].split("#")[0])
+             for name in ("Friction coefficient unbroken", "Sliding threshold")]
+    check("a curve gives its parameters back", numpy.allclose(found, truth, rtol=1e-4))
+
+
+def check_mistakes():
+    print("Mistakes")
+    error = mistake(lambda: debond.Scene(text=coin, entries={"Interface/Sliding treshold": 0.02}).run())
+    error = mistake(lambda: debond.Scene(text=coin, entries={"Interface/Sliding threshold": -1}).run())
+    check("  entry, value and place", (error.entry, error.value, error.place) == ("Interface / Sliding threshold", "-1", "entries"))
+    mistake(lambda: debond.Scene("con.prm").run())
+    mistake(lambda: debond.Simulation("coin.prm"))
+    mistake(lambda: debond.Scene({"Interface/Sliding threshold": 0.02}))
+    mistake(lambda: debond.Simulation(debond.Scene(text=coin)).advance({"Rotation z": 1}))
+    mistake(lambda: debond.Simulation(debond.Scene(text=coin), drive={"Rotation": 0}))
+    mistake(lambda: debond.Simulation(debond.Scene(text=coin), drive={"Rotation z": "fast"}))
+    mistake(lambda: debond.Simulation(debond.Scene(text=coin, entries={"Load steps/Adaptive": True}), drive={"Rotation z": 0}))
+    mistake(lambda: debond.Simulation(debond.Scene(text=coin)).row)
+    mistake(lambda: debond.Scene(text=coin, law=(lambda slip: 1 + slip, 0.1)))
+    mistake(lambda: debond.Scene(text=coin, law=(lambda slip: 0.5, 0.1)))
+
+
+check_program()
+check_drive()
+check_law()
+check_more()
+check_calibration()
+check_mistakes()

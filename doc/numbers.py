@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Makes the numbers that stand in README.md, doc/*.md and tests/comparison/README.md
-between <!-- numbers: NAME --> and <!-- end -->.
+between <!-- numbers: NAME --> and <!-- end -->, and the tables of doc/parameters.md.
 
     doc/numbers.py                  all that take seconds, into the pages (some two minutes)
     doc/numbers.py NAME...          only these; --all: those that take minutes, too; --list: all names, cost, pages
@@ -33,6 +33,7 @@ LAYERED = ('Bone/Layer grading=1.5', 'Implant/Layer grading=1.5')
 THREE_PHASES = ('Load steps/Times=0, 1, 1.1, 2', 'Load steps/Steps=1, 10, 10')
 ADAPTIVE = ('Load steps/Steps=1, 10', 'Load steps/Adaptive=true')
 NAMES, options = {}, None
+EXACT = {'parameters'}  # where a number that differs in its last digit is another one
 
 
 def numbers(cost):
@@ -1148,12 +1149,67 @@ def step_codes():
     return table(['code', 'steps', 'seconds', 'error'], lines)
 
 
+@numbers('seconds')
+def parameters():
+    """All entries of a scene, from what debond --print-parameters prints: a table for each subsection."""
+    text = subprocess.run([options.debond, '--print-parameters'], stdout=subprocess.PIPE, text=True, check=True).stdout
+    sections, path, comment = [('Outside of subsections', [])], [], []
+    for line in map(str.strip, text.splitlines()[2:]):  # behind the title
+        if line.startswith('#'):
+            comment.append(line[1:].strip())
+        elif line.startswith('subsection '):
+            path.append(line[len('subsection '):])
+            sections.append((' / '.join(path), []))
+        elif line == 'end':
+            path.pop()
+        elif line.startswith('set '):
+            name, default = (part.strip() for part in line[len('set '):].split('=', 1))
+            meaning, allowed = ' '.join(comment).split(' Allowed: ')
+            sections[-1][1].append(entry(name, default, allowed, meaning))
+            comment = []
+    parts, others = [], {}  # of subsections x, y, z that say the same of their letters x is there
+    for title, rows in sections:
+        first = title[:-1] + 'x'
+        if title[-2:] in (' y', ' z') and rows == [[axis(cell, title[-1]) for cell in row] for row in dict(sections)[first]]:
+            others[first].append(title)
+        elif rows:
+            parts.append((title, rows))
+            others[title] = []
+    return '\n' + '\n'.join('## %s\n%s%s' % (
+        title, table(['entry', 'default', 'allowed', 'unit', 'meaning'], rows),
+        '\n%s have the same entries, with their letter in the place of x.\n' % ' and '.join('`%s`' % other for other in others[title])
+        if others[title] else '')
+        for title, rows in parts)
+
+
+def entry(name, default, allowed, meaning):
+    """A row of the table: code for names, units apart, no signs that Markdown would take for its own."""
+    def plain(text):
+        parts = re.sub(r"`([^']*)'|(<<.*?>>|\{\{.*?\}\})", '\0\\1\\2\0', text).split('\0')  # every second one is code
+        parts[::2] = [re.sub(r'\(doc/(\w+\.md)\)', r'([\1](\1))', re.sub(r'([\\*<>])', r'\\\1', part)) for part in parts[::2]]
+        return '`'.join(parts).replace('|', '\\|')
+    in_brackets = re.search(r' ?\[([^\]]+)\]', allowed)
+    in_words = re.search(r'(an expression in t), in (.+)$', allowed)
+    unit = in_brackets[1] if in_brackets else in_words[2] if in_words else ''
+    allowed = allowed.replace(in_brackets[0], '', 1) if in_brackets else in_words[1] if in_words else allowed
+    if ' | ' in allowed:
+        allowed = ', '.join('`%s`' % choice for choice in allowed.split(' | '))
+    return ['`%s`' % name, '`%s`' % default if default else '', plain(allowed) if '`' not in allowed else allowed, unit, plain(meaning)]
+
+
+def axis(text, letter):
+    """What is said of x, of another axis: +x, chuck_ux_mm, chuck_Mx_Nmm."""
+    return re.sub(r'(?<=[+uFrM])x(?![a-z])', letter, text)
+
+
 def pages():
     return ['README.md', 'tests/comparison/README.md'] + sorted(glob.glob('doc/*.md'))
 
 
-def compare(old, new):
+def compare(name, old, new):
     """Whether a text says the same: numbers to one unit of the last digit printed, all else alike."""
+    if name in EXACT:
+        return old == new
     if NUMBER.sub('#', old).split() != NUMBER.sub('#', new).split():
         return False
     for a, b in zip(NUMBER.findall(old), NUMBER.findall(new)):
@@ -1182,10 +1238,14 @@ def treat(page, wanted):
         if name not in wanted:
             return match[0]
         new = NAMES[name][0]()
-        if options.check and not compare(old, new):
-            print('%s, %s: the page says\n%s\nand the program\n%s' % (page, name, old.strip(), new.strip()))
+        if options.check and not compare(name, old, new):
+            old_lines, new_lines = (text.strip().split('\n') for text in (old, new))
+            if name in EXACT:  # long ones: only what differs
+                old_lines, new_lines = ([line for line in lines if line not in others]
+                                        for lines, others in ((old_lines, new_lines), (new_lines, old_lines)))
+            print('%s, %s: the page says\n%s\nand the program\n%s' % (page, name, '\n'.join(old_lines), '\n'.join(new_lines)))
             good = False
-        return match[0] if options.check or compare(old, new) else begin + new + end
+        return match[0] if options.check or compare(name, old, new) else begin + new + end
 
     new_text = BLOCK.sub(replaced, text)
     if len(re.findall(r'<!-- numbers: \w+ -->', text)) != len(BLOCK.findall(text)):

@@ -44,6 +44,11 @@ def _text(value: Any) -> str:
     return os.fspath(value) if isinstance(value, os.PathLike) else str(value)
 
 
+def _known(summary: str) -> Dict[str, Any]:
+    """The members of a summary that have a value."""
+    return {name: value for name, value in json.loads(summary).items() if value is not None}
+
+
 def sample_law(law: Callable[[float], float], longest: float, tolerance: float = 1e-4) -> Tuple[numpy.ndarray, numpy.ndarray]:
     """Sliding distances [mm] and bonding states such that a line through them is within `tolerance` of `law` from 0 to
     `longest` [mm]. Raises SceneError if the law does not fall from 1, or is no number somewhere."""
@@ -97,7 +102,11 @@ class Scene:
         self._tables = []  # files live as long as the scene
         if law is not None:
             overrides += ["Interface/Friction law=table", "Interface/Friction table=" + self._write_table(*law)]
-        entries = _debond.read_text(text, "scene") if filename is None else _debond.read_file(self._name)
+        entries = []
+        if filename is not None:
+            entries = _debond.read_file(self._name)
+        elif text:
+            entries = _debond.read_text(text, "scene")
         self._entries = _debond.changed(entries, overrides)
 
     def _write_table(self, law, longest) -> str:
@@ -127,7 +136,8 @@ class Scene:
         if scene.is_automatic:
             raise SceneError("Model = auto writes into a directory: write() does it")
         if scene.has_closed_form:
-            return Result(_debond.closed_form(scene), {}, {}, scene.warnings)
+            rows, summary = _debond.closed_form(scene)
+            return Result(rows, _known(summary), {}, scene.warnings)
         simulation = Simulation(self)
         simulation.run(on_row)
         return simulation.result()
@@ -218,7 +228,7 @@ class Simulation:
     def result(self) -> Result:
         """All rows so far."""
         run = self._run
-        return Result(run.rows(), json.loads(run.summary()), run.sensitivities(), run.warnings)
+        return Result(run.rows(), _known(run.summary()), run.sensitivities(), run.warnings)
 
 
 def calibrate(scene: Scene, threads: int = 1, force: bool = False) -> Dict[str, Any]:
@@ -227,7 +237,7 @@ def calibrate(scene: Scene, threads: int = 1, force: bool = False) -> Dict[str, 
     if nothing fits."""
     _debond.calibrate(scene._entries, scene._name, threads, force)
     directories = [entry.value for entry in scene._entries if entry.name == "Output / Directory"]
-    directory = directories[-1] if directories else Scene()._scene.directory
+    directory = directories[-1] if directories else _debond.default_directory
     with open(os.path.join(directory, "calibration.json"), encoding="utf-8") as file:
         return json.load(file)
 

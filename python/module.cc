@@ -272,12 +272,16 @@ namespace
 
 
 
-  py::dict
+  /** Rows and summary. */
+  std::pair<py::dict, std::string>
   closed_form(const Scene &scene)
   {
     try
       {
-        return arrays(ClosedFormSolution(scene).rows);
+        const ClosedFormSolution solution(scene);
+        return {arrays(solution.rows),
+                measure_torque_curve(solution.rows, solution.curve_settings())
+                  .dump()};
       }
     catch (const InputError &error)
       {
@@ -330,8 +334,8 @@ namespace
 PYBIND11_MODULE(_debond, module)
 {
   set_up_libraries();
-  module.attr("version")    = DEBOND_VERSION;
-  module.attr("components") = ChuckParameters::names;
+  module.attr("version")           = DEBOND_VERSION;
+  module.attr("default_directory") = OutputParameters().directory;
   py::register_exception_translator(translate);
 
   py::class_<SceneEntry>(module, "Entry")

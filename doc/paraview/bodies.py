@@ -10,11 +10,9 @@ import argparse
 import os
 import sys
 
-from debonding_front import FONT, GREY, PALETTE, Mistake, choose, even_choice, read_frames, rgb, round_numbers, run_with_a_screen
+from open_results import (BONE, FONT, GREY, IMPLANT, RIGHT, TOWARDS, UP, Mistake, choose, even_choice, pieces, read_frames, rgb,
+                          round_numbers, run_with_a_screen, set_colours)
 
-BONE, IMPLANT = "#e3d5b0", "#b9c4cf"
-# towards the camera, to the right and up in the picture; bodies lie beside each other along the second
-TOWARDS, RIGHT, UP = (0.30, -0.85, 0.43), (0.943, 0.333, 0), (-0.143, 0.405, 0.903)
 WIDTH = 17.  # of a picture of both bodies [mm]
 
 
@@ -83,6 +81,11 @@ class Picture:
         print("%s: %d x %d pixels" % (name, *self.size))
 
 
+def read_bulk(frame):
+    readers = [simple.XMLUnstructuredGridReader(FileName=[piece]) for piece in pieces(frame.bulk)]
+    return readers[0] if len(readers) == 1 else simple.AppendDatasets(Input=readers)
+
+
 def body(source, number):
     return simple.Threshold(Input=source, Scalars=["POINTS", "body"], LowerThreshold=number - 0.5,
                             UpperThreshold=number + 0.5, ThresholdMethod="Between")
@@ -97,7 +100,7 @@ def edges_of_cells(source):
 
 def draw_mesh(arguments):
     frames = read_frames(arguments.directory)
-    reader = simple.XMLUnstructuredGridReader(FileName=[frames[0].name.replace("interface-", "bulk-")])
+    reader = read_bulk(frames[0])
     reader.UpdatePipeline()
     picture = Picture(2, arguments.width, 15.5, -1.2)
     bone, implant = body(reader, 0), body(reader, 1)
@@ -119,7 +122,7 @@ def draw_stress(arguments):
     angles = arguments.angles or even_choice(frames, False, 2)
     chosen = choose(frames, angles, False, arguments.directory)
     picture = Picture(len(chosen), arguments.width, 12, 0.2, 0.33)
-    readers = [simple.XMLUnstructuredGridReader(FileName=[f.name.replace("interface-", "bulk-")]) for f in chosen]
+    readers = [read_bulk(frame) for frame in chosen]
     cuts = [simple.Clip(Input=reader, ClipType="Plane", Invert=0) for reader in readers]
     for cut in cuts:
         cut.ClipType.Origin, cut.ClipType.Normal = [0, 1e-4, 0], [0, 1, 0]
@@ -128,9 +131,7 @@ def draw_stress(arguments):
     if high == 0:
         raise Mistake("%s: there is no stress anywhere, as in rigid bodies" % arguments.directory)
     colours = simple.GetColorTransferFunction("von_Mises_MPa")
-    colours.AutomaticRescaleRangeMode = "Never"
-    colours.ColorSpace = "RGB"
-    colours.RGBPoints = sum(([i * high / (len(PALETTE) - 1)] + rgb(colour) for i, colour in enumerate(PALETTE)), [])
+    set_colours(colours, "von_Mises_MPa", (0, high))
     for column, (cut, frame) in enumerate(zip(cuts, chosen)):
         shown = picture.show(simple.ExtractSurface(Input=cut), column)
         shown.ColorArrayName, shown.LookupTable = ("POINTS", "von_Mises_MPa"), colours
@@ -151,8 +152,7 @@ def draw_stress(arguments):
 
 def main():
     arguments = read_arguments()
-    if not os.path.isdir(arguments.directory):
-        raise Mistake("%s: there is no such directory" % arguments.directory)
+    read_frames(arguments.directory)  # or says what is wrong with it
     if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
         sys.exit(run_with_a_screen())
     global simple, vtkTextActor  # not at the top: it takes seconds, and mistakes are to be named at once

@@ -13,39 +13,11 @@ between the quadrature points of the run: where the front shows corners, take mo
 """
 
 import argparse
-import csv
-import math
 import os
-import shutil
-import subprocess
 import sys
-import xml.etree.ElementTree
 
-# Name on the colour bar, and the ends of its scale where they do not depend on the data.
-FIELDS = {
-    "mu": ("μ", None, None),
-    "phi": ("φ", 0, 1),
-    "phi_0": ("φ₀", 0, 1),
-    "slip_mm": ("gₛ [mm]", 0, None),
-    "pressure_MPa": ("p [MPa]", None, None),
-    "gap_mm": ("gₙ [mm]", None, None),
-    "state": ("state", 0, 2),
-}
-FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"  # knows Greek; without it fields go by their plain names
-STATES = {"open": "#d8d8d8", "stick": "#fde725", "slip": "#277f8e"}
-PALETTE = ["#440154", "#46327e", "#365c8d", "#277f8e", "#1fa187", "#4ac16d", "#a0da39", "#fde725"]  # as in doc/style.gp
-GREY = "#555555"
-
-
-class Mistake(Exception):
-    """Something about the command line or the results that the user can put right."""
-
-
-class Frame:
-    """One file of interface.pvd: time, angle [deg], name."""
-
-    def __init__(self, time, angle, name):
-        self.time, self.angle, self.name = time, angle, name
+from open_results import (FIELDS, FONT, GREY, Mistake, check_fields, choose, even_choice, read_frames, read_title, rgb,
+                          round_numbers, run_with_a_screen, scale_of, set_colours)
 
 
 def read_arguments():
@@ -69,9 +41,7 @@ def read_arguments():
     for directory in arguments.directories:
         if not os.path.isdir(directory):
             raise Mistake("%s: there is no such directory" % directory)
-    for field in arguments.field:
-        if field not in FIELDS:
-            raise Mistake("--field %s: there is no such field; allowed are %s" % (field, ", ".join(FIELDS)))
+    check_fields("--field", arguments.field)
     if arguments.angles and arguments.times:
         raise Mistake("--angles and --times: only one of the two can choose the columns")
     if arguments.labels and len(arguments.labels) != len(arguments.directories):
@@ -99,62 +69,6 @@ def read_range(text):
     return field, (low, high)
 
 
-# ------------------------------------------------------------------------------------------------------ which files
-
-
-def read_frames(directory):
-    """Files of interface.pvd with their angles, which torque.csv has by time."""
-    series, table = (os.path.join(directory, name) for name in ("interface.pvd", "torque.csv"))
-    if not os.path.isfile(series):
-        raise Mistake("%s: no interface.pvd there; it is written by finite elements with Output / Fields every above 0"
-                      % directory)
-    try:
-        with open(table) as file:
-            rows = [(float(row["time"]), float(row["angle_deg"])) for row in csv.DictReader(file)]
-        files = [(float(file.get("timestep")), os.path.join(directory, file.get("file")))
-                 for file in xml.etree.ElementTree.parse(series).iter("DataSet")]
-    except (OSError, KeyError, TypeError, ValueError, xml.etree.ElementTree.ParseError) as error:
-        raise Mistake("%s: interface.pvd or torque.csv cannot be read: %s" % (directory, error))
-    if not rows or not files:
-        raise Mistake("%s: interface.pvd or torque.csv holds nothing yet" % directory)
-    frames = []
-    for time, name in files:
-        if not os.path.isfile(name):
-            raise Mistake("%s: named in interface.pvd but not there" % name)
-        frames.append(Frame(time, min(rows, key=lambda row: abs(row[0] - time))[1], name))
-    return frames
-
-
-def read_title(directory):
-    """Of the scene, or an empty text."""
-    try:
-        with open(os.path.join(directory, "parameters.prm")) as file:
-            return next((line.split("=", 1)[1].strip() for line in file if line.startswith("set Title")), "")
-    except OSError:
-        return ""
-
-
-def even_choice(frames, by_time, number=5):
-    """Angles (or times) that have files, at most @p number, the first and the last among them."""
-    values = sorted({frame.time if by_time else round(frame.angle, 9) for frame in frames})
-    number = min(number, len(values))
-    return [values[round(i * (len(values) - 1) / max(1, number - 1))] for i in range(number)]
-
-
-def choose(frames, wanted, by_time, directory):
-    """The frame at each wanted angle or time; of several at one angle the last."""
-    chosen = []
-    for value in wanted:
-        frame = min(reversed(frames), key=lambda f: abs((f.time if by_time else f.angle) - value))
-        found = frame.time if by_time else frame.angle
-        if abs(found - value) > 0.01 * abs(value) + 1e-6:
-            there = ", ".join("%.4g" % v for v in sorted({f.time if by_time else f.angle for f in frames}))
-            raise Mistake("%s: no file at %s %.4g; there are %s. A phase of Load steps / Times that ends there makes one "
-                          "(doc/results.md)" % (directory, "time" if by_time else "angle", value, there))
-        chosen.append(frame)
-    return chosen
-
-
 def choose_columns(arguments):
     """Labels of the columns, and for each directory its frames."""
     frames = [read_frames(directory) for directory in arguments.directories]
@@ -172,10 +86,6 @@ def choose_columns(arguments):
 
 
 # ------------------------------------------------------------------------------------------------------ the picture
-
-
-def rgb(colour):
-    return [int(colour[i:i + 2], 16) / 255 for i in (1, 3, 5)]
 
 
 class Picture:
@@ -280,28 +190,11 @@ class Picture:
         """Both ends of the colours of a field: the same for all its pictures."""
         if field in self.arguments.range:
             return self.arguments.range[field]
-        ranges = [reader.PointData[field].GetRange() for reader in sum(self.readers, [])]
-        name, low, high = FIELDS[field]
-        low = min(r[0] for r in ranges) if low is None else low
-        high = max(r[1] for r in ranges) if high is None else high
-        if high - low <= 1e-5 * max(abs(low), abs(high)):  # one value everywhere, but for rounding
-            room = 0.5 * abs(low) or 1
-            low, high = low - room, high + room
-        # values are single precision: 0.40000001 is 0.4
-        return float("%.6g" % low), float("%.6g" % high)
+        return scale_of(field, [reader.PointData[field].GetRange() for reader in sum(self.readers, [])])
 
     def colour_function(self, field):
         colours = simple.GetColorTransferFunction(field)
-        colours.AutomaticRescaleRangeMode = "Never"
-        if field == "state":
-            colours.InterpretValuesAsCategories = 1
-            colours.Annotations = sum(([str(i), " " + name] for i, name in enumerate(STATES)), [])
-            colours.IndexedColors = sum((rgb(colour) for colour in STATES.values()), [])
-        else:
-            low, high = self.scale(field)
-            colours.ColorSpace = "RGB"
-            step = (high - low) / (len(PALETTE) - 1)
-            colours.RGBPoints = sum(([low + i * step] + rgb(colour) for i, colour in enumerate(PALETTE)), [])
+        set_colours(colours, field, None if field == "state" else self.scale(field))
         return colours
 
     def draw_colour_bar(self, colours, field, first_row):
@@ -328,22 +221,6 @@ class Picture:
             bar.AutomaticLabelFormat, bar.LabelFormat = 0, "%g"
         name = FIELDS[field][0] if os.path.isfile(FONT) else field
         self.draw_text(name, x, upper + 0.14 * self.face, to_the_right=True)
-
-
-def round_numbers(low, high):
-    """Two to six multiples of 1, 2 or 5 times a power of ten."""
-    step = 10 ** math.floor(math.log10(high - low))
-    step = next(step * part for part in (0.1, 0.2, 0.5, 1) if (high - low) / (step * part) < 6)
-    numbers = range(math.ceil(low / step - 1e-6), math.floor(high / step + 1e-6) + 1)
-    return [min(max(step * i, low), high) for i in numbers]
-
-
-def run_with_a_screen():
-    """Runs this script again under xvfb-run: Debian's ParaView crashes without a screen."""
-    if not shutil.which("xvfb-run"):
-        raise Mistake("there is no screen to draw on, and no xvfb-run (Debian package xvfb) to make one")
-    # a server that resets itself when pvpython closes its first connection may refuse the next one
-    return subprocess.call(["xvfb-run", "-a", "-s", "-noreset", "pvpython"] + sys.argv)
 
 
 def main():

@@ -68,6 +68,22 @@ namespace Debond
 
 
 
+  CurveSettings
+  ClosedFormSolution::curve_settings() const
+  {
+    const BondingParameters bonding = scene.interface.bonding_of_law();
+    CurveSettings           settings;
+    settings.contact_area_mm2 = M_PI * std::pow(scene.implant.radius, 2);
+    settings.mean_phi_0 = bonding.initial_bonding * bonding.bonded_fraction;
+    settings.is_bonded =
+      scene.model == ModelKind::mathieu || settings.mean_phi_0 > 0.;
+    if (scene.model == ModelKind::analytical)
+      settings.full_sliding_angle_deg = scene.closed_form.full_sliding;
+    settings.phase_times = scene.load_steps.times;
+    return settings;
+  }
+
+
   void
   write_results(const ClosedFormSolution &solution, const dealii::Timer &clock)
   {
@@ -93,15 +109,6 @@ namespace Debond
                << " deg the torque jumps from " << jump.torque_before << " to "
                << jump.torque_after << " N mm, and " << jump.released_energy
                << " N mm of stored energy are released without equilibrium");
-
-    const BondingParameters bonding = scene.interface.bonding_of_law();
-    CurveSettings           settings;
-    settings.contact_area_mm2 = M_PI * std::pow(scene.implant.radius, 2);
-    settings.mean_phi_0 = bonding.initial_bonding * bonding.bonded_fraction;
-    settings.is_bonded =
-      scene.model == ModelKind::mathieu || settings.mean_phi_0 > 0.;
-    if (scene.model == ModelKind::analytical)
-      settings.full_sliding_angle_deg = scene.closed_form.full_sliding;
 
     const auto or_nothing = [](const double stiffness) {
       return stiffness > 0. ? stiffness :
@@ -133,7 +140,7 @@ namespace Debond
                  sensitivity_table(scene,
                                    solution.rows,
                                    derivatives_of(solution)));
-    report.finish(solution.rows, settings, facts);
+    report.finish(solution.rows, solution.curve_settings(), facts);
   }
 
 

@@ -174,6 +174,14 @@ def check_calibration():
     check("a curve gives its parameters back", numpy.allclose(found, truth, rtol=1e-4))
 
 
+def check_defaults():
+    entries = {"Model": "foundation", "Chuck/Translation z/Value": "-0.0049 * min(t, 1)",
+               "Chuck/Rotation z/Value": "10 * max(t - 1, 0)"}
+    result = debond.Scene(entries=entries).run()
+    check("a scene of entries alone, and the summary of a closed form",
+          result.summary["T_max_Nmm"] == result.rows["torque_Nmm"].max())
+
+
 def check_mistakes():
     print("Mistakes")
     error = mistake(lambda: debond.Scene(text=coin, entries={"Interface/Sliding treshold": 0.02}).run())
@@ -196,4 +204,5 @@ check_drive()
 check_law()
 check_more()
 check_calibration()
+check_defaults()
 check_mistakes()

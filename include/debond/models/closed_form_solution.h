@@ -39,6 +39,10 @@ namespace Debond
     /** A row per planned step or, with adaptive steps, as many as the tolerance
      *  needs. What a closed form does not know is NaN. */
     std::vector<TorqueRow> rows;
+
+    /** What the measures of the torque curve refer to. */
+    CurveSettings
+    curve_settings() const;
   };
 
   /** Writes the files of a solution into the directory of its scene: those of

@@ -42,7 +42,7 @@ bodies() {
     --set "Interface/Quadrature points=20" --set Output/Directory=output/front
   pvpython doc/paraview/debonding_front.py output/front --field mu slip_mm --angles 1 1.5 2.5 5 --width 1200 --output output/front.png
   publish output/mesh output/stress output/front
-  "$DEBOND" prm/coin_mode3_spline.prm --force --set "Output/Fields every=1" --set Output/Directory=output/opened
+  "$DEBOND" prm/coin_mode3_spline.prm --force --set Output/Directory=output/opened
   pvpython doc/paraview/open_results.py output/opened --pictures output/opened/pictures --width 1400
   cp output/opened/pictures/view-0008.png doc/images/opened.png
 }

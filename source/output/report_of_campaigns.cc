@@ -253,11 +253,12 @@ namespace Debond
   write_report_of_calibration(const std::string &directory)
   {
     const auto  json = read_json(directory + "/calibration.json");
+    const int   n    = json.value("evaluations", 0); // but of closed forms
     std::string sections =
       state(true,
             std::to_string(json.value("measured_values", 0)) +
               " measured values, " +
-              std::to_string(json.value("evaluations", 0)) + " evaluations");
+              (n == 0 ? "closed form" : std::to_string(n) + " evaluations"));
     const auto number = [](const nlohmann::ordered_json &value) {
       return value.is_number() ? to_text(value.get<double>(), 5) :
                                  std::string("not known");
@@ -267,7 +268,9 @@ namespace Debond
       unknowns.push_back(
         {escaped(name),
          number(one.at("value")),
-         number(one.at("lower_95")) + " to " + number(one.at("upper_95")),
+         one.at("lower_95").is_number() && one.at("upper_95").is_number() ?
+           number(one.at("lower_95")) + " to " + number(one.at("upper_95")) :
+           "cannot be told",
          one.at("at_bound") == true ? "at its bound" : ""});
     for (const auto &one : json.at("curves"))
       curves.push_back({escaped(one.at("curve").get<std::string>()),

@@ -139,8 +139,9 @@ namespace Debond
     // part of the excess [mm] along a_alpha. Of the normal response friction
     // feels the pressure only, where a law with strength in tension may pull.
     // The coefficient is that at the updated sliding distance, Eq. (32).
-    // Tractions are those on the slave, in space [MPa], t = -p n + t_t; the
-    // viscous part is kept apart for the works.
+    // Tractions are those that enter the slave's residual, in space [MPa],
+    // t = -p n + t_t: minus those that act on the slave. The viscous part is
+    // kept apart for the works.
     Eigen::Vector2d     h;
     double              g_n;
     NormalResponse      normal_response;

@@ -35,7 +35,9 @@ namespace Debond
    * the string holds while it is shorter than L = mu p / eps_t, and else pulls
    * the anchor along: with the angle alpha from the path's direction to g,
    *
-   *   d alpha/ds = kappa - sin(alpha) / L,   d g_s/ds = cos(alpha) - dL/ds.
+   *   d alpha/ds = kappa - sin(alpha) / L,   d g_s/ds = cos(alpha) - dL/ds,
+   *
+   * with kappa = minus the curvature of the path.
    *
    * The path is a chord or, where the step turns it, an arc; while it slides L
    * is the mean of its lengths at the beginning and the end of sliding. Where

@@ -48,10 +48,11 @@ set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "${summary} (library)
 ${description}This package has the static library and its headers. find_package(debond) of\nCMake finds them.")
 
 if(TARGET debond_python)
+  math(EXPR next_minor "${Python_VERSION_MINOR} + 1") # the module is of one version of Python, as its name says
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-debond)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-      "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3-numpy") # the module is of one Python, see its name
+      "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Python_VERSION_MAJOR}.${next_minor}), python3-numpy")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas, debond")
   set(CPACK_DEBIAN_PYTHON_DESCRIPTION "${summary} (Python)
 ${description}This package has the module: import debond.")

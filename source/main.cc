@@ -25,11 +25,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <map>
 #include <new>
 #include <sstream>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -327,14 +329,21 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
                         "")
                   << std::endl;
     };
+    const auto time_of_summary = [&scene] {
+      std::error_code none;
+      return std::filesystem::last_write_time(scene.output.directory +
+                                                "/summary.json",
+                                              none);
+    };
+    const auto before = time_of_summary();
     try
       {
         run();
       }
-    catch (const std::exception &error)
+    catch (const std::exception &)
       {
         // a scene that was refused has left nothing
-        if (dynamic_cast<const InputError *>(&error) == nullptr)
+        if (time_of_summary() != before)
           try
             {
               report();

@@ -8,8 +8,7 @@
 #include <iostream>
 #include <string>
 
-/** The text of a file without lines that differ from run to run. In checkpoints
- *  these are numbers. */
+/** The text of a file without lines that differ from run to run. */
 inline std::string
 contents_of(const std::filesystem::path &file)
 {
@@ -28,17 +27,21 @@ contents_of(const std::filesystem::path &file)
 
 
 
-/** Whether two directories hold the same results; says what differs. */
+/** Whether two directories hold the same results, but for checkpoints; says
+ *  what differs. */
 inline bool
 same_files(const std::string &directory, const std::string &other)
 {
-  namespace fs = std::filesystem;
-  bool same    = fs::exists(directory + "/torque.csv");
+  namespace fs             = std::filesystem;
+  const auto is_checkpoint = [](const fs::path &name) {
+    return name.string().rfind("checkpoint-", 0) == 0;
+  };
+  bool same = fs::exists(directory + "/torque.csv");
   for (const auto &entry : fs::directory_iterator(directory))
     {
       const auto name = entry.path().filename();
-      if (!fs::exists(other / name) ||
-          (name.string().rfind("checkpoint-", 0) != 0 &&
+      if (!is_checkpoint(name) &&
+          (!fs::exists(other / name) ||
            contents_of(entry.path()) != contents_of(other / name)))
         {
           std::cout << "  differs: " << name.string() << std::endl;
@@ -46,10 +49,10 @@ same_files(const std::string &directory, const std::string &other)
         }
     }
   for (const auto &entry : fs::directory_iterator(other))
-    if (!fs::exists(directory / entry.path().filename()))
+    if (const auto name = entry.path().filename();
+        !is_checkpoint(name) && !fs::exists(directory / name))
       {
-        std::cout << "  too much: " << entry.path().filename().string()
-                  << std::endl;
+        std::cout << "  too much: " << name.string() << std::endl;
         same = false;
       }
   return same;

@@ -152,7 +152,9 @@ namespace Debond
       {
         const BondingPattern &bonding = simulation.system().interface.bonding();
         Console              &console = report.console;
-        report.begin(simulation.rows());
+        report.begin(simulation.rows(), [this] {
+          return profile_points(simulation.system().interface);
+        });
         console.headline(unknowns_of(simulation.system()));
         if (scene.bone.modulus)
           console.headline(scene.bone.modulus_in_words());

@@ -103,8 +103,11 @@ namespace Debond
 
 
   void
-  RunReport::begin(const std::vector<TorqueRow> &rows)
+  RunReport::begin(const std::vector<TorqueRow> &rows,
+                   const InterfaceMaps::Points  &points)
   {
+    if (!rows.empty())
+      points_of_last_row = points;
     if (!scene.title.empty())
       console.headline(scene.title);
     torque_curve.emplace(directory.file("torque.csv"), torque_table(rows));

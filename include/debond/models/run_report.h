@@ -20,9 +20,11 @@ namespace Debond
   public:
     RunReport(const Scene &scene, const ResultDirectory &directory);
 
-    /** Begins torque.csv with the rows that there are already. */
+    /** Begins torque.csv with the rows that there are already; @p points are
+     *  those of the interface at the last of them. */
     void
-    begin(const std::vector<TorqueRow> &rows);
+    begin(const std::vector<TorqueRow> &rows,
+          const InterfaceMaps::Points  &points = {});
     /** A new row, of @p n_steps planned ones (0: their number is not known).
      *  @p points are those of the interface. */
     void

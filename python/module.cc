@@ -55,6 +55,17 @@ namespace
 
 
 
+  std::vector<std::string>
+  texts_of(const std::vector<Warning> &warnings)
+  {
+    std::vector<std::string> texts;
+    for (const Warning &warning : warnings)
+      texts.push_back(warning.text);
+    return texts;
+  }
+
+
+
   /** What a script says it has said itself: no "--set" in messages. */
   std::vector<SceneEntry>
   changed(std::vector<SceneEntry>         entries,
@@ -360,10 +371,7 @@ PYBIND11_MODULE(_debond, module)
                              return s.model == ModelKind::automatic;
                            })
     .def_property_readonly("warnings", [](const Scene &s) {
-      std::vector<std::string> texts;
-      for (const Warning &warning : s.warnings())
-        texts.push_back(warning.text);
-      return texts;
+      return texts_of(s.warnings());
     });
   py::class_<Run>(module, "Run")
     .def(py::init<Scene, const std::map<std::string, double> &>())
@@ -379,10 +387,7 @@ PYBIND11_MODULE(_debond, module)
                              return run.simulation->is_finished();
                            })
     .def_property_readonly("warnings", [](const Run &run) {
-      std::vector<std::string> texts;
-      for (const Warning &warning : run.simulation->warnings())
-        texts.push_back(warning.text);
-      return texts;
+      return texts_of(run.simulation->warnings());
     });
   module.def("closed_form", closed_form);
   module.def("run_into_directory", run_into_directory);

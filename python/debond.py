@@ -72,7 +72,8 @@ def sample_law(law: Callable[[float], float], longest: float, tolerance: float =
     while intervals and len(points) < 2000:
         a, b = intervals.pop()
         points[(a + b) / 2] = phi((a + b) / 2)
-        if abs(points[(a + b) / 2] - (points[a] + points[b]) / 2) > tolerance:
+        is_curved = abs(points[(a + b) / 2] - (points[a] + points[b]) / 2) > tolerance
+        if is_curved and b - a > 1e-6 * longest:  # a jump is not halved for ever
             intervals += [(a, (a + b) / 2), ((a + b) / 2, b)]
     slip = numpy.array(sorted(points))
     values = numpy.array([points[s] for s in slip])

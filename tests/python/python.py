@@ -197,6 +197,7 @@ def check_mistakes():
     mistake(lambda: debond.Simulation(debond.Scene(text=coin)).row)
     mistake(lambda: debond.Scene(text=coin, law=(lambda slip: 1 + slip, 0.1)))
     mistake(lambda: debond.Scene(text=coin, law=(lambda slip: 0.5, 0.1)))
+    mistake(lambda: debond.Scene(text=coin, law=(lambda slip: 1 - slip if slip < 0.0875 else 1, 0.1)))
 
 
 check_program()

@@ -191,7 +191,7 @@ def steps_of_the_main_scene():
 
 @numbers('seconds')
 def few_steps_lose():
-    work = {n: run(MAIN, *LINEAR, 'Load steps/Steps=1, %d' % n)['W_adh_Nm'] for n in (20, 50, 100, 200, 1000)}
+    work = {n: run(MAIN, *LINEAR, 'Load steps/Steps=1, %d' % n)['W_adh_Nmm'] for n in (20, 50, 100, 200, 1000)}
     loss = {n: percent(1 - work[n] / work[1000], digits) for n, digits in ((20, 2), (50, 2), (100, 2), (200, 1))}
     return '20 equal steps lose %s of W_adh, 50 lose %s, 100 lose %s, 200 lose %s' % tuple(loss.values())
 
@@ -237,7 +237,7 @@ def versions():
 def closed_form_b():
     text = subprocess.run([sys.executable, 'doc/paper/closed_form_b.py', '--print-only'],
                           stdout=subprocess.PIPE, text=True, check=True).stdout
-    return table(['set', 'T_max [N mm]', 'T_inf', 'E_deb [1e-3 N m]', 'E_fric', 'W_adh', 'w_adh [N/m]', 'w*_adh'],
+    return table(['set', 'T_max [N mm]', 'T_inf', 'E_deb [N mm]', 'E_fric', 'W_adh', 'w_adh [N/m]', 'w*_adh'],
                  [[line[:36].strip()] + line[36:].split() for line in text.splitlines()[1:]])
 
 
@@ -247,7 +247,7 @@ def numpy_main_scene():
     for name, start in (('main_scene', 'main_scene'), ('main_scene_as_printed', 'main_scene_1800')):
         result = run('tests/verification/%s.prm' % name, 'Load steps/Steps=1, 100', 'Load steps/Residual tolerance=1e-12')
         force = next(row['force_N'] for row in result['curve'] if row['time'] == 1)
-        stiffness = run('tests/comparison/numpy/%s.prm' % start)['initial_stiffness_Nm_per_rad']
+        stiffness = run('tests/comparison/numpy/%s.prm' % start)['initial_stiffness_Nmm_per_rad'] / 1000
         columns.append(['%.10g' % force, '%.7g' % stiffness, '%.10g' % result['T_max_Nmm'], '%.10g' % result['T_inf_Nmm']])
     names = ('force after push-in [N]', 'stick stiffness, at 0.01 degrees [N m/rad]', 'T_max [N mm]', 'T at 10 degrees [N mm]')
     return table(['both programs', 'eps 585', 'eps 1800'], [list(line) for line in zip(names, *columns)])
@@ -300,10 +300,10 @@ def snap_back():
         ['closed form', '%.3f' % T_max, '%.4f' % angle, '%.5f N mm' % released, 'limit points, jump'],
         ['`snap_back.prm`: rotation control, steps of 0.005 deg', '%.3f' % control['T_max_Nmm'],
          '%.3f to %.3f' % tuple(row['machine_angle_deg'] for row in jump),
-         '%.4f N mm, `released_energy_Nmm`' % (1000 * control['released_energy_Nm']), 'a warning and `jumps` = %d' % control['jumps']],
+         '%.4f N mm, `released_energy_Nmm`' % control['released_energy_Nmm'], 'a warning and `jumps` = %d' % control['jumps']],
         ['`snap_back_viscous.prm`: `Viscosity = 0.2`, steps of 0.001 deg', '%.3f' % viscous['T_max_Nmm'],
          '%.2f to %.2f' % (last_angle(by_machine, before), last_angle(by_machine, after)),
-         '%.4f N mm, `viscous_work_Nmm`' % (1000 * viscous['viscous_dissipation_Nm']), 'a curve that depends on the rate'],
+         '%.4f N mm, `viscous_work_Nmm`' % viscous['viscous_dissipation_Nmm'], 'a curve that depends on the rate'],
         ['`snap_back_path.prm`: `Path following = slip`', '%.3f' % path['T_max_Nmm'],
          'turns back at %.4f, to %.4f' % (angles[turn], min(angles[turn:])), 'nothing', 'the whole path']])
 
@@ -410,16 +410,16 @@ def calibrated():
             ('T_max [N mm]', 'fitted', (53.8, 59.5), 2, (), lambda row: row['T_max_Nmm']),
             ('T_inf (10 degrees) [N mm]', 'fitted', (36.8, 44.4), 2, (), lambda row: row['T_inf_Nmm']),
             ('theta_lin = 0.75 T_max / K [deg]', 'fitted', (.13, .11), 3, (), theta_lin),
-            ('E_deb [1e-3 N m]', 'fitted', (7.1, 8.9), 2, (), lambda row: 1000 * row['E_deb_Nm']),
-            ('K = 0.75 T_max / theta_lin [N m/rad]', 'follows', (17.8, 23.2), 2, (), lambda row: row['initial_stiffness_Nm_per_rad']),
-            ('E_fric = T_inf (10 degrees - theta_max) [1e-3 N m]', 'follows', (5.7, 6.2), 2, (), lambda row: 1000 * row['E_fric_Nm']),
-            ('W_adh = E_deb - E_fric [1e-3 N m]', 'follows', (1.4, 2.7), 2, (), lambda row: 1000 * row['W_adh_Nm']),
+            ('E_deb [N mm]', 'fitted', (7.1, 8.9), 2, (), lambda row: row['E_deb_Nmm']),
+            ('K = 0.75 T_max / theta_lin [N m/rad]', 'follows', (17.8, 23.2), 2, (), lambda row: row['initial_stiffness_Nmm_per_rad'] / 1000),
+            ('E_fric = T_inf (10 degrees - theta_max) [N mm]', 'follows', (5.7, 6.2), 2, (), lambda row: row['E_fric_Nmm']),
+            ('W_adh = E_deb - E_fric [N mm]', 'follows', (1.4, 2.7), 2, (), lambda row: row['W_adh_Nmm']),
             ('w*_adh = W_adh / (pi R^2) [N/m]', 'follows', (72, 138), 1, (), lambda row: row['w_adh_star_N_per_m']),
             ('debonding begins at the rim [deg]', 'predicted', ('1.13 (text)', '-'), 2, (), lambda row: row['theta_debonding_deg']),
             ('last angle with 0.999 T_max [deg]', 'predicted', ('1.13 (peak)', '2.02 (peak)'), 2, (3,), plateau_end),
             ('mean pressure [MPa]', 'follows from T_inf', (2.6, 3.1), 3, (1, 3), lambda row: row['pressure_MPa']),
             ('initial stiffness K, measured (2) [N m/rad]', 'follows from theta_lin', (20.5, 20.5), 2, (1, 3),
-             lambda row: row['initial_stiffness_Nm_per_rad']),
+             lambda row: row['initial_stiffness_Nmm_per_rad'] / 1000),
             ('e_mp against the stand-in [%]', 'the shape', ('', ''), 1, (), lambda row: 100 * row['e_mp'])):
         ours = ['**%.*f**' % (digits, value(row)) if i in missed else '%.*f' % (digits, value(row)) for i, row in enumerate(rows)]
         lines.append([name, how, paper[0]] + ours[:2] + [paper[1]] + ours[2:])
@@ -427,7 +427,7 @@ def calibrated():
 
 
 def theta_lin(row):
-    return math.degrees(.75 * row['T_max_Nmm'] / row['initial_stiffness_Nm_per_rad'] / 1000)
+    return math.degrees(.75 * row['T_max_Nmm'] / row['initial_stiffness_Nmm_per_rad'])
 
 
 def plateau_end(row):
@@ -442,7 +442,7 @@ def contradictions():
         p, uniform = row['pressure_MPa'], 2 / 3 * math.pi * .4 * row['pressure_MPa'] * 2.5 ** 3
         line = ['%.2f' % p, '%.0f' % (p / .0049), '%.2f' % row['T_max_Nmm'], '%.2f' % row['T_inf_Nmm'],
                 '%+.1f %%' % (100 * (row['T_inf_Nmm'] / uniform - 1)), '%.4f' % (row['T_max_Nmm'] / row['T_inf_Nmm']),
-                '%.1f' % row['initial_stiffness_Nm_per_rad'], '%.2f' % row['theta_debonding_deg']]
+                '%.1f' % (row['initial_stiffness_Nmm_per_rad'] / 1000), '%.2f' % row['theta_debonding_deg']]
         lines.append([name] + (['2.81, given', '-', line[2]] + 5 * ['-'] if name[0] == 'E' else line))
     return table(['variants 1 to 6', 'p [MPa]', 'p/d [MPa/mm]', 'T_max [N mm]', 'T_inf', 'more than 2/3 pi mu_b p R^3 by', 'T_max / T_inf',
                   'K [N m/rad]', 'debonding begins [deg]'], lines)
@@ -471,9 +471,9 @@ def table_5():
     lines = []
     for i, row in enumerate(study('prm/paper/table_5.prm')):
         lines.append([1 + i // 3, ('(14) to (16)', 'Eq. (18)', 'simulation')[i % 3]] + list(paper[i]) +
-                     ['%.2f' % (1000 * row[name + '_Nm']) for name in ('E_deb', 'E_fric', 'W_adh')] +
+                     ['%.2f' % row[name + '_Nmm'] for name in ('E_deb', 'E_fric', 'W_adh')] +
                      ['%.1f' % row['w_adh_N_per_m'], '%.1f' % row['w_adh_star_N_per_m'],
-                      '%.2f' % (1000 * row['D_adh_Nm']) if i % 3 == 2 else '-', '-' if i % 3 == 1 else '%.1f' % (100 * row['e_mp'])])
+                      '%.2f' % row['D_adh_Nmm'] if i % 3 == 2 else '-', '-' if i % 3 == 1 else '%.1f' % (100 * row['e_mp'])])
     return table(['set', 'model', 'E_deb', 'E_fric', 'W_adh', 'w_adh', 'w*_adh', 'ours: E_deb', 'E_fric', 'W_adh', 'w_adh', 'w*_adh', 'D_adh',
                   'e_mp [%]'], lines)
 
@@ -557,10 +557,10 @@ LAYERS = {(2, 1.): '2 (the paper) | 1', (2, 1.5): '2 | 1.5', (4, 1.): '4 | 1', (
 def layer_rows(name):
     """By layers and grading: p, K and T_inf relative to those of 8 graded layers, and the difference of the torque."""
     rows = {(int(row['Bone / Cells'].split()[-1]), row['Bone / Layer grading']): row for row in study('prm/paper/%s.prm' % name)}
-    columns, last = ('pressure_MPa', 'initial_stiffness_Nm_per_rad', 'T_inf_Nmm'), rows[8, 1.5]
+    columns, last = ('pressure_MPa', 'initial_stiffness_Nmm_per_rad', 'T_inf_Nmm'), rows[8, 1.5]
     lines = {key: ['%+.2f %%' % (100 * (row[c] / last[c] - 1)) for c in columns] + ['%.2f %%' % (100 * row['difference_max'])]
              for key, row in rows.items()}
-    lines[8, 1.5] = ['%.4f MPa' % last[columns[0]], '%.2f N m/rad' % last[columns[1]], '%.2f N mm' % last[columns[2]], '-']
+    lines[8, 1.5] = ['%.4f MPa' % last[columns[0]], '%.2f N m/rad' % (last[columns[1]] / 1000), '%.2f N mm' % last[columns[2]], '-']
     return lines
 
 
@@ -679,11 +679,11 @@ def table_7():
 @numbers('minutes')
 def partial_equal():
     names = ('homogeneous', 'homogeneous', '(b), ours', '(c) disk', '(d) random')
-    return table(['pattern', 'mean phi_0', 'T_max [N mm]', 'last angle with 0.999 T_max [deg]', 'T(10 deg) [N mm]', 'E_deb [1e-3 N m]',
-                  'W_adh', 'w_adh [N/m]', 'D_adh [1e-3 N m]'],
+    return table(['pattern', 'mean phi_0', 'T_max [N mm]', 'last angle with 0.999 T_max [deg]', 'T(10 deg) [N mm]', 'E_deb [N mm]',
+                  'W_adh', 'w_adh [N/m]', 'D_adh [N mm]'],
                  [[name, '%.4g' % row['phi_0_mean'], '%.2f' % row['T_max_Nmm'], '%.2f' % last_angle(row['curve'], .999 * row['T_max_Nmm']),
-                   '%.2f' % row['T_inf_Nmm'], '%.3f' % (1000 * row['E_deb_Nm']), '%.3f' % (1000 * row['W_adh_Nm']),
-                   '%.1f' % row['w_adh_N_per_m'], '%.3f' % (1000 * row['D_adh_Nm'])]
+                   '%.2f' % row['T_inf_Nmm'], '%.3f' % row['E_deb_Nmm'], '%.3f' % row['W_adh_Nmm'],
+                   '%.1f' % row['w_adh_N_per_m'], '%.3f' % row['D_adh_Nmm']]
                   for name, row in zip(names, study_with_curves('prm/paper/partial_equal_parameters.prm'))])
 
 
@@ -691,12 +691,12 @@ def partial_equal():
 def partial_fitted():
     paper = (('homogeneous, 1', '4.90 | 0.58 | 22, 42 | 0.74 | 2.240 | 1.4 | 130'), ('(b), ours', '4.80 | 0.80 | 21, 40.1 | 0.63 | 1.949 | 1.5 | 139'),
              ('(c) disk', '4.80 | 0.97 | 15, 28.6 | 0.67 | 1.988 | 1.4 | 130'), ('(d) random', '4.85 | 0.73 | 22, 42 | 0.66 | 2.152 | 1.5 | 139'))
-    area = 1e-6 * math.pi * 2.5 ** 2 # m^2
-    return table(['pattern', 'd [um]', 'mu_ub', 'a_s: printed, here [um]', 'b_s', 'e_mp [%]: paper', 'W_adh [1e-3 N m]', 'w_adh [N/m]',
+    area = 1e-3 * math.pi * 2.5 ** 2 # mm^2 / 1000: N mm over it are N/m
+    return table(['pattern', 'd [um]', 'mu_ub', 'a_s: printed, here [um]', 'b_s', 'e_mp [%]: paper', 'W_adh [N mm]', 'w_adh [N/m]',
                   'ours: p [MPa]', 'T_max [N mm]', 'T(10 deg)', 'e_mp', 'W_adh', 'w_adh'],
                  [[name] + printed.split(' | ') +
                   ['%.3f' % row['pressure_MPa'], '%.2f' % row['T_max_Nmm'], '%.2f' % row['T_inf_Nmm'], '%.2f' % (100 * row['e_mp']),
-                   '%.2f' % (1000 * row['W_adh_Nm']), '%.0f' % (row['W_adh_Nm'] / (.55 * area))]
+                   '%.2f' % row['W_adh_Nmm'], '%.0f' % (row['W_adh_Nmm'] / (.55 * area))]
                   for (name, printed), row in zip(paper, study('prm/paper/partial_fitted_parameters.prm'))])
 
 
@@ -717,10 +717,10 @@ def partial_readings():
         early, late = (', '.join('%.1f' % (100 * largest(row['curve'], full['curve'], *ends) / full['T_max_Nmm']) for row in rows[1:])
                        for ends in ((0, .4999), (.4999, 10)))
         lines.append([name, '%.1f' % full['T_max_Nmm'], '%.2f' % plateau_end(full), early, late,
-                      ', '.join('%.2f' % (1000 * row['W_adh_Nm']) for row in rows),
+                      ', '.join('%.2f' % row['W_adh_Nmm'] for row in rows),
                       ', '.join('%.*f' % (row['e_mp'] < 1, 100 * row['e_mp']) for row in rows)])
     return table(['interface, a_s', 'T_max, homogeneous [N mm]', 'its last angle with 0.999 T_max [deg]', '(b), (c), (d) below 0.5 deg [%]',
-                  'from 0.5 deg on [%]', 'W_adh, four rows [1e-3 N m]', 'e_mp, four rows [%]'], lines)
+                  'from 0.5 deg on [%]', 'W_adh, four rows [N mm]', 'e_mp, four rows [%]'], lines)
 
 
 @numbers('minutes')
@@ -762,9 +762,9 @@ def ensemble():
     uniform = run('prm/studies/ensemble_scene.prm', *UNIFORM)
     lines = []
     for name, column, unit, factor, digits in (
-            ('T_max [N mm]', 'T_max', 'Nmm', 1, 2), ('T_inf [N mm]', 'T_inf', 'Nmm', 1, 2), ('E_deb [1e-3 N m]', 'E_deb', 'Nm', 1000, 3),
-            ('W_adh [1e-3 N m]', 'W_adh', 'Nm', 1000, 3), ('D_adh [1e-3 N m]', 'D_adh', 'Nm', 1000, 4),
-            ('initial stiffness [N m/rad]', 'initial_stiffness', 'Nm_per_rad', 1, 2)):
+            ('T_max [N mm]', 'T_max', 'Nmm', 1, 2), ('T_inf [N mm]', 'T_inf', 'Nmm', 1, 2), ('E_deb [N mm]', 'E_deb', 'Nmm', 1, 3),
+            ('W_adh [N mm]', 'W_adh', 'Nmm', 1, 3), ('D_adh [N mm]', 'D_adh', 'Nmm', 1, 4),
+            ('initial stiffness [N m/rad]', 'initial_stiffness', 'Nmm_per_rad', 1e-3, 2)):
         mean, low, high = ('%.*f' % (digits, factor * row['%s_%s_%s' % (column, what, unit)]) for what in ('mean', 'p05', 'p95'))
         lines.append([name, mean, '%.2g' % (factor * row['%s_sd_%s' % (column, unit)]), low + ' to ' + high,
                       '%.*f' % (digits, factor * uniform[column + '_' + unit])])
@@ -782,7 +782,7 @@ def ensemble_correlation():
         lines.append(['%g' % length + ' (elements of 0.22 mm)' * (length == 0),
                       '%.2f, %.2f, %.2f to %.2f' % (row['T_max_mean_Nmm'], sd, row['T_max_p05_Nmm'], row['T_max_p95_Nmm']),
                       percent(sd / (bonded[1] - bonded[0])) + ' of the surface' * (length == 0),
-                      '%.2f %%' % (100 * row['D_adh_sd_Nm'] / row['D_adh_mean_Nm']), '%.1f' % row['largest_bonded_patch_mean_mm2']])
+                      '%.2f %%' % (100 * row['D_adh_sd_Nmm'] / row['D_adh_mean_Nmm']), '%.1f' % row['largest_bonded_patch_mean_mm2']])
     return table(['correlation length [mm]', 'T_max: mean, standard deviation, 5 to 95 % [N mm]',
                   'the same in bonded fraction (standard deviation)', 'D_adh, standard deviation', 'largest patch, mean [mm2]'], lines)
 

@@ -569,7 +569,7 @@ main(int argc, char *argv[])
     {
       act(read_arguments({argv + 1, argv + argc}));
       Ranks::finish();
-      return 0;
+      return exit_code(0);
     }
   catch (const std::exception &error)
     {
@@ -591,7 +591,7 @@ main(int argc, char *argv[])
       if (Ranks::number() == 1)
         {
           std::cerr << message << std::endl;
-          return code;
+          return exit_code(code);
         }
       end_of_ranks(message, code);
     }

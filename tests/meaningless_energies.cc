@@ -53,7 +53,7 @@ show(const std::string &what, const std::vector<std::string> &overrides)
   const auto  summary = summary_with(overrides);
   std::string given;
   for (const char *const name :
-       {"E_fric_Nm", "W_adh_Nm", "w_adh_N_per_m", "w_adh_star_N_per_m"})
+       {"E_fric_Nmm", "W_adh_Nmm", "w_adh_N_per_m", "w_adh_star_N_per_m"})
     if (!summary[name].is_null())
       given += std::string(" ") + name;
   std::cout << what << ": given are" << (given.empty() ? " none" : given)
@@ -105,7 +105,7 @@ main()
   const auto follows = summary_with(path);
   std::cout << "a jump: " << jumps["jumps"] << ", remarks "
             << jumps["remarks"].size() << std::endl;
-  for (const char *const name : {"E_deb_Nm", "W_adh_Nm"})
+  for (const char *const name : {"E_deb_Nmm", "W_adh_Nmm"})
     report(std::string(name) + " beside that of the path, relative",
            std::abs(jumps[name].get<double>() / follows[name].get<double>() -
                     1.),

@@ -104,16 +104,16 @@ check_triangle()
   check("angle of full sliding", m["theta_full_deg"], 2.01);
   check("pressure", m["pressure_MPa"], 2.5);
   const double E_deb = (50 + 160 + 120) * radian, E_fric = 30 * 7.99 * radian;
-  check("E_deb", m["E_deb_Nm"], 1e-3 * E_deb);
-  check("E_fric", m["E_fric_Nm"], 1e-3 * E_fric);
-  check("W_adh", m["W_adh_Nm"], 1e-3 * (E_deb - E_fric));
+  check("E_deb", m["E_deb_Nmm"], E_deb);
+  check("E_fric", m["E_fric_Nmm"], E_fric);
+  check("W_adh", m["W_adh_Nmm"], E_deb - E_fric);
   check("w_adh", m["w_adh_N_per_m"], 1e3 * (E_deb - E_fric) / 20 / 0.5);
   check("w_adh*", m["w_adh_star_N_per_m"], 1e3 * (E_deb - E_fric) / 20);
-  check("D_adh", m["D_adh_Nm"], 4e-3);
-  check("dissipation", m["dissipation_Nm"], 8e-3);
+  check("D_adh", m["D_adh_Nmm"], 4);
+  check("dissipation", m["dissipation_Nmm"], 8);
   check("initial stiffness",
-        m["initial_stiffness_Nm_per_rad"],
-        1e-3 * 50 / (2 * radian));
+        m["initial_stiffness_Nmm_per_rad"],
+        50 / (2 * radian));
   check("nothing debonds", m["theta_debonding_deg"], NAN);
   std::vector<TorqueRow> debonding = make_rows(triangle());
   for (TorqueRow &row : debonding)
@@ -130,8 +130,8 @@ check_triangle()
   given.full_sliding_angle_deg = 4;
   const auto overridden = measure_torque_curve(make_rows(triangle()), given);
   check("that of the curve stays", overridden["theta_full_deg"], 2.01);
-  check("E_fric", overridden["E_fric_Nm"], 1e-3 * 30 * 6 * radian);
-  check("E_deb", overridden["E_deb_Nm"], m["E_deb_Nm"]);
+  check("E_fric", overridden["E_fric_Nmm"], 30 * 6 * radian);
+  check("E_deb", overridden["E_deb_Nmm"], m["E_deb_Nmm"]);
 
   std::cout << "Turned the other way, energies are the same" << std::endl;
   auto mirrored = triangle();
@@ -144,8 +144,8 @@ check_triangle()
   check("T_max", n["T_max_Nmm"], 50);
   check("T_inf", n["T_inf_Nmm"], -30);
   check("angle of full sliding", n["theta_full_deg"], -2.01);
-  check("E_deb", n["E_deb_Nm"], m["E_deb_Nm"]);
-  check("W_adh", n["W_adh_Nm"], m["W_adh_Nm"]);
+  check("E_deb", n["E_deb_Nmm"], m["E_deb_Nmm"]);
+  check("W_adh", n["W_adh_Nmm"], m["W_adh_Nmm"]);
 
   std::cout << "What jumps release while it turns is no part of E_deb"
             << std::endl;
@@ -153,9 +153,9 @@ check_triangle()
   for (unsigned int i = 1; i < jumping.size(); ++i)
     jumping[i].released_energy_Nmm = i < 3 ? 0.1 : 0.3;
   const auto j = measure_torque_curve(jumping, settings());
-  check("E_deb", j["E_deb_Nm"], m["E_deb_Nm"].get<double>() - 0.2e-3);
-  check("W_adh", j["W_adh_Nm"], m["W_adh_Nm"].get<double>() - 0.2e-3);
-  check("E_fric", j["E_fric_Nm"], m["E_fric_Nm"]);
+  check("E_deb", j["E_deb_Nmm"], m["E_deb_Nmm"].get<double>() - 0.2);
+  check("W_adh", j["W_adh_Nmm"], m["W_adh_Nmm"].get<double>() - 0.2);
+  check("E_fric", j["E_fric_Nmm"], m["E_fric_Nmm"]);
   check("a remark says so", j["remarks"].size(), m["remarks"].size() + 1);
 }
 
@@ -205,9 +205,9 @@ check_undefined_measures()
   check("T_max is defined", still["T_max_Nmm"], 3);
   check("angle of T_max", still["theta_max_deg"], NAN);
   check("angle of full sliding", still["theta_full_deg"], NAN);
-  check("E_deb", still["E_deb_Nm"], NAN);
-  check("E_fric", still["E_fric_Nm"], NAN);
-  check("W_adh", still["W_adh_Nm"], NAN);
+  check("E_deb", still["E_deb_Nmm"], NAN);
+  check("E_fric", still["E_fric_Nmm"], NAN);
+  check("W_adh", still["W_adh_Nmm"], NAN);
   check("w_adh", still["w_adh_N_per_m"], NAN);
   check("w_adh*", still["w_adh_star_N_per_m"], NAN);
   check("e_mp", still["e_mp"], NAN);
@@ -219,8 +219,8 @@ check_undefined_measures()
   check("T_max is defined", reversed["T_max_Nmm"], 50);
   check("T_inf is defined", reversed["T_inf_Nmm"], -20);
   check("angle of full sliding", reversed["theta_full_deg"], NAN);
-  check("E_deb", reversed["E_deb_Nm"], NAN);
-  check("W_adh", reversed["W_adh_Nm"], NAN);
+  check("E_deb", reversed["E_deb_Nmm"], NAN);
+  check("W_adh", reversed["W_adh_Nmm"], NAN);
   check("e_rel", reversed["e_rel"], NAN);
   auto pausing = triangle();
   pausing.push_back({2.1, 10 - 1e-12, 30, 2.8});
@@ -232,18 +232,18 @@ check_undefined_measures()
   CurveSettings late          = settings();
   late.full_sliding_angle_deg = 11;
   const auto early = measure_torque_curve(make_rows(triangle()), late);
-  check("E_deb is defined", early["E_deb_Nm"], 1e-3 * 330 * radian);
-  check("E_fric", early["E_fric_Nm"], NAN);
-  check("W_adh", early["W_adh_Nm"], NAN);
+  check("E_deb is defined", early["E_deb_Nmm"], 330 * radian);
+  check("E_fric", early["E_fric_Nmm"], NAN);
+  check("W_adh", early["W_adh_Nmm"], NAN);
 
   std::cout << "Nor one whose torque still rises" << std::endl;
   auto rising = triangle();
   rising.resize(3);
   const auto r = measure_torque_curve(make_rows(rising), settings());
-  check("E_deb is defined", r["E_deb_Nm"], 1e-3 * 50 * radian);
+  check("E_deb is defined", r["E_deb_Nmm"], 50 * radian);
   check("angle of full sliding", r["theta_full_deg"], NAN);
-  check("E_fric", r["E_fric_Nm"], NAN);
-  check("W_adh", r["W_adh_Nm"], NAN);
+  check("E_fric", r["E_fric_Nmm"], NAN);
+  check("W_adh", r["W_adh_Nmm"], NAN);
 
   std::cout << "Nor one whose pressure changes, or that keeps its bond"
             << std::endl;
@@ -251,16 +251,18 @@ check_undefined_measures()
   pressed.back().pressure_MPa = 2.53;
   for (TorqueRow &row : kept)
     row.phi_mean = row.angle_deg < 5 ? 0.7 : 0.141;
-  check("by 1.2 %", measure_torque_curve(pressed, settings())["W_adh_Nm"], NAN);
+  check("by 1.2 %",
+        measure_torque_curve(pressed, settings())["W_adh_Nmm"],
+        NAN);
   check("more than a fifth of it",
-        measure_torque_curve(kept, settings())["W_adh_Nm"],
+        measure_torque_curve(kept, settings())["W_adh_Nmm"],
         NAN);
 
   std::cout << "Without a bond or a row" << std::endl;
   CurveSettings frictional = settings();
   frictional.is_bonded     = false;
   check("W_adh",
-        measure_torque_curve(make_rows(triangle()), frictional)["W_adh_Nm"],
+        measure_torque_curve(make_rows(triangle()), frictional)["W_adh_Nmm"],
         NAN);
   CurveSettings unbonded = settings();
   unbonded.mean_phi_0    = 0;

@@ -43,7 +43,7 @@ def torque(degrees, c):
 
 
 def energies(c, bonding):
-    """T_max, T_inf [N mm]; E_deb, E_fric, W_adh [1e-3 N m]; w_adh, w*_adh [N/m]."""
+    """T_max, T_inf [N mm]; E_deb, E_fric, W_adh [N mm]; w_adh, w*_adh [N/m]."""
     T = [torque(0.01 * i, c) for i in range(1001)]
     E_deb = (sum(T) - 0.5 * T[-1]) * math.radians(0.01)
     E_fric = T[-1] * math.radians(10 - c["end"])
@@ -66,7 +66,7 @@ def write(number, c, remark):
 
 def main():
     if "--print-only" not in sys.argv:
-        write(1, SET_1, "All entries are printed, but\n# their W_adh is 1.30e-3 N m; Table 5 has 1.4e-3.")
+        write(1, SET_1, "All entries are printed, but\n# their W_adh is 1.30 N mm; Table 5 has 1.4.")
         write(2, SET_2, "theta_max is inferred from\n# Table 5, which it meets; Table 2 prints 2.02 deg.")
     print("                                      T_max  T(10)  E_deb E_fric W_adh w_adh w*_adh")
     for name, c, bonding in (("1, theta_max = 1.13 as printed", SET_1, BONDING[0]),

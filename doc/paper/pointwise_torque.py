@@ -63,7 +63,7 @@ def compare(directory, angles):
         summary = json.load(file)
     mu = law(read_scene(directory))
     second_moment = sum(r * r * area for r, area, _ in points)
-    stiffness = 1000 * summary["initial_stiffness_Nm_per_rad"] / second_moment  # MPa/mm
+    stiffness = summary["initial_stiffness_Nmm_per_rad"] / second_moment  # MPa/mm
     for angle in angles:
         sum_of_points = sum(area * r * traction(r * math.radians(angle), phi_0, mu, summary["pressure_MPa"], stiffness)
                             for r, area, phi_0 in points)

@@ -28,19 +28,17 @@ do for [format in "png svg"] {
   fraction = "Interface / Bonding / Bonded fraction"
   phi_0 = "Interface / Bonding / Initial bonding"
   array quantity[2] = ["T_max", "D_adh"]
-  array unit[2] = ["_Nmm", "_Nm"]
-  array label[2] = ["Largest torque {/:Italic T}_{max} [N mm]", "Adhesive dissipation {/:Italic D}_{adh} [10^{-3} N m]"]
+  array label[2] = ["Largest torque {/:Italic T}_{max} [N mm]", "Adhesive dissipation {/:Italic D}_{adh} [N mm]"]
   set multiplot layout 1, 2
   set xlabel "Bonded fraction of the surface"
   set xrange [0:1]
   set key top left
   do for [i=1:2] {
-    scale = (i == 1 ? 1. : 1e3)
-    col(what) = scale * column(quantity[i] . "_" . what . unit[i])
+    col(what) = column(quantity[i] . "_" . what . "_Nmm")
     set ylabel label[i]
     plot file using (column(fraction)):(col("p05")):(col("p95")) with filledcurves fillstyle solid 0.5 noborder linecolor rgb sky title "20 random patterns, 5 to 95 %", \
       "" using (column(fraction)):(col("mean")) with linespoints linetype 1 title "their mean", \
-      homogeneous using (column(phi_0)):(scale * column(quantity[i] . unit[i])) with lines dashtype 2 linetype 4 \
+      homogeneous using (column(phi_0)):(column(quantity[i] . "_Nmm")) with lines dashtype 2 linetype 4 \
         title "homogeneous, φ_0 = the fraction"
     unset key
   }
@@ -60,10 +58,10 @@ do for [format in "png svg"] {
     "" using (column(length)):"T_max_p50_Nmm" with linespoints linetype 1 title "median"
   set ylabel "Standard deviation / mean [%]"
   set yrange [0:*]
-  cv(name, unit) = 100. * column(name . "_sd" . unit) / column(name . "_mean" . unit)
-  plot file using (column(length)):(cv("T_max", "_Nmm")) with linespoints linetype 1 title "{/:Italic T}_{max}", \
-    "" using (column(length)):(cv("D_adh", "_Nm")) with linespoints linetype 4 pointtype 5 title "{/:Italic D}_{adh}", \
-    "" using (column(length)):(cv("E_deb", "_Nm")) with linespoints linetype 3 pointtype 9 title "{/:Italic E}_{deb}"
+  cv(name) = 100. * column(name . "_sd_Nmm") / column(name . "_mean_Nmm")
+  plot file using (column(length)):(cv("T_max")) with linespoints linetype 1 title "{/:Italic T}_{max}", \
+    "" using (column(length)):(cv("D_adh")) with linespoints linetype 4 pointtype 5 title "{/:Italic D}_{adh}", \
+    "" using (column(length)):(cv("E_deb")) with linespoints linetype 3 pointtype 9 title "{/:Italic E}_{deb}"
   unset multiplot
 }
 unset output

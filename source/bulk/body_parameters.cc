@@ -434,16 +434,15 @@ namespace Debond
     check_shape(const BodyParameters &body, const EntryCheck &refuse)
     {
       const BodyParameters usual      = BodyParameters::default_implant();
-      const bool           is_block   = body.shape == BodyShape::block;
       const bool           is_cap     = body.shape == BodyShape::cap;
       const std::string    no_meaning = "it has no meaning for this Shape";
-      refuse(!is_block && body.size != usual.size,
+      refuse(body.is_round() && body.size != usual.size,
              "Size",
              no_meaning + ": give Radius and Height");
-      refuse(is_block && body.radius != usual.radius,
+      refuse(!body.is_round() && body.radius != usual.radius,
              "Radius",
              no_meaning + ": give Size");
-      refuse(is_block && body.height != usual.height,
+      refuse(!body.is_round() && body.height != usual.height,
              "Height",
              no_meaning + ": give Size");
       refuse(!is_cap && body.cap_radius != usual.cap_radius,

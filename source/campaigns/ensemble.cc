@@ -67,11 +67,12 @@ namespace Debond
                                            {"theta_max", "_deg"},
                                            {"theta_full", "_deg"},
                                            {"T_inf", "_Nmm"},
-                                           {"E_deb", "_Nm"},
-                                           {"W_adh", "_Nm"},
+                                           {"E_deb", "_Nmm"},
+                                           {"W_adh", "_Nmm"},
                                            {"w_adh", "_N_per_m"},
-                                           {"D_adh", "_Nm"},
-                                           {"initial_stiffness", "_Nm_per_rad"},
+                                           {"D_adh", "_Nmm"},
+                                           {"initial_stiffness",
+                                            "_Nmm_per_rad"},
                                            {"largest_bonded_patch", "_mm2"}};
 
     using Fields = std::vector<std::string>;

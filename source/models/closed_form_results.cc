@@ -131,9 +131,8 @@ namespace Debond
        or_nothing(solution.torsional_stiffness)}};
     if (scene.chuck.component[ChuckComponent::rotation_z].stiffness > 0.)
       {
-        facts["jumps"] = solution.jumps.size();
-        facts["released_energy_Nm"] =
-          1e-3 * solution.rows.back().released_energy_Nmm;
+        facts["jumps"]               = solution.jumps.size();
+        facts["released_energy_Nmm"] = solution.rows.back().released_energy_Nmm;
       }
     if (!scene.output.sensitivities.empty())
       write_file(directory.file("sensitivities.csv"),

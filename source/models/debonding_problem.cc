@@ -354,7 +354,7 @@ namespace Debond
                       {"bonded_patches", bonding.patches},
                       {"largest_bonded_patch_mm2", bonding.largest_patch},
                       {"jumps", released.n_jumps()},
-                      {"released_energy_Nm", 1e-3 * released.total()}});
+                      {"released_energy_Nmm", released.total()}});
         if (!scene.output.sensitivities.empty())
           write_file(directory.file("sensitivities.csv"),
                      sensitivity_table(scene,

@@ -22,11 +22,11 @@ namespace Debond
              const std::size_t             n_warnings)
     {
       std::vector<std::string> lines;
-      const auto value = [&](const char *const name, const double factor = 1.) {
+      const auto               value = [&](const char *const name) {
         const auto found = summary.find(name);
         return found != summary.end() && found->is_number() ?
-                 factor * found->get<double>() :
-                 std::numeric_limits<double>::quiet_NaN();
+                               found->get<double>() :
+                               std::numeric_limits<double>::quiet_NaN();
       };
       const auto number = [](const double value) { return to_text(value, 6); };
       // a line is there if the first of its numbers is known
@@ -37,9 +37,8 @@ namespace Debond
       const double theta_max  = value("theta_max_deg"),
                    theta_full = value("theta_full_deg"),
                    breaks     = value("theta_debonding_deg"),
-                   stiffness  = value("initial_stiffness_Nm_per_rad"),
-                   W_adh      = value("W_adh_Nm", 1e3),
-                   D_adh      = value("D_adh_Nm", 1e3),
+                   stiffness  = value("initial_stiffness_Nmm_per_rad"),
+                   W_adh = value("W_adh_Nmm"), D_adh = value("D_adh_Nmm"),
                    defect     = value("largest_energy_defect"),
                    unbalanced = value("largest_reaction_defect");
       add(theta_max,
@@ -61,7 +60,7 @@ namespace Debond
       if (const double pressure = value("pressure_MPa"); pressure > 0.)
         lines.push_back("Pressure before turning " + number(pressure) + " MPa");
       add(stiffness,
-          "Initial torsional stiffness " + number(stiffness) + " N m/rad");
+          "Initial torsional stiffness " + number(stiffness) + " N mm/rad");
       add(breaks, "The bond begins to break at " + number(breaks) + " deg");
       if (std::isfinite(W_adh))
         lines.push_back("Work of adhesion " + number(W_adh) +

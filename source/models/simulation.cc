@@ -355,7 +355,8 @@ namespace Debond
             << ", angle "
             << chuck.position()[ChuckComponent::rotation_z] * 180. / M_PI
             << " deg, with the smallest allowed part of a step: " << result.why;
-    if (!scene.load_steps.follow_path && !chuck.unknowns().empty())
+    if (!scene.load_steps.follow_path && !chuck.unknowns().empty() &&
+        result.interface.n_closed > 0)
       message << ". A prescribed load may be more than the interface can "
                  "carry; prescribing the displacement or angle instead, or "
                  "Load steps / Path following = slip, follows the fall";

@@ -43,6 +43,8 @@ namespace Debond
         return "Friction falls with the speed faster than the springs pull: "
                "there is no quasi-static solution. Interface / Viscosity "
                "limits the speed";
+      if (parameters.interface.friction->is_frictionless())
+        return "Smaller steps show where";
       if (parameters.load_steps.follow_path)
         return "A smaller Load steps / Largest slip step follows the path "
                "between";

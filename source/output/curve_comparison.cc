@@ -92,7 +92,7 @@ namespace Debond
     if (measured.empty() || rotation.direction == 0. || rotation.reverses)
       {
         why_none = measured.empty()         ? "there is no curve" :
-                   rotation.direction == 0. ? "nothing rotates in the run" :
+                   rotation.direction == 0. ? "nothing has rotated in the run" :
                                               "the run turns back";
         return;
       }

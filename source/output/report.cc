@@ -63,8 +63,9 @@ namespace Debond
         const double value = factor * number(name);
         if (!std::isfinite(value))
           return {};
-        return "<b>" + to_text(value, 4) + (unit == "°" ? "" : " ") + unit +
-               "</b>";
+        // four digits, but 17795.2 rather than 1.78e+04
+        return "<b>" + to_text(value, std::abs(value) < 1e4 ? 4 : 6) +
+               (unit == "°" ? "" : " ") + unit + "</b>";
       }
     };
 
@@ -279,15 +280,15 @@ namespace Debond
         list.push_back("The axial force at the end is " + *force +
                        " (positive in compression).");
       if (const auto stiffness =
-            value("initial_stiffness_Nm_per_rad", "N m/rad"))
+            value("initial_stiffness_Nmm_per_rad", "N mm/rad"))
         list.push_back("The initial torsional stiffness is " + *stiffness +
                        ".");
-      if (const auto work = value("W_adh_Nm", "N mm", 1e3))
+      if (const auto work = value("W_adh_Nmm", "N mm"))
         list.push_back(
           "The work of adhesion read off the curve is " + *work + ", or " +
           value("w_adh_N_per_m", "N/m").value_or("not known") +
           " of the bonded face; the law spends " +
-          value("D_adh_Nm", "N mm", 1e3).value_or("nothing") + " on adhesion.");
+          value("D_adh_Nmm", "N mm").value_or("nothing") + " on adhesion.");
       if (const auto mean = value("difference_mean", "%", 100.))
         list.push_back("The torque differs from that of " +
                        escaped(results.scene.output.reference_curve) + " by " +
@@ -305,21 +306,21 @@ namespace Debond
       static const struct
       {
         const char *name, *words;
-      } parts[]{{"work_Nm", "work of the chuck"},
-                {"E_bulk_Nm", "stored in the bodies at the end"},
-                {"E_interface_Nm", "stored in the interface at the end"},
-                {"dissipation_Nm", "dissipated"},
-                {"D_adh_Nm", "of that by the bond"},
-                {"viscous_dissipation_Nm", "of that by viscosity"},
-                {"released_energy_Nm", "released by jumps"}};
+      } parts[]{{"work_Nmm", "work of the chuck"},
+                {"E_bulk_Nmm", "stored in the bodies at the end"},
+                {"E_interface_Nmm", "stored in the interface at the end"},
+                {"dissipation_Nmm", "dissipated"},
+                {"D_adh_Nmm", "of that by the bond"},
+                {"viscous_dissipation_Nmm", "of that by viscosity"},
+                {"released_energy_Nmm", "released by jumps"}};
       double largest = 0.;
       for (const auto &part : parts)
-        largest = std::fmax(largest, 1e3 * std::abs(results.number(part.name)));
+        largest = std::fmax(largest, std::abs(results.number(part.name)));
       std::vector<std::vector<std::string>> rows;
       for (const auto &part : parts)
-        if (const double mJ = 1e3 * results.number(part.name);
-            std::abs(mJ) > 1e-9 * largest)
-          rows.push_back({part.words, to_text(mJ, 4) + " N mm"});
+        if (const double energy = results.number(part.name);
+            std::abs(energy) > 1e-9 * largest)
+          rows.push_back({part.words, to_text(energy, 4) + " N mm"});
       std::string text = table_of({}, rows);
       if (const double defect = results.number("largest_energy_defect");
           std::isfinite(defect))

@@ -29,18 +29,18 @@ namespace Debond
 
     /** A number of a table with four digits; other texts as they are. */
     std::string
-    rounded(const std::string &field, const double factor)
+    rounded(const std::string &field)
     {
       char        *end   = nullptr;
       const double value = std::strtod(field.c_str(), &end);
       return field.empty() || *end != '\0' ? escaped(field) :
              std::isnan(value)             ? "" :
-                                             to_text(factor * value, 4);
+                                             to_text(value, 4);
     }
 
 
 
-    /** These columns of a table, as far as it has them; N m as N mm. */
+    /** These columns of a table, as far as it has them. */
     std::string
     columns_of(const std::vector<Fields>                              &table,
                const std::vector<std::pair<std::string, std::string>> &columns)
@@ -55,7 +55,7 @@ namespace Debond
           const std::size_t place = found - table[0].begin();
           const bool        is_empty =
             std::all_of(table.begin() + 1, table.end(), [&](const Fields &row) {
-              return place >= row.size() || rounded(row[place], 1.).empty();
+              return place >= row.size() || rounded(row[place]).empty();
             });
           if (is_empty)
             continue;
@@ -68,10 +68,7 @@ namespace Debond
           rows.emplace_back();
           for (const std::size_t place : places)
             rows.back().push_back(
-              place < table[i].size() ?
-                rounded(table[i][place],
-                        boost::ends_with(table[0][place], "_Nm") ? 1e3 : 1.) :
-                "");
+              place < table[i].size() ? rounded(table[i][place]) : "");
         }
       return table_of(head, rows);
     }
@@ -144,6 +141,135 @@ namespace Debond
                   header[i].substr(header[i].rfind(" / ") + 3) + " = " + row[i];
       return text;
     }
+
+
+
+    /** A study as it stands in its directory. */
+    struct StudyResults
+    {
+      explicit StudyResults(const std::string &directory);
+
+      std::vector<Fields> table; ///< study.csv
+      Fields files, titles;      ///< the curves of variants that are done
+      Fields failures;           ///< in words
+      Fields varied;             ///< the entries that are varied
+    };
+
+
+
+    StudyResults::StudyResults(const std::string &directory)
+      : table(read_csv_texts(directory + "/study.csv", "study.csv"))
+    {
+      const Fields &header = table[0];
+      const auto    place  = [&](const std::string &name) {
+        return std::size_t(std::find(header.begin(), header.end(), name) -
+                           header.begin());
+      };
+      const std::size_t converged = place("converged"),
+                        reason    = place("reason");
+      for (std::size_t i = 1; i < table.size(); ++i)
+        {
+          const Fields     &row = table[i];
+          const std::string own =
+            directory + "/" + variant_name(std::stoul(row[0]));
+          if (converged < row.size() && row[converged] == "true")
+            {
+              files.push_back(finest_curve(own));
+              titles.push_back(words_of(header, row));
+            }
+          else
+            failures.push_back(
+              "variant " + row[0] + ", " + escaped(words_of(header, row)) +
+              ": " + (reason < row.size() ? escaped(row[reason]) : ""));
+        }
+      for (const std::string &name : header)
+        if (name.find(" / ") != name.npos)
+          varied.push_back(name);
+    }
+
+
+
+    /** The curves of a study, or the band of an ensemble. */
+    std::string
+    curves_of_study(const std::string  &directory,
+                    const StudyResults &study,
+                    const std::string  &a_variant)
+    {
+      const std::string ensemble = directory + "/ensemble.csv";
+      const bool        is_band =
+        fs::exists(ensemble) &&
+        read_csv_header(ensemble, "ensemble")[0] == "angle_deg";
+      const OutputParameters output =
+        Scene::from_file(a_variant + "/parameters.prm").output;
+      ReferenceCurve reference;
+      if (fs::exists(output.reference_curve))
+        reference = read_reference_curve(output.reference_curve,
+                                         output.reference_columns);
+      // more lines would hide each other, and make the page large
+      constexpr std::size_t most = 40;
+      const std::size_t n = study.files.size(), step = (n + most - 1) / most;
+      Fields            files{ensemble}, titles{""};
+      if (!is_band)
+        {
+          files.clear();
+          titles.clear();
+          for (std::size_t i = 0; i < n; i += step)
+            {
+              files.push_back(study.files[i]);
+              titles.push_back(study.titles[i]);
+            }
+        }
+      const bool is_drawn =
+        draw_curves(directory + "/torque",
+                    files,
+                    titles,
+                    reference,
+                    torque_over_angle + std::string("is_ensemble = ") +
+                      (is_band ? "1\n" : "0\n"));
+      return curve(is_drawn,
+                   directory + "/torque.svg",
+                   "torque over angle of the variants",
+                   directory) +
+             (step > 1 && !is_band ?
+                "<p>" + std::to_string(files.size()) + " of " +
+                  std::to_string(n) + " variants are drawn.</p>" :
+                "");
+    }
+
+
+
+    /** Varied entries and then @p others, as columns of a table. */
+    std::vector<std::pair<std::string, std::string>>
+    columns_after(const Fields                                      &varied,
+                  std::vector<std::pair<std::string, std::string>> &&others)
+    {
+      std::vector<std::pair<std::string, std::string>> columns;
+      for (const std::string &name : varied)
+        columns.emplace_back(name, name);
+      columns.insert(columns.end(), others.begin(), others.end());
+      return columns;
+    }
+
+
+
+    /** What the random patterns of an ensemble come to, group by group. */
+    std::string
+    statistics_of(const std::string &directory, const Fields &varied)
+    {
+      const std::string file = directory + "/ensemble_summary.csv";
+      if (!fs::exists(file))
+        return "";
+      return columns_of(read_csv_texts(file, "ensemble_summary.csv"),
+                        columns_after(varied,
+                                      {{"members", "implants"},
+                                       {"T_max_mean_Nmm", "T_max: mean [N mm]"},
+                                       {"T_max_sd_Nmm", "standard deviation"},
+                                       {"T_max_p05_Nmm", "5 %"},
+                                       {"T_max_p95_Nmm", "95 %"},
+                                       {"D_adh_mean_Nmm", "D_adh: mean [N mm]"},
+                                       {"D_adh_sd_Nmm",
+                                        "standard deviation"}}));
+    }
   } // namespace
 
 
@@ -151,100 +277,37 @@ namespace Debond
   void
   write_report_of_study(const std::string &directory)
   {
-    const auto    table = read_csv_texts(directory + "/study.csv", "study.csv");
-    const Fields &header = table[0];
-    const auto    place  = [&](const std::string &name) {
-      return std::size_t(std::find(header.begin(), header.end(), name) -
-                         header.begin());
-    };
-    Fields            files, titles, failures;
-    const std::size_t converged = place("converged"), reason = place("reason");
-    for (std::size_t i = 1; i < table.size(); ++i)
-      {
-        const std::string own =
-          directory + "/" + variant_name(std::stoul(table[i][0]));
-        if (converged < table[i].size() && table[i][converged] == "true")
-          {
-            files.push_back(finest_curve(own));
-            titles.push_back(words_of(header, table[i]));
-          }
-        else
-          failures.push_back(
-            "variant " + table[i][0] + ", " +
-            escaped(words_of(header, table[i])) + ": " +
-            (reason < table[i].size() ? escaped(table[i][reason]) : ""));
-      }
-    const std::size_t n_done = files.size();
-
-    // more lines would hide each other, and make the page large
-    constexpr std::size_t most = 40;
-    const std::size_t     step = (files.size() + most - 1) / most;
-    for (std::size_t i = 0; step > 1 && i * step < files.size(); ++i)
-      {
-        files[i]  = files[i * step];
-        titles[i] = titles[i * step];
-      }
-    if (step > 1)
-      {
-        files.resize((n_done + step - 1) / step);
-        titles.resize(files.size());
-      }
-
-    std::string sections =
-      state(failures.empty(),
-            std::to_string(n_done) + " of " + std::to_string(table.size() - 1) +
-              " variants are done");
-    sections += section("Variants that failed, or are not done",
-                        list_of(failures, " class=\"warnings\""));
-
-    const std::string ensemble = directory + "/ensemble.csv";
-    const bool        is_ensemble =
-      fs::exists(ensemble) &&
-      read_csv_header(ensemble, "ensemble")[0] == "angle_deg";
-    const std::string a_variant =
-      n_done > 0 ? fs::path(files[0]).parent_path().string() : "";
-    const OutputParameters output =
-      n_done > 0 ? Scene::from_file(a_variant + "/parameters.prm").output :
-                   OutputParameters();
-    ReferenceCurve reference;
-    if (fs::exists(output.reference_curve))
-      reference =
-        read_reference_curve(output.reference_curve, output.reference_columns);
-    const bool is_drawn =
-      n_done > 0 &&
-      draw_curves(directory + "/torque",
-                  is_ensemble ? Fields{ensemble} : files,
-                  is_ensemble ? Fields{""} : titles,
-                  reference,
-                  torque_over_angle + std::string("is_ensemble = ") +
-                    (is_ensemble ? "1\n" : "0\n"));
-    if (n_done > 0)
-      sections +=
-        section("Curves",
-                curve(is_drawn,
-                      directory + "/torque.svg",
-                      "torque over angle of the variants",
-                      directory) +
-                  (step > 1 && !is_ensemble ?
-                     "<p>" + std::to_string(files.size()) + " of " +
-                       std::to_string(n_done) + " variants are drawn.</p>" :
-                     ""));
-    std::vector<std::pair<std::string, std::string>> columns{
-      {"variant", "variant"}};
-    for (const std::string &name : header)
-      if (name.find(" / ") != name.npos)
-        columns.emplace_back(name, name);
-    columns.insert(columns.end(),
-                   {{"T_max_Nmm", "T_max [N mm]"},
-                    {"theta_max_deg", "at [°]"},
-                    {"T_inf_Nmm", "T_inf [N mm]"},
-                    {"W_adh_Nm", "W_adh [N mm]"},
-                    {"difference_mean", "mean difference from the reference"},
-                    {"wall_seconds", "time [s]"}});
-    sections +=
-      section("Variants", columns_of(table, columns)) +
-      section("Origin", origin(read_json(a_variant + "/summary.json"), false));
-    write(directory, "Study in " + directory, sections);
+    const StudyResults study(directory);
+    const std::string  a_variant =
+      study.files.empty() ? "" :
+                             fs::path(study.files[0]).parent_path().string();
+    Fields columns{"variant"};
+    columns.insert(columns.end(), study.varied.begin(), study.varied.end());
+    write(
+      directory,
+      "Study in " + directory,
+      state(study.failures.empty(),
+            std::to_string(study.files.size()) + " of " +
+              std::to_string(study.table.size() - 1) + " variants are done") +
+        section("Variants that failed, or are not done",
+                list_of(study.failures, " class=\"warnings\"")) +
+        (a_variant.empty() ?
+           "" :
+           section("Curves", curves_of_study(directory, study, a_variant))) +
+        section("Random patterns", statistics_of(directory, study.varied)) +
+        section(
+          "Variants",
+          columns_of(study.table,
+                     columns_after(columns,
+                                   {{"T_max_Nmm", "T_max [N mm]"},
+                                    {"theta_max_deg", "at [°]"},
+                                    {"T_inf_Nmm", "T_inf [N mm]"},
+                                    {"W_adh_Nmm", "W_adh [N mm]"},
+                                    {"difference_mean",
+                                     "mean difference from the reference"},
+                                    {"wall_seconds", "time [s]"}}))) +
+        section("Origin",
+                origin(read_json(a_variant + "/summary.json"), false)));
   }
 
 

@@ -386,7 +386,7 @@ namespace Debond
       // The trapezoid over a jump holds what the jump releases as well.
       const double released = rows.back().released_energy_Nmm -
                               rows[rotation.first_row - 1].released_energy_Nmm;
-      measures["E_deb_Nm"]       = 1e-3 * (energies.E_deb - released);
+      measures["E_deb_Nmm"]      = energies.E_deb - released;
       measures["theta_full_deg"] = energies.theta_full_deg;
       if (released > 0.)
         measures["remarks"].push_back("E_deb, W_adh: without the " +
@@ -407,9 +407,9 @@ namespace Debond
           to_text(100. * T / T_max, 3) + " % at " + to_text(angle) +
           " degrees, the Output / Full sliding angle: is it that of another "
           "curve?");
-      const double W_adh    = energies.W_adh() - released;
-      measures["E_fric_Nm"] = 1e-3 * energies.E_fric;
-      measures["W_adh_Nm"]  = 1e-3 * W_adh;
+      const double W_adh     = energies.W_adh() - released;
+      measures["E_fric_Nmm"] = energies.E_fric;
+      measures["W_adh_Nmm"]  = W_adh;
       const double change =
         change_with_fewer_rows(rows, rotation, full_angle, energies.W_adh());
       if (!(change < 0.05 * std::abs(W_adh)))
@@ -478,9 +478,10 @@ namespace Debond
     const char *const names =
       "converged reason warnings remarks "
       "T_max_Nmm theta_max_deg theta_full_deg T_inf_Nmm theta_debonding_deg "
-      "initial_stiffness_Nm_per_rad pressure_MPa force_end_N "
-      "E_deb_Nm E_fric_Nm W_adh_Nm w_adh_N_per_m w_adh_star_N_per_m D_adh_Nm "
-      "dissipation_Nm viscous_dissipation_Nm work_Nm E_bulk_Nm E_interface_Nm "
+      "initial_stiffness_Nmm_per_rad pressure_MPa force_end_N "
+      "E_deb_Nmm E_fric_Nmm W_adh_Nmm w_adh_N_per_m w_adh_star_N_per_m "
+      "D_adh_Nmm dissipation_Nmm viscous_dissipation_Nmm "
+      "work_Nmm E_bulk_Nmm E_interface_Nmm "
       "e_mp e_rel difference_max difference_max_deg difference_mean "
       "reference_rows_used pressure_difference_rms slip_difference_rms "
       "reference_angles_used "
@@ -524,20 +525,20 @@ namespace Debond
        {"T_inf_Nmm", end.torque_Nmm},
        {"pressure_MPa",
         pressure_before_rotation(rows, rotation, settings.phase_times)},
-       {"D_adh_Nm", 1e-3 * end.adhesive_work_Nmm},
-       {"dissipation_Nm", 1e-3 * end.dissipation_Nmm},
-       {"viscous_dissipation_Nm", 1e-3 * end.viscous_work_Nmm},
+       {"D_adh_Nmm", end.adhesive_work_Nmm},
+       {"dissipation_Nmm", end.dissipation_Nmm},
+       {"viscous_dissipation_Nmm", end.viscous_work_Nmm},
        {"force_end_N", end.force_N},
-       {"work_Nm", 1e-3 * end.work_Nmm},
-       {"E_bulk_Nm", 1e-3 * end.energy_bulk_Nmm},
-       {"E_interface_Nm", 1e-3 * end.energy_interface_Nmm}});
+       {"work_Nmm", end.work_Nmm},
+       {"E_bulk_Nmm", end.energy_bulk_Nmm},
+       {"E_interface_Nmm", end.energy_interface_Nmm}});
     if (rotation.direction != 0. && !rotation.reverses)
       {
         measures["theta_max_deg"] = peak->angle_deg;
         const TorqueRow &first    = rows[rotation.first_row],
                         &before   = rows[rotation.first_row - 1];
-        measures["initial_stiffness_Nm_per_rad"] =
-          1e-3 * (first.torque_Nmm - before.torque_Nmm) /
+        measures["initial_stiffness_Nmm_per_rad"] =
+          (first.torque_Nmm - before.torque_Nmm) /
           radians(first.angle_deg - before.angle_deg);
         // the stiffness of a face that sticks is asked for
         const TorqueRow &end_of_step =
@@ -546,7 +547,7 @@ namespace Debond
           });
         if (end_of_step.share_slip - before.share_slip > 0.1)
           measures["remarks"].push_back(
-            "initial_stiffness_Nm_per_rad is too small: " +
+            "initial_stiffness_Nmm_per_rad is too small: " +
             to_text(100. * end_of_step.share_slip, 2) +
             " % of the face slides in the first row that has turned");
         // the bonding state is not known between them

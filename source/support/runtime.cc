@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
+#include <iostream>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -96,16 +98,30 @@ namespace Debond
 
 
 
-    /** What a limit of the address space leaves [bytes]. */
+    /** Of the address space [bytes]. */
+    double
+    limit_of_memory()
+    {
+      rlimit limit{};
+      return getrlimit(RLIMIT_AS, &limit) != 0 ||
+                 limit.rlim_cur == RLIM_INFINITY ?
+               no_limit :
+               limit.rlim_cur;
+    }
+
+
+
+    /** What that leaves [bytes]: without what each
+     *  thread takes that calls BLAS, which waits for ever if there is less. */
     double
     memory_within_limit()
     {
-      rlimit limit{};
-      if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
-        return no_limit;
-      double pages = 0.;
+      constexpr double blas_buffer = 1 << 27;
+      double           pages       = 0.;
       std::ifstream("/proc/self/statm") >> pages;
-      return std::max(0., limit.rlim_cur - pages * sysconf(_SC_PAGESIZE));
+      return std::max(0.,
+                      limit_of_memory() - pages * sysconf(_SC_PAGESIZE) -
+                        blas_buffer * dealii::MultithreadInfo::n_threads());
     }
 
 
@@ -131,6 +147,19 @@ namespace Debond
       return std::max(0., limit - std::max(0., taken));
     }
   } // namespace
+
+
+
+  int
+  exit_code(const int code)
+  {
+    if (limit_of_memory() < no_limit)
+      {
+        std::cout.flush();
+        std::_Exit(code);
+      }
+    return code;
+  }
 
 
 

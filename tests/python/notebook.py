@@ -62,7 +62,7 @@ def check_numbers(numbers):
     check("the force is the one asked for", numbers["force_error"] < 1e-3, numbers["force_error"])
     constant, relaxing = numbers["torque_over_force"]
     check("torque over force is the same at the end", abs(relaxing / constant - 1) < 0.02, constant, relaxing)
-    of_eq_13, exponential = numbers["D_adh_Nm"]
+    of_eq_13, exponential = numbers["D_adh_Nmm"]
     check("the laws take the same energy", abs(exponential / of_eq_13 - 1) < 0.1, of_eq_13, exponential)
     check("the exponential one has a lower peak", numbers["T_max_exponential"] < 0.98 * numbers["T_max_Nmm"],
           numbers["T_max_exponential"])

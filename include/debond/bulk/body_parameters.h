@@ -90,7 +90,7 @@ namespace Debond
     bool
     is_round() const
     {
-      return shape != BodyShape::block;
+      return shape == BodyShape::coin || shape == BodyShape::cap;
     }
     /** Whether it is a block of splines whose cells across are equal. */
     bool

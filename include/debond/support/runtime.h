@@ -68,6 +68,12 @@ namespace Debond
   double
   available_memory_MB();
 
+  /** What main() returns: @p code. Where the address space is limited it does
+   *  not return but ends the program: a thread of OpenBLAS that finds no room
+   *  waits for ever, and exit() for it. */
+  int
+  exit_code(int code);
+
   /**
    * What the memory limits of control groups leave [MB]: of those that
    * @p groups (/proc/self/cgroup) names and of all that hold them, below

@@ -56,7 +56,8 @@ namespace Debond
     scene.name    = name;
     EntryTable table;
     scene.declare(table);
-    const auto usual = read_scene_text(table.text(), "defaults");
+    // the same for all scenes, and half of the time that reading one takes
+    static const auto usual = read_scene_text(table.text(), "defaults");
     for (const SceneEntry &entry : entries)
       {
         table.set(entry);

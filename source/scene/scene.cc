@@ -56,7 +56,7 @@ namespace Debond
     scene.name    = name;
     EntryTable table;
     scene.declare(table);
-    // the same for all scenes, and half of the time that reading one takes
+    // the same for all scenes
     static const auto usual = read_scene_text(table.text(), "defaults");
     for (const SceneEntry &entry : entries)
       {

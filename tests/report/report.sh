@@ -40,6 +40,11 @@ pictures shear
 "$debond" scene.prm --set "Interface/Sliding threshold={{0.02|1e-6|0.04}}" --set Output/Directory=study > /dev/null 2>&1
 pictures study
 words study | grep -o -e "2 of 3 variants are done" -e "variant 2, Sliding threshold = 1e-6"
+"$debond" scene.prm --set Interface/Bonding/Pattern=random --set "Interface/Bonding/Bonded fraction={{0.4|0.7}}" \
+  --set "Interface/Bonding/Seed={{1..3}}" --set Output/Directory=ensemble > /dev/null
+# of both groups: implants, and the mean of T_max as the table of the ensemble has it
+words ensemble | grep -o -e "<h2>Random patterns</h2>" -e "<tr><td>0.[47]</td><td>3</td><td>[^<]*" | sed 's/<[^>]*>/ /g'
+cut -d , -f 1,2,4 ensemble/ensemble_summary.csv
 "$debond" scene.prm --set "Interface/Friction coefficient broken=<<mu_b: 0.3 in 0.1..1>>" --set Task=calibrate \
   --set "Output/Reference curve=run/torque.csv" --set Output/Directory=calibration > /dev/null
 pictures calibration

@@ -5,7 +5,10 @@ foreach(component ${CPACK_COMPONENTS_ALL})
   string(TOUPPER ${component} COMPONENT)
   set(share ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/${component}${CPACK_PACKAGING_INSTALL_PREFIX}/share)
   set(pages ${share}/doc/${CPACK_DEBIAN_${COMPONENT}_PACKAGE_NAME})
-  file(REMOVE ${pages}/LICENSE) # it is in /usr/share/common-licenses
+  if(EXISTS ${pages}/LICENSE) # Debian has the text already
+    file(REMOVE ${pages}/LICENSE)
+    file(CREATE_LINK ../../common-licenses/LGPL-2.1 ${pages}/LICENSE SYMBOLIC)
+  endif()
   configure_file(${CMAKE_CURRENT_LIST_DIR}/copyright ${pages}/copyright COPYONLY)
   if(component STREQUAL program)
     configure_file(${CMAKE_CURRENT_LIST_DIR}/README.Debian ${pages}/README.Debian COPYONLY)

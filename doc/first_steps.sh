@@ -10,7 +10,7 @@
 # Variables: BUILD, another build tree than build/release; PYTHON, another Python than /usr/bin/python3, to which the
 # module of the packages belongs.
 set -euo pipefail
-source=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+source=$(cd -P "$(dirname "${BASH_SOURCE[0]}")/.." && pwd) # not where a link to doc lies
 unpack=false
 if [[ ${1:-} == --unpack ]]; then unpack=true && shift; fi
 usage() { sed -n '2,/^set/{s/^# //p}' "${BASH_SOURCE[0]}"; }
@@ -49,7 +49,7 @@ python3() { "${PYTHON:-/usr/bin/python3}" -B "$@"; }             # Debian's own,
 
 say "1. Install"
 has_module=true
-if [[ -z $packages && $source == /usr/share/doc ]]; then
+if [[ -z $packages && $source == /usr/share/doc/debond ]]; then
   scenes=/usr/share/debond/prm
   [[ -e /usr/lib/python3/dist-packages/debond.py ]] || has_module=false
   unset PYTHONPATH

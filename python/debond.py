@@ -102,6 +102,9 @@ class Scene:
         self._name = os.fspath(filename) if filename is not None else "scene"
         self._tables = []  # files live as long as the scene
         if law is not None:
+            if not (isinstance(law, (tuple, list)) and len(law) == 2 and callable(law[0])):
+                raise SceneError(f"law: {law!r:.60}: expected a pair, (function, distance [mm]): phi over the sliding distance, "
+                                 "and the distance after which it is constant")
             overrides += ["Interface/Friction law=table", "Interface/Friction table=" + self._write_table(*law)]
         entries = []
         if filename is not None:
@@ -183,9 +186,7 @@ class Simulation:
     Raises SceneError; advance() and run() raise RunError, and the simulation is then in its last row."""
 
     def __init__(self, scene: Scene, drive: Optional[Mapping[str, float]] = None):
-        if not isinstance(scene, Scene):
-            raise SceneError(f"expected a debond.Scene, not {scene!r:.60}: debond.Scene(FILE) reads one")
-        self._scene = scene  # keeps the table of a law
+        self._scene = _checked(scene)  # keeps the table of a law
         self._run = _debond.Run(scene._scene, self._numbers(drive))
 
     @staticmethod
@@ -232,11 +233,17 @@ class Simulation:
         return Result(run.rows(), _known(run.summary()), run.sensitivities(), run.warnings)
 
 
+def _checked(scene) -> Scene:
+    if not isinstance(scene, Scene):
+        raise SceneError(f"expected a debond.Scene, not {scene!r:.60}: debond.Scene(FILE) reads one")
+    return scene
+
+
 def calibrate(scene: Scene, threads: int = 1, force: bool = False) -> Dict[str, Any]:
     """Finds the unknowns <<...>> of a scene with `Task = calibrate` from measured curves, writes into its directory as the
     program does, and returns what calibration.json holds: best fit, intervals, correlations. Raises SceneError, or RunError
     if nothing fits."""
-    _debond.calibrate(scene._entries, scene._name, threads, force)
+    _debond.calibrate(_checked(scene)._entries, scene._name, threads, force)
     directories = [entry.value for entry in scene._entries if entry.name == "Output / Directory"]
     directory = directories[-1] if directories else _debond.default_directory
     with open(os.path.join(directory, "calibration.json"), encoding="utf-8") as file:

@@ -55,6 +55,20 @@ namespace
 
 
 
+  /** What summary.json says of a curve. */
+  std::string
+  measures(const Scene                  &scene,
+           const std::vector<TorqueRow> &rows,
+           CurveSettings                 settings)
+  {
+    settings.take(scene.output,
+                  read_reference_curve(scene.output.reference_curve,
+                                       scene.output.reference_columns));
+    return measure_torque_curve(rows, settings).dump();
+  }
+
+
+
   std::vector<std::string>
   texts_of(const std::vector<Warning> &warnings)
   {
@@ -230,9 +244,9 @@ namespace
     std::string
     summary() const
     {
-      return measure_torque_curve(simulation->rows(),
-                                  simulation->curve_settings())
-        .dump();
+      return measures(simulation->scene,
+                      simulation->rows(),
+                      simulation->curve_settings());
     }
 
     std::unique_ptr<Simulation> simulation;
@@ -291,8 +305,7 @@ namespace
       {
         const ClosedFormSolution solution(scene);
         return {arrays(solution.rows),
-                measure_torque_curve(solution.rows, solution.curve_settings())
-                  .dump()};
+                measures(scene, solution.rows, solution.curve_settings())};
       }
     catch (const InputError &error)
       {

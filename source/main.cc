@@ -79,7 +79,8 @@ deals a large bone, or the variants of a study, out among N processes.
   --compare DIR CURVE compare the torque curves in DIR, of a run, a study or an
                       ensemble, with a measured one; nothing is run
   --columns LIST      which columns of CURVE are angle and torque, as Output /
-                      Reference columns: "2 [deg], 3 [N m]"
+                      Reference columns: "2 [deg], 3 [N m]"; with
+                      "3 [-N m]" torques of the other sign
   --report DIR        write report.html of the results in DIR anew; nothing is run
   --jobs N            run N variants of a study at a time (default: as many as
                       there are processors)
@@ -208,7 +209,11 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
           refuse_usage("unknown option '" + option + "'");
         else if (!arguments.scene_file.empty())
           refuse_usage("one scene at a time: '" + arguments.scene_file +
-                       "' or '" + option + "'?");
+                       "' or '" + option + "'?" +
+                       (option.find('=') == option.npos ?
+                          "" :
+                          " An entry with blanks stands in quotes: --set "
+                          "\"SUBSECTION/ENTRY=VALUE\""));
         else
           arguments.scene_file = option;
       }

@@ -85,6 +85,9 @@ main()
   read("a word among numbers", "angle_deg,torque_Nmm\n0.5,20\nend,50\n");
   read("thousands", "angle_deg;torque_Nmm\n0,5;20\n1;1.050\n");
   read("blanks in numbers", "angle_deg\ttorque_Nmm\n0.5\t1 020\n1\t1 050\n");
+  read("the other sign",
+       "angle [deg];torque [Nm]\n0,5;-0,02\n1;-0,05\n",
+       "angle, 2 [ -N m]");
   read("a factor", "angle [deg];torque [Nm] x10\n0,5;2\n1;5\n");
   read("a gap", "angle_deg;torque_Nmm\n0.5;20\n1;\n");
   read("a short line", "angle_deg;torque_Nmm\n0.5;20\n1\n");

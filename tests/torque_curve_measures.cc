@@ -59,6 +59,14 @@ make_rows(const std::vector<Sample> &samples)
       row.pressure_MPa      = sample.pressure_MPa;
       row.dissipation_Nmm   = 2 * row.step;
       row.adhesive_work_Nmm = row.step;
+      // no two of them are equal, and none is 0
+      row.viscous_work_Nmm     = 0.1 * row.step;
+      row.work_Nmm             = 3 * row.step;
+      row.energy_bulk_Nmm      = 0.4 * row.step;
+      row.energy_interface_Nmm = 0.6 * row.step;
+      row.force_N              = 20 * sample.pressure_MPa;
+      row.energy_defect        = -1e-6 * row.step;
+      row.reaction_defect      = 1e-7 * row.step;
       rows.push_back(row);
     }
   return rows;
@@ -111,6 +119,13 @@ check_triangle()
   check("w_adh*", m["w_adh_star_N_per_m"], 1e3 * (E_deb - E_fric) / 20);
   check("D_adh", m["D_adh_Nmm"], 4);
   check("dissipation", m["dissipation_Nmm"], 8);
+  check("viscous part", m["viscous_dissipation_Nmm"], 0.4);
+  check("work", m["work_Nmm"], 12);
+  check("stored in the bodies", m["E_bulk_Nmm"], 1.6);
+  check("and in the interface", m["E_interface_Nmm"], 2.4);
+  check("force", m["force_end_N"], 20 * 2.503);
+  check("energy defect", m["largest_energy_defect"], 4e-6);
+  check("reaction defect", m["largest_reaction_defect"], 4e-7);
   check("initial stiffness",
         m["initial_stiffness_Nmm_per_rad"],
         50 / (2 * radian));
@@ -118,11 +133,22 @@ check_triangle()
   std::vector<TorqueRow> debonding = make_rows(triangle());
   for (TorqueRow &row : debonding)
     row.phi_mean = row.angle_deg < 5 ? 0.7 : 0.6;
+  check("up to where nothing is broken",
+        measure_torque_curve(debonding, settings())["theta_bonded_deg"],
+        2);
   check("debonding begins",
         measure_torque_curve(debonding, settings())["theta_debonding_deg"],
         6);
   check("no error without a reference", m["e_mp"], NAN);
   check("no error without a reference", m["e_rel"], NAN);
+
+  auto twisted = triangle(); // and held at 1 degree and 3 N mm before
+  for (unsigned int i = 0; i < 2; ++i)
+    twisted[i] = {double(i), 1, 3, 2.5};
+  check("initial stiffness from there",
+        measure_torque_curve(make_rows(twisted),
+                             settings())["initial_stiffness_Nmm_per_rad"],
+        47 / (1 * radian));
 
   std::cout << "The entry Full sliding angle is what E_fric is counted from"
             << std::endl;

@@ -72,7 +72,10 @@ namespace Debond
       entry.refuse("several values make a study: expected one value here");
     const std::string refusal = row->allowed.refusal(entry.value);
     if (!refusal.empty())
-      entry.refuse(refusal);
+      entry.refuse(refusal + (entry.value.find('{') == std::string::npos ?
+                                "" :
+                                "; several values, a study, are written "
+                                "{{a|b}}"));
     for (const std::string &subsection : entry.subsections)
       prm.enter_subsection(subsection);
     prm.set(entry.name, entry.value);

@@ -131,7 +131,13 @@ namespace Debond
         const std::string remark = is_quoted ?
                                      "it stands without quotes" :
                                      remark_on_token(error.GetToken(), names);
-        refuse(remark.empty() ? shortened(error.GetMsg()) : remark);
+        const bool no_product    = error.GetCode() == mu::ecUNEXPECTED_VAR ||
+                                error.GetCode() == mu::ecUNEXPECTED_FUN ||
+                                error.GetCode() == mu::ecUNEXPECTED_VAL;
+        refuse(!remark.empty() ?
+                 remark :
+                 shortened(error.GetMsg()) +
+                   (no_product ? "; a product is written a * b" : ""));
       }
     if (parser.GetNumResults() > 1)
       refuse("decimals are written with a point");

@@ -10,6 +10,28 @@
 
 namespace Debond
 {
+  namespace
+  {
+    /** A scene's file that is not here may be where the program was installed
+     *  with its scenes. */
+    std::string
+    installed_instead(const std::string &filename)
+    {
+      std::error_code             none;
+      const std::filesystem::path program =
+        std::filesystem::read_symlink("/proc/self/exe", none);
+      const std::string scenes =
+        (program.parent_path().parent_path() / "share/debond/prm").string();
+      return filename.rfind("prm/", 0) == 0 &&
+                 std::filesystem::exists(scenes + filename.substr(3), none) ?
+               "; it is in " + scenes + ": `ln -s " + scenes +
+                 "' makes prm here" :
+               "";
+    }
+  } // namespace
+
+
+
   std::string
   read_input_bytes(const std::string &filename,
                    const FileRefusal &refuse,
@@ -22,6 +44,9 @@ namespace Debond
       refuse(std::string("this file cannot be read: ") + std::strerror(errno));
     };
     std::ifstream file(filename, std::ios::binary);
+    if (!file && errno == ENOENT)
+      refuse("this file cannot be read: No such file or directory" +
+             installed_instead(filename));
     if (!file)
       refuse_file();
 

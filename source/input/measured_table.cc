@@ -333,8 +333,9 @@ namespace Debond
       double      factor;
     };
 
-    /** The column of @p table that is meant by @p name, a name or a number from
-     *  1, with its @p unit in brackets, if that is given. */
+    /** The column of @p table that is meant by @p item: a name or a number from
+     *  1, with its unit in brackets, if that is given, behind a minus if values
+     *  of the other sign are meant. */
     FoundColumn
     chosen_column(const Table       &table,
                   const std::string &item,
@@ -354,15 +355,20 @@ namespace Debond
         at = *number - 1;
       else if (at == table.names.size())
         refuse("there is no column '" + name + "': " + table.described());
-      const bool        has_unit = item.find_first_of("[(") != item.npos;
-      const Unit *const unit     = has_unit ? unit_in(item) :
-                                   at < table.names.size() ?
-                                              unit_in(table.names[at]) :
-                                              nullptr;
+      const std::size_t bracket  = item.find_first_of("[(");
+      const bool        has_unit = bracket != item.npos;
+      const bool        is_negative =
+        has_unit &&
+        boost::starts_with(boost::trim_left_copy(item.substr(bracket + 1)),
+                           "-");
+      const Unit *const unit = has_unit ? unit_in(item) :
+                               at < table.names.size() ?
+                                          unit_in(table.names[at]) :
+                                          nullptr;
       if (unit == nullptr || unit->quantity != quantity)
         refuse("the column '" + name + "' needs a unit, " + units_of(quantity) +
                ", in brackets behind its name");
-      return {at, unit->factor};
+      return {at, is_negative ? -unit->factor : unit->factor};
     }
 
 
@@ -455,12 +461,19 @@ namespace Debond
             }));
 
     if (read_from != nullptr)
-      for (const FoundColumn &column : found)
-        *read_from +=
-          (read_from->empty() ? "column " : ", column ") +
-          std::to_string(column.number + 1) +
-          (table.names.empty() ? std::string() :
-                                 " '" + table.names[column.number] + "'");
+      for (std::size_t i = 0; i < found.size(); ++i)
+        {
+          const std::size_t at = found[i].number;
+          *read_from +=
+            (read_from->empty() ? "column " : ", column ") +
+            std::to_string(at + 1) +
+            (table.names.empty() ? std::string() :
+                                   " '" + table.names[at] + "'") +
+            (choice.empty() ||
+                 choice[i].find_first_of("[(") == std::string::npos ?
+               std::string() :
+               " as " + choice[i].substr(choice[i].find_first_of("[(")));
+        }
 
     std::vector<std::vector<double>> rows;
     for (const auto &[number, items] : table.rows)

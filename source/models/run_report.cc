@@ -37,6 +37,7 @@ namespace Debond
       const double theta_max  = value("theta_max_deg"),
                    theta_full = value("theta_full_deg"),
                    breaks     = value("theta_debonding_deg"),
+                   bonded     = value("theta_bonded_deg"),
                    stiffness  = value("initial_stiffness_Nmm_per_rad"),
                    W_adh = value("W_adh_Nmm"), D_adh = value("D_adh_Nmm"),
                    defect     = value("largest_energy_defect"),
@@ -61,7 +62,9 @@ namespace Debond
         lines.push_back("Pressure before turning " + number(pressure) + " MPa");
       add(stiffness,
           "Initial torsional stiffness " + number(stiffness) + " N mm/rad");
-      add(breaks, "The bond begins to break at " + number(breaks) + " deg");
+      add(breaks,
+          "The bond begins to break between " + number(bonded) + " and " +
+            number(breaks) + " deg");
       if (std::isfinite(W_adh))
         lines.push_back("Work of adhesion " + number(W_adh) +
                         " N mm from the curve, " + number(D_adh) +
@@ -137,12 +140,7 @@ namespace Debond
 
     // What is read off the curve, and what it refers to, Eqs. (19) to (21).
     const OutputParameters &output = scene.output;
-    if (output.observed_bonding > 0)
-      settings.mean_phi_0 = output.observed_bonding;
-    if (output.full_sliding_angle > 0)
-      settings.full_sliding_angle_deg = output.full_sliding_angle;
-    settings.phase_times           = scene.load_steps.times;
-    settings.reference             = reference;
+    settings.take(output, reference);
     nlohmann::ordered_json summary = measure_torque_curve(rows, settings);
     summary.update(profiles.measures());
     summary.update(facts);

@@ -137,8 +137,10 @@ namespace Debond
     ask(measured_end < 0.05 * end,
         "the reference curve ends at " + to_text(measured_end, 4) +
           " and the run at " + to_text(end, 4) + " degrees: is it in degrees?");
-    ask(products < 0.,
-        "the torques of the reference curve have the opposite sign");
+    ask(
+      products < 0.,
+      "the torques of the reference curve have the opposite sign: a minus "
+      "before the unit turns it, as in Reference columns = 1 [deg], 2 [-N m]");
     ask(
       turns_back(measured),
       "the angles of the reference curve turn back: loading and unloading, or "

@@ -271,7 +271,9 @@ namespace Debond
             value("T_inf_Nmm", "N mm").value_or("not known") + ".");
         }
       if (const auto angle = value("theta_debonding_deg", "°"))
-        list.push_back("The bond begins to break at " + *angle + ".");
+        list.push_back("The bond begins to break between " +
+                       value("theta_bonded_deg", "°").value_or("") + " and " +
+                       *angle + ".");
       if (const auto pressure = value("pressure_MPa", "MPa");
           pressure && results.number("pressure_MPa") > 0.)
         list.push_back("The implant is pressed on with a mean pressure of " +

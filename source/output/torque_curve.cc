@@ -1,6 +1,7 @@
 #include <debond/input/allowed_values.h>
 #include <debond/input/csv_table.h>
 #include <debond/output/torque_curve.h>
+#include <debond/scene/scene.h>
 #include <debond/support/number_text.h>
 
 #include <deal.II/base/numbers.h>
@@ -470,6 +471,19 @@ namespace Debond
 
 
 
+  void
+  CurveSettings::take(const OutputParameters &output,
+                      const ReferenceCurve   &curve)
+  {
+    if (output.observed_bonding > 0.)
+      mean_phi_0 = output.observed_bonding;
+    if (output.full_sliding_angle > 0.)
+      full_sliding_angle_deg = output.full_sliding_angle;
+    reference = curve;
+  }
+
+
+
   nlohmann::ordered_json
   empty_summary()
   {
@@ -477,7 +491,8 @@ namespace Debond
     // equations hold; the effort
     const char *const names =
       "converged reason warnings remarks "
-      "T_max_Nmm theta_max_deg theta_full_deg T_inf_Nmm theta_debonding_deg "
+      "T_max_Nmm theta_max_deg theta_full_deg T_inf_Nmm "
+      "theta_bonded_deg theta_debonding_deg "
       "initial_stiffness_Nmm_per_rad pressure_MPa force_end_N "
       "E_deb_Nmm E_fric_Nmm W_adh_Nmm w_adh_N_per_m w_adh_star_N_per_m "
       "D_adh_Nmm dissipation_Nmm viscous_dissipation_Nmm "
@@ -550,12 +565,16 @@ namespace Debond
             "initial_stiffness_Nmm_per_rad is too small: " +
             to_text(100. * end_of_step.share_slip, 2) +
             " % of the face slides in the first row that has turned");
-        // the bonding state is not known between them
-        for (auto row = steps.rbegin();
-             row != steps.rend() && settings.is_bonded;
-             ++row)
-          if (row->phi_mean < steps.front().phi_mean * (1. - 1e-12))
-            measures["theta_debonding_deg"] = row->angle_deg;
+        // The bonding state is not known between them.
+        const auto breaks =
+          std::find_if(steps.begin(), steps.end(), [&](const TorqueRow &row) {
+            return row.phi_mean < steps.front().phi_mean * (1. - 1e-12);
+          });
+        if (settings.is_bonded && breaks != steps.end())
+          {
+            measures["theta_bonded_deg"]    = std::prev(breaks)->angle_deg;
+            measures["theta_debonding_deg"] = breaks->angle_deg;
+          }
         measure_energies(rows, rotation, settings, T_max, measures);
         measure_errors(rows, settings.reference, measures);
       }

@@ -218,8 +218,9 @@ namespace Debond
         "Which columns of Reference curve are angle and torque, each "
         "by its name there or its number from 1, with a unit (deg, "
         "rad, mrad; N mm, mN m, N cm, N m, kN m) where the file has "
-        "none: Winkel [rad], 3 [N m]. Empty: angle_deg and torque_Nmm, else "
-        "the only columns with such units.");
+        "none: Winkel [rad], 3 [N m]. A minus before the unit, 3 [-N m], turns "
+        "the sign. Empty: angle_deg and torque_Nmm, else the only columns with "
+        "such units.");
       table.add("Reference profiles",
                 output.reference_profiles,
                 Allowed::text("the name of a CSV file"),
@@ -301,23 +302,25 @@ namespace Debond
         "checkpoints, from which `debond --resume DIR' goes on. 0: only when "
         "SIGINT, SIGTERM, SIGHUP or SIGUSR1 interrupts the run. For Model = finite "
         "elements.");
-      table.add("Checkpoint minutes",
-                output.checkpoint_minutes,
-                Allowed::number_from(0, "min"),
-                "Time [min] after which the next row leaves a checkpoint, beside "
-                "those of Checkpoint every. 0: none. For Model = finite "
-                "elements.");
+      table.add(
+        "Checkpoint minutes",
+        output.checkpoint_minutes,
+        Allowed::number_from(0, "min"),
+        "Time [min] after which the next row leaves a checkpoint, beside "
+        "those of Checkpoint every. 0: none. For Model = finite "
+        "elements.");
       table.add("Report",
                 output.report,
                 Allowed::choice("false | true"),
                 "Write report.html, a page with curve, maps of the interface, "
                 "results in words and warnings, its pictures torque.svg and "
                 "torque.png, and maps.csv. Variants of a study write none.");
-      table.add("Published values",
-                output.published,
-                Allowed::list(Allowed::number(""), 0, 4),
-                "T_max, T_inf [N mm], theta_lin, theta_max [deg], the first of "
-                "them or all, that the report marks in the curve. Empty: none.");
+      table.add(
+        "Published values",
+        output.published,
+        Allowed::list(Allowed::number(""), 0, 4),
+        "T_max, T_inf [N mm], theta_lin, theta_max [deg], the first of "
+        "them or all, that the report marks in the curve. Empty: none.");
       table.add("Console",
                 output.quiet,
                 Allowed::choice("steps | quiet"),

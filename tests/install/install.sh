@@ -1,8 +1,8 @@
 #!/bin/bash
-# install.sh BUILD EXAMPLE: installs the program, runs one of its scenes, and builds a program of one's own with
-# find_package(debond). Prints what must be so.
+# install.sh BUILD EXAMPLE: installs the program, runs one of its scenes, follows the links of its pages, and builds a
+# program of one's own with find_package(debond). Prints what must be so.
 set -eu
-build=$1 example=$2
+build=$1 example=$2 links=$(dirname "$(realpath "$0")")/links.pl
 mkdir work && cd work # ctest writes into a file output
 cmake --install "$build" --prefix "$PWD/installed" > log
 ls installed/bin installed/share/man/man1 | grep debond
@@ -11,6 +11,8 @@ installed/bin/debond prm/coin_mode3_fast.prm > log
 grep -o "Largest torque 50" log
 ls output/coin_fast/report.html
 grep -c "^# " installed/share/doc/debond/README.md
+(cd installed/share/doc/debond && ls doc/first_steps.sh doc/tutorial.md prm/coin_mode3.prm python/tutorial.ipynb)
+"$links" installed/share/doc/debond
 
 mkdir own && cp "$example" own/own.cc
 cat > own/CMakeLists.txt <<'END'

@@ -4,7 +4,7 @@
 #                            a program of one's own; needs root, debootstrap and 4 GB. MIRROR: where Debian comes from
 # Prints what must be so.
 set -eu
-build=$1 example=${2:-}
+build=$1 example=${2:-} links=$(dirname "$(realpath "$0")")/../install/links.pl
 # what is mounted is gone with this process
 if [[ -n $example && -z ${DEBOND_UNSHARED:-} ]]; then DEBOND_UNSHARED=1 exec unshare --mount "$0" "$@"; fi
 mkdir work && cd work # ctest writes into a file output
@@ -19,6 +19,7 @@ if [[ -z $example ]]; then
   dpkg-deb -x "$program" root
   dpkg-deb -x "$library" root
   (cd root/usr/share/doc && ls debond/{README.md,README.Debian} {debond,libdebond-dev}/{copyright,changelog.Debian.gz})
+  (cd root/usr/share/doc/debond && ls doc/first_steps.sh doc/tutorial.md prm/coin_mode3.prm python/tutorial.ipynb && readlink LICENSE)
   find root -name libdebond_library.a -o -name debondConfig.cmake -o -name scene.h | sed 's|.*/||' | sort
   zgrep -o "debond .- simulate" root/usr/share/man/man1/debond.1.gz
   echo "libraries loaded for nothing: $(ldd -u root/usr/bin/debond | grep -c /)"
@@ -47,11 +48,13 @@ install() {
     { tail -n 20 log && exit 1; }
 }
 install man-db gnuplot-nox "/tmp/$(basename "$program")"
+"$links" "$tree/usr/share/doc/debond"
 inside "$tree" useradd --create-home user
 inside --userspec=user:user "$tree" env HOME=/home/user sh -euc '
   cd
-  ln -s /usr/share/debond/prm
+  ln -s /usr/share/debond/prm && ln -s /usr/share/doc/debond/doc
   debond prm/paper/data_set_1_calibrated.prm | grep -o "Largest torque [0-9]*"
+  DEBOND=/usr/bin/debond doc/paper/reproduce.sh table_1 | grep -c "Closed forms predict"
   rm output/data_set_1_calibrated/report.html
   debond --report output/data_set_1_calibrated
   ls output/data_set_1_calibrated/report.html output/data_set_1_calibrated/torque.png

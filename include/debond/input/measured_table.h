@@ -35,8 +35,9 @@ namespace Debond
    *
    * @p choice names the columns in the order of @p columns, each by its name in
    * the file or its number from 1, with a unit in brackets where the file has
-   * none: "Winkel", "3 [N m]". Empty: the column called as
-   * MeasuredColumn::name, else the only one with a unit of that quantity.
+   * none: "Winkel", "3 [N m]"; a minus before the unit, "3 [-N m]", turns the
+   * sign. Empty: the column called as MeasuredColumn::name, else the only one
+   * with a unit of that quantity.
    *
    * @p read_from: the columns that were read, for people.
    *

@@ -15,6 +15,10 @@
 
 namespace Debond
 {
+  struct OutputParameters;
+
+
+
   /** One row of torque.csv: the accepted state at the end of a planned step.
    *  All figures are what the chuck exerts on the implant. */
   struct TorqueRow
@@ -183,6 +187,11 @@ namespace Debond
     std::vector<double> phase_times;
     /** Empty: no error measures. */
     ReferenceCurve reference;
+
+    /** Sets what entries of a scene's @p output ask for, with the @p curve that
+     *  `Reference curve` names. */
+    void
+    take(const OutputParameters &output, const ReferenceCurve &curve);
   };
 
   /** The members of summary.json in their order, NaN; 0 for the numbers
@@ -201,7 +210,7 @@ namespace Debond
    * units:
    *
    *  - T_max: largest |T| over the rows; theta_max: where it is first met;
-   *    theta_full: beginning of full sliding; T_inf: T of the last row;
+   *    theta_full: end of the flat peak; T_inf: T of the last row;
    *  - pressure: at the end of the last phase before the angle first changes;
    *  - initial_stiffness: torque per angle up to the first row that has turned;
    *  - E_deb, E_fric, W_adh: Eq. (20), without what jumps release;
@@ -209,7 +218,7 @@ namespace Debond
    *  - D_adh: work the law spends on adhesion;
    *  - dissipation, and viscous_dissipation, which is part of it;
    *  - theta_debonding: angle of the first row whose mean bonding state is
-   * below the initial;
+   *    below the initial; theta_bonded: of the row before;
    *  - force_end, work, E_bulk, E_interface: of the last row axial force, work
    *    of the chuck, energy stored in bodies and interface;
    *  - e_mp, e_rel, difference_max, difference_mean, difference_max_deg,

@@ -1,5 +1,8 @@
 #include <debond/campaigns/calibration.h>
+#include <debond/input/allowed_values.h>
 #include <debond/input/csv_table.h>
+#include <debond/input/entry_table.h>
+#include <debond/output/report.h>
 #include <debond/output/result_files.h>
 #include <debond/support/number_text.h>
 #include <debond/support/provenance.h>
@@ -26,11 +29,75 @@ namespace Debond
 
 
 
+    /** The unit of an entry; empty if it has none. */
+    std::string
+    unit_of(const std::string &full_name)
+    {
+      Scene      defaults;
+      EntryTable table;
+      defaults.declare(table);
+      return table.unit_of(full_name);
+    }
+
+
+
+    /** Of numbers that stand alone in their entry, which has the unit then. */
+    std::vector<std::string>
+    units_of_unknowns(const std::vector<Unknown> &list)
+    {
+      std::vector<std::string> units;
+      for (const Unknown &unknown : list)
+        {
+          const std::string &value = unknown.entry.value;
+          const bool         is_alone =
+            value.rfind("<<") == 0 && value.find(">>") + 2 == value.size();
+          units.push_back(is_alone ? unit_of(unknown.entry.full_name()) : "");
+        }
+      return units;
+    }
+
+
+
+    /** What the rig shows besides the implant, at the best fit: number, unit,
+     *  and whether that is fitted. */
+    nlohmann::ordered_json
+    rig_of(const Calibration &calibration, const Misfit &misfit)
+    {
+      const Unknowns                &unknowns = misfit.unknowns;
+      const Eigen::VectorXd         &best = calibration.optima.front().unknowns;
+      const std::string              subsection = "Calibration / ";
+      const std::vector<std::string> names{"Angle offset",
+                                           "Slack",
+                                           "Machine compliance",
+                                           "Torque offset"};
+      nlohmann::ordered_json         rigs = nlohmann::ordered_json::array();
+      for (unsigned int e = 0; e < misfit.experiments.size(); ++e)
+        {
+          nlohmann::ordered_json rig;
+          const auto take = [&](const SceneEntry &entry, const bool is_fitted) {
+            for (const std::string &name : names)
+              if (entry.full_name() == subsection + name)
+                rig[name] = {{"value", read_number(entry.value).value_or(NAN)},
+                             {"unit", unit_of(entry.full_name())},
+                             {"fitted", is_fitted}};
+          };
+          for (const SceneEntry &entry : unknowns.entries(e, best))
+            take(entry, false);
+          for (const SceneEntry &entry : unknowns.varied_entries(e, best))
+            take(entry, true);
+          rigs.push_back(std::move(rig));
+        }
+      return rigs;
+    }
+
+
+
     nlohmann::ordered_json
     json_of(const Calibration &calibration, const Misfit &misfit)
     {
       const FitStatistics   &statistics   = *calibration.statistics;
       const auto            &list         = misfit.unknowns.list;
+      const auto             units        = units_of_unknowns(list);
       nlohmann::ordered_json unknowns     = nlohmann::ordered_json::object(),
                              correlations = unknowns;
       for (std::size_t j = 0; j < list.size(); ++j)
@@ -39,6 +106,7 @@ namespace Debond
           // JSON has null for what is not known
           const double unknown_if = one.at_bound ? NAN : 0.;
           unknowns[list[j].name]  = {{"value", one.best},
+                                     {"unit", units[j]},
                                      {"lower_95", one.lower + unknown_if},
                                      {"upper_95", one.upper + unknown_if},
                                      {"at_bound", one.at_bound},
@@ -82,7 +150,8 @@ namespace Debond
       nlohmann::ordered_json origin;
       for (const auto &[name, text] : provenance())
         origin[name] = text;
-      return {{"version", DEBOND_VERSION},
+      return {{"title", misfit.experiments.front()->scene.title},
+              {"version", DEBOND_VERSION},
               {"provenance", origin},
               {"seconds", calibration.seconds},
               {"evaluations", calibration.n_evaluations},
@@ -92,6 +161,7 @@ namespace Debond
               {"noise_is_known", misfit.has_noise()},
               {"residual_sd", statistics.s},
               {"unknowns", unknowns},
+              {"rig", rig_of(calibration, misfit)},
               {"correlations", correlations},
               {"curves", curves},
               {"optima", optima},
@@ -195,6 +265,21 @@ namespace Debond
 
 
 
+    /** A run has no rig: where the fit has one, the title tells them apart. */
+    std::vector<std::string>
+    title_without_rig(const std::vector<SceneEntry> &found)
+    {
+      const Scene scene = Scene::from_entries(found, "fitted.prm");
+      if (!has_rig(scene.calibration))
+        return {};
+      return {"Title=" +
+              (scene.title.empty() ? "Fit to " + scene.output.reference_curve :
+                                     scene.title) +
+              ", without the rig"};
+    }
+
+
+
     /** Scenes that run, with what has been found. */
     void
     write_scenes(const Calibration &calibration, const Misfit &misfit)
@@ -210,11 +295,13 @@ namespace Debond
       const unsigned int n = misfit.experiments.size();
       for (unsigned int e = 0; e < n; ++e)
         {
-          const auto entries = with_overrides(
-            unknowns.entries(e, calibration.optima.front().unknowns),
-            {"Task=simulate",
-             "Output/Directory=" + calibration.directory + "/" +
-               numbered("fitted", "", e, n)});
+          const auto found =
+            unknowns.entries(e, calibration.optima.front().unknowns);
+          const auto entries =
+            with_overrides(with_overrides(found, title_without_rig(found)),
+                           {"Task=simulate",
+                            "Output/Directory=" + calibration.directory + "/" +
+                              numbered("fitted", "", e, n)});
           const std::string &file = misfit.experiments[e]->measured.file;
           write_file(
             calibration.directory + "/" + numbered("fitted", ".prm", e, n),

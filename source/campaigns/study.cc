@@ -8,6 +8,7 @@
 #include <debond/models/memory_estimate.h>
 #include <debond/output/report.h>
 #include <debond/output/result_files.h>
+#include <debond/output/variant_names.h>
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
 #include <debond/support/number_text.h>
@@ -104,6 +105,10 @@ namespace Debond
             EntryError("Study / Reference variant",
                        "this study has " + std::to_string(combinations.size()) +
                          " variants"));
+        std::vector<std::vector<std::string>> values;
+        for (const StudyVariant &combination : combinations)
+          values.push_back(combination.values);
+        const VariantNames names(varied, values);
         for (StudyVariant &combination : combinations)
           {
             const std::string directory_name =
@@ -119,11 +124,8 @@ namespace Debond
                                              "Output/Directory=" + directory +
                                                "/" + directory_name});
             Variant    next;
-            next.name = directory_name + ":";
-            for (unsigned int i = 0; i < varied.size(); ++i)
-              next.name += (i == 0 ? " " : "; ") + varied[i] + " = " +
-                           combination.values[i];
-            next.values        = combination.values;
+            next.name   = directory_name + ": " + names.full(variants.size());
+            next.values = combination.values;
             next.n_repetitions = first.study.repetitions;
             next.scene         = Scene::from_entries(own, name);
             next.scene.changed_entries.clear();

@@ -141,6 +141,24 @@ namespace Debond
 
 
 
+  // Words of what is allowed end with it: "a number > 0 [mm]".
+  std::string
+  EntryTable::unit_of(const std::string &full_name) const
+  {
+    for (const Row &row : rows)
+      if (row.entry.full_name() == full_name)
+        {
+          const std::string &words = row.allowed.description;
+          const auto         begin = words.rfind('[');
+          return begin == std::string::npos || words.back() != ']' ?
+                   "" :
+                   words.substr(begin + 1, words.size() - begin - 2);
+        }
+    return "";
+  }
+
+
+
   std::string
   EntryTable::text() const
   {

@@ -81,7 +81,7 @@ namespace Debond
     if (load > std::max(noise, growth * largest_load))
       {
         largest_load = load;
-        largest      = snapshot("largest load", row, points);
+        largest      = snapshot("largest load (within 0.1 %)", row, points);
       }
   }
 

@@ -63,9 +63,8 @@ namespace Debond
         const double value = factor * number(name);
         if (!std::isfinite(value))
           return {};
-        // four digits, but 17795.2 rather than 1.78e+04
-        return "<b>" + to_text(value, std::abs(value) < 1e4 ? 4 : 6) +
-               (unit == "°" ? "" : " ") + unit + "</b>";
+        return "<b>" + short_number(value) + (unit == "°" ? "" : " ") + unit +
+               "</b>";
       }
     };
 
@@ -296,7 +295,12 @@ namespace Debond
                        escaped(results.scene.output.reference_curve) + " by " +
                        *mean + " of the largest in the mean and " +
                        value("difference_max", "%", 100.).value_or("") +
-                       " at most.");
+                       " at most." +
+                       (has_rig(results.scene.calibration) ?
+                          " The run is without the rig: offsets, slack and "
+                          "compliance (subsection Calibration) are still in "
+                          "that file." :
+                          ""));
       return list;
     }
 
@@ -323,13 +327,17 @@ namespace Debond
         if (const double energy = results.number(part.name);
             std::abs(energy) > 1e-9 * largest)
           rows.push_back({part.words, to_text(energy, 4) + " N mm"});
-      std::string text = table_of({}, rows);
+      std::string  text      = table_of({}, rows);
+      const double reactions = results.number("largest_reaction_defect");
       if (const double defect = results.number("largest_energy_defect");
           std::isfinite(defect))
         text += "<p>Work and energies differ by " + to_text(defect, 2) +
-                " of the largest work at most, forces on both sides of the "
-                "implant by " +
-                to_text(results.number("largest_reaction_defect"), 2) + ".</p>";
+                " of the largest work at most" +
+                (std::isfinite(reactions) ?
+                   ", forces on both sides of the implant by " +
+                     to_text(reactions, 2) :
+                   "") +
+                ".</p>";
       return text;
     }
 

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
@@ -27,6 +28,17 @@ namespace Debond
       boost::replace_all(text, ">", "&gt;");
       boost::replace_all(text, "\"", "&quot;");
       return text;
+    }
+
+
+
+    std::string
+    short_number(const double number, const int digits)
+    {
+      const double size = std::abs(number);
+      return size >= std::pow(10., digits) && size < 1e9 ?
+               to_text(std::round(number), 10) :
+               to_text(number, digits);
     }
 
 

@@ -14,6 +14,7 @@ pictures() {
 
 "$debond" scene.prm
 pictures run
+words run | grep -o -e "largest load (within 0.1 %)</fig" | sort -u
 words run | grep -o -e "<h1>.*</h1>" -e "The torque is largest" -e "Load steps / Steps" -e "half of the bond is broken" -e "command" | sort -u
 head -c 5 run/torque.svg
 echo " $(head -c 4 run/torque.png | tail -c 3)"
@@ -39,16 +40,25 @@ echo "a pull, a study, a calibration"
 pictures shear
 "$debond" scene.prm --set "Interface/Sliding threshold={{0.02|1e-6|0.04}}" --set Output/Directory=study > /dev/null 2>&1
 pictures study
-words study | grep -o -e "2 of 3 variants are done" -e "variant 2, Sliding threshold = 1e-6"
+words study | grep -o -e "<h1>.*</h1>" -e "2 of 3 variants are done" -e "variant 2, Sliding threshold = 1e-6"
 "$debond" scene.prm --set Interface/Bonding/Pattern=random --set "Interface/Bonding/Bonded fraction={{0.4|0.7}}" \
   --set "Interface/Bonding/Seed={{1..3}}" --set Output/Directory=ensemble > /dev/null
 # of both groups: implants, and the mean of T_max as the table of the ensemble has it
 words ensemble | grep -o -e "<h2>Random patterns</h2>" -e "<tr><td>0.[47]</td><td>3</td><td>[^<]*" | sed 's/<[^>]*>/ /g'
 cut -d , -f 1,2,4 ensemble/ensemble_summary.csv
+# both are in the legend, and the axis begins at 0
+grep -o -e "Bonded fraction = 0.[47]" -e ">-[0-9.]*<" ensemble/torque.svg | sort -u
+# what is varied one at a time is named where it differs
+"$debond" scene.prm --set Model=foundation --set "Interface/Sliding threshold={{0.02|0.03}}" \
+  --set "Bone/Young modulus={{15000|16500}}" --set "Implant/Young modulus={{110000|120000}}" \
+  --set "Study/Factors varied at once=1" --set Output/Directory=factors | grep -o "variant-00.: [^:]*:" | sort
+words factors | grep -o -e "<th>changed</th>" -e "<td>.</td><td>[^<]*"
 "$debond" scene.prm --set "Interface/Friction coefficient broken=<<mu_b: 0.3 in 0.1..1>>" --set Task=calibrate \
+  --set "Interface/Sliding threshold=<<a_s: 0.03 in 0.01..0.1>>" --set "Calibration/Angle offset=0.001" \
   --set "Output/Reference curve=run/torque.csv" --set Output/Directory=calibration > /dev/null
 pictures calibration
-words calibration | grep -o -e "<td>mu_b</td>"
+words calibration | grep -o -e "<h1>.*</h1>" -e "<td>mu_b</td>" -e "<td>mm</td>" -e "<td>Angle offset.*</td>"
+grep "Title" calibration/fitted.prm
 
 # made anew, pages still name the command that the results come from
 for directory in study calibration; do

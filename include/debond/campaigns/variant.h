@@ -40,8 +40,8 @@ namespace Debond
   /** A variant of a study, and what its directory holds. */
   struct Variant
   {
-    std::string              name; ///< "variant-001: ENTRY = VALUE; ..."
-    Scene                    scene;
+    std::string name; ///< "variant-001: ENTRY = VALUE; ...", see VariantNames
+    Scene       scene;
     std::vector<std::string> values;            ///< of the varied entries
     unsigned int             n_repetitions = 1; ///< runs that are wanted
     /** What results its directory holds, by the text of parameters.prm. */

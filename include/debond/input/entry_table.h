@@ -66,6 +66,11 @@ namespace Debond
     void
     set(const SceneEntry &entry);
 
+    /** The unit of the numbers of an entry with its subsections; empty if it
+     *  has none, or there is no such entry. */
+    std::string
+    unit_of(const std::string &full_name) const;
+
     /** All entries with their values as a scene. */
     std::string
     text() const;

@@ -1,10 +1,20 @@
 #ifndef debond_output_report_h
 #define debond_output_report_h
 
+#include <debond/scene/scene.h>
+
 #include <string>
 
 namespace Debond
 {
+  /** Whether the rig shows anything else than the implant does. */
+  inline bool
+  has_rig(const CalibrationParameters &rig)
+  {
+    return rig.angle_offset != 0. || rig.slack != 0. ||
+           rig.machine_compliance != 0. || rig.torque_offset != 0.;
+  }
+
   /**
    * Writes report.html into a directory of results, of a run, a study or a
    * calibration: curves, maps of the interface, results in words, energies,

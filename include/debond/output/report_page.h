@@ -16,6 +16,10 @@ namespace Debond
     std::string
     escaped(std::string text);
 
+    /** A number with so many digits, but 17795 rather than 1.78e+04. */
+    std::string
+    short_number(double number, int digits = 4);
+
     /** A section of the page; nothing without content. */
     std::string
     section(const std::string &heading, const std::string &content);

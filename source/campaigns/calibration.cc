@@ -612,9 +612,9 @@ namespace Debond
         " %, more than Calibration / Largest misfit, " +
         to_text(100. * scene.calibration.largest_misfit, 3) + " %" +
         (misfit.measured.dot(result.optima.front().values) < 0. ?
-           "; the measured values have the opposite sign: turn the load round, or "
-           "the values by a minus before the unit, as in Reference columns = 1 "
-           "[deg], 2 [-N m]" :
+           "; the measured values have the opposite sign: turn the load round, "
+           "or the values by a minus before the unit, as in Reference columns "
+           "= 1 [deg], 2 [-N m]" :
            ""));
   }
 

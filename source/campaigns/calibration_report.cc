@@ -29,21 +29,9 @@ namespace Debond
 
 
 
-    /** The unit of an entry; empty if it has none. */
-    std::string
-    unit_of(const std::string &full_name)
-    {
-      Scene      defaults;
-      EntryTable table;
-      defaults.declare(table);
-      return table.unit_of(full_name);
-    }
-
-
-
     /** Of numbers that stand alone in their entry, which has the unit then. */
     std::vector<std::string>
-    units_of_unknowns(const std::vector<Unknown> &list)
+    units_of_unknowns(const std::vector<Unknown> &list, const EntryTable &table)
     {
       std::vector<std::string> units;
       for (const Unknown &unknown : list)
@@ -51,7 +39,8 @@ namespace Debond
           const std::string &value = unknown.entry.value;
           const bool         is_alone =
             value.rfind("<<") == 0 && value.find(">>") + 2 == value.size();
-          units.push_back(is_alone ? unit_of(unknown.entry.full_name()) : "");
+          units.push_back(is_alone ? table.unit_of(unknown.entry.full_name()) :
+                                     "");
         }
       return units;
     }
@@ -61,7 +50,9 @@ namespace Debond
     /** What the rig shows besides the implant, at the best fit: number, unit,
      *  and whether that is fitted. */
     nlohmann::ordered_json
-    rig_of(const Calibration &calibration, const Misfit &misfit)
+    rig_of(const Calibration &calibration,
+           const Misfit      &misfit,
+           const EntryTable  &table)
     {
       const Unknowns                &unknowns = misfit.unknowns;
       const Eigen::VectorXd         &best = calibration.optima.front().unknowns;
@@ -78,7 +69,7 @@ namespace Debond
             for (const std::string &name : names)
               if (entry.full_name() == subsection + name)
                 rig[name] = {{"value", read_number(entry.value).value_or(NAN)},
-                             {"unit", unit_of(entry.full_name())},
+                             {"unit", table.unit_of(entry.full_name())},
                              {"fitted", is_fitted}};
           };
           for (const SceneEntry &entry : unknowns.entries(e, best))
@@ -95,9 +86,12 @@ namespace Debond
     nlohmann::ordered_json
     json_of(const Calibration &calibration, const Misfit &misfit)
     {
-      const FitStatistics   &statistics   = *calibration.statistics;
-      const auto            &list         = misfit.unknowns.list;
-      const auto             units        = units_of_unknowns(list);
+      const FitStatistics &statistics = *calibration.statistics;
+      const auto          &list       = misfit.unknowns.list;
+      Scene                defaults;
+      EntryTable           table; // for units
+      defaults.declare(table);
+      const auto             units        = units_of_unknowns(list, table);
       nlohmann::ordered_json unknowns     = nlohmann::ordered_json::object(),
                              correlations = unknowns;
       for (std::size_t j = 0; j < list.size(); ++j)
@@ -161,7 +155,7 @@ namespace Debond
               {"noise_is_known", misfit.has_noise()},
               {"residual_sd", statistics.s},
               {"unknowns", unknowns},
-              {"rig", rig_of(calibration, misfit)},
+              {"rig", rig_of(calibration, misfit, table)},
               {"correlations", correlations},
               {"curves", curves},
               {"optima", optima},

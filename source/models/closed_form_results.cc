@@ -84,6 +84,7 @@ namespace Debond
   }
 
 
+
   void
   write_results(const ClosedFormSolution &solution, const dealii::Timer &clock)
   {

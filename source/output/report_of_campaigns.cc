@@ -54,8 +54,7 @@ namespace Debond
 
 
 
-    /** These columns of a table, as far as it
-     * has them. */
+    /** These columns of a table, as far as it has them. */
     std::string
     columns_of(const std::vector<Fields>                              &table,
                const std::vector<std::pair<std::string, std::string>> &columns)
@@ -139,6 +138,11 @@ namespace Debond
 
 
 
+    /** Groups of an ensemble whose bands can still be told apart. */
+    constexpr std::size_t most_bands = 8;
+
+
+
     /** Draws curves; @p names are those that report/campaign.gp asks for. */
     bool
     draw_curves(const std::string    &base,
@@ -150,7 +154,8 @@ namespace Debond
       Text              text;
       text << "svg = " << quoted(base + ".svg")
            << "\npng = " << quoted(base + ".png") << "\nn_curves = " << n
-           << "\nlegend_rows = " << curves.legend_rows() << "\narray files["
+           << "\nlegend_rows = " << curves.legend_rows()
+           << "\nmost_bands = " << most_bands << "\narray files["
            << std::max<std::size_t>(1, n) << "]\narray titles["
            << std::max<std::size_t>(1, n) << "]\n";
       for (std::size_t i = 0; i < n; ++i)
@@ -326,9 +331,8 @@ namespace Debond
         text += "The colours go from dark to light in the order of the " +
                 what + ", from " + escaped(drawn.titles.front()) + " to " +
                 escaped(drawn.titles.back()) + ". ";
-      constexpr std::size_t with_bands = 8; // report/campaign.gp
       if (is_ensemble && n > 1)
-        text += drawn.files.size() > with_bands ?
+        text += drawn.files.size() > most_bands ?
                   "Each line is the mean of a group." :
                   "Each line is the mean of a group; the band in its colour "
                   "holds 5 to 95 % of its members.";
@@ -402,12 +406,9 @@ namespace Debond
                                        {"D_adh_sd_Nmm",
                                         "standard deviation"}}));
     }
-  } // namespace
 
 
 
-  namespace
-  {
     /** The variants, with what they have in the place of all varied entries if
      *  these are many. */
     std::string

@@ -111,8 +111,8 @@ namespace Debond
 
 
 
-    /** What that leaves [bytes]: without what each
-     *  thread takes that calls BLAS, which waits for ever if there is less. */
+    /** What that leaves [bytes], without the buffer of each thread that calls
+     *  BLAS, which waits for ever if there is no room for it. */
     double
     memory_within_limit()
     {

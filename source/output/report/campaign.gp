@@ -1,5 +1,5 @@
 # Pictures of the report of a study or a calibration. Set before: svg, png (files to write), n_curves, file(i), name(i),
-# legend_rows (0: no legend), x, y (columns), x_label, y_label, n_reference (rows of the data block $reference);
+# legend_rows (0: no legend), most_bands, x, y (columns), x_label, y_label, n_reference (rows of the data block $reference);
 # of a fit is_fit = 1, with the columns y . "_measured", "_fitted", "_lower_95", "_upper_95" of file(1);
 # of an ensemble is_ensemble = 1, with the columns "torque_mean_Nmm" and the like of file(i), which is one group each.
 set encoding utf8
@@ -9,7 +9,6 @@ set datafile columnheaders
 
 # a few curves are told apart by their colours, many by where they are between dark and light
 few = 12
-most_bands = 8
 array colours[few] = [0xc03028, 0x2c1e5c, 0xe08a1e, 0x3a7d44, 0x2a78b0, 0x8e4585, 0x6b6b6b, 0xa0522d, 0x20a0a0, 0xd868a8, 0x98982a, 0x000000]
 between(t, a, b, c) = int(t < 0.5 ? a + (b - a) * 2 * t : b + (c - b) * (2 * t - 1))
 shade(t) = 65536 * between(t, 44, 208, 240) + 256 * between(t, 30, 74, 190) + between(t, 92, 98, 90)

@@ -16,6 +16,9 @@ pictures() {
 pictures run
 words run | grep -o -e "largest load (within 0.1 %)</fig" | sort -u
 words run | grep -o -e "<h1>.*</h1>" -e "The torque is largest" -e "Load steps / Steps" -e "half of the bond is broken" -e "command" | sort -u
+# numbers of the page, and the same of the summary
+words run | sed 's/<[^>]*>/ /g' | grep -o -E -e "largest, +[0-9.]+ N mm" -e "stiffness is +[0-9.]+ N mm/rad" -e "(chuck|bodies at the end|interface at the end|dissipated) +[0-9.]+ N mm"
+grep -E -e '"(T_max|initial_stiffness|work|E_bulk|E_interface|dissipation)_Nmm' run/summary.json
 head -c 5 run/torque.svg
 echo " $(head -c 4 run/torque.png | tail -c 3)"
 grep -c '"command"' run/summary.json

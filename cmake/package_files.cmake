@@ -1,4 +1,5 @@
 # Run by cpack between the installation into a staging directory and the packages: what Debian wants in each of them.
+cmake_host_system_information(RESULT release QUERY DISTRIB_VERSION_CODENAME)
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 find_program(GZIP gzip REQUIRED)
 foreach(component ${CPACK_COMPONENTS_ALL})
@@ -14,7 +15,7 @@ foreach(component ${CPACK_COMPONENTS_ALL})
     configure_file(${CMAKE_CURRENT_LIST_DIR}/README.Debian ${pages}/README.Debian COPYONLY)
   endif()
   file(WRITE ${pages}/changelog.Debian
-       "debond (${CPACK_PACKAGE_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}) bookworm; urgency=medium\n\n"
+       "debond (${CPACK_PACKAGE_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}) ${release}; urgency=medium\n\n"
        "  * What is new is in /usr/share/doc/debond/CHANGELOG.md of the package debond.\n\n"
        " -- ${CPACK_PACKAGE_CONTACT}  ${date}\n")
   file(GLOB manuals ${share}/man/man1/*.1)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The first hour with debond on Debian 12, as commands to read and to type: install, run, look, a scene of one's own,
+# The first hour with debond on Debian 12 or 13, as commands to read and to type: install, run, look, a scene of one's own,
 # compare with a measured curve, fit, and the same from Python. Half a minute of computing. It stops at the first result
 # that is not right.
 #   doc/first_steps.sh [--unpack] [PACKAGES [DIRECTORY]]

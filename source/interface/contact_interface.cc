@@ -39,12 +39,12 @@ namespace Debond
     // the reference area, and a history: to begin with no partner, g_s = 0, and
     // the internal variables that the law wants, such as the initial state of a
     // law that ages.
-    for (const auto &place : surface_quadrature(mesh[slave]->surface(), n))
+    const auto places = surface_quadrature(mesh[slave]->surface(), n);
+    points.resize(places.size());
+    for (unsigned int q = 0; q < points.size(); ++q)
       {
-        SlavePoint point;
-        static_cast<SurfaceQuadraturePoint &>(point) = place;
-        point.accepted.internal = law.friction->initial_variables();
-        points.push_back(point);
+        static_cast<SurfaceQuadraturePoint &>(points[q]) = places[q];
+        points[q].accepted.internal = law.friction->initial_variables();
       }
     for (const Side side : both_sides)
       // no forces before the first evaluate(); their size never changes

@@ -214,14 +214,14 @@ namespace Debond
   StateChecks::ask_for_strains(const CoupledSystem &system,
                                const double         max_traction)
   {
-    for (const auto &[side, body] :
-         {std::make_pair(Side::bone, &parameters.bone),
-          std::make_pair(Side::implant, &parameters.implant)})
+    for (const Side side : both_sides)
       {
+        const BodyParameters &body =
+          side == Side::bone ? parameters.bone : parameters.implant;
         const ControlNet v      = system.body[side]->contact_displacement();
         ControlNet      &judged = judged_displacement[side];
-        if (body->material != Material::linear ||
-            max_traction < 5e-4 * body->softest_modulus() ||
+        if (body.material != Material::linear ||
+            max_traction < 5e-4 * body.softest_modulus() ||
             (judged.size() > 0 && (v - judged).norm() < 0.2 * v.norm()))
           continue;
         judged = v;

@@ -116,7 +116,8 @@ namespace Debond
       list(const std::vector<std::string> &pieces) const
       {
         std::ostringstream text;
-        dealii::DataOutBase::write_pvtu_record(text, pieces, names, ranges, {});
+        dealii::DataOutBase::write_pvtu_record(
+          text, pieces, names, ranges, dealii::DataOutBase::VtkFlags());
         // which begins with a comment that holds the date
         std::string list  = text.str();
         const auto  begin = list.find("<!--"), end = list.find("-->");

@@ -2,6 +2,7 @@
 #include <debond/support/ranks.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/multithread_info.h>
 
 #include <cstdlib>
 #include <exception>

@@ -1,10 +1,12 @@
 #!/bin/bash
 # package.sh BUILD           makes the packages of a build, looks into them, and runs the program
-# package.sh BUILD EXAMPLE   makes a Debian 12, installs the packages there, runs the first scene as a user, and builds
-#                            a program of one's own; needs root, debootstrap and 4 GB. MIRROR: where Debian comes from
+# package.sh BUILD EXAMPLE   makes a Debian like this one, installs the packages there, runs the first scene as a user,
+#                            and builds a program of one's own; needs root, debootstrap and 4 GB
 # Prints what must be so.
 set -eu
-build=$1 example=${2:-} links=$(dirname "$(realpath "$0")")/../install/links.pl
+here=$(dirname "$(realpath "$0")")
+build=$1 example=${2:-} links=$here/../install/links.pl
+. "$here/tree.sh"
 # what is mounted is gone with this process
 if [[ -n $example && -z ${DEBOND_UNSHARED:-} ]]; then DEBOND_UNSHARED=1 exec unshare --mount "$0" "$@"; fi
 mkdir work && cd work # ctest writes into a file output
@@ -15,7 +17,7 @@ program=$(ls "$PWD"/packages/debond_*.deb) library=$(ls "$PWD"/packages/libdebon
 
 if [[ -z $example ]]; then
   dpkg-deb -f "$program" Package Recommends
-  dpkg-deb -f "$program" Depends | grep -oE "\b(libdeal.ii-9.4.1|libopenblas0|libpng16-16|libnifti2-2)\b" | sort
+  dpkg-deb -f "$program" Depends | grep -oE "\b(libdeal.ii-9|libopenblas0|libpng16-16|libnifti2-2)\b" | sort
   dpkg-deb -x "$program" root
   dpkg-deb -x "$library" root
   (cd root/usr/share/doc && ls debond/{README.md,README.Debian} {debond,libdebond-dev}/{copyright,changelog.Debian.gz})
@@ -29,24 +31,10 @@ if [[ -z $example ]]; then
   exit
 fi
 
-tree=$PWD/tree
-trap 'umount "$tree/proc" 2> /dev/null; rm -rf --one-file-system "$tree"' EXIT
-if ! debootstrap --variant=minbase bookworm "$tree" "${MIRROR:-http://deb.debian.org/debian}" > log 2>&1; then
-  if grep -q "Failed getting release file" log; then echo "no mirror of Debian"; fi
-  tail -n 5 log
-  exit 1
-fi
-mount -t proc proc "$tree/proc"
+make_tree "$(. /etc/os-release && echo "$VERSION_CODENAME")" # packages are of the Debian that they were made on
 cp "$program" "$library" "$tree/tmp"
 cp "$example" "$tree/tmp/own.cc"
 
-inside() {
-  chroot "$@" 2>&1 < /dev/null
-}
-install() {
-  inside "$tree" env DEBIAN_FRONTEND=noninteractive apt-get install --quiet --yes --no-install-recommends "$@" > log ||
-    { tail -n 20 log && exit 1; }
-}
 install man-db gnuplot-nox "/tmp/$(basename "$program")"
 "$links" "$tree/usr/share/doc/debond"
 inside "$tree" useradd --create-home user

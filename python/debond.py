@@ -12,6 +12,7 @@ threads of Python go on; Ctrl-C stops a run after the row at work.
 
 import json
 import os
+import sys
 import tempfile
 from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple
 
@@ -47,6 +48,38 @@ def _text(value: Any) -> str:
 def _known(summary: str) -> Dict[str, Any]:
     """The members of a summary that have a value."""
     return {name: value for name, value in json.loads(summary).items() if value is not None}
+
+
+def _team(comm):
+    """The processes that solve together: those of `comm`, a communicator of mpi4py; None: this one alone."""
+    if comm is None:
+        return _debond.Team(0)
+    mpi = sys.modules.get("mpi4py.MPI")
+    if mpi is None or not isinstance(comm, mpi.Intracomm):
+        raise SceneError(f"comm: {type(comm).__name__}: expected a communicator of mpi4py within a group of processes to which this one "
+                         "belongs, as MPI.COMM_WORLD")
+    theirs, ours = mpi.Get_library_version(), _debond.mpi_library
+    if theirs != ours:
+        raise SceneError(f"comm: mpi4py was built with {theirs:.60}, debond with {ours:.60}: expected the same MPI library")
+    return _debond.Team(mpi._addressof(comm))
+
+
+def _agreed(team, work):
+    """What work() makes of arguments. It has to be the same on all processes of a team, and what one raises they all raise."""
+    result = mistake = None
+    try:
+        result = work()
+    except Exception as error:
+        mistake = error
+    said = team.gather(f"!{mistake}" if mistake else repr(result))
+    if mistake:
+        raise mistake
+    for rank, text in enumerate(said):
+        if text[0] == "!":
+            raise SceneError(text[1:])
+        if text != said[0]:
+            raise SceneError(f"the processes of comm ask for different things: {said[0]} on rank 0, {text} on rank {rank}")
+    return result
 
 
 def sample_law(law: Callable[[float], float], longest: float, tolerance: float = 1e-4) -> Tuple[numpy.ndarray, numpy.ndarray]:
@@ -120,40 +153,41 @@ class Scene:
         numpy.savetxt(name, numpy.column_stack(sample_law(law, longest)), "%.17g", ",", header="slip_mm,phi", comments="")
         return name
 
-    @property
-    def _scene(self):
-        return _debond.Scene(self._entries, self._name)
+    def _read(self, team):
+        return _debond.Scene(self._entries, self._name, team)
 
     @property
     def parameters(self) -> str:
         """All entries with their values, as the text of a scene."""
-        return self._scene.parameters
+        return self._read(_team(None)).parameters
 
     @property
     def warnings(self) -> List[str]:
         """What is allowed in it, but likely to be a mistake."""
-        return self._scene.warnings
+        return self._read(_team(None)).warnings
 
-    def run(self, on_row: Optional[Callable[[Dict[str, float]], None]] = None) -> "Result":
-        """Runs it in memory and returns its rows. on_row is called with each row of finite elements. Raises RunError."""
-        scene = self._scene
+    def run(self, on_row: Optional[Callable[[Dict[str, float]], None]] = None, *, comm=None) -> "Result":
+        """Runs it in memory and returns its rows. on_row is called with each row of finite elements. comm: as of Simulation.
+        Raises RunError."""
+        team = _team(comm)
+        scene = self._read(team)
         if scene.is_automatic:
             raise SceneError("Model = auto writes into a directory: write() does it")
         if scene.has_closed_form:
-            rows, summary = _debond.closed_form(scene)
+            rows, summary = _debond.closed_form(scene, team)
             return Result(rows, _known(summary), {}, scene.warnings)
-        simulation = Simulation(self)
+        simulation = Simulation(self, comm=comm)
         simulation.run(on_row)
         return simulation.result()
 
-    def write(self, directory=None, force: bool = False) -> str:
+    def write(self, directory=None, force: bool = False, *, comm=None) -> str:
         """Runs it as the program does, into a directory with all files and report.html; returns the directory. force: as the
-        option --force."""
-        entries = self._entries
+        option --force. comm: as of Simulation; the first of its processes writes."""
+        entries, team = self._entries, _team(comm)
         if directory is not None:
             entries = _debond.changed(entries, ["Output/Directory=" + os.fspath(directory)])
-        scene = _debond.Scene(entries, self._name)
-        _debond.run_into_directory(scene, force)
+        scene = _debond.Scene(entries, self._name, team)
+        _debond.run_into_directory(scene, force, team)
         return scene.directory
 
 
@@ -183,15 +217,20 @@ class Simulation:
             simulation.advance({"Rotation z": angle, "Translation z": -force})
             angle += 0.1 if simulation.row["torque_Nmm"] < 40 else 0.02
 
+    comm: a communicator of mpi4py whose processes solve the scene together, by multigrid; each of them makes the same calls.
+    Without it this process works alone, whatever mpirun has started.
+
     Raises SceneError; advance() and run() raise RunError, and the simulation is then in its last row."""
 
-    def __init__(self, scene: Scene, drive: Optional[Mapping[str, float]] = None):
-        self._scene = _checked(scene)  # keeps the table of a law
-        self._run = _debond.Run(scene._scene, self._numbers(drive))
+    def __init__(self, scene: Scene, drive: Optional[Mapping[str, float]] = None, *, comm=None):
+        self._team = _team(comm)
+        driven = _agreed(self._team, lambda: _checked(scene) and self._numbers(drive))
+        self._scene = scene  # keeps the table of a law
+        self._run = _debond.Run(scene._read(self._team), driven, self._team)
 
     @staticmethod
     def _numbers(values) -> Dict[str, float]:
-        values = dict(values or {})
+        values = dict(sorted((values or {}).items()))
         for name, value in values.items():
             try:
                 values[name] = float(value)
@@ -208,12 +247,18 @@ class Simulation:
     def advance(self, values: Optional[Mapping[str, float]] = None) -> None:
         """Computes one more row; the first is the state at the first time. values: of driven components at the row's end;
         those that are not named stay."""
-        self._run.advance(self._numbers(values))
+        self._run.advance(_agreed(self._team, lambda: ("advance", self._numbers(values)))[1])
 
     def run(self, on_row: Optional[Callable[[Dict[str, float]], None]] = None) -> None:
         """Computes all rows that are left. on_row is called with each; what it raises ends the run."""
-        if on_row is not None and not callable(on_row):
-            raise SceneError(f"on_row: {on_row!r:.60}: expected a function of a row")
+
+
+        def check():
+            if on_row is not None and not callable(on_row):
+                raise SceneError(f"on_row: {on_row!r:.60}: expected a function of a row")
+            return "run"
+
+        _agreed(self._team, check)
         self._run.run(None if on_row is None else lambda: on_row(self.row))
 
     @property

@@ -10,7 +10,10 @@
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
 #include <debond/support/provenance.h>
+#include <debond/support/ranks.h>
 #include <debond/support/runtime.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <nlohmann/json.hpp>
 #include <pybind11/numpy.h>
@@ -18,6 +21,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <iostream>
 #include <map>
 #include <sstream>
@@ -28,6 +32,64 @@ using namespace Debond;
 namespace
 {
   using Columns = std::map<std::string, std::vector<double>>;
+  using Values  = std::map<std::string, double>;
+
+
+
+  /** The processes that solve together: those of a communicator whose handle is
+   *  at @p address, which may be freed afterwards; 0: this one alone. */
+  struct Team
+  {
+    explicit Team(const std::uintptr_t address)
+    {
+      const py::gil_scoped_release others_go_on;
+      if (address != 0)
+        pointer =
+          Ranks::make_team(*reinterpret_cast<const MPI_Comm *>(address));
+    }
+
+    /** What each of them says. Collective. */
+    std::vector<std::string>
+    gather(const std::string &text) const
+    {
+      const py::gil_scoped_release others_go_on;
+      const Ranks::Together        together(pointer);
+      return Ranks::number() == 1 ?
+               std::vector<std::string>{text} :
+               dealii::Utilities::MPI::all_gather(Ranks::communicator(), text);
+    }
+
+    Ranks::TeamPointer pointer;
+  };
+
+
+
+  /** Does what all processes of a team do together. What is wrong with a scene
+   *  or a run is met by all of them, and looking on ends it for all. What one
+   *  meets alone, such as a lack of memory, the others wait for in vain, so
+   *  that it ends all, as in the program. */
+  template <typename Work>
+  auto
+  work_together(const Ranks::TeamPointer &team, const Work &work)
+  {
+    const Ranks::Together together(team);
+    try
+      {
+        return work();
+      }
+    catch (const std::exception &error)
+      {
+        const bool of_python =
+          dynamic_cast<const py::error_already_set *>(&error) != nullptr;
+        if (Ranks::number() > 1 && !of_python && !is_of_all_ranks(error))
+          {
+            std::cerr << "debond: rank " << Ranks::own() << ": " << error.what()
+                      << "; all that it works with end" << std::endl;
+            Ranks::end_all(2);
+          }
+        throw;
+      }
+  }
 
 
 
@@ -249,6 +311,7 @@ namespace
                       simulation->curve_settings());
     }
 
+    const Ranks::TeamPointer    team = Ranks::team();
     std::unique_ptr<Simulation> simulation;
 
   private:
@@ -271,13 +334,15 @@ namespace
 
 
   void
-  run_into_directory(Scene scene, const bool force)
+  run_into_directory(Scene scene, const bool force, const Team &team)
   {
     const py::gil_scoped_release others_go_on;
     scene.output.overwrite_other_results = force;
-    run_scene(scene);
-    if (scene.output.report)
-      write_report(scene.output.directory);
+    work_together(team.pointer, [&] {
+      run_scene(scene);
+      if (scene.output.report)
+        write_report(scene.output.directory);
+    });
   }
 
 
@@ -299,18 +364,22 @@ namespace
 
   /** Rows and summary. */
   std::pair<py::dict, std::string>
-  closed_form(const Scene &scene)
+  closed_form(const Scene &scene, const Team &team)
   {
-    try
-      {
-        const ClosedFormSolution solution(scene);
-        return {arrays(solution.rows),
-                measures(scene, solution.rows, solution.curve_settings())};
-      }
-    catch (const InputError &error)
-      {
-        throw scene.with_place(error);
-      }
+    const auto solution = work_together(team.pointer, [&] {
+      const py::gil_scoped_release others_go_on;
+      scene.require_same_on_all_ranks();
+      try
+        {
+          return ClosedFormSolution(scene);
+        }
+      catch (const InputError &error)
+        {
+          throw scene.with_place(error);
+        }
+    });
+    return {arrays(solution.rows),
+            measures(scene, solution.rows, solution.curve_settings())};
   }
 
 
@@ -360,6 +429,10 @@ PYBIND11_MODULE(_debond, module)
   set_up_libraries();
   module.attr("version")           = DEBOND_VERSION;
   module.attr("default_directory") = OutputParameters().directory;
+  char mpi_library[MPI_MAX_LIBRARY_VERSION_STRING];
+  int  length = 0;
+  MPI_Get_library_version(mpi_library, &length);
+  module.attr("mpi_library") = std::string(mpi_library, length);
   py::register_exception_translator(translate);
 
   py::class_<SceneEntry>(module, "Entry")
@@ -368,8 +441,19 @@ PYBIND11_MODULE(_debond, module)
   module.def("read_file", read_scene_file);
   module.def("read_text", read_scene_text);
   module.def("changed", changed);
+  py::class_<Team>(module, "Team")
+    .def(py::init<std::uintptr_t>())
+    .def("gather", &Team::gather);
   py::class_<Scene>(module, "Scene")
-    .def(py::init(&Scene::from_entries))
+    .def(py::init([](const std::vector<SceneEntry> &entries,
+                     const std::string             &name,
+                     const Team                    &team) {
+      const py::gil_scoped_release others_go_on;
+      const Ranks::Together        together(team.pointer);
+      Scene                        scene;
+      Ranks::in_agreement([&] { scene = Scene::from_entries(entries, name); });
+      return scene;
+    }))
     .def_readonly("title", &Scene::title)
     .def_readonly("parameters", &Scene::completed_parameters)
     .def_property_readonly("directory",
@@ -387,9 +471,20 @@ PYBIND11_MODULE(_debond, module)
       return texts_of(s.warnings());
     });
   py::class_<Run>(module, "Run")
-    .def(py::init<Scene, const std::map<std::string, double> &>())
-    .def("advance", &Run::advance)
-    .def("run", &Run::run)
+    .def(
+      py::init([](const Scene &scene, const Values &driven, const Team &team) {
+        return work_together(team.pointer, [&] {
+          return std::make_unique<Run>(scene, driven);
+        });
+      }))
+    .def("advance",
+         [](Run &run, const Values &values) {
+           work_together(run.team, [&] { run.advance(values); });
+         })
+    .def("run",
+         [](Run &run, const py::object &on_row) {
+           work_together(run.team, [&] { run.run(on_row); });
+         })
     .def("last_row", &Run::last_row)
     .def("points", &Run::points)
     .def("sensitivities", &Run::sensitivities)

@@ -129,7 +129,7 @@ namespace Debond
                             (solver == static_cast<int>(BulkSolver::multigrid) ?
                                ": --set \"Bone/Bulk solver=multigrid\" does" :
                              Ranks::number() > 1 ?
-                               ": it takes one process, without mpirun" :
+                               ": it takes one process" :
                                ": leave this entry as it was"));
   }
 

@@ -131,7 +131,7 @@ namespace Debond
       "small. `multigrid': "
       "by iterations for the whole system with algebraic multigrid, "
       "for bones that are too large to be factorised, on any number "
-      "of processes (mpirun). `auto': multigrid with mpirun, or where factors "
+      "of processes (mpirun). `auto': multigrid on several, or where factors "
       "would not fit into the memory; lattice where that is possible, the "
       "implant stays away from the sides, and strains are below some 1 %. The "
       "program says which, and why.");

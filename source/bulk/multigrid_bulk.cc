@@ -450,7 +450,7 @@ namespace Debond
   std::unique_ptr<WholeBulk>
   make_multigrid_bulk(const BodyMesh &mesh, const NeoHookean &material)
   {
-    Ranks::start(); // before anything of Trilinos
+    Ranks::communicator(); // begins with MPI, before anything of Trilinos
     // a modulus that makes no sense in the cells of one rank is told to all
     std::unique_ptr<MultigridBulk> bulk;
     Ranks::in_agreement(

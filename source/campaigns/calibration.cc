@@ -131,7 +131,7 @@ namespace Debond
             return experiment->scene.bulk_solver() == BulkSolver::multigrid;
           });
         if (one_at_a_time) // Trilinos, which solves there, knows one thread
-          Ranks::start();
+          Ranks::communicator(); // begins with MPI here
         for (unsigned int i = 1; i < n_threads && !one_at_a_time; ++i)
           add_worker();
       }

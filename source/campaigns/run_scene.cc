@@ -3,6 +3,7 @@
 #include <debond/models/closed_form_solution.h>
 #include <debond/models/debonding_problem.h>
 #include <debond/support/input_error.h>
+#include <debond/support/interruption.h>
 #include <debond/support/ranks.h>
 
 #include <deal.II/base/timer.h>
@@ -15,6 +16,7 @@ namespace Debond
             std::ostream *const       plan)
   {
     const dealii::Timer clock;
+    scene.require_same_on_all_ranks();
     if (plan != nullptr && scene.model != ModelKind::finite_elements)
       for (const Warning &warning : scene.warnings())
         *plan << "warning: " << warning.text << '\n';
@@ -28,7 +30,7 @@ namespace Debond
         else if (scene.model == ModelKind::automatic && Ranks::number() > 1)
           throw EntryError("Model",
                            "auto runs in one process: expected finite "
-                           "elements, or no mpirun");
+                           "elements, or one process");
         else if (scene.model == ModelKind::automatic)
           plan != nullptr ? check_auto(scene, *plan) : run_auto(scene);
         else
@@ -42,5 +44,16 @@ namespace Debond
       {
         throw scene.with_place(error); // what is said of the scene gets a place
       }
+  }
+
+
+
+  bool
+  is_of_all_ranks(const std::exception &error)
+  {
+    return dynamic_cast<const WriteError *>(&error) == nullptr &&
+           (dynamic_cast<const InputError *>(&error) != nullptr ||
+            dynamic_cast<const RunError *>(&error) != nullptr ||
+            dynamic_cast<const Interrupted *>(&error) != nullptr);
   }
 } // namespace Debond

@@ -359,12 +359,7 @@ namespace Debond
           {
             bodies.reset();
             // what one rank alone has met the others wait for in vain
-            const bool is_of_all =
-              dynamic_cast<const WriteError *>(&error) == nullptr &&
-              (dynamic_cast<const InputError *>(&error) != nullptr ||
-               dynamic_cast<const RunError *>(&error) != nullptr ||
-               dynamic_cast<const Interrupted *>(&error) != nullptr);
-            if (!is_of_all && Ranks::number() > 1)
+            if (!is_of_all_ranks(error) && Ranks::number() > 1)
               throw;
             return error.what();
           }
@@ -400,7 +395,7 @@ namespace Debond
 
         std::vector<std::pair<unsigned int, std::string>> failures;
         {
-          const Ranks::Groups groups(group_size);
+          const Ranks::Together group(Ranks::group_of(group_size));
           // kinds of bodies depend on the number of ranks that solve for them
           std::vector<std::pair<std::string, unsigned int>> order;
           for (unsigned int i = 0; i < variants.size(); ++i)

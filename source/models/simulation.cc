@@ -26,6 +26,7 @@ namespace Debond
           std::shared_ptr<BodyPair> bodies,
           dealii::TimerOutput      *timer)
     {
+      scene.require_same_on_all_ranks();
       require_memory(scene, bodies != nullptr);
       const TimedSection t(timer, "set-up");
       return CoupledSystem(scene, std::move(bodies), timer);
@@ -68,6 +69,7 @@ namespace Debond
                          std::shared_ptr<BodyPair> bodies,
                          dealii::TimerOutput      *timer)
     : scene(scene)
+    , team(Ranks::team())
     , timer(timer)
     // bodies that a study has condensed already are taken over, not built again
     , coupled_system(build(this->scene, std::move(bodies), timer))
@@ -89,6 +91,7 @@ namespace Debond
   Simulation::differentiate(std::vector<SceneVariation> variations)
   {
     Assert(all_rows.empty(), dealii::ExcMessage("There are rows already."));
+    const Ranks::Together together(team);
     if (!variations.empty())
       sensitivities =
         std::make_unique<Sensitivities>(scene, coupled_system, variations);
@@ -137,6 +140,7 @@ namespace Debond
   void
   Simulation::run()
   {
+    const Ranks::Together together(team);
     // a simulation that was loaded from a checkpoint has rows, and goes on
     while (all_rows.empty() || !is_finished())
       advance();
@@ -146,15 +150,17 @@ namespace Debond
 
 
   // A row is complete, and the system in its state, when the signal is given:
-  // fields, profiles and checkpoints can be taken from it.
+  // fields, profiles and checkpoints can be taken from it. Who looks on may end
+  // the run on one rank only, which the others would wait for.
   void
   Simulation::advance()
   {
+    const Ranks::Together together(team);
     if (all_rows.empty())
       solve_first_row();
     else
       solve_row();
-    signals.row(all_rows.back());
+    Ranks::in_agreement([this] { signals.row(all_rows.back()); });
   }
 
 

@@ -1,5 +1,6 @@
 #include <debond/output/console.h>
 #include <debond/support/number_text.h>
+#include <debond/support/ranks.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,11 @@ namespace Debond
 {
   namespace
   {
+    /** For all ranks but the one that speaks. */
+    std::ostream unheard(nullptr);
+
+
+
     /** No negative zeros. */
     double
     rounded(const double value)
@@ -25,7 +31,7 @@ namespace Debond
                    std::ostream              &out)
     : quiet(quiet)
     , times(times)
-    , out(out)
+    , out(Ranks::is_first() ? out : unheard)
   {}
 
 

@@ -2,11 +2,15 @@
 #include <debond/input/entry_table.h>
 #include <debond/input/scene_file.h>
 #include <debond/scene/scene.h>
+#include <debond/support/number_text.h>
+#include <debond/support/ranks.h>
 #include <debond/support/written_files.h>
 
+#include <boost/algorithm/string/replace.hpp>
 #include <boost/crc.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <ostream>
 #include <sstream>
 
@@ -30,17 +34,29 @@ namespace Debond
 
   namespace
   {
-    /** Of all files whose content makes the results. */
+    /** All files whose content makes the results. */
+    std::vector<std::string>
+    files_of(const Scene &scene)
+    {
+      std::vector<std::string> files{scene.interface.bonding.file,
+                                     scene.interface.friction->file()};
+      for (const ChuckComponentParameters &component : scene.chuck.component)
+        files.push_back(component.file);
+      files.push_back(scene.bone.voxel_file);
+      if (scene.bone.modulus && scene.bone.modulus->voxels())
+        files.push_back(scene.bone.modulus->voxels()->data_file);
+      files.erase(std::remove(files.begin(), files.end(), ""), files.end());
+      return files;
+    }
+
+
+
     std::string
     identities(const Scene &scene)
     {
-      std::string text = identity_of(scene.interface.bonding.file) +
-                         identity_of(scene.interface.friction->file());
-      for (const ChuckComponentParameters &component : scene.chuck.component)
-        text += identity_of(component.file);
-      text += identity_of(scene.bone.voxel_file);
-      if (scene.bone.modulus && scene.bone.modulus->voxels())
-        text += identity_of(scene.bone.modulus->voxels()->data_file);
+      std::string text;
+      for (const std::string &file : files_of(scene))
+        text += identity_of(file);
       return text;
     }
   } // namespace
@@ -101,6 +117,69 @@ namespace Debond
     EntryTable table;
     declare(table);
     completed_parameters = table.text() + identities(*this);
+  }
+
+
+
+  namespace
+  {
+    /** What is solved, in lines. Files are named without their directories,
+     *  which may be others on another machine: their content counts. */
+    std::vector<std::string>
+    lines_to_compare(Scene scene)
+    {
+      if (scene.completed_parameters.empty())
+        scene.complete();
+      std::string &text = scene.completed_parameters;
+      for (const std::string &file : files_of(scene))
+        boost::replace_all(text,
+                           file,
+                           std::filesystem::path(file).filename().string());
+      std::vector<std::string> lines;
+      for (const SceneEntry &entry : read_scene_text(text, ""))
+        lines.push_back(entry.full_name() + " = '" + entry.value + "'");
+      std::istringstream comments(text);
+      for (std::string line; std::getline(comments, line);)
+        if (line.rfind("# ", 0) == 0)
+          lines.push_back("the file " + line.substr(2));
+      // a program may give motions that no entry tells of
+      for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
+        {
+          const auto value =
+            scene.chuck.value_over_time(k,
+                                        scene.implant.characteristic_radius());
+          lines.push_back(std::string("Chuck / ") + ChuckParameters::names[k] +
+                          " over time:");
+          for (const double time : scene.load_steps.sample_times())
+            lines.back() += " " + to_text(value(time), 17);
+        }
+      return lines;
+    }
+  } // namespace
+
+
+
+  void
+  Scene::require_same_on_all_ranks() const
+  {
+    if (Ranks::number() == 1)
+      return;
+    const std::vector<std::string> own   = lines_to_compare(*this),
+                                   first = Ranks::of_first(own);
+    Ranks::in_agreement([&] {
+      const auto [ours, theirs] =
+        std::mismatch(own.begin(), own.end(), first.begin(), first.end());
+      if (ours != own.end() || theirs != first.end())
+        throw InputError(
+          "the processes that are to solve a scene together have different "
+          "ones: " +
+          (theirs == first.end() ? "nothing more" : shortened(*theirs)) +
+          " on rank 0, " +
+          (ours == own.end() ? "nothing more" : shortened(*ours)) +
+          " on rank " + std::to_string(Ranks::own()) +
+          ": expected the same on all; processes that work alone need no "
+          "communicator");
+    });
   }
 
 

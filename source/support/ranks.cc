@@ -4,26 +4,68 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/multithread_info.h>
 
+#include <unistd.h>
+
 #include <cstdlib>
 #include <exception>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 // MPI where there is more than one process, or a library that works with it.
 // Initialising it takes 0.3 s, as long as whole runs of this program, so that
-// a process by itself does not do it before it has to.
+// a process by itself does not do it before it has to. Who uses the library may
+// have done so, and may do so later; deal.II's MPI_InitFinalize, which wants to
+// be the only one, is of no use here.
 namespace Debond
 {
   namespace
   {
-    // Not ended with the static objects: those of other libraries may be gone.
-    dealii::Utilities::MPI::MPI_InitFinalize *mpi = nullptr;
+    bool
+    says_yes(int (*const question)(int *))
+    {
+      int answer = 0;
+      question(&answer);
+      return answer != 0;
+    }
 
-    /** Of the group that this process belongs to for the time being. */
-    MPI_Comm at_work = MPI_COMM_NULL;
 
-    unsigned int n_here = 1; ///< processes on this machine
+
+    pid_t process_that_initialised = 0;
+
+
+
+    // Called when the program exits, before the static objects of the libraries
+    // go, or earlier by finish(). A process that was forked from this one has
+    // nothing to end.
+    void
+    finalise()
+    {
+      if (process_that_initialised == getpid() && !says_yes(MPI_Finalized))
+        MPI_Finalize();
+    }
+
+
+
+    // With all threads that there may be: those of Python, of which others may
+    // use MPI while one is here.
+    void
+    initialise()
+    {
+      static std::mutex                 mutex;
+      const std::lock_guard<std::mutex> guard(mutex);
+      if (says_yes(MPI_Finalized))
+        throw InputError("MPI has been finalised, and cannot be started again: "
+                         "run what needs it before (several processes, or "
+                         "Bone / Bulk solver = multigrid)");
+      if (says_yes(MPI_Initialized))
+        return;
+      int provided = 0;
+      MPI_Init_thread(nullptr, nullptr, MPI_THREAD_MULTIPLE, &provided);
+      process_that_initialised = getpid();
+      std::atexit(finalise);
+    }
 
 
 
@@ -39,6 +81,110 @@ namespace Debond
 
   namespace Ranks
   {
+    // A communicator of its own, so that messages of the caller are not taken
+    // for those of a run, and none is lost without a word: those of mpi4py
+    // return errors, which Trilinos does not look at.
+    struct Team
+    {
+      /** Takes over @p communicator. @p n_here: number_on_this_machine(), 0 to
+       *  count. */
+      explicit Team(const MPI_Comm communicator, const unsigned int n_here = 0)
+        : communicator(communicator)
+        , number(dealii::Utilities::MPI::n_mpi_processes(communicator))
+        , own(dealii::Utilities::MPI::this_mpi_process(communicator))
+        , n_here(n_here > 0 ? n_here : count_here())
+      {
+        MPI_Comm_set_errhandler(communicator, MPI_ERRORS_ARE_FATAL);
+      }
+      Team(const Team &) = delete;
+
+      // Others may not get here where an exception ends it.
+      ~Team()
+      {
+        MPI_Comm mine = communicator;
+        if (std::uncaught_exceptions() == 0 && !says_yes(MPI_Finalized))
+          MPI_Comm_free(&mine);
+      }
+
+      unsigned int
+      count_here() const
+      {
+        MPI_Comm here;
+        MPI_Comm_split_type(
+          communicator, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here);
+        const unsigned int n = dealii::Utilities::MPI::n_mpi_processes(here);
+        MPI_Comm_free(&here);
+        return n;
+      }
+
+      const MPI_Comm     communicator;
+      const unsigned int number, own, n_here;
+    };
+
+
+
+    namespace
+    {
+      // Of a thread, since several may run a scene each. Those that help one
+      // with its loops ask nothing of this file.
+      thread_local TeamPointer at_work;
+    } // namespace
+
+
+
+    TeamPointer
+    make_team(const MPI_Comm communicator)
+    {
+      if (!says_yes(MPI_Initialized) || says_yes(MPI_Finalized))
+        throw InputError("processes can solve a scene together only between "
+                         "MPI_Init and MPI_Finalize");
+      int is_between_groups = 0;
+      if (communicator != MPI_COMM_NULL)
+        MPI_Comm_test_inter(communicator, &is_between_groups);
+      if (communicator == MPI_COMM_NULL || is_between_groups != 0)
+        throw InputError("this is no communicator of processes that could "
+                         "solve a scene together: expected one within a group, "
+                         "to which this process belongs");
+      MPI_Comm own;
+      MPI_Comm_dup(communicator, &own);
+      return std::make_shared<const Team>(own);
+    }
+
+
+
+    TeamPointer
+    group_of(const unsigned int size)
+    {
+      MPI_Comm group;
+      MPI_Comm_split(communicator(), own() / size, own(), &group);
+      return std::make_shared<const Team>(group, number_on_this_machine());
+    }
+
+
+
+    TeamPointer
+    team()
+    {
+      return at_work;
+    }
+
+
+
+    Together::Together(TeamPointer team)
+      : before(at_work)
+    {
+      at_work = std::move(team);
+    }
+
+
+
+    Together::~Together()
+    {
+      at_work = before;
+    }
+
+
+
     // Open MPI, MPICH and its relatives, and srun say it each in their way. A
     // script that a batch system started is one process, whatever it has
     // reserved.
@@ -56,20 +202,8 @@ namespace Debond
     void
     start()
     {
-      if (mpi)
-        return;
-      static int    n_arguments = 1;
-      static char   name[]      = "debond";
-      static char  *words[]     = {name, nullptr};
-      static char **arguments   = words;
-      mpi                       = new dealii::Utilities::MPI::MPI_InitFinalize(
-        n_arguments, arguments, dealii::MultithreadInfo::n_threads());
-      at_work = MPI_COMM_WORLD;
-      MPI_Comm here;
-      MPI_Comm_split_type(
-        MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here);
-      n_here = dealii::Utilities::MPI::n_mpi_processes(here);
-      MPI_Comm_free(&here);
+      initialise();
+      at_work = make_team(MPI_COMM_WORLD);
     }
 
 
@@ -77,8 +211,8 @@ namespace Debond
     void
     finish()
     {
-      delete mpi;
-      mpi = nullptr;
+      at_work.reset();
+      finalise();
     }
 
 
@@ -86,8 +220,10 @@ namespace Debond
     MPI_Comm
     communicator()
     {
-      start();
-      return at_work;
+      if (at_work)
+        return at_work->communicator;
+      initialise();
+      return MPI_COMM_SELF;
     }
 
 
@@ -95,7 +231,7 @@ namespace Debond
     unsigned int
     number()
     {
-      return mpi ? dealii::Utilities::MPI::n_mpi_processes(at_work) : 1;
+      return at_work ? at_work->number : 1;
     }
 
 
@@ -103,7 +239,7 @@ namespace Debond
     unsigned int
     own()
     {
-      return mpi ? dealii::Utilities::MPI::this_mpi_process(at_work) : 0;
+      return at_work ? at_work->own : 0;
     }
 
 
@@ -111,7 +247,7 @@ namespace Debond
     unsigned int
     number_on_this_machine()
     {
-      return n_here;
+      return at_work ? at_work->n_here : 1;
     }
 
 
@@ -154,30 +290,13 @@ namespace Debond
 
 
 
-    Groups::Groups(const unsigned int size)
-    {
-      const int rank = own();
-      MPI_Comm_split(MPI_COMM_WORLD, rank / size, rank, &group);
-      at_work = group;
-    }
-
-
-
-    Groups::~Groups()
-    {
-      at_work = MPI_COMM_WORLD;
-      if (std::uncaught_exceptions() == 0)
-        MPI_Comm_free(&group);
-    }
-
-
-
     void
     in_agreement(const std::function<void()> &work)
     {
       if (number() == 1)
         return work();
-      std::vector<std::string> own_words; // of an error, one or four
+      std::vector<std::string> own_words; // of an error: one, two or four
+      std::exception_ptr       others_cannot_throw;
       try
         {
           work();
@@ -193,10 +312,28 @@ namespace Debond
         {
           own_words = {error.what()};
         }
-      for (const auto &words :
-           dealii::Utilities::MPI::all_gather(communicator(), own_words))
+      catch (const std::exception &error)
+        {
+          // of Python the traceback follows
+          const std::string what = error.what();
+          own_words = {std::to_string(own()), what.substr(0, what.find('\n'))};
+          others_cannot_throw = std::current_exception();
+        }
+      double has_failed = own_words.empty() ? 0. : 1.;
+      take_largest(&has_failed, 1);
+      if (has_failed == 0.)
+        return;
+      const auto all_words =
+        dealii::Utilities::MPI::all_gather(communicator(), own_words);
+      if (others_cannot_throw)
+        std::rethrow_exception(others_cannot_throw);
+      for (const auto &words : all_words)
         if (words.size() == 1)
           throw InputError(words[0]);
+        else if (words.size() == 2)
+          throw RunError(
+            "rank " + words[0] +
+            " of those that solve together has ended: " + words[1]);
         else if (words.size() == 4)
           throw EntryError(words[0],
                            words[1],
@@ -208,10 +345,18 @@ namespace Debond
 
 
 
+    std::vector<std::string>
+    of_first(const std::vector<std::string> &texts)
+    {
+      return dealii::Utilities::MPI::broadcast(communicator(), texts);
+    }
+
+
+
     void
     end_all(const int code)
     {
-      MPI_Abort(MPI_COMM_WORLD, code);
+      MPI_Abort(communicator(), code);
       std::abort();
     }
   } // namespace Ranks

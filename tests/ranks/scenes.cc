@@ -128,7 +128,7 @@ compare(const std::string &name, const Changes &changes)
   const Results whole(changes + Changes{"Bone/Bulk solver=multigrid"});
   Results       direct;
   {
-    const Ranks::Groups alone(1);
+    const Ranks::Together alone(Ranks::group_of(1));
     direct = Results(changes + Changes{"Bone/Bulk solver=direct"});
   }
   if (!Ranks::is_first())

@@ -6,6 +6,7 @@
 #include <debond/output/torque_curve.h>
 #include <debond/scene/scene.h>
 #include <debond/support/input_error.h>
+#include <debond/support/ranks.h>
 #include <debond/system/coupled_system.h>
 #include <debond/system/step_control.h>
 #include <debond/system/step_solver.h>
@@ -43,7 +44,9 @@ namespace Debond
   public:
     /** Builds meshes and interface of @p scene, of which the subsections
      *  `Study` and `Output` have no meaning here. @p bodies and @p timer: see
-     *  CoupledSystem. Throws InputError if there is not enough memory. */
+     *  CoupledSystem. The ranks that work together now do so in all that
+     *  follows, wherever it is called. Throws InputError if there is not enough
+     *  memory, or if they have different scenes. */
     explicit Simulation(const Scene              &scene,
                         std::shared_ptr<BodyPair> bodies = nullptr,
                         dealii::TimerOutput      *timer  = nullptr);
@@ -148,6 +151,7 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
+      const Ranks::Together                                    together(team);
       archive &coupled_system &solver &state_checks &all_rows &all_warnings;
       archive &so_far.steps &so_far.newton_iterations &so_far.smallest_step;
       archive                                         &accepted_rates;
@@ -187,6 +191,7 @@ namespace Debond
     void
     warn(const Warning &warning);
 
+    const Ranks::TeamPointer   team;
     dealii::TimerOutput *const timer;
     // In this order, because each refers to those before.
     CoupledSystem          coupled_system;

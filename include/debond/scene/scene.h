@@ -201,6 +201,11 @@ namespace Debond
     void
     check() const;
 
+    /** Refuses scenes of ranks that are to solve one together, and have
+     *  different ones. Collective; done by all that runs a scene. */
+    void
+    require_same_on_all_ranks() const;
+
     /** What is allowed, but has made results worse than they looked, or is
      *  likely to be a slip of the pen. */
     std::vector<Warning>

@@ -5,27 +5,70 @@
 #include <mpi.h>
 
 #include <functional>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace Debond
 {
   /**
-   * The processes that solve one scene together, started by `mpirun` or `srun`.
-   * Each does the same; what is dealt out among them is said where it is. A
-   * process by itself is the only rank, and does without MPI until something
-   * asks for the communicator.
+   * The processes that solve one scene together. Each does the same; what is
+   * dealt out among them is said where it is.
+   *
+   * Which they are is said by who uses this library, before a scene is read: a
+   * process works alone, as the only rank, whatever has started it, until a
+   * Together names others. It does without MPI until something asks for the
+   * communicator. Whoever has initialised MPI ends it: if that was this
+   * library, it does so when the program exits.
    *
    * Functions that all ranks have to call at the same time are collective. What
    * they return is the same on all ranks.
    */
   namespace Ranks
   {
+    /** Processes that work together; null: this one by itself. */
+    struct Team;
+    using TeamPointer = std::shared_ptr<const Team>;
+
+    /** The processes of @p communicator, which may be freed afterwards.
+     *  Collective over these. Throws InputError if it is none, or if MPI has
+     *  not been initialised. */
+    TeamPointer
+    make_team(MPI_Comm communicator);
+    /** That of this thread at present. */
+    TeamPointer
+    team();
+
+    /** While such an object lives the functions below, called by the same
+     *  thread, speak of its team. */
+    class Together
+    {
+    public:
+      explicit Together(TeamPointer team);
+      explicit Together(const MPI_Comm communicator)
+        : Together(make_team(communicator))
+      {}
+      Together(const Together &) = delete;
+      ~Together();
+
+    private:
+      const TeamPointer before;
+    };
+
+    /** Deals all ranks out in groups of @p size that follow each other, which
+     *  work together from then on. Collective. */
+    TeamPointer
+    group_of(unsigned int size);
+
     /** Whether this process is one of several that MPI has started. */
     bool
     are_launched();
-    /** Initialises MPI, if that has not been done. */
+    /** What a program does that takes all processes of `mpirun`: initialises
+     *  MPI, if that has not been done, and lets all work together. */
     void
     start();
-    /** The last thing that a program does: ends MPI, if it has been started. */
+    /** The last thing that such a program does: ends MPI, if start() or the
+     *  need of a communicator has begun it. */
     void
     finish();
 
@@ -63,26 +106,16 @@ namespace Debond
     void
     meet();
 
-    /** Deals all ranks out in groups of @p size that follow each other. While
-     *  such an object lives all other functions speak of the own group, which
-     *  has a first rank of its own. Collective over all; where an exception
-     *  ends it nothing waits for other ranks. */
-    class Groups
-    {
-    public:
-      explicit Groups(unsigned int size);
-      Groups(const Groups &) = delete;
-      ~Groups();
-
-    private:
-      MPI_Comm group;
-    };
-
     /** Does some @p work of each rank's own. Where it throws an InputError on
      *  some of them, which others would wait for in vain, all throw that of the
-     *  first of these. Collective. */
+     *  first of these. Where it throws something else, the others throw a
+     *  RunError that says so. Collective. */
     void
     in_agreement(const std::function<void()> &work);
+
+    /** The @p texts of the first rank. Collective. */
+    std::vector<std::string>
+    of_first(const std::vector<std::string> &texts);
 
     /** Ends all ranks, with an exit code. */
     [[noreturn]] void

@@ -7,7 +7,7 @@
 
 Units are those of scenes and of torque.csv: mm, N, N mm, MPa, degrees, s. Whatever is wrong with a scene raises SceneError
 with one line that names entry and place; a load that cannot be followed raises RunError. While the library computes, other
-threads of Python go on; Ctrl-C stops a run after the row at work.
+threads of Python go on; Ctrl-C stops a run after the row at work, which is kept.
 """
 
 import json
@@ -220,7 +220,8 @@ class Simulation:
     comm: a communicator of mpi4py whose processes solve the scene together, by multigrid; each of them makes the same calls.
     Without it this process works alone, whatever mpirun has started.
 
-    Raises SceneError; advance() and run() raise RunError, and the simulation is then in its last row."""
+    Raises SceneError; advance() and run() raise RunError, too. After any exception the simulation is in its last row, to the
+    last bit, drive included, and goes on as if what failed had not been tried."""
 
     def __init__(self, scene: Scene, drive: Optional[Mapping[str, float]] = None, *, comm=None):
         self._team = _team(comm)
@@ -245,13 +246,13 @@ class Simulation:
         return self._run.is_finished
 
     def advance(self, values: Optional[Mapping[str, float]] = None) -> None:
-        """Computes one more row; the first is the state at the first time. values: of driven components at the row's end;
-        those that are not named stay."""
+        """Computes one more row, or nothing if it raises; the first is the state at the first time. values: of driven
+        components at the row's end; those that are not named stay."""
         self._run.advance(_agreed(self._team, lambda: ("advance", self._numbers(values)))[1])
 
     def run(self, on_row: Optional[Callable[[Dict[str, float]], None]] = None) -> None:
-        """Computes all rows that are left. on_row is called with each; what it raises ends the run."""
-
+        """Computes all rows that are left. on_row is called with each when it is complete; what it raises ends the run, and
+        the row stays. So does the row after which Ctrl-C ends it. run() or advance() go on from there."""
 
         def check():
             if on_row is not None and not callable(on_row):

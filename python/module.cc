@@ -214,9 +214,11 @@ namespace
                            "' is not driven: name it when the simulation is "
                            "made, Simulation(scene, drive={'" +
                            name + "': 0})");
-      const std::size_t next = simulation->rows().size();
+      const std::size_t            next = simulation->rows().size();
+      std::map<std::string, Drive> of_last_row;
       for (auto &[name, drive] : drives)
         {
+          of_last_row[name] = *drive;
           if (next == 0)
             continue; // at the first time it is where it was placed
           const auto value = values.find(name);
@@ -225,8 +227,18 @@ namespace
                               drive->to,
                     value == values.end() ? drive->to : value->second};
         }
-      const py::gil_scoped_release others_go_on;
-      simulation->advance();
+      try
+        {
+          const py::gil_scoped_release others_go_on;
+          simulation->advance();
+        }
+      catch (...)
+        {
+          if (simulation->rows().size() == next)
+            for (auto &[name, drive] : drives)
+              *drive = of_last_row[name];
+          throw;
+        }
     }
 
     void

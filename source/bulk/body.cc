@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include <utility>
+
 // A body as the coupled system sees it: a contact face and its resistance. The
 // rigid one is all here; what a linear and a Neo-Hookean one do differently
 // stands in body_kinds.cc.
@@ -44,7 +46,7 @@ namespace Debond
   Body::set_contact_control_points(const std::vector<bool> &contact)
   {
     const bool linearised_at_rest =
-      linearised_at.size() > 0 && linearised_at.isZero(0.);
+      linearised_at->size() > 0 && linearised_at->isZero(0.);
     if (!own_bulk || (contact == is_contact && linearised_at_rest &&
                       v.isZero(0.) && accepted.value.isZero(0.)))
       return;
@@ -110,10 +112,13 @@ namespace Debond
   bool
   Body::linearise(const Eigen::VectorXd &state)
   {
-    if (!own_bulk->linearise(state))
-      return false;
-    linearised_at = state;
-    return true;
+    auto next = std::make_shared<const Eigen::VectorXd>(state);
+    auto old =
+      std::exchange(linearised_at, std::make_shared<const Eigen::VectorXd>());
+    // what throws here leaves a K that belongs to no state
+    const bool is_done = own_bulk->linearise(state);
+    linearised_at      = is_done ? next : old;
+    return is_done;
   }
 
 
@@ -156,7 +161,7 @@ namespace Debond
   Body::restore(const std::vector<bool> &contact, const Eigen::VectorXd &state)
   {
     v = accepted.value;
-    if (!own_bulk || (contact == is_contact && state == linearised_at))
+    if (!own_bulk || (contact == is_contact && state == *linearised_at))
       return;
     number_unknowns(contact);
     AssertThrow(linearise(state),

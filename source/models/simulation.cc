@@ -2,6 +2,7 @@
 #include <debond/models/simulation.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
+#include <debond/support/ranks.h>
 #include <debond/support/runtime.h>
 
 #include <algorithm>
@@ -149,6 +150,13 @@ namespace Debond
 
 
 
+  // A row comes as a whole or not at all. What it may change is saved first:
+  // what a checkpoint holds, and the trial state that the last row ended with,
+  // which fields and points show. That costs a copy of some numbers. Factors
+  // are not copied: those of the coupled system are shared, and a bulk that was
+  // condensed anew is condensed once more, from the state that is saved, as a
+  // run that is resumed does.
+  //
   // A row is complete, and the system in its state, when the signal is given:
   // fields, profiles and checkpoints can be taken from it. Who looks on may end
   // the run on one rank only, which the others would wait for.
@@ -156,11 +164,65 @@ namespace Debond
   Simulation::advance()
   {
     const Ranks::Together together(team);
-    if (all_rows.empty())
-      solve_first_row();
-    else
-      solve_row();
+    if (is_lost)
+      throw RunError("the state of the last row is lost, as it could not be "
+                     "restored after an error: begin anew");
+    const std::size_t n_rows        = all_rows.size(),
+                      n_warnings    = all_warnings.size(),
+                      n_derivatives = all_derivatives.size();
+    last_row.save(*this);
+    try
+      {
+        if (all_rows.empty())
+          solve_first_row();
+        else
+          solve_row();
+      }
+    catch (...)
+      {
+        is_lost = true;
+        if (is_met_by_all_ranks())
+          try
+            {
+              last_row.restore(*this);
+              all_rows.resize(n_rows);
+              all_warnings.resize(n_warnings);
+              all_derivatives.resize(n_derivatives);
+              is_lost = false;
+            }
+          catch (const std::exception &)
+            {} // the first error tells more
+        throw;
+      }
     Ranks::in_agreement([this] { signals.row(all_rows.back()); });
+  }
+
+
+
+  // Of the exception at hand. Several ranks have to restore their parts of a
+  // body together. What one of them alone has met, as a lack of memory, the
+  // others do not know of.
+  bool
+  Simulation::is_met_by_all_ranks() const
+  {
+    if (Ranks::number() == 1)
+      return true;
+    try
+      {
+        throw;
+      }
+    catch (const RunError &)
+      {
+        return true;
+      }
+    catch (const InputError &)
+      {
+        return true;
+      }
+    catch (...)
+      {
+        return false;
+      }
   }
 
 

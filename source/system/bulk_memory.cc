@@ -137,8 +137,8 @@ namespace Debond
   {
     // The trailing block of each body's factor and its copy, of a quarter
     // of the size where the body is its mirror image; where a chuck
-    // component is an unknown too, also the matrix of the coupled system
-    // and its factors.
+    // component is an unknown too, also the factors of the coupled system,
+    // and those that the row began with.
     const bool   is_assembled = model.needs_matrix();
     const double squares      = n_bone * n_bone + n_implant * n_implant;
     const double assembled =

@@ -87,8 +87,8 @@ namespace Debond
   {
     const Operator preconditioned{
       [&](const Eigen::VectorXd &y) -> Eigen::VectorXd {
-        if (is_factorised)
-          return A.product(lu.solve(y));
+        if (factors)
+          return A.product(factors->solve(y));
         return y + A.interface_product(A.solve_bulk(y));
       }};
     // What cannot be assembled has no other solver behind it, and may iterate
@@ -97,7 +97,7 @@ namespace Debond
     // little where iterations are few.
     const unsigned int max_iterations =
       !A.can_be_assembled() ? b.size() :
-      is_factorised         ? affordable_iterations(b.size()) :
+      factors               ? affordable_iterations(b.size()) :
                               max_bulk_iterations;
     dealii::SolverControl           control(max_iterations,
                                   relative_tolerance * b.norm(),
@@ -121,8 +121,7 @@ namespace Debond
         return false;
       }
     // From y to x, by the preconditioner that the iteration used.
-    x =
-      is_factorised ? lu.solve(as_eigen(y)).eval() : A.solve_bulk(as_eigen(y));
+    x = factors ? factors->solve(as_eigen(y)) : A.solve_bulk(as_eigen(y));
     return true;
   }
 
@@ -139,13 +138,13 @@ namespace Debond
   {
     // Two rigid bodies with a prescribed chuck have no unknowns. And GMRES
     // could not make a residual of zero smaller.
-    // With unknown components of the chuck, which condensed bodies do not resist,
-    // B has no inverse: the first system goes straight to LU.
+    // With unknown components of the chuck, which condensed bodies do not
+    // resist, B has no inverse: the first system goes straight to LU.
     if (b.size() == 0 || b.isZero(0.))
       return Eigen::VectorXd::Zero(b.size());
     Eigen::VectorXd x;
     const bool      can_iterate =
-      is_factorised ? lu.rows() == b.size() : A.bulk_is_regular();
+      factors ? factors->lu.rows() == b.size() : A.bulk_is_regular();
     if (can_iterate && iterate(A, b, relative_tolerance, x))
       return x;
     // Not finite: the caller takes it for a singular system and gives the
@@ -153,12 +152,15 @@ namespace Debond
     if (!A.can_be_assembled())
       return Eigen::VectorXd::Constant(b.size(), std::nan(""));
     // LU with partial pivoting: A is neither symmetric nor, with the rows of
-    // the chuck, definite. The matrix is kept beside its factors for a
-    // checkpoint.
-    A.assemble(matrix);
-    lu.compute(matrix);
-    is_factorised = true;
-    return lu.solve(b);
+    // the chuck, definite. The factors take the place of the matrix. Those
+    // before are let go of first, but a state to go back to may hold them.
+    factors.reset();
+    const auto next = std::make_shared<Factors>();
+    A.assemble(next->lu);
+    const Eigen::PartialPivLU<Eigen::Ref<Eigen::MatrixXd>> lu(next->lu);
+    next->permutation = lu.permutationP();
+    factors           = next;
+    return factors->solve(b);
   }
 
 
@@ -232,11 +234,11 @@ namespace Debond
                               unsigned int          &n_directions) const
   {
     Eigen::MatrixXd z = residuals, q = residuals;
-    if (is_factorised)
-      z = lu.solve(residuals);
+    if (factors)
+      z = factors->solve(residuals);
     else
       z = A.solve_bulk_all(residuals);
-    if (is_factorised)
+    if (factors)
       for (unsigned int j = 0; j < z.cols(); ++j)
         q.col(j) = A.product(z.col(j));
     else
@@ -279,7 +281,7 @@ namespace Debond
   {
     Eigen::MatrixXd X = Eigen::MatrixXd::Zero(B.rows(), B.cols());
     const bool      can_iterate =
-      is_factorised ? lu.rows() == B.rows() : A.bulk_is_regular();
+      factors ? factors->lu.rows() == B.rows() : A.bulk_is_regular();
     if (B.rows() == 0 ||
         (can_iterate && iterate_all(A, B, relative_tolerance, X)))
       return X;

@@ -4,6 +4,7 @@
 #include <debond/bulk/condensing_bulk.h>
 #include <debond/bulk/whole_bulk.h>
 #include <debond/support/accepted_state.h>
+#include <debond/support/saved_state.h>
 
 #include <memory>
 #include <vector>
@@ -206,24 +207,32 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      std::vector<bool>              contact = is_contact;
-      Eigen::VectorXd                state   = to_archive(linearised_at);
-      AcceptedState<Eigen::VectorXd> known   = accepted;
-      known.value                            = to_archive(accepted.value);
-      known.before                           = to_archive(accepted.before);
-      int                            solver  = solver_in_archive();
-      archive                       &solver;
-      if (solver != solver_in_archive())
-        refuse_archive(solver);
-      archive &contact &state &known;
-      if (Archive::is_loading::value)
+      std::vector<bool> contact = is_contact;
+      auto              state   = linearised_at;
+      if constexpr (is_in_memory<Archive>) // of each rank, its own part
+        archive &contact &state &accepted;
+      else
         {
-          accepted        = known;
-          accepted.value  = from_archive(known.value);
-          accepted.before = from_archive(known.before);
-          restore(contact, from_archive(state));
+          Eigen::VectorXd                whole = to_archive(*linearised_at);
+          AcceptedState<Eigen::VectorXd> known = accepted;
+          known.value                          = to_archive(accepted.value);
+          known.before                         = to_archive(accepted.before);
+          int      solver                      = solver_in_archive();
+          archive &solver;
+          if (solver != solver_in_archive())
+            refuse_archive(solver);
+          archive &contact &whole &known;
+          if (Archive::is_loading::value)
+            {
+              state    = std::make_shared<Eigen::VectorXd>(from_archive(whole));
+              accepted = known;
+              accepted.value  = from_archive(known.value);
+              accepted.before = from_archive(known.before);
+            }
         }
       archive &surface_is_stale;
+      if (Archive::is_loading::value)
+        restore(contact, *state);
     }
 
   protected:
@@ -262,8 +271,8 @@ namespace Debond
     }
     [[noreturn]] void
     refuse_archive(int solver) const;
-    /** A displacement as a checkpoint holds it, which is the same for any number
-     *  of ranks, and back. */
+    /** A displacement as a checkpoint holds it, which is the same for any
+     * number of ranks, and back. */
     Eigen::VectorXd
     to_archive(const Eigen::VectorXd &state) const;
     Eigen::VectorXd
@@ -279,8 +288,10 @@ namespace Debond
     std::vector<bool> is_contact;
     /** Some of the contact surface's control points are no unknowns. */
     bool beside_unknowns = false;
-    /** The displacement whose tangent the bulk uses; empty: none yet. */
-    Eigen::VectorXd linearised_at;
+    /** The displacement whose tangent the bulk uses; empty: none yet. Never
+     *  changed, so that states to go back to can share it. */
+    std::shared_ptr<const Eigen::VectorXd> linearised_at =
+      std::make_shared<Eigen::VectorXd>();
     /** Control points did not follow at the last commit(). */
     bool surface_is_stale = false;
   };

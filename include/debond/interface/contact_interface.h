@@ -85,6 +85,7 @@ namespace Debond
     serialize(Archive &archive, const unsigned int)
     {
       archive &dissipation &adhesive &viscous &friction &friction_bound;
+      archive                                           &step_dissipation;
     }
   };
 
@@ -280,7 +281,11 @@ namespace Debond
       for (SlavePoint &point : points)
         archive &point;
       archive &forces &accepted_positions &accepted_frame &accepted_centre;
-      archive                                             &works;
+      archive &works                                      &unprojected;
+      if constexpr (is_in_memory<Archive>)
+        archive &mode_now;
+      if (Archive::is_loading::value)
+        failed = nullptr; // no state that has been accepted did
     }
 
   private:

@@ -75,20 +75,26 @@ namespace Debond
 
 
 
-  /** A quadrature point of the slave surface: where it lies, its history, and
-   *  what it contributes in the trial state. */
-  struct SlavePoint : SurfaceQuadraturePoint
+  /** What a quadrature point of the slave surface keeps of a step. Members are
+   *  numbers and matrices of fixed size only, see SavedState. */
+  struct SlavePointHistory
   {
-    double            phi_0 = 0;
     ContactPointState accepted;
     /** For points beyond the master's edge: how far the surfaces may still
      *  move before such a point has to be projected again [mm]. */
     double clearance = 0;
     /** Tangential traction of the accepted state in the master's frame [MPa].
      */
-    Eigen::Vector3d    accepted_traction         = Eigen::Vector3d::Zero();
-    Eigen::Vector3d    accepted_viscous_traction = Eigen::Vector3d::Zero();
-    double             accepted_energy           = 0; ///< [N/mm]
+    Eigen::Vector3d accepted_traction         = Eigen::Vector3d::Zero();
+    Eigen::Vector3d accepted_viscous_traction = Eigen::Vector3d::Zero();
+    double          accepted_energy           = 0; ///< [N/mm]
+  };
+
+  /** A quadrature point of the slave surface: where it lies, its history, and
+   *  what it contributes in the trial state. */
+  struct SlavePoint : SurfaceQuadraturePoint, SlavePointHistory
+  {
+    double             phi_0 = 0;
     ContactPointResult trial;
     /** False for points of a bone that does not face the implant at the
      *  start: their area does not count. */
@@ -106,10 +112,18 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &accepted &clearance       &accepted_traction;
-      archive &accepted_viscous_traction &accepted_energy;
-      if (Archive::is_loading::value)
-        trial.state = accepted;
+      if constexpr (is_in_memory<Archive>)
+        {
+          archive.copy(static_cast<SlavePointHistory &>(*this));
+          archive.copy(static_cast<ContactPointAnswer &>(trial));
+        }
+      else
+        {
+          archive &accepted &clearance       &accepted_traction;
+          archive &accepted_viscous_traction &accepted_energy;
+          if (Archive::is_loading::value)
+            trial.state = accepted;
+        }
     }
   };
 } // namespace Debond

@@ -3,6 +3,7 @@
 
 #include <debond/geometry/nurbs_surface.h>
 #include <debond/interface/contact_law.h>
+#include <debond/support/saved_state.h>
 
 #include <Eigen/Core>
 
@@ -83,6 +84,15 @@ namespace Debond
      *  the bodies turns the way of the point over the master in the step, about
      *  the normal [rad]. */
     double turn = 0;
+
+    /** See saved_state.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &stick_first &touch_tolerance &frictionless &duration;
+      archive &slip_direction                             &turn;
+    }
   };
 
   /** What traction and xi_hat of a closed point depend on besides w, see
@@ -106,22 +116,14 @@ namespace Debond
     Eigen::Matrix<double, 1, n_columns> dslip;
   };
 
-  /**
-   * Everything one quadrature point contributes.
-   *
-   * Derivatives are with respect to w = (x, y, a_1, a_2, y_n, g_n, turn), 19
-   * numbers: slave point, master point and tangents at xi_hat, the master point
-   * at the old xi_hat^n, the tangential gap of the step before where the master
-   * has taken it, and the angle by which the point's way turns. They are total:
-   * the motion of xi_hat is eliminated by the implicit function theorem on its
-   * two equations.
-   */
-  struct ContactPointResult
+  /** What becomes of a quadrature point, as far as it is to be seen between two
+   *  steps. Members are numbers and matrices of fixed size only, see
+   *  SavedState. */
+  struct ContactPointAnswer
   {
-    static constexpr int n_w = 19;
-    ContactPointState    state;
-    bool failed            = false; ///< the local iteration found no solution
-    bool negative_friction = false; ///< or one with a negative mu
+    ContactPointState state;
+    bool              failed = false; ///< the local iteration found no solution
+    bool              negative_friction = false; ///< or one with a negative mu
 
     /** t = eps_n g_n n + t_t [MPa], as it enters the residual of the slave. */
     Eigen::Vector3d traction            = Eigen::Vector3d::Zero();
@@ -138,6 +140,21 @@ namespace Debond
     /** |d mu/d g_s| p / (eps_t + eta / dt) where the law softens; the local
      *  solution is unique while this is below one. */
     double softening = 0;
+  };
+
+  /**
+   * Everything one quadrature point contributes.
+   *
+   * Derivatives are with respect to w = (x, y, a_1, a_2, y_n, g_n, turn), 19
+   * numbers: slave point, master point and tangents at xi_hat, the master point
+   * at the old xi_hat^n, the tangential gap of the step before where the master
+   * has taken it, and the angle by which the point's way turns. They are total:
+   * the motion of xi_hat is eliminated by the implicit function theorem on its
+   * two equations.
+   */
+  struct ContactPointResult : ContactPointAnswer
+  {
+    static constexpr int n_w = 19;
 
     SurfaceBasis basis;                  ///< master basis at xi_hat
     SurfaceBasis old_basis;              ///< at xi_hat^n; only when slipping

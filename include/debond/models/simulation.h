@@ -7,6 +7,7 @@
 #include <debond/scene/scene.h>
 #include <debond/support/input_error.h>
 #include <debond/support/ranks.h>
+#include <debond/support/saved_state.h>
 #include <debond/system/coupled_system.h>
 #include <debond/system/step_control.h>
 #include <debond/system/step_solver.h>
@@ -53,13 +54,14 @@ namespace Debond
     Simulation(const Simulation &) = delete; ///< its parts refer to each other
 
     /** For who looks on while the simulation runs. A function that is connected
-     *  may throw to end it; the simulation is then in its last accepted state.
-     */
+     *  may throw to end it; the simulation can go on from its last row. */
     struct Signals
     {
-      /** The newest row; the system is in its state. */
+      /** The newest row, which is complete: the system is in its state, and it
+       *  stays if a function throws. */
       boost::signals2::signal<void(const TorqueRow &)> row;
-      /** A check was not passed for the first time, see warnings(). */
+      /** A check was not passed for the first time, see warnings(). The row at
+       *  work is not complete yet, and is taken back if a function throws. */
       boost::signals2::signal<void(const Warning &)> warning;
     };
     Signals signals;
@@ -77,7 +79,14 @@ namespace Debond
     run();
     /** Solves for one more row; the first is the state at the first time. For
      *  programs that want to look at every state themselves. Throws as run()
-     *  does. */
+     *  does.
+     *
+     *  All or nothing: whatever is thrown, from here or by a function of the
+     *  scene, the simulation is in its last row, to the last bit, and what
+     *  comes next is as if this had not been tried. If that state cannot be
+     *  brought back, for instance because there is no memory, every call that
+     *  follows throws RunError. Of several processes only RunError and
+     *  InputError, which all of them meet, can be taken back. */
     void
     advance();
     bool
@@ -151,13 +160,17 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      const Ranks::Together                                    together(team);
-      archive &coupled_system &solver &state_checks &all_rows &all_warnings;
+      const Ranks::Together together(team);
+      archive &coupled_system &solver &state_checks;
       archive &so_far.steps &so_far.newton_iterations &so_far.smallest_step;
       archive                                         &accepted_rates;
       std::visit([&archive](auto &chosen) { archive &chosen; }, steps);
       if (sensitivities) // as the scene says
-        archive &*sensitivities &all_derivatives;
+        archive &*sensitivities;
+      if constexpr (!is_in_memory<Archive>) // what a row is appended to
+        archive &all_rows &all_warnings &all_derivatives;
+      if (Archive::is_loading::value)
+        rates = accepted_rates;
     }
 
     const Scene scene;
@@ -170,6 +183,8 @@ namespace Debond
     // history, add_row() says what came of it.
     Steps
     choose_steps() const;
+    bool
+    is_met_by_all_ranks() const;
     void
     solve_first_row();
     void
@@ -207,6 +222,9 @@ namespace Debond
     CoupledSystem::Rates   accepted_rates;
     std::unique_ptr<Sensitivities> sensitivities; ///< if there are any
     std::vector<RowDerivatives>    all_derivatives;
+    SavedState                     last_row; ///< while the next one is at work
+    /** A row failed, and the state of the last one could not be restored. */
+    bool is_lost = false;
   };
 } // namespace Debond
 #endif

@@ -76,6 +76,11 @@ namespace Debond
       for (ControlNet &displacement : judged_displacement)
         archive &displacement;
       archive &change_at_strains;
+      if (Archive::is_loading::value) // between rows there are none
+        {
+          violated.clear();
+          found.clear();
+        }
     }
 
   private:

@@ -44,7 +44,7 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &length &missed;
+      archive &length &missed &missed_shares;
     }
 
   private:

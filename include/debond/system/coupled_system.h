@@ -263,7 +263,12 @@ namespace Debond
       archive &bone &implant &chuck &interface;
       archive &path.old_slip &trial_time;
       for (Body::Residual &residual : bulk_residual)
-        archive &residual.energy;
+        {
+          archive &residual.energy;
+          if constexpr (is_in_memory<Archive>)
+            archive &residual.internal_force;
+        }
+      archive &effort_of_multigrid;
       if (Archive::is_loading::value)
         {
           update_configuration();

@@ -1,8 +1,12 @@
 #ifndef debond_system_dense_solver_h
 #define debond_system_dense_solver_h
 
+#include <debond/support/saved_state.h>
+
 #include <Eigen/Core>
 #include <Eigen/LU>
+
+#include <memory>
 
 namespace Debond
 {
@@ -85,7 +89,7 @@ namespace Debond
     void
     forget()
     {
-      is_factorised = false;
+      factors.reset();
     }
 
     /** See serialization.h. */
@@ -93,12 +97,21 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &is_factorised;
-      if (is_factorised)
+      if constexpr (is_in_memory<Archive>)
+        archive &factors;
+      else
         {
-          archive &matrix;
-          if (Archive::is_loading::value)
-            lu.compute(matrix);
+          bool     is_factorised = factors != nullptr;
+          archive &is_factorised;
+          // what is saved stays as it is
+          auto known = !is_factorised ?
+                         nullptr :
+                       Archive::is_loading::value ?
+                         std::make_shared<Factors>() :
+                         std::const_pointer_cast<Factors>(factors);
+          if (known)
+            archive & known->lu & known->permutation.indices();
+          factors = known;
         }
     }
 
@@ -120,10 +133,26 @@ namespace Debond
             double                 relative_tolerance,
             Eigen::VectorXd       &x);
 
-    /** The preconditioner is a factorisation and not the bulk. */
-    bool                                 is_factorised = false;
-    Eigen::MatrixXd                      matrix;
-    Eigen::PartialPivLU<Eigen::MatrixXd> lu;
+    /** P A = L U, with both factors in one matrix. */
+    struct Factors
+    {
+      Eigen::MatrixXd                                          lu;
+      Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic> permutation;
+
+      /** A^-1 b, or the same for each column. */
+      template <class Derived>
+      typename Derived::PlainObject
+      solve(const Eigen::MatrixBase<Derived> &b) const
+      {
+        typename Derived::PlainObject x = permutation * b;
+        lu.triangularView<Eigen::UnitLower>().solveInPlace(x);
+        lu.triangularView<Eigen::Upper>().solveInPlace(x);
+        return x;
+      }
+    };
+    /** The preconditioner; null: it is the bulk. Never changed, so that states
+     *  to go back to can share it. */
+    std::shared_ptr<const Factors> factors;
   };
 } // namespace Debond
 #endif

@@ -137,8 +137,8 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &started &last &last_change &last_motion &greatest &largest_work
-        &work &released &jumps;
+      archive &started &last &last_change &last_motion &greatest &hidden
+        &largest_work &work &released &jumps;
     }
 
   private:

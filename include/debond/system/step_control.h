@@ -368,6 +368,7 @@ namespace Debond
       StepControl::serialize(archive, version);
       archive &mean_slip &slip_size           &time_size;
       archive &last_time_step &last_slip_step &goes_to_end;
+      archive &slip_failed                    &time_failed;
     }
 
   private:

@@ -17,6 +17,14 @@ namespace Debond
     unsigned int systems     = 0; ///< linear systems
     unsigned int cycles      = 0; ///< of all of them
     unsigned int most_cycles = 0; ///< of one
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &systems &cycles &most_cycles;
+    }
   };
 
   /** What solve_whole() returns. */

@@ -9,6 +9,7 @@
 #include <debond/output/report.h>
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
+#include <debond/support/number_text.h>
 #include <debond/support/provenance.h>
 #include <debond/support/ranks.h>
 #include <debond/support/runtime.h>
@@ -367,7 +368,7 @@ namespace
             const bool                     force)
   {
     const py::gil_scoped_release others_go_on;
-    std::ostringstream           out;
+    Classic<std::ostringstream>  out;
     run_calibration(entries, name, n_threads, force, out);
     return out.str();
   }

@@ -11,6 +11,7 @@
 #include <debond/scene/scene.h>
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
+#include <debond/support/number_text.h>
 #include <debond/support/processor.h>
 #include <debond/support/progress.h>
 #include <debond/support/provenance.h>
@@ -499,7 +500,7 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     if (const auto *const of_library =
           dynamic_cast<const dealii::ExceptionBase *>(&error))
       {
-        std::stringstream text;
+        Classic<std::stringstream> text;
         of_library->print_info(text);
         line = of_library->get_exc_name();
         while (text >> word)

@@ -235,7 +235,8 @@ namespace Debond
         "negative below, with R the radius of the implant: if(z > -1, 18000, "
         "500) is a cortical layer of 1 mm. It is taken at the Gauss points of "
         "the cells: let it jump at sides of cells. With a Voxel file also in its grey "
-        "value: max(10, 6850 * (grey / 1000)^1.49). A rigid body ignores it.");
+        "value: max(10, 6850 * max(0, grey / 1000)^1.49). A rigid body ignores "
+        "it.");
     table.add("Voxel file",
               voxel_file,
               Allowed::text("the name of a file of voxels"),

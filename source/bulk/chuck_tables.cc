@@ -136,7 +136,7 @@ namespace Debond
     if (value == "0")
       return of_table;
     return read_time_function(
-      "",
+      value,
       radius,
       [of_table, expression = read_expression("t, table", value, radius)](
         const double time) {

@@ -118,13 +118,14 @@ namespace Debond
     if (!(value >= 1e-6 && value <= 1e12))
       throw EntryError(
         entry,
-        "it is " +
-          (std::isfinite(value) ? to_text(value, 6) + " MPa" :
-                                  std::string("no number")) +
+        (std::isfinite(value) ? "it is " + to_text(value, 6) + " MPa" :
+                                std::string("it has no finite value")) +
           " at " + in_words(X) +
           (image ? ", where grey = " + to_text(variables.back(), 6) : "") +
           ": expected 1e-6 to 1e12 MPa" +
-          (value < 1e-6 ? "; max(10, ...) makes what is empty soft" : ""),
+          (!std::isfinite(value) ? remark_on_no_value :
+           value < 1e-6          ? "; max(10, ...) makes what is empty soft" :
+                                   ""),
         text);
     return value;
   }

@@ -570,9 +570,10 @@ namespace Debond
                   const bool                     force,
                   std::ostream                  &out)
   {
-    const dealii::Timer clock;
-    const auto          experiments = experiments_of(entries);
-    const Unknowns      unknowns(experiments);
+    const ClassicNumbers classic(out);
+    const dealii::Timer  clock;
+    const auto           experiments = experiments_of(entries);
+    const Unknowns       unknowns(experiments);
     // reads all that is to be read, and refuses, before anything is written
     set_number_of_threads(1); // a search for each thread
     Search        search(unknowns, experiments.size(), name, n_threads);
@@ -645,9 +646,10 @@ namespace Debond
                     const std::string             &name,
                     std::ostream                  &out)
   {
-    const auto     experiments = experiments_of(entries);
-    const Unknowns unknowns(experiments);
-    Misfit         misfit(unknowns, experiments.size(), name);
+    const ClassicNumbers classic(out);
+    const auto           experiments = experiments_of(entries);
+    const Unknowns       unknowns(experiments);
+    Misfit               misfit(unknowns, experiments.size(), name);
     check_what_is_measured(misfit);
     for (const Unknown &u : unknowns.list)
       out << u.name << ": from " << to_text(u.start, 6) << ", between "

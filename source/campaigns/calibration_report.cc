@@ -313,6 +313,7 @@ namespace Debond
          const Misfit      &misfit,
          std::ostream      &out)
   {
+    const ClassicNumbers classic(out);
     write_curves(calibration, misfit);
     write_correlations(calibration, misfit);
     write_scenes(calibration, misfit);

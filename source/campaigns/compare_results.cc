@@ -1,4 +1,5 @@
 #include <debond/campaigns/compare_results.h>
+#include <debond/input/allowed_values.h>
 #include <debond/input/csv_table.h>
 #include <debond/output/curve_comparison.h>
 #include <debond/output/result_files.h>
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iomanip>
+#include <limits>
 #include <map>
 #include <ostream>
 
@@ -116,7 +118,8 @@ namespace Debond
           if (bands.count(name) == 0)
             names.push_back(name);
           const auto number = [&](const std::string &of) {
-            return std::stod(row->at(column(of)));
+            return read_number(row->at(column(of)))
+              .value_or(std::numeric_limits<double>::quiet_NaN());
           };
           Band        &band  = bands[name];
           const double angle = number("angle_deg");
@@ -153,6 +156,7 @@ namespace Debond
                   std::ostream                   &out)
   {
     namespace fs = std::filesystem;
+    const ClassicNumbers classic(out);
     std::string          read_from;
     const ReferenceCurve curve =
       read_curve_to_compare(measured, columns, read_from);

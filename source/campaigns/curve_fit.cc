@@ -88,8 +88,8 @@ namespace Debond
                                const bool         begins_anew)
     : file(filename, begins_anew ? "" : whole_lines(filename))
   {
-    std::istringstream lines(whole_lines(filename));
-    std::string        line;
+    Classic<std::istringstream> lines(whole_lines(filename));
+    std::string                 line;
     while (std::getline(lines, line))
       {
         const auto json       = nlohmann::json::parse(line);

@@ -13,7 +13,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <set>
@@ -168,11 +167,10 @@ namespace Debond
         level.seconds = timer.wall_time();
         tried.push_back(std::move(level));
         estimate_errors();
-        char seconds[40];
-        std::snprintf(seconds, sizeof(seconds), "%.2f s", tried.back().seconds);
-        console.headline("  level " + number + ": " +
-                         tried.back().description() + ": " +
-                         (tried.back().done ? seconds : tried.back().why_not));
+        console.headline(
+          "  level " + number + ": " + tried.back().description() + ": " +
+          (tried.back().done ? fixed_text(tried.back().seconds, 2) + " s" :
+                               tried.back().why_not));
       }
 
 
@@ -435,6 +433,7 @@ namespace Debond
   void
   check_auto(const Scene &scene, std::ostream &out)
   {
+    const ClassicNumbers  classic(out);
     const ModelChoice     choice(scene);
     const ModelHierarchy &hierarchy = choice.hierarchy;
     const Materials      &richest   = hierarchy.materials.back();

@@ -177,7 +177,7 @@ namespace Debond
             variant.look_up();
             out << variant.name << (variant.done ? " (done already)" : "")
                 << '\n';
-            std::ostringstream none; // only refuses what it cannot do
+            Classic<std::ostringstream> none; // only refuses what it cannot do
             if (variant.scene.model != ModelKind::finite_elements)
               run_scene(variant.scene, nullptr, &none);
           }
@@ -323,8 +323,8 @@ namespace Debond
        *  are not those of the study. */
       struct SilentConsole
       {
-        std::ostringstream    unseen;
-        std::streambuf *const console = std::cout.rdbuf(unseen.rdbuf());
+        Classic<std::ostringstream> unseen;
+        std::streambuf *const       console = std::cout.rdbuf(unseen.rdbuf());
 
         ~SilentConsole()
         {
@@ -602,6 +602,7 @@ namespace Debond
             const bool                     force,
             std::ostream                  &out)
   {
+    const ClassicNumbers classic(out);
     Study(entries, name).run(n_jobs, force, out);
   }
 
@@ -612,6 +613,7 @@ namespace Debond
               const std::string             &name,
               std::ostream                  &out)
   {
+    const ClassicNumbers classic(out);
     Study(entries, name).check(out);
   }
 } // namespace Debond

@@ -231,13 +231,19 @@ namespace Debond
     // expressions share parsers with those of other threads
     const std::lock_guard<std::mutex> lock(parsers);
     std::vector<double>               of_names;
+    std::string                       place;
     for (std::size_t i = 0; i < list.size(); ++i)
       if (named[i])
-        of_names.push_back(values[i]);
+        {
+          of_names.push_back(values[i]);
+          place += (place.empty() ? " at " : ", ") + list[i].name + " = " +
+                   to_text(values[i], 6);
+        }
     const auto value_of = [&](const Varied &item, const std::size_t mark) {
       const double result = item.expressions[mark](of_names);
       if (!std::isfinite(result))
-        item.entry.refuse("<<" + item.marks[mark] + ">> has no finite value");
+        item.entry.refuse("<<" + item.marks[mark] + ">> has no finite value" +
+                          place + remark_on_no_value);
       return result;
     };
     std::vector<SceneEntry> result;

@@ -7,11 +7,11 @@
 #include <boost/algorithm/string.hpp>
 
 #include <algorithm>
-#include <cerrno>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <limits>
+#include <system_error>
 
 namespace Debond
 {
@@ -78,15 +78,20 @@ namespace Debond
   read_number(const std::string &text)
   {
     const std::string trimmed = trim(text);
-    // strtod also takes hexadecimal numbers, "nan" and "infinity".
+    // from_chars also takes "nan" and "infinity", but no plus
     if (trimmed.empty() ||
         trimmed.find_first_not_of("0123456789+-.eE") != std::string::npos)
       return std::nullopt;
-    char *end           = nullptr;
-    errno               = 0;
-    const double result = std::strtod(trimmed.c_str(), &end);
-    // infinite, or so small that it has lost digits
-    if (*end != '\0' || errno == ERANGE)
+    const bool        has_plus = trimmed[0] == '+' && trimmed[1] != '-';
+    const char *const end      = trimmed.data() + trimmed.size();
+    double            result   = 0.;
+    const auto [behind, error] =
+      std::from_chars(trimmed.data() + has_plus, end, result);
+    // infinite, or so small that it has lost digits, maybe all of them
+    const bool is_zero =
+      trimmed.find_first_of("123456789") >= trimmed.find_first_of("eE");
+    if (behind != end || error != std::errc() ||
+        !(std::isnormal(result) || (result == 0. && is_zero)))
       return std::nullopt;
     return result;
   }

@@ -31,7 +31,7 @@ namespace Debond
       const auto             refuse     = [&](const std::string &why) {
         throw EntryError(entry, why, filename);
       };
-      std::istringstream file(
+      Classic<std::istringstream> file(
         plain_text(read_input_bytes(filename, refuse, largest_MB), refuse));
       std::string text;
       for (unsigned int number = 1; std::getline(file, text); ++number)

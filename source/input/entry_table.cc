@@ -1,8 +1,10 @@
 #include <debond/input/entry_table.h>
+#include <debond/support/number_text.h>
 
 #include <boost/algorithm/string/compare.hpp>
 
 #include <algorithm>
+#include <locale>
 #include <numeric>
 #include <sstream>
 
@@ -92,6 +94,7 @@ namespace Debond
     unsigned int
     edit_distance(const std::string &a, const std::string &b)
     {
+      const boost::is_iequal    same(std::locale::classic());
       std::vector<unsigned int> row(b.size() + 1);
       std::iota(row.begin(), row.end(), 0);
       for (const char letter : a)
@@ -100,7 +103,7 @@ namespace Debond
           for (std::size_t j = 0; j < b.size(); ++j)
             {
               const unsigned int changed =
-                diagonal + (boost::is_iequal()(letter, b[j]) ? 0 : 1);
+                diagonal + (same(letter, b[j]) ? 0 : 1);
               diagonal   = row[j + 1];
               row[j + 1] = std::min({changed, row[j] + 1, row[j + 1] + 1});
             }
@@ -162,7 +165,7 @@ namespace Debond
   std::string
   EntryTable::text() const
   {
-    std::ostringstream out;
+    Classic<std::ostringstream> out;
     prm.print_parameters(out,
                          dealii::ParameterHandler::ShortPRM |
                            dealii::ParameterHandler::KeepDeclarationOrder);

@@ -3,7 +3,6 @@
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 
-#include <deal.II/base/mu_parser_internal.h>
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
 
@@ -13,9 +12,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <locale>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <regex>
+#include <utility>
 #include <vector>
 
 namespace Debond
@@ -61,6 +66,9 @@ namespace Debond
         {"or", "`or' is written ||"},
         {"e", "the exponential function is written exp(x)"},
         {"|", "absolute values are written abs(x)"},
+        {"int",
+         "int rounds in one language and cuts in another: rint(x) is the "
+         "nearest whole number, floor(x) the next one below"},
         {"rand", "rand would make another scene of it every time"},
         {";", "it holds a ;"}};
       std::smatch       word;
@@ -69,11 +77,225 @@ namespace Debond
       const auto found = foreign.find(word.str());
       if (found != foreign.end())
         return found->second;
-      const std::string lower = boost::to_lower_copy(word.str());
+      const std::string lower =
+        boost::to_lower_copy(word.str(), std::locale::classic());
       if (lower != word.str() &&
           std::find(names.begin(), names.end(), lower) != names.end())
         return "it is written " + lower + ", not " + word.str();
       return "";
+    }
+
+
+    // What has no value has none within something else: comparisons, min and
+    // max of muParser would make a number of it. A number too large for the
+    // machine is infinite, which compares as it should; at a pole there is no
+    // value, because its sign would be that of a zero.
+    constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+
+
+
+    template <typename Comparison>
+    double
+    compare(const double a, const double b)
+    {
+      return std::isunordered(a, b) ? no_value : Comparison()(a, b);
+    }
+
+
+
+    /** The least or largest of @p n numbers. */
+    template <typename Comparison>
+    double
+    first_of(const double *const x, const int n)
+    {
+      double first = x[0];
+      for (int i = 1; i < n; ++i)
+        first = std::isunordered(x[i], first) ? no_value :
+                Comparison()(x[i], first)     ? x[i] :
+                                                first;
+      return first;
+    }
+
+
+
+    template <double (*function)(double)>
+    double
+    without_poles(const double x)
+    {
+      const double value = function(x);
+      return std::isinf(value) && std::isfinite(x) ? no_value : value;
+    }
+
+
+
+    double
+    power(const double a, const double b)
+    {
+      if (std::isunordered(a, b) || (a == 0. && b < 0.))
+        return no_value;
+      return b == 2. ? a * a : std::pow(a, b);
+    }
+
+
+
+    /** 1 or 0: what is not 0 is true. */
+    double
+    truth(const double condition)
+    {
+      return compare<std::not_equal_to<>>(condition, 0.);
+    }
+
+
+
+    /** What is not chosen may have no value. */
+    double
+    choose(const double condition, const double a, const double b)
+    {
+      const double is_true = truth(condition);
+      return std::isnan(is_true) ? no_value : is_true != 0. ? a : b;
+    }
+
+
+
+    void
+    define_operators(mu::Parser &parser)
+    {
+      const auto define = [&parser](const char *const         name,
+                                    const mu::fun_type2       function,
+                                    const mu::EOprtPrecedence precedence) {
+        parser.DefineOprt(name,
+                          function,
+                          precedence,
+                          precedence == mu::prPOW ? mu::oaRIGHT : mu::oaLEFT,
+                          true);
+      };
+      parser.EnableBuiltInOprt(false);
+      define(
+        "||",
+        [](double a, double b) { return choose(a, 1., truth(b)); },
+        mu::prLOR);
+      define(
+        "&&",
+        [](double a, double b) { return choose(a, truth(b), 0.); },
+        mu::prLAND);
+      define("<", compare<std::less<>>, mu::prCMP);
+      define("<=", compare<std::less_equal<>>, mu::prCMP);
+      define(">", compare<std::greater<>>, mu::prCMP);
+      define(">=", compare<std::greater_equal<>>, mu::prCMP);
+      define("==", compare<std::equal_to<>>, mu::prCMP);
+      define("!=", compare<std::not_equal_to<>>, mu::prCMP);
+      define(
+        "+", [](double a, double b) { return a + b; }, mu::prADD_SUB);
+      define(
+        "-", [](double a, double b) { return a - b; }, mu::prADD_SUB);
+      define(
+        "*", [](double a, double b) { return a * b; }, mu::prMUL_DIV);
+      define(
+        "/",
+        [](double a, double b) { return b == 0. ? no_value : a / b; },
+        mu::prMUL_DIV);
+      define("^", power, mu::prPOW);
+    }
+
+
+
+    /** All that doc/parameters.md lists, and no more: what they mean does not
+     *  depend on the version of muParser. */
+    void
+    define_functions(mu::Parser &parser)
+    {
+      parser.ClearFun();
+      const std::vector<std::pair<const char *, mu::fun_type1>> of_one{
+        {"abs", ::fabs},
+        {"acos", ::acos},
+        {"acosh", ::acosh},
+        {"asin", ::asin},
+        {"asinh", ::asinh},
+        {"atan", ::atan},
+        {"atanh", without_poles<::atanh>},
+        {"ceil", ::ceil},
+        {"cos", ::cos},
+        {"cosh", ::cosh},
+        {"cot", [](double x) { return choose(x, 1. / std::tan(x), no_value); }},
+        {"csc", [](double x) { return choose(x, 1. / std::sin(x), no_value); }},
+        {"erf", ::erf},
+        {"erfc", ::erfc},
+        {"exp", ::exp},
+        {"floor", ::floor},
+        {"ln", without_poles<::log>},
+        {"log", without_poles<::log>},
+        {"log10", without_poles<::log10>},
+        {"log2", without_poles<::log2>},
+        {"rint",
+         [](double x) {
+           return std::floor(x) + (x - std::floor(x) >= 0.5); // halves go up
+         }},
+        {"sec", [](double x) { return 1. / std::cos(x); }},
+        {"sign", [](double x) { return x > 0. ? 1. :
+                                       x < 0. ? -1. :
+                                                x; }},
+        {"sin", ::sin},
+        {"sinh", ::sinh},
+        {"sqrt", ::sqrt},
+        {"tan", ::tan},
+        {"tanh", ::tanh}};
+      for (const auto &[name, function] : of_one)
+        parser.DefineFun(name, function);
+      const auto sum = [](const double *const x, const int n) {
+        return std::accumulate(x, x + n, 0.);
+      };
+      const auto mean = [](const double *const x, const int n) {
+        return std::accumulate(x, x + n, 0.) / n;
+      };
+      parser.DefineFun("sum", sum);
+      parser.DefineFun("avg", mean);
+      parser.DefineFun("min", first_of<std::less<>>);
+      parser.DefineFun("max", first_of<std::greater<>>);
+      parser.DefineFun("pow", power);
+      parser.DefineFun("atan2", static_cast<mu::fun_type2>(::atan2));
+      parser.DefineFun("if", choose);
+    }
+
+
+
+    /** Where one of @p letters stands from @p begin on, in steps of 1 or -1,
+     *  outside of parentheses that open after it. */
+    std::size_t
+    find_outside(const std::string &text,
+                 const std::size_t  begin,
+                 const int          step,
+                 const char *const  letters)
+    {
+      int depth = 0;
+      for (std::size_t at = begin; at < text.size(); at += step)
+        {
+          if (depth == 0 && std::strchr(letters, text[at]) != nullptr)
+            return at;
+          depth += text[at] == '(' ? 1 : text[at] == ')' ? -1 : 0;
+        }
+      return step > 0 ? text.size() : std::string::npos;
+    }
+
+
+
+    /** The same with `if(a, b, c)` for `a ? b : c`, whose meaning to the parser
+     *  cannot be changed: for it, what has no value is true. */
+    std::string
+    with_if(std::string text)
+    {
+      // behind the last one there is no other
+      for (auto mark = text.rfind('?'); mark != std::string::npos;
+           mark      = text.rfind('?'))
+        {
+               const auto begin = find_outside(text, mark - 1, -1, "(,?:") + 1,
+                          colon = find_outside(text, mark + 1, 1, ":"),
+                          end   = find_outside(text, colon + 1, 1, "),:");
+               text =
+                 text.substr(0, begin) + "if(" + text.substr(begin, mark - begin) +
+                 "," + text.substr(mark + 1, colon - mark - 1) + "," +
+                 text.substr(colon + 1, end - colon - 1) + ")" + text.substr(end);
+        }
+      return text;
     }
   } // namespace
 
@@ -103,17 +325,8 @@ namespace Debond
       parser.DefineVar(names[i], &(*variables_at)[i]);
     parser.DefineConst("pi", dealii::numbers::PI);
     parser.DefineConst("R", radius);
-    namespace functions = dealii::internal::FunctionParser;
-    parser.DefineFun("if", functions::mu_if);
-    parser.DefineFun("int", functions::mu_int);
-    parser.DefineFun("ceil", functions::mu_ceil);
-    parser.DefineFun("floor", functions::mu_floor);
-    parser.DefineFun("cot", functions::mu_cot);
-    parser.DefineFun("csc", functions::mu_csc);
-    parser.DefineFun("sec", functions::mu_sec);
-    parser.DefineFun("pow", functions::mu_pow);
-    parser.DefineFun("erf", functions::mu_erf);
-    parser.DefineFun("erfc", functions::mu_erfc);
+    define_operators(parser);
+    define_functions(parser);
     // The parser wants the parenthesis of a function right behind its name.
     std::string text = expression;
     for (auto at = text.rfind(" ("); at != text.npos; at = text.rfind(" (", at))
@@ -121,7 +334,9 @@ namespace Debond
     try
       {
         parser.SetExpr(text);
-        parser.Eval(); // reads it
+        parser.Eval(); // reads it; messages are about what was written
+        parser.SetExpr(with_if(text));
+        parser.Eval();
       }
     catch (const mu::Parser::exception_type &error)
       {
@@ -161,10 +376,13 @@ namespace Debond
     if (!function)
       function = [in_t = read_expression("t", expression, radius)](
                    const double t) { return in_t({t}); };
-    return [function](const double t) {
+    const std::string remark =
+      read_number(expression) ? "" : remark_on_no_value;
+    return [function, remark](const double t) {
       const double value = function(t);
       if (!std::isfinite(value))
-        throw InputError("it has no finite value at t = " + to_text(t));
+        throw InputError("it has no finite value at t = " + to_text(t) +
+                         remark);
       return value;
     };
   }

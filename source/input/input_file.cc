@@ -1,4 +1,5 @@
 #include <debond/input/input_file.h>
+#include <debond/support/number_text.h>
 
 #include <boost/algorithm/string/replace.hpp>
 
@@ -43,7 +44,7 @@ namespace Debond
     const auto refuse_file = [&refuse]() {
       refuse(std::string("this file cannot be read: ") + std::strerror(errno));
     };
-    std::ifstream file(filename, std::ios::binary);
+    Classic<std::ifstream> file(filename, std::ios::binary);
     if (!file && errno == ENOENT)
       refuse("this file cannot be read: No such file or directory" +
              installed_instead(filename));

@@ -3,6 +3,7 @@
 #include <debond/input/input_file.h>
 #include <debond/input/measured_table.h>
 #include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <locale>
 #include <map>
 #include <sstream>
 
@@ -82,7 +84,8 @@ namespace Debond
       for (const char *const mark : {" ", ".", "*", "·", "-"})
         boost::erase_all(text, mark);
       // angles and times may be shouted; else M and m differ
-      auto found = units().find(boost::to_lower_copy(text));
+      auto found =
+        units().find(boost::to_lower_copy(text, std::locale::classic()));
       if (found == units().end() ||
           (found->second.quantity != Quantity::angle &&
            found->second.quantity != Quantity::time))
@@ -184,7 +187,7 @@ namespace Debond
     std::optional<double>
     read_value(std::string item, const char separator)
     {
-      if (item.empty() || boost::iequals(item, "nan"))
+      if (item.empty() || boost::iequals(item, "nan", std::locale::classic()))
         return std::numeric_limits<double>::quiet_NaN();
       if (separator != ',' && item.find('.') == std::string::npos &&
           std::count(item.begin(), item.end(), ',') == 1)
@@ -432,7 +435,7 @@ namespace Debond
     const auto             refuse     = [&](const std::string &why) {
       throw EntryError(entry, why, filename);
     };
-    std::istringstream file(
+    Classic<std::istringstream> file(
       utf8(plain_text(read_input_bytes(filename, refuse, largest_MB), refuse)));
     std::vector<Line> lines;
     std::string       text;

@@ -2,6 +2,7 @@
 #include <debond/input/input_file.h>
 #include <debond/input/scene_file.h>
 #include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <locale>
 #include <map>
 #include <sstream>
 #include <utility>
@@ -66,8 +68,8 @@ namespace Debond
         files.push_back(name);
         const std::size_t n_outer_before = std::exchange(n_outer, path.size());
 
-        std::istringstream lines(plain_text(text, refusal_at(name)));
-        std::string        line, statement;
+        Classic<std::istringstream> lines(plain_text(text, refusal_at(name)));
+        std::string                 line, statement;
         for (unsigned int number = 1; std::getline(lines, line); ++number)
           {
             if (statement.empty())
@@ -104,7 +106,8 @@ namespace Debond
           return;
         const auto        blank = statement.find_first_of(" \t");
         const std::string keyword =
-          boost::to_lower_copy(statement.substr(0, blank));
+          boost::to_lower_copy(statement.substr(0, blank),
+                               std::locale::classic());
         const std::string rest =
           blank == std::string::npos ? "" : trim(statement.substr(blank));
 

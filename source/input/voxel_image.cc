@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <locale>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -128,7 +129,9 @@ namespace Debond
       is_true(const std::string &name,
               const std::string &otherwise = "False") const
       {
-        return boost::iequals(text(name, otherwise), "True");
+        return boost::iequals(text(name, otherwise),
+                              "True",
+                              std::locale::classic());
       }
 
       /** Three numbers; of a name that is missing @p otherwise. */
@@ -411,7 +414,7 @@ namespace Debond
 
   namespace
   {
-    /** Any formula could make a modulus of them: max(10, nan) is 10. */
+    /** They have no modulus: what was not measured must be given a value. */
     void
     refuse_no_numbers(const VoxelImage &image, const FileRefusal &refuse)
     {
@@ -436,8 +439,9 @@ namespace Debond
       const FileRefusal refuse = [&](const std::string &why) {
         throw EntryError(entry, why, filename);
       };
-      const std::string lower   = boost::to_lower_copy(filename);
-      const auto        ends_in = [&](const std::string &end) {
+      const std::string lower =
+        boost::to_lower_copy(filename, std::locale::classic());
+      const auto ends_in = [&](const std::string &end) {
         return boost::ends_with(lower, end);
       };
       VoxelImage image;

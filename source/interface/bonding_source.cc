@@ -51,7 +51,8 @@ namespace Debond
                              (std::isfinite(value) ? "= " + to_text(value, 6) :
                                                      "has no finite value") +
                              " at x = " + to_text(place[0], 6) + " mm, y = " +
-                             to_text(place[1], 6) + " mm: expected 0 to 1",
+                             to_text(place[1], 6) + " mm: expected 0 to 1" +
+                             (std::isfinite(value) ? "" : remark_on_no_value),
                            expression);
         return std::clamp(value, 0., 1.);
       };

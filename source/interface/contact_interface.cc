@@ -2,6 +2,7 @@
 #include <debond/bulk/chuck.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/interface/rigid_motion.h>
+#include <debond/support/number_text.h>
 
 #include <Eigen/Geometry>
 
@@ -713,7 +714,7 @@ namespace Debond
   {
     if (failed == nullptr)
       return "";
-    std::ostringstream text;
+    Classic<std::ostringstream> text;
     text << (failed->trial.negative_friction ?
                "the friction law has a negative coefficient" :
                "no solution of the friction law")

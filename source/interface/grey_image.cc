@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <locale>
 
 namespace Debond
 {
@@ -237,9 +238,9 @@ namespace Debond
       bool
       at_end()
       {
-        while (
-          position < bytes.size() &&
-          (std::isspace(*bytes_at(bytes, position)) || bytes[position] == '#'))
+        while (position < bytes.size() &&
+               (std::isspace(bytes[position], std::locale::classic()) ||
+                bytes[position] == '#'))
           position = bytes[position] == '#' ?
                        std::min(bytes.find('\n', position), bytes.size()) :
                        position + 1;

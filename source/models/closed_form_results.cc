@@ -148,7 +148,8 @@ namespace Debond
   void
   describe(const ClosedFormSolution &solution, std::ostream &out)
   {
-    const ModelKind model = solution.scene.model;
+    const ClassicNumbers classic(out);
+    const ModelKind      model = solution.scene.model;
     out << "Model "
         << (model == ModelKind::foundation ? "foundation" :
             model == ModelKind::analytical ? "analytical" :

@@ -255,8 +255,8 @@ namespace Debond
       void
       save()
       {
-        const TimedSection t(&timer, "checkpoints");
-        std::ostringstream bytes(std::ios::binary);
+        const TimedSection          t(&timer, "checkpoints");
+        Classic<std::ostringstream> bytes(std::ios::binary);
         {
           boost::archive::binary_oarchive archive(bytes, archive_flags);
           archive << *this << end_of_state;
@@ -273,7 +273,8 @@ namespace Debond
         unsigned int end = 0;
         try
           {
-            std::istringstream bytes(checkpoint.state, std::ios::binary);
+            Classic<std::istringstream>     bytes(checkpoint.state,
+                                              std::ios::binary);
             boost::archive::binary_iarchive archive(bytes, archive_flags);
             archive >> *this >> end;
           }
@@ -444,6 +445,7 @@ namespace Debond
   void
   DebondingProblem::check(std::ostream &out) const
   {
+    const ClassicNumbers       classic(out);
     const Simulation           simulation(scene);
     const CoupledSystem       &system    = simulation.system();
     const ContactInterface    &interface = system.interface;

@@ -210,8 +210,9 @@ namespace Debond
                  const CoupledSystem &system,
                  std::ostream        &out)
   {
-    const Forecast forecast(scene, system);
-    const double   p = forecast.pressure;
+    const ClassicNumbers classic(out);
+    const Forecast       forecast(scene, system);
+    const double         p = forecast.pressure;
     if (std::isnan(p))
       {
         out << "Closed forms predict nothing: " << forecast.why << '\n';

@@ -2,6 +2,7 @@
 #include <debond/models/resumed_run.h>
 #include <debond/output/result_files.h>
 #include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
 
 #include <boost/algorithm/string/join.hpp>
@@ -70,7 +71,7 @@ namespace Debond
             if (free_entries.count(entry.full_name()) == 0 &&
                 !(is_extension && is_of_extension(entry.full_name())))
               note(entry.full_name(), entry.value);
-          std::istringstream lines(text);
+          Classic<std::istringstream> lines(text);
           for (std::string line; std::getline(lines, line);)
             if (const auto colon = line.rfind(": ");
                 line.rfind("# ", 0) == 0 && colon != line.npos)

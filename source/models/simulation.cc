@@ -282,7 +282,7 @@ namespace Debond
       give_up({}, result);
     if (!result.is_acceptable())
       throw RunError("The state at the first time, " +
-                     std::to_string(solver.time()) +
+                     to_text(solver.time()) +
                      ", could not be found: " + result.why);
     accept(result);
     add_row(result.interface, result.iterations);

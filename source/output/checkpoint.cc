@@ -1,5 +1,6 @@
 #include <debond/output/checkpoint.h>
 #include <debond/output/result_files.h>
+#include <debond/support/number_text.h>
 #include <debond/support/written_files.h>
 
 #include <boost/crc.hpp>
@@ -21,7 +22,7 @@ namespace Debond
     {
       boost::crc_32_type crc;
       crc.process_bytes(text.data(), text.size());
-      std::ostringstream line;
+      Classic<std::ostringstream> line;
       line << "CRC-32 " << std::hex << std::setw(8) << std::setfill('0')
            << crc.checksum() << '\n';
       return line.str();
@@ -32,7 +33,7 @@ namespace Debond
     std::string
     text_of(const Checkpoint &checkpoint)
     {
-      std::ostringstream text;
+      Classic<std::ostringstream> text;
       text << "format " << CheckpointFiles::format << "\nprogram "
            << DEBOND_VERSION << "\nstep " << checkpoint.step << "\nparameters "
            << checkpoint.parameters.size() << "\nstate "
@@ -55,10 +56,10 @@ namespace Debond
       const std::string text = bytes.substr(begin);
       if (bytes.compare(0, begin, first_line + crc_line(text)) != 0)
         return std::nullopt;
-      Checkpoint         content;
-      std::istringstream lines(text.substr(0, 1000));
-      std::string        word;
-      std::size_t        n_parameters = 0, n_state = 0;
+      Checkpoint                  content;
+      Classic<std::istringstream> lines(text.substr(0, 1000));
+      std::string                 word;
+      std::size_t                 n_parameters = 0, n_state = 0;
       lines >> word >> content.format >> word >> content.program;
       if (content.format != std::to_string(CheckpointFiles::format))
         return content;
@@ -107,11 +108,12 @@ namespace Debond
       }
     if (newest && (newest->format != std::to_string(format) ||
                    newest->program != DEBOND_VERSION))
-      throw ForeignCheckpoint("'" + files[1 - next] + "' was written by debond " +
-                         newest->program + ", format " + newest->format +
-                         ", and this is debond " DEBOND_VERSION ", format " +
-                         std::to_string(format) +
-                         ": only the same program can go on with the run");
+      throw ForeignCheckpoint(
+        "'" + files[1 - next] + "' was written by debond " + newest->program +
+        ", format " + newest->format +
+        ", and this is debond " DEBOND_VERSION ", format " +
+        std::to_string(format) +
+        ": only the same program can go on with the run");
     return newest;
   }
 

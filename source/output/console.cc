@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <iomanip>
 #include <iostream>
 
 namespace Debond
@@ -61,17 +61,13 @@ namespace Debond
       out
         << "   step  angle/deg  torque/Nmm  pressure/MPa  slipping/%  iterations\n";
     columns_named = true;
-    char line[120];
-    std::snprintf(line,
-                  sizeof(line),
-                  "%7u %10.4f %11.4f %13.4f %11.1f %11u\n",
-                  row.step,
-                  rounded(row.angle_deg),
-                  rounded(row.torque_Nmm),
-                  rounded(row.pressure_MPa),
-                  100. * row.share_slip,
-                  row.newton_iterations);
-    out << line;
+    const ClassicNumbers classic(out);
+    out << std::setw(7) << row.step << ' ' << std::setw(10)
+        << fixed_text(rounded(row.angle_deg), 4) << ' ' << std::setw(11)
+        << fixed_text(rounded(row.torque_Nmm), 4) << ' ' << std::setw(13)
+        << fixed_text(rounded(row.pressure_MPa), 4) << ' ' << std::setw(11)
+        << fixed_text(100. * row.share_slip, 1) << ' ' << std::setw(11)
+        << row.newton_iterations << '\n';
   }
 
 
@@ -84,15 +80,10 @@ namespace Debond
       std::lower_bound(times.begin() + 1, times.end() - 1, row.time) -
       times.begin();
     const double length = times.back() - times.front();
-    char         text[120];
-    std::snprintf(text,
-                  sizeof(text),
-                  "phase %u of %u, %.4f deg, %.4f N mm",
-                  phase,
-                  n_phases,
-                  rounded(row.angle_deg),
-                  rounded(row.torque_Nmm));
-    progress.show(text,
+    progress.show("phase " + std::to_string(phase) + " of " +
+                    std::to_string(n_phases) + ", " +
+                    fixed_text(rounded(row.angle_deg), 4) + " deg, " +
+                    fixed_text(rounded(row.torque_Nmm), 4) + " N mm",
                   n_steps > 0 ? double(row.step) / n_steps :
                                 (row.time - times.front()) / length);
   }

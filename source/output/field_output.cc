@@ -1,6 +1,7 @@
 #include <debond/interface/contact_interface.h>
 #include <debond/output/field_output.h>
 #include <debond/output/result_files.h>
+#include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
 
 #include <deal.II/base/utilities.h>
@@ -94,7 +95,7 @@ namespace Debond
     for (const std::string &series : all_series)
       {
         // deal.II's write_pvd_record() would add the date
-        std::ostringstream record;
+        Classic<std::ostringstream> record;
         record.precision(12);
         record << "<?xml version=\"1.0\"?>\n"
                   "<VTKFile type=\"Collection\" version=\"0.1\">\n"

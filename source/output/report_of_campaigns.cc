@@ -1,3 +1,4 @@
+#include <debond/input/allowed_values.h>
 #include <debond/input/csv_table.h>
 #include <debond/input/scene_file.h>
 #include <debond/output/report.h>
@@ -13,9 +14,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <locale>
 #include <regex>
 #include <set>
 
@@ -34,11 +35,10 @@ namespace Debond
     std::string
     shown(const std::string &field)
     {
-      char        *end   = nullptr;
-      const double value = std::strtod(field.c_str(), &end);
-      return field.empty() || *end != '\0' ? escaped(field) :
-             std::isnan(value)             ? "" :
-                                             short_number(value);
+      const auto value = read_number(field);
+      return value                             ? short_number(*value) :
+             field == "nan" || field == "-nan" ? "" :
+                                                 escaped(field);
     }
 
 
@@ -456,7 +456,7 @@ namespace Debond
       if (!title.empty())
         return title + ": " + what;
       std::string text = what + " in " + directory;
-      text[0]          = std::toupper(text[0]);
+      text[0]          = std::toupper(text[0], std::locale::classic());
       return text;
     }
   } // namespace

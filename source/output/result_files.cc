@@ -1,5 +1,6 @@
 #include <debond/output/result_files.h>
 #include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
 #include <debond/support/provenance.h>
 #include <debond/support/ranks.h>
 
@@ -154,7 +155,7 @@ namespace Debond
   nlohmann::ordered_json
   read_json(const std::string &filename)
   {
-    std::ifstream                file(filename);
+    Classic<std::ifstream>       file(filename);
     const nlohmann::ordered_json json =
       nlohmann::ordered_json::parse(file, nullptr, false);
     return json.is_object() ? json : nlohmann::ordered_json::object();

@@ -4,6 +4,7 @@
 #include <debond/geometry/surface_geometry.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/output/field_output.h>
+#include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
 #include <debond/support/runtime.h>
 
@@ -106,7 +107,7 @@ namespace Debond
         flags.print_date_and_time      = false;
         flags.compression_level        = flags.best_speed;
         flags.write_higher_order_cells = curved_cells;
-        std::ostringstream text;
+        Classic<std::ostringstream> text;
         dealii::DataOutBase::write_vtu(patches, names, ranges, flags, text);
         return text.str();
       }
@@ -115,7 +116,7 @@ namespace Debond
       std::string
       list(const std::vector<std::string> &pieces) const
       {
-        std::ostringstream text;
+        Classic<std::ostringstream> text;
         dealii::DataOutBase::write_pvtu_record(
           text, pieces, names, ranges, dealii::DataOutBase::VtkFlags());
         // which begins with a comment that holds the date

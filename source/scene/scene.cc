@@ -24,7 +24,7 @@ namespace Debond
     const std::string  content = read_whole_file(filename).value_or("");
     boost::crc_32_type crc;
     crc.process_bytes(content.data(), content.size());
-    std::ostringstream text;
+    Classic<std::ostringstream> text;
     text << "# " << filename << ": " << content.size() << " bytes, CRC-32 "
          << std::hex << crc.checksum() << "\n";
     return text.str();

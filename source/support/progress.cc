@@ -1,3 +1,4 @@
+#include <debond/support/number_text.h>
 #include <debond/support/progress.h>
 
 #include <sys/ioctl.h>
@@ -5,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 #include <mutex>
 
@@ -61,14 +61,10 @@ namespace Debond
     std::string
     duration(const double seconds)
     {
-      char text[40];
-      if (seconds < 100.)
-        std::snprintf(text, sizeof(text), "%.0f s", std::ceil(seconds));
-      else if (seconds < 6000.)
-        std::snprintf(text, sizeof(text), "%.0f min", std::ceil(seconds / 60.));
-      else
-        std::snprintf(text, sizeof(text), "%.1f h", seconds / 3600.);
-      return text;
+      return seconds < 100. ? fixed_text(std::ceil(seconds), 0) + " s" :
+             seconds < 6000. ?
+                              fixed_text(std::ceil(seconds / 60.), 0) + " min" :
+                              fixed_text(seconds / 3600., 1) + " h";
     }
 
 

@@ -1,3 +1,4 @@
+#include <debond/support/number_text.h>
 #include <debond/support/runtime.h>
 
 #include <deal.II/base/utilities.h>
@@ -87,9 +88,9 @@ namespace Debond
     double
     entry(const std::filesystem::path &filename, const std::string &wanted)
     {
-      std::ifstream file(filename);
-      std::string   name, rest;
-      double        number = 0.;
+      Classic<std::ifstream> file(filename);
+      std::string            name, rest;
+      double                 number = 0.;
       while (file >> name >> number && std::getline(file, rest))
         if (name == wanted)
           return number;
@@ -118,7 +119,7 @@ namespace Debond
     {
       constexpr double blas_buffer = 1 << 27;
       double           pages       = 0.;
-      std::ifstream("/proc/self/statm") >> pages;
+      Classic<std::ifstream>("/proc/self/statm") >> pages;
       return std::max(0.,
                       limit_of_memory() - pages * sysconf(_SC_PAGESIZE) -
                         blas_buffer * dealii::MultithreadInfo::n_threads());
@@ -133,11 +134,13 @@ namespace Debond
     {
       double limit = 0., taken = 0.;
       // without a limit the file says `max', or is not there
-      if (!(std::ifstream(group / (is_version_2 ? "memory.max" :
-                                                  "memory.limit_in_bytes")) >>
+      if (!(Classic<std::ifstream>(group / (is_version_2 ?
+                                              "memory.max" :
+                                              "memory.limit_in_bytes")) >>
             limit) ||
-          !(std::ifstream(group / (is_version_2 ? "memory.current" :
-                                                  "memory.usage_in_bytes")) >>
+          !(Classic<std::ifstream>(group / (is_version_2 ?
+                                              "memory.current" :
+                                              "memory.usage_in_bytes")) >>
             taken))
         return no_limit;
       // in version 1 these are sums over the groups that it holds
@@ -167,13 +170,13 @@ namespace Debond
   memory_within_control_groups_MB(const std::filesystem::path &groups,
                                   const std::filesystem::path &mount)
   {
-    double        bytes = no_limit;
-    std::ifstream file(groups);
+    double                 bytes = no_limit;
+    Classic<std::ifstream> file(groups);
     // number:controllers:path, version 2 being `0::path'
     for (std::string line; std::getline(file, line);)
       {
-        std::istringstream fields(line);
-        std::string        number, controllers, path;
+        Classic<std::istringstream> fields(line);
+        std::string                 number, controllers, path;
         std::getline(fields, number, ':');
         std::getline(fields, controllers, ':');
         std::getline(fields, path);

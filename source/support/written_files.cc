@@ -1,4 +1,5 @@
 #include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
 #include <debond/support/written_files.h>
 
@@ -56,13 +57,13 @@ namespace Debond
   std::optional<std::string>
   read_whole_file(const std::string &filename)
   {
-    std::ifstream file(filename, std::ios::binary);
+    Classic<std::ifstream> file(filename, std::ios::binary);
     if (!file && (errno == ENOENT || errno == ENOTDIR))
       return std::nullopt;
     if (!file)
       throw InputError("cannot read '" + filename +
                        "': " + std::strerror(errno));
-    std::ostringstream bytes;
+    Classic<std::ostringstream> bytes;
     bytes << file.rdbuf();
     return bytes.str();
   }
@@ -85,9 +86,9 @@ namespace Debond
                  const std::string &text,
                  const Durability   durability)
   {
-    const std::string temporary = filename + partial;
-    const bool        on_disk   = durability == Durability::on_disk;
-    std::ofstream     file(temporary, std::ios::binary);
+    const std::string      temporary = filename + partial;
+    const bool             on_disk   = durability == Durability::on_disk;
+    Classic<std::ofstream> file(temporary, std::ios::binary);
     file << text;
     file.close();
     if (!file || (on_disk && !is_on_disk(temporary)) ||

@@ -1,3 +1,4 @@
+#include <debond/support/number_text.h>
 #include <debond/system/chuck_path.h>
 
 #include <sstream>
@@ -49,9 +50,9 @@ namespace Debond
   std::string
   ChuckPath::describe() const
   {
-    Eigen::Index       k;
-    const double       share = missed_shares.maxCoeff(&k);
-    std::ostringstream text;
+    Eigen::Index                k;
+    const double                share = missed_shares.maxCoeff(&k);
+    Classic<std::ostringstream> text;
     text.precision(3);
     text << 100. * share << " % of the path of ";
     if (k >= translations)

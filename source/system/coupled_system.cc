@@ -1,4 +1,5 @@
 #include <debond/interface/interface_configuration.h>
+#include <debond/support/number_text.h>
 #include <debond/support/runtime.h>
 #include <debond/system/coupled_system.h>
 
@@ -633,8 +634,8 @@ namespace Debond
   std::string
   CoupledSystem::describe_worst_point(const Residual &residual) const
   {
-    int                worst = -1;
-    std::ostringstream text;
+    int                         worst = -1;
+    Classic<std::ostringstream> text;
     text << "residual "
          << (unknowns > 0 ? residual.unknowns.cwiseAbs().maxCoeff(&worst) : 0.);
     for (const Side side : both_sides)

@@ -1,3 +1,4 @@
+#include <debond/support/number_text.h>
 #include <debond/system/newton.h>
 
 #include <algorithm>
@@ -198,7 +199,7 @@ namespace Debond
             hopeless(
               {result.history.begin() + cautious_from, result.history.end()}))
           {
-            std::ostringstream why;
+            Classic<std::ostringstream> why;
             why << "no convergence in " << iteration
                 << " iterations, relative residual " << error << ", largest "
                 << system.describe_worst_point(residual);

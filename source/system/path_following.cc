@@ -1,3 +1,4 @@
+#include <debond/support/number_text.h>
 #include <debond/system/step_control.h>
 
 #include <algorithm>
@@ -113,7 +114,7 @@ namespace Debond
   {
     if (mean_slip < end_slip)
       return StepControl::reason_to_end();
-    std::ostringstream reason;
+    Classic<std::ostringstream> reason;
     reason << "the mean sliding distance has reached " << end_slip
            << " mm (Load steps / Path ends at slip) at time " << time;
     return reason.str();

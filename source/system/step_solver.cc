@@ -1,3 +1,4 @@
+#include <debond/support/number_text.h>
 #include <debond/system/step_solver.h>
 
 #include <cmath>
@@ -134,8 +135,8 @@ namespace Debond
     std::string
     describe_softening(const InterfaceSummary &summary, const FrictionLaw &law)
     {
-      const double       slope = summary.softening_slope;
-      std::ostringstream text;
+      const double                slope = summary.softening_slope;
+      Classic<std::ostringstream> text;
       // A user can act on it: the numbers of the worst point, and the entries
       // that move the bound p |d mu/d g_s| < eps_t.
       text << "the friction law softens faster than the interface is stiff, so "

@@ -13,15 +13,22 @@ namespace Debond
 
   /**
    * Reads an expression in muParser's language, with the functions that
-   * deal.II's FunctionParser adds to it but random numbers, in @p variables,
-   * names separated by commas. Constants are `pi` and `R` = @p radius [mm].
-   * Throws InputError with the expression and the parser's own words if it is
-   * invalid.
+   * doc/parameters.md lists, in @p variables, names separated by commas.
+   * Constants are `pi` and `R` = @p radius [mm]. Throws InputError with the
+   * expression and the parser's own words if it is invalid.
+   *
+   * Its value is not a number where a part of it has none, unless that part is
+   * not chosen: by `if`, `a ? b : c`, or because the left of `&&` or `||`
+   * decides. Who asks for it says where that was, and remark_on_no_value.
    */
   Expression
   read_expression(const std::string &variables,
                   const std::string &expression,
                   double             radius);
+
+  /** What to do about it. */
+  constexpr const char *remark_on_no_value =
+    "; if(condition, a, b) leaves out what has none";
 
   /** A function of time. */
   using TimeFunction = std::function<double(double)>;

@@ -3,20 +3,72 @@
 
 #include <charconv>
 #include <cmath>
+#include <locale>
+#include <ostream>
 #include <sstream>
 #include <string>
+#include <utility>
 
 namespace Debond
 {
-  /** A number with so many significant digits at most; 17 give it back
-   *  exactly. */
+  /** A stream of the standard library whose numbers are those of C++, 1234.5.
+   *  Others take their locale, and so 1.234,5 of Germany, from the program that
+   *  uses this library. */
+  template <typename Stream>
+  class Classic : public Stream
+  {
+  public:
+    template <typename... Arguments>
+    explicit Classic(Arguments &&...arguments)
+      : Stream(std::forward<Arguments>(arguments)...)
+    {
+      this->imbue(std::locale::classic());
+    }
+  };
+
+  /** From here to the end of the block that is so with a stream of someone
+   *  else. */
+  class ClassicNumbers
+  {
+  public:
+    explicit ClassicNumbers(std::ostream &stream)
+      : stream(stream)
+      , before(stream.imbue(std::locale::classic()))
+    {}
+    ClassicNumbers(const ClassicNumbers &) = delete;
+    ~ClassicNumbers()
+    {
+      stream.imbue(before);
+    }
+
+  private:
+    std::ostream     &stream;
+    const std::locale before;
+  };
+
+  /** A number in a format of std::to_chars, which knows no locale. */
+  inline std::string
+  to_text(const double number, const int digits, const std::chars_format format)
+  {
+    char buffer[400]; // 309 digits and a point, and what is asked for behind it
+    return {
+      buffer,
+      std::to_chars(buffer, buffer + sizeof(buffer), number, format, digits)
+        .ptr};
+  }
+
+  /** With so many significant digits at most; 17 give it back exactly. */
   inline std::string
   to_text(const double number, const int digits = 12)
   {
-    std::ostringstream text;
-    text.precision(digits);
-    text << number;
-    return text.str();
+    return to_text(number, digits, std::chars_format::general);
+  }
+
+  /** With so many decimals. */
+  inline std::string
+  fixed_text(const double number, const int decimals)
+  {
+    return to_text(number, decimals, std::chars_format::fixed);
   }
 
   /** The shortest text that gives the number back exactly: 0.1, 18000, 1e-8. */
@@ -60,7 +112,7 @@ namespace Debond
     }
 
   private:
-    std::ostringstream stream;
+    Classic<std::ostringstream> stream;
   };
 } // namespace Debond
 #endif

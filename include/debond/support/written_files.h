@@ -1,6 +1,8 @@
 #ifndef debond_support_written_files_h
 #define debond_support_written_files_h
 
+#include <debond/support/number_text.h>
+
 #include <fstream>
 #include <memory>
 #include <optional>
@@ -68,8 +70,8 @@ namespace Debond
     finish();
 
   private:
-    const std::string filename;
-    std::ofstream     file;
+    const std::string      filename;
+    Classic<std::ofstream> file;
   };
 
   /** Keeps other processes out of a directory of results as long as it lives.

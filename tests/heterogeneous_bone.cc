@@ -288,10 +288,11 @@ struct Voxels
     put(112, 0.5f);  // slope
     put(116, 50.f);  // intercept
     header[123] = 3; // micrometres
-    // where the centre of the first voxel is, by the rows of a matrix only
+    // where the centre of the first voxel is, by the rows of a matrix only; x
+    // and y of NIfTI run against those of MetaImage
     put(254, std::int16_t(1));
-    const float rows[3][4]{{250, 0, 0, 125},
-                           {0, 250, 0, 250},
+    const float rows[3][4]{{-250, 0, 0, -125},
+                           {0, -250, 0, -250},
                            {0, 0, 250, -2875}};
     put(280, rows);
     std::memcpy(&header[344], "n+1", 4);

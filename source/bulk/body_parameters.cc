@@ -252,12 +252,12 @@ namespace Debond
               "Where the voxels are: x, y, z [mm] of the lowest corner of "
               "their grid. `centred': the implant is in the middle of the "
               "grid, whose top is the top of the bone. `file': where the file "
-              "says, without rotation.");
+              "says. Axes: x to the left of a body, y to its back, z to its "
+              "head, as in MetaImage; those of NIfTI files are turned so.");
   }
 
 
 
-  // The grid is moved and not turned: axes are those of the file.
   void
   BodyParameters::read_modulus(const double radius)
   {
@@ -310,7 +310,7 @@ namespace Debond
     const auto corners = corners_of_bone();
     const auto range   = modulus->range(Eigen::Vector3d(corners[0].data()),
                                       Eigen::Vector3d(corners[1].data()));
-    return modulus->voxels_text() +
+    return modulus->voxels_text(corners[0], corners[1]) +
            "Young's modulus of the bone: " + to_text(range.smallest, 3) +
            " to " + to_text(range.largest, 3) + " MPa, mean " +
            to_text(range.mean, 3);

@@ -65,6 +65,33 @@ namespace Debond
       return "x = " + to_text(X[0], 6) + " mm, y = " + to_text(X[1], 6) +
              " mm, z = " + to_text(X[2], 6) + " mm";
     }
+
+
+
+    std::string
+    box_text(const std::array<double, 3> &lower,
+             const std::array<double, 3> &upper)
+    {
+      const auto corner = [](const std::array<double, 3> &X) {
+        std::string text;
+        for (unsigned int d = 0; d < 3; ++d)
+          text += (d == 0 ? "(" : ", ") +
+                  to_text(std::abs(X[d]) < 1e-9 ? 0. : X[d], 6); // no 1e-16
+        return text + ")";
+      };
+      return "from " + corner(lower) + " to " + corner(upper) + " mm";
+    }
+
+
+
+    /** "125 x 125 x 50" */
+    template <typename Number>
+    std::string
+    grid_text(const std::array<Number, 3> &n)
+    {
+      return to_text(n[0], 6) + " x " + to_text(n[1], 6) + " x " +
+             to_text(n[2], 6);
+    }
   } // namespace
 
 
@@ -185,30 +212,25 @@ namespace Debond
   std::string
   ModulusField::extent_text() const
   {
-    std::string from, to;
-    // no 1e-16
-    const auto text = [&](const double x, const unsigned int d) {
-      return to_text(std::abs(x) < 1e-9 * image->length(d) ? 0. : x, 6);
-    };
+    std::array<double, 3> end;
     for (unsigned int d = 0; d < 3; ++d)
-      {
-        from += (d == 0 ? "" : ", ") + text(corner[d], d);
-        to += (d == 0 ? "" : ", ") + text(corner[d] + image->length(d), d);
-      }
-    return "from (" + from + ") to (" + to + ") mm";
+      end[d] = corner[d] + image->length(d);
+    return box_text(corner, end);
   }
 
 
 
   std::string
-  ModulusField::voxels_text() const
+  ModulusField::voxels_text(const std::array<double, 3> &bone_lower,
+                            const std::array<double, 3> &bone_upper) const
   {
     if (!image)
       return "";
     const auto [least, largest] =
       std::minmax_element(image->grey.begin(), image->grey.end());
-    return image->grid_text() + " voxels " + extent_text() +
-           ", grey values from " + to_text(*least, 6) + " to " +
-           to_text(*largest, 6) + "\n";
+    return grid_text(image->n) + " voxels of " + grid_text(image->spacing) +
+           " mm " + extent_text() + ", grey values from " + to_text(*least, 6) +
+           " to " + to_text(*largest, 6) + "\nThe bone is " +
+           box_text(bone_lower, bone_upper) + "; " + image->order + "\n";
   }
 } // namespace Debond

@@ -97,6 +97,12 @@ namespace Debond
       "mean of the points inside it, or that of the point nearest to its "
       "centre; a quadrature point that of the nearest point). The path is "
       "relative to the working directory.");
+    table.add("White level",
+              white_level,
+              Allowed::whole_number(0, 65535),
+              "Pattern image: the level of the file that is white, phi_0 = 1, "
+              "such as 4095 for 12 bits in a file of 16. 0: the largest that "
+              "the file has room for: 255, 65535, or what a PGM file says.");
     table.add(
       "Threshold",
       threshold,
@@ -134,6 +140,7 @@ namespace Debond
               "Expression",
               "expression"},
           Row{reads_file, !file.empty(), "File", "image or file"},
+          Row{pattern == Kind::image, white_level != 0, "White level", "image"},
           Row{pattern == Kind::image, threshold != -1, "Threshold", "image"}})
       if (row.is_set && !row.is_used)
         throw EntryError(bonding_section + row.entry,

@@ -106,8 +106,9 @@ namespace Debond
                     const unsigned int       n,
                     std::string             &remark)
     {
-      GreyImage image =
-        read_grey_image(parameters.file, bonding_section + "File");
+      GreyImage            image = read_grey_image(parameters.file,
+                                        bonding_section + "File",
+                                        parameters.white_level);
       const Eigen::Array2d size(implant.width(0), implant.width(1));
       const double ratio = image.width / size[0] / (image.height / size[1]);
       if (std::max(ratio, 1. / ratio) > 1.02)

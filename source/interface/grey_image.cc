@@ -97,10 +97,12 @@ namespace Debond
 
 
 
-    /** For messages about one file. */
+    /** A file, for messages, and the level that counts as 1 by the scene; 0 if
+     *  that of the file does. */
     struct ImageFile
     {
       const std::string &name, &entry;
+      const unsigned int white;
 
       [[noreturn]] void
       refuse(const std::string &why) const
@@ -117,6 +119,36 @@ namespace Debond
                  to_text(height) + " pixels: expected 1 to " +
                  to_text(largest_side) + " in each direction");
       }
+
+      /** The level that counts as 1, where the file has room for levels up to
+       *  @p own and has none above @p largest. Cameras write 10, 12 or 14 bits
+       *  into files of 16, and masks are 0 and 1: nearly black, which may not
+       *  be meant, unless @p is_told by the file. */
+      unsigned int
+      white_level(const unsigned int own,
+                  const unsigned int largest,
+                  const bool         is_told = false) const
+      {
+        const auto so_many = [&](const std::string &limit) {
+          return "the levels of this picture go up to " +
+                 std::to_string(largest) + limit;
+        };
+        if (white > 0 && largest > white)
+          refuse(so_many(": expected White level = ") + std::to_string(white) +
+                 " at most");
+        const bool is_dark =
+          largest == 1 ? own >= 255 : own == 65535 && largest < 1 << 14;
+        if (white > 0 || largest == 0 || !is_dark || is_told)
+          return white > 0 ? white : own;
+        unsigned int bits = 1;
+        while (largest >> bits != 0)
+          ++bits;
+        refuse(so_many(" of ") + std::to_string(own) + ", as if they had " +
+               std::to_string(bits) + (bits == 1 ? " bit" : " bits") +
+               ": which one is white? Set White level = " +
+               std::to_string((1 << bits) - 1) + ", or " + std::to_string(own) +
+               " if the picture is that dark");
+      }
     };
 
 
@@ -130,9 +162,13 @@ namespace Debond
 
 
     /** A PNG file with those chunks only that make up the picture, their sums
-     *  checked: others, such as those about colours, change no grey level. */
+     *  checked: others, such as those about colours, change no grey level.
+     *  @p bits: how many of each channel are significant, 0 if it does not say.
+     */
     std::string
-    essence_of_png(const ImageFile &file, const std::string &bytes)
+    essence_of_png(const ImageFile   &file,
+                   const std::string &bytes,
+                   unsigned int      &bits)
     {
       const std::size_t signature = 8, around = 12; // length, type, sum
       if (bytes.compare(0, signature, "\x89PNG\r\n\x1a\n") != 0)
@@ -155,6 +191,8 @@ namespace Debond
             file.refuse("this PNG file is damaged");
           if (type == "IHDR" && length == 13)
             file.check_size(number(8), number(12));
+          if (type == "sBIT" && length > 0)
+            bits = std::min<unsigned int>(16, *bytes_at(bytes, position + 8));
           for (const char *const wanted :
                {"IHDR", "PLTE", "tRNS", "IDAT", "IEND"})
             if (type == wanted)
@@ -166,20 +204,54 @@ namespace Debond
 
 
 
+    /** The level that counts as 1 of @p channels, of which @p n make a pixel.
+     * @p bits: of 16 so many are significant; 0: the file does not say. */
+    template <typename Channel>
+    unsigned int
+    white_level(const std::vector<Channel> &channels,
+                const unsigned int          n,
+                const unsigned int          bits,
+                const ImageFile            &file)
+    {
+      constexpr unsigned int most    = std::numeric_limits<Channel>::max();
+      unsigned int           largest = 0, together = 0;
+      for (std::size_t i = 0; i < channels.size(); ++i)
+        if (i % n < (n < 3 ? 1 : 3)) // no opacity
+          {
+            largest = std::max<unsigned int>(largest, channels[i]);
+            together |= channels[i];
+          }
+      if (sizeof(Channel) == 1 || bits == 0)
+        return file.white_level(most, largest);
+      // By the standard significant bits stand at the high end. Where there are
+      // none, and the low end has some, they stand there.
+      const bool are_high = bits == 16 || largest >> bits != 0,
+                 are_low  = !are_high && (together & (most >> bits)) != 0;
+      return file.white_level(are_low ? (1U << bits) - 1 : most,
+                              largest,
+                              are_high || are_low);
+    }
+
+
+
     /** The levels of pixels with one or more channels: grey or red, green and
      *  blue, then opacity if their number is even; what is transparent is
      *  black. False if libpng cannot read what
      *  png_image_begin_read_from_memory() has found. */
     template <typename Channel>
     bool
-    read_levels(png_image &png, std::vector<float> &levels)
+    read_levels(png_image          &png,
+                const unsigned int  bits,
+                const ImageFile    &file,
+                std::vector<float> &levels)
     {
       std::vector<Channel> channels(PNG_IMAGE_SIZE(png) / sizeof(Channel));
       if (png_image_finish_read(&png, nullptr, channels.data(), 0, nullptr) ==
           0)
         return false;
-      constexpr double   white = std::numeric_limits<Channel>::max();
+      constexpr double   most  = std::numeric_limits<Channel>::max();
       const unsigned int n     = PNG_IMAGE_PIXEL_CHANNELS(png.format);
+      const double       white = white_level(channels, n, bits, file);
       // libpng has multiplied channels of 16 bits by the opacity already
       const bool multiply = n % 2 == 0 && sizeof(Channel) == 1;
       for (auto pixel = channels.cbegin(); pixel != channels.cend(); pixel += n)
@@ -189,7 +261,7 @@ namespace Debond
                pixel[0] :
                (30. * pixel[0] + 59. * pixel[1] + 11. * pixel[2]) / 100.) /
             white;
-          levels.push_back(multiply ? level * pixel[n - 1] / white : level);
+          levels.push_back(multiply ? level * pixel[n - 1] / most : level);
         }
       return true;
     }
@@ -203,7 +275,8 @@ namespace Debond
     GreyImage
     read_png(const ImageFile &file, const std::string &bytes)
     {
-      const std::string essence = essence_of_png(file, bytes);
+      unsigned int      bits    = 0;
+      const std::string essence = essence_of_png(file, bytes, bits);
       GreyImage         image;
       png_image         png{};
       png.version = PNG_IMAGE_VERSION;
@@ -215,8 +288,8 @@ namespace Debond
           image.width  = png.width;
           image.height = png.height;
           is_read      = (png.format & PNG_FORMAT_FLAG_LINEAR) != 0 ?
-                           read_levels<png_uint_16>(png, image.levels) :
-                           read_levels<png_byte>(png, image.levels);
+                           read_levels<png_uint_16>(png, bits, file, image.levels) :
+                           read_levels<png_byte>(png, bits, file, image.levels);
         }
       if (!is_read)
         file.refuse("this file is damaged: it begins like a PNG file but "
@@ -304,10 +377,14 @@ namespace Debond
           if (level > largest)
             file.refuse("a level of this PGM file is more than its largest, " +
                         std::to_string(largest));
-          image.levels.push_back(static_cast<float>(level) / largest);
+          image.levels.push_back(static_cast<float>(level));
         }
       if (plain ? !numbers.at_end() : bytes.size() > begin + n * size)
         file.refuse("this PGM file has more pixels than its header says");
+      const auto white = static_cast<float>(file.white_level(
+        largest, *std::max_element(image.levels.begin(), image.levels.end())));
+      for (float &level : image.levels)
+        level /= white;
       return image;
     }
   } // namespace
@@ -315,9 +392,11 @@ namespace Debond
 
 
   GreyImage
-  read_grey_image(const std::string &filename, const std::string &entry)
+  read_grey_image(const std::string &filename,
+                  const std::string &entry,
+                  const unsigned int white)
   {
-    const ImageFile   file{filename, entry};
+    const ImageFile   file{filename, entry, white};
     const std::string bytes = read_input_bytes(
       filename, [&file](const std::string &why) { file.refuse(why); }, 500);
     if (bytes.compare(0, 4, "\x89PNG") == 0)

@@ -53,10 +53,12 @@ namespace Debond
     {
       return image.get();
     }
-    /** A line "125 x 125 x 50 voxels from (-6.25, -6.25, -5) to (6.25, 6.25, 0)
-     *  mm, grey values from 0 to 200"; empty without voxels. */
+    /** Lines: how many voxels there are, of which size, from where to where,
+     *  with which grey values; where the bone is, by its corners, and which
+     *  voxel is the first of the file. Empty without voxels. */
     std::string
-    voxels_text() const;
+    voxels_text(const std::array<double, 3> &bone_lower,
+                const std::array<double, 3> &bone_upper) const;
 
   private:
     double

@@ -14,10 +14,13 @@ namespace Debond
   {
     std::array<unsigned int, 3> n{{0, 0, 0}};       ///< voxels along x, y, z
     std::array<double, 3>       spacing{{1, 1, 1}}; ///< edges of a voxel [mm]
-    /** The lowest corner of the grid in the file's own coordinates [mm]. */
+    /** The lowest corner of the grid where the file says that it is [mm]. */
     std::array<double, 3> corner{{0, 0, 0}};
-    std::vector<float>    grey;      ///< x is fastest
+    std::vector<float>    grey;      ///< from the lowest corner, x is fastest
     std::string           data_file; ///< that the file refers to, if any
+    /** In words, from which corner on and along which axes the file has them.
+     */
+    std::string order;
     /** What the file says, or does not say, and is not heeded, as sentences. */
     std::vector<std::string> remarks;
 
@@ -26,9 +29,6 @@ namespace Debond
     {
       return n[direction] * spacing[direction];
     }
-    /** "125 x 125 x 50" */
-    std::string
-    grid_text() const;
   };
 
   /**
@@ -36,10 +36,16 @@ namespace Debond
    *
    *  - `.mhd`, `.mha`: MetaImage, a header of lines `name = value` and raw,
    *    uncompressed numbers in a file of their own or behind the header, in mm;
-   *  - `.nii`, `.nii.gz`: NIfTI-1 or 2, by the library; grey values are scaled
-   *    as the file says, the axes are taken as they are stored;
+   *  - `.nii`, `.nii.gz`: NIfTI-1 or 2; grey values are scaled as the file
+   *    says;
    *  - `.csv`: columns x, y, z [mm], the centres of all voxels in any order,
    *    and grey.
+   *
+   * The axes are those of MetaImage: where a file knows of a body, x runs to
+   * its left, y to its back and z to its head. NIfTI's x and y run the other
+   * way, unless it has neither qform nor sform: then it knows of no body.
+   * Oblique axes are refused, and so is what a header says in two ways that
+   * differ.
    *
    * An image that is in use is not read again unless the file has changed.
    * Throws EntryError for the @p entry of the scene that gave the file.

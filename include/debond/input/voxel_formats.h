@@ -1,0 +1,100 @@
+#ifndef debond_input_voxel_formats_h
+#define debond_input_voxel_formats_h
+
+#include <debond/input/input_file.h>
+
+#include <boost/endian/conversion.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace Debond
+{
+  /** Size of the largest file of voxels, also unpacked. */
+  constexpr unsigned int largest_image_MB = 4000;
+
+  /** What a file says: grey values in its own order, and where they are in the
+   *  axes x, y, z of the scene. For a file that knows of a body, x runs to its
+   *  left, y to its back and z to its head, as in a MetaImage. */
+  struct StoredVoxels
+  {
+    std::array<unsigned int, 3> n{{0, 0, 0}};       ///< along each index
+    std::array<double, 3>       spacing{{1, 1, 1}}; ///< along each index [mm]
+    /** Along which axis the indices run, 1, 2, 3 for x, y, z; negative if they
+     *  run from its high end to its low end. */
+    std::array<int, 3>       along{{1, 2, 3}};
+    Eigen::Vector3d          first{0., 0., 0.}; ///< centre of the first voxel
+    std::vector<float>       grey;              ///< the first index is fastest
+    std::string              data_file;         ///< as in VoxelImage
+    std::vector<std::string> remarks;           ///< as in VoxelImage
+
+    /** The number of voxels, if there are not too many for this program. */
+    std::size_t
+    n_voxels(const FileRefusal &refuse) const;
+  };
+
+
+
+  /** StoredVoxels::along of indices that run along the columns of @p
+   *  directions, whose length is 1. @p source: what the header calls them. */
+  std::array<int, 3>
+  axes_along(const Eigen::Matrix3d &directions,
+             const std::string     &source,
+             const FileRefusal     &refuse);
+
+
+
+  /** A type of numbers in a file. */
+  struct NumberType
+  {
+    unsigned int size; ///< [bytes]
+    /** Appends so many of them. */
+    void (*append)(const char         *bytes,
+                   std::size_t         n,
+                   bool                is_big_endian,
+                   std::vector<float> &grey);
+  };
+
+  template <typename Number>
+  NumberType
+  number_type()
+  {
+    return {sizeof(Number),
+            [](const char         *bytes,
+               const std::size_t   n,
+               const bool          is_big_endian,
+               std::vector<float> &grey) {
+              const bool swap =
+                is_big_endian ==
+                (boost::endian::order::native == boost::endian::order::little);
+              for (std::size_t i = 0; i < n; ++i)
+                {
+                  std::array<char, sizeof(Number)> own;
+                  std::copy_n(bytes + i * sizeof(Number),
+                              sizeof(Number),
+                              own.begin());
+                  if (swap)
+                    std::reverse(own.begin(), own.end());
+                  Number number;
+                  std::memcpy(&number, own.data(), sizeof(Number));
+                  grey.push_back(static_cast<float>(number));
+                }
+            }};
+  }
+
+
+
+  /** A file `.mhd` or `.mha`. */
+  StoredVoxels
+  read_meta_image(const std::string &filename, const FileRefusal &refuse);
+
+  /** A file `.nii` or `.nii.gz`. */
+  StoredVoxels
+  read_nifti_image(const std::string &filename, const FileRefusal &refuse);
+} // namespace Debond
+#endif

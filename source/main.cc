@@ -7,6 +7,7 @@
 #include <debond/models/debonding_problem.h>
 #include <debond/models/memory_estimate.h>
 #include <debond/models/resumed_run.h>
+#include <debond/output/reference_comparison.h>
 #include <debond/output/report.h>
 #include <debond/scene/scene.h>
 #include <debond/support/input_error.h>
@@ -381,7 +382,13 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
                                           arguments.overrides);
     if (!run)
       {
-        std::cout << "The run in " << arguments.directory_to_resume
+        const std::string &directory = arguments.directory_to_resume;
+        if (compare_anew_if_changed(
+              Scene::from_file(directory + "/parameters.prm").output,
+              directory))
+          std::cout << "The content of its reference has changed: the "
+                       "distances from it are computed anew.\n";
+        std::cout << "The run in " << directory
                   << " is finished. A scene, or --set, with further Load steps "
                      "/ Times and Steps extends it.\n";
         return;

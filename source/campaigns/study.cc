@@ -6,6 +6,7 @@
 #include <debond/input/csv_table.h>
 #include <debond/input/parameter_loop.h>
 #include <debond/models/memory_estimate.h>
+#include <debond/output/reference_comparison.h>
 #include <debond/output/report.h>
 #include <debond/output/result_files.h>
 #include <debond/output/variant_names.h>
@@ -13,6 +14,7 @@
 #include <debond/support/interruption.h>
 #include <debond/support/number_text.h>
 #include <debond/support/progress.h>
+#include <debond/support/provenance.h>
 #include <debond/support/ranks.h>
 #include <debond/support/written_files.h>
 #include <debond/system/coupled_system.h>
@@ -73,7 +75,8 @@ namespace Debond
       std::string              directory;
       unsigned int             reference  = 0; ///< number of a variant, 0: none
       unsigned int             group_size = 1; ///< processes for a variant
-      bool                     reports    = true;
+      unsigned int             n_compared_anew = 0; ///< with references
+      bool                     reports         = true;
       dealii::Timer            since_table;
       double                   time_between_tables = 2; ///< [s]
 
@@ -175,7 +178,12 @@ namespace Debond
         for (Variant &variant : variants)
           {
             variant.look_up();
-            out << variant.name << (variant.done ? " (done already)" : "")
+            out << variant.name
+                << (variant.has_other_references ?
+                      " (done already, but the content of its reference has "
+                      "changed: distances will be computed anew)" :
+                    variant.done ? " (done already)" :
+                                   "")
                 << '\n';
             Classic<std::ostringstream> none; // only refuses what it cannot do
             if (variant.scene.model != ModelKind::finite_elements)
@@ -210,7 +218,20 @@ namespace Debond
                   "parameters.prm): choose another directory, or "
                   "overwrite them with --force",
                 directory);
+            if (!variant.other_program.empty() && !force)
+              throw EntryError("Output / Directory",
+                               output.directory + " holds results of " +
+                                 variant.other_program + ", and this is " +
+                                 program_and_version() +
+                                 ": choose another directory, or compute them "
+                                 "again with --force",
+                               directory);
             variant.done = variant.done && !force;
+            if (variant.done && variant.has_other_references)
+              {
+                compare_anew(output, output.directory, variant.summary);
+                ++n_compared_anew;
+              }
             // what is left over from another scene, or not wanted any more
             if (force || !variant.has_this_scene)
               variant.forget_repetitions();
@@ -228,6 +249,11 @@ namespace Debond
         if (n_done() > 0)
           out << ", " << n_done() << " of them done already";
         out << std::endl;
+        if (n_compared_anew > 0)
+          out << "The content of a reference has changed: the distances of "
+              << n_compared_anew
+              << (n_compared_anew == 1 ? " variant" : " variants")
+              << " that had been done are computed anew" << std::endl;
         if (Ranks::number() == 1)
           run_variants(n_jobs, out);
         else
@@ -567,7 +593,13 @@ namespace Debond
         const auto seed =
           std::find(varied.begin(), varied.end(), "Interface / Bonding / Seed");
         if (seed == varied.end())
-          return;
+          {
+            // of a study that was here before
+            for (const char *const name :
+                 {"/ensemble.csv", "/ensemble_summary.csv"})
+              remove_file(directory + name);
+            return;
+          }
         const auto without_seed = [&](std::vector<std::string> items) {
           items.erase(items.begin() + (seed - varied.begin()));
           return items;

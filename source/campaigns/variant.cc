@@ -1,5 +1,7 @@
 #include <debond/campaigns/variant.h>
+#include <debond/output/reference_comparison.h>
 #include <debond/output/torque_curve.h>
+#include <debond/support/provenance.h>
 #include <debond/support/ranks.h>
 
 #include <boost/math/statistics/univariate_statistics.hpp>
@@ -67,14 +69,20 @@ namespace Debond
   void
   Variant::look_up()
   {
-    const OutputParameters &output = scene.output;
-    const auto existing = parameters_in(output.directory);
-    has_this_scene      = existing == scene.completed_parameters;
-    has_other_scene     = existing && !has_this_scene;
+    const OutputParameters &output   = scene.output;
+    const auto              existing = parameters_in(output.directory);
+    has_this_scene                   = existing == scene.completed_parameters;
+    has_other_scene                  = existing && !has_this_scene;
     if (has_this_scene)
       summary = read_json(output.directory + "/summary.json");
     done = summary.value("converged", false) &&
            std::filesystem::exists(output.directory + "/torque.csv");
+    const std::string program =
+      summary.value("/provenance/program"_json_pointer, std::string());
+    other_program = done && program != program_and_version() ? program : "";
+    done          = done && other_program.empty();
+    has_other_references =
+      done && Debond::has_other_references(output, summary);
     if (n_repetitions == 1)
       return;
     repetitions.clear();

@@ -1,3 +1,4 @@
+#include <debond/bulk/modulus_field.h>
 #include <debond/campaigns/run_scene.h>
 #include <debond/campaigns/variant_queue.h>
 #include <debond/models/debonding_problem.h>
@@ -54,6 +55,8 @@ namespace Debond
         if (std::regex_match(name, of_bodies))
           text += name + " = " + entry.value + "\n";
       }
+    if (scene.bone.modulus && scene.bone.modulus->voxels())
+      text += scene.bone.modulus->voxels()->identity;
     return text;
   }
 

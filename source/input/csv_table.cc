@@ -32,7 +32,7 @@ namespace Debond
         throw EntryError(entry, why, filename);
       };
       Classic<std::istringstream> file(
-        plain_text(read_input_bytes(filename, refuse, largest_MB), refuse));
+        plain_table(read_input_bytes(filename, refuse, largest_MB), refuse));
       std::string text;
       for (unsigned int number = 1; std::getline(file, text); ++number)
         {
@@ -95,8 +95,11 @@ namespace Debond
     std::size_t                      n_columns = 0;
     for_each_line(
       filename, entry, [&](const unsigned int number, const std::string &line) {
-        const std::vector<std::string> items  = split_list(line);
-        const auto                     refuse = [&](const std::string &why) {
+        // names, and numbers of other programs, may be in quotes
+        const std::vector<std::string> items =
+          line.find('"') == std::string::npos ? split_list(line) :
+                                                split_csv_line(line, ',');
+        const auto refuse = [&](const std::string &why) {
           throw EntryError(entry,
                            "line " + std::to_string(number) + ": " + why,
                            filename);
@@ -123,7 +126,10 @@ namespace Debond
                                          std::numeric_limits<double>::quiet_NaN() :
                                          read_number(item);
             if (!value)
-              refuse("'" + item + "' is no number (" + names[i] + ")");
+              refuse("'" + item + "' is no number (" + names[i] + ")" +
+                     (item.find(',') == item.npos ?
+                        "" :
+                        ": decimals are written with a point"));
             row.push_back(*value);
           }
       });

@@ -2,12 +2,18 @@
 #include <debond/support/number_text.h>
 
 #include <boost/algorithm/string/replace.hpp>
+#include <boost/crc.hpp>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
+#include <sstream>
+#include <utility>
+#include <vector>
 
 namespace Debond
 {
@@ -70,12 +76,48 @@ namespace Debond
 
 
   std::string
+  identity_of(const std::string &filename)
+  {
+    if (filename.empty())
+      return "";
+    // CRC-64/XZ
+    boost::crc_optimal<64,
+                       0x42F0E1EBA9EA3693ULL,
+                       ~std::uint64_t(0),
+                       ~std::uint64_t(0),
+                       true,
+                       true>
+                      crc;
+    std::ifstream     file(filename, std::ios::binary);
+    std::vector<char> part(1 << 20);
+    std::uint64_t     size = 0;
+    while (file)
+      {
+        file.read(part.data(), part.size());
+        crc.process_bytes(part.data(), file.gcount());
+        size += file.gcount();
+      }
+    Classic<std::ostringstream> text;
+    text << "# " << filename << ": " << size << " bytes, CRC-64 " << std::hex
+         << std::setw(16) << std::setfill('0') << crc.checksum() << "\n";
+    return text.str();
+  }
+
+
+
+  std::string
   plain_text(const std::string &bytes, const FileRefusal &refuse)
   {
     const auto begins_with = [&bytes](const char *const mark) {
       return bytes.compare(0, std::strlen(mark), mark) == 0;
     };
-    if (begins_with("\xFF\xFE") || begins_with("\xFE\xFF"))
+    // the mark, or two letters of it
+    const bool is_utf_16 =
+      begins_with("\xFF\xFE") || begins_with("\xFE\xFF") ||
+      (bytes.size() >= 4 &&
+       ((bytes[0] != 0 && bytes[1] == 0 && bytes[2] != 0 && bytes[3] == 0) ||
+        (bytes[0] == 0 && bytes[1] != 0 && bytes[2] == 0 && bytes[3] != 0)));
+    if (is_utf_16)
       refuse("this text is in UTF-16: save it as UTF-8");
     const auto is_binary = [](const char c) {
       const auto code = static_cast<unsigned char>(c);
@@ -89,5 +131,104 @@ namespace Debond
     boost::replace_all(text, "\r\n", "\n");
     std::replace(text.begin(), text.end(), '\r', '\n');
     return text;
+  }
+
+
+
+  namespace
+  {
+    /** German Excel, for one, writes Latin-1 where it says CSV. */
+    std::string
+    utf8(const std::string &text)
+    {
+      const auto continues = [&](const std::size_t i) {
+        return i < text.size() && (text[i] & 0xC0) == 0x80;
+      };
+      bool        is_utf8 = true;
+      std::string from_latin_1;
+      for (std::size_t i = 0; i < text.size(); ++i)
+        {
+          const auto code = static_cast<unsigned char>(text[i]);
+          is_utf8 =
+            is_utf8 && (code < 0x80 || (code >= 0xC2 && continues(i + 1)) ||
+                        (continues(i) && i > 0 && (text[i - 1] & 0x80)));
+          if (code < 0x80)
+            from_latin_1 += text[i];
+          else
+            {
+              from_latin_1 += static_cast<char>(0xC0 | (code >> 6));
+              from_latin_1 += static_cast<char>(0x80 | (code & 0x3F));
+            }
+        }
+      return is_utf8 ? text : from_latin_1;
+    }
+
+
+    /** Whether a digit ends at @p begin and three, no more, begin at @p end. */
+    bool
+    is_between_thousands(const std::string &text,
+                         const std::size_t  begin,
+                         const std::size_t  end)
+    {
+      const auto is_digit = [&text](const std::size_t at) {
+        return at < text.size() && text[at] >= '0' && text[at] <= '9';
+      };
+      return begin > 0 && is_digit(begin - 1) && is_digit(end) &&
+             is_digit(end + 1) && is_digit(end + 2) && !is_digit(end + 3);
+    }
+  } // namespace
+
+
+
+  std::string
+  with_plain_marks(std::string text)
+  {
+    if (std::all_of(text.begin(), text.end(), [](const char c) {
+          return static_cast<unsigned char>(c) < 128;
+        }))
+      return text;
+    static const std::vector<const char *> blanks{"\u00a0",
+                                                  "\u2002",
+                                                  "\u2003",
+                                                  "\u2004",
+                                                  "\u2005",
+                                                  "\u2006",
+                                                  "\u2007",
+                                                  "\u2008",
+                                                  "\u2009",
+                                                  "\u200a",
+                                                  "\u202f",
+                                                  "\u205f",
+                                                  "\u3000"};
+    static const std::vector<std::pair<const char *, std::vector<const char *>>>
+      plain{{"", {"\u00ad", "\u200b", "\u200c", "\u200d", "\u2060", "\ufeff"}},
+            // the last one is Windows' dash, where Latin-1 has nothing
+            {"-",
+             {"\u2010", "\u2011", "\u2012", "\u2013", "\u2212", "\xc2\x96"}},
+            {"·", {"\u22c5", "\u2219", "\u2022"}},
+            {"µ", {"\u03bc"}},           // Greek, on some keyboards
+            {"°", {"\u00ba", "\u02da"}}, // an ordinal, a ring
+            {"'", {"\u2019", "\u02bc", "\xc2\x92"}}};
+    // a number with such a blank between thousands stays one word
+    for (const char *const blank : blanks)
+      for (std::size_t at = text.find(blank); at != text.npos;
+           at             = text.find(blank, at))
+        text.replace(at,
+                     std::strlen(blank),
+                     is_between_thousands(text, at, at + std::strlen(blank)) ?
+                                   "'" :
+                                   " ");
+    for (const auto &[mark, others] : plain)
+      for (const char *const other : others)
+        boost::replace_all(text, other, mark);
+    return text;
+  }
+
+
+
+  std::string
+  plain_table(const std::string &bytes, const FileRefusal &refuse)
+  {
+    return with_plain_marks(utf8(plain_text(bytes, refuse)));
   }
 } // namespace Debond

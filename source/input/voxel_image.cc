@@ -310,30 +310,16 @@ namespace Debond
   std::shared_ptr<const VoxelImage>
   read_voxel_image(const std::string &filename, const std::string &entry)
   {
-    struct Known
-    {
-      std::weak_ptr<const VoxelImage> image;
-      std::filesystem::file_time_type time;
-    };
-    static std::map<std::string, Known> known;
-    static std::mutex                   one_at_a_time;
-    const std::lock_guard<std::mutex>   lock(one_at_a_time);
-    // that of the latest of its files
-    const auto time_of = [&](const VoxelImage &image) {
-      std::error_code none;
-      auto            time = std::filesystem::last_write_time(filename, none);
-      if (!image.data_file.empty())
-        time =
-          std::max(time,
-                   std::filesystem::last_write_time(image.data_file, none));
-      return time;
-    };
-    Known &file  = known[filename];
-    auto   image = file.image.lock();
-    if (!image || time_of(*image) != file.time)
+    static std::map<std::string, std::weak_ptr<const VoxelImage>> known;
+    static std::mutex                                             one_at_a_time;
+    const std::lock_guard<std::mutex> lock(one_at_a_time);
+    const std::string                 header = identity_of(filename);
+    auto                              image  = known[filename].lock();
+    if (!image || image->identity != header + identity_of(image->data_file))
       {
-        image = std::make_shared<VoxelImage>(read_anew(filename, entry));
-        file  = {image, time_of(*image)};
+        auto anew = std::make_shared<VoxelImage>(read_anew(filename, entry));
+        anew->identity  = header + identity_of(anew->data_file);
+        known[filename] = image = anew;
       }
     return image;
   }

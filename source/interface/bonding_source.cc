@@ -2,6 +2,7 @@
 #include <debond/geometry/surface_geometry.h>
 #include <debond/input/csv_table.h>
 #include <debond/input/expression_parser.h>
+#include <debond/input/input_file.h>
 #include <debond/interface/bonding_source.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
@@ -318,6 +319,13 @@ namespace Debond
                       std::string                        &remark)
   {
     const bool by_element = parameters.resolution == BondingResolution::element;
+    // a study may come to it hours after its scenes were read
+    if (!parameters.identity.empty() &&
+        parameters.identity != identity_of(parameters.file))
+      throw EntryError(bonding_section + "File",
+                       "the content of this file has changed since the scene "
+                       "was read: start again",
+                       parameters.file);
     if (parameters.pattern == BondingPatternKind::file)
       return values_of_file(parameters.file, by_element, surface, centres);
     if (parameters.pattern == BondingPatternKind::image)

@@ -139,6 +139,8 @@ namespace Debond
             checkpoints.remove();
             remove_file(directory.file("summary.json"));
           }
+        // which would be taken for this run's if it were killed
+        remove_file(directory.file("curve.csv"));
         simulation.signals.row.connect(
           [this](const TorqueRow &row) { write(row); });
         simulation.signals.warning.connect([this](const Warning &warning) {

@@ -112,8 +112,8 @@ namespace Debond
     refuse_if(!there_is("parameters.prm"),
               "this directory holds no results of debond (there is no "
               "parameters.prm in it)");
-    refuse_if(Scene::from_file(directory + "/parameters.prm").model !=
-                ModelKind::finite_elements,
+    const Scene before = Scene::from_file(directory + "/parameters.prm");
+    refuse_if(before.model != ModelKind::finite_elements,
               "only Model = finite elements leaves checkpoints; run the scene "
               "again");
     ResumedRun run;
@@ -133,7 +133,16 @@ namespace Debond
     const bool is_finished =
       read_json(results.file("summary.json"))["converged"] == true;
     if (is_finished && scene_file.empty() && overrides.empty())
-      return std::nullopt;
+      {
+        const std::string different =
+          differences(before.completed_parameters,
+                      parameters_in(directory).value_or(""),
+                      false);
+        refuse_if(!different.empty(),
+                  "the run is finished, but its files have changed since: " +
+                    different + "; run the scene again");
+        return std::nullopt;
+      }
 
     const auto checkpoint = CheckpointFiles(results).newest(run.remarks);
     refuse_if(!checkpoint,

@@ -1,4 +1,5 @@
 #include <debond/models/run_report.h>
+#include <debond/output/reference_comparison.h>
 #include <debond/support/number_text.h>
 #include <debond/support/provenance.h>
 #include <debond/support/ranks.h>
@@ -96,6 +97,7 @@ namespace Debond
     : console(scene.output.quiet, scene.load_steps.times, std::cout)
     , scene(scene)
     , directory(directory)
+    , files_of_reference(reference_files(scene.output))
     , reference(read_reference_curve(scene.output.reference_curve,
                                      scene.output.reference_columns))
     , profiles(scene, directory)
@@ -160,18 +162,17 @@ namespace Debond
                    "Output / Curve at: the implant never turns through " +
                      missed + " deg");
     const CurveComparison comparison(angles_and_torques(fine), reference);
-    if (converged && !reference.empty() && comparison.rows_used == 0)
-      console.warn("reference",
-                   output.reference_curve +
-                     " could not be compared with: " + comparison.why_none);
-    for (const std::string &remark : comparison.remarks)
-      console.warn(remark, output.reference_curve + ": " + remark);
+    if (!reference.empty() && (converged || comparison.rows_used > 0))
+      for (const std::string &text :
+           comparison.warnings(output.reference_curve))
+        console.warn(text, text);
     summary["warnings"] = console.warnings;
     // of several ranks the largest; a rank that failed may be alone here
     double peak_memory = peak_memory_MB();
     if (converged)
       Ranks::take_largest(&peak_memory, 1);
-    summary["peak_memory_MB"] = peak_memory;
+    summary["peak_memory_MB"]  = peak_memory;
+    summary["reference_files"] = files_of_reference;
     for (const auto &[name, text] : provenance())
       summary["provenance"][name] = text;
     write_json(directory.file("summary.json"), summary);

@@ -175,6 +175,31 @@ namespace Debond
 
 
 
+  void
+  CurveComparison::put_into(nlohmann::ordered_json &summary) const
+  {
+    summary.update(members());
+    if (rows_used == 0)
+      summary["remarks"].push_back(remark_begins + ("null, " + why_none));
+    for (const std::string &remark : remarks)
+      summary["remarks"].push_back(remark_begins + remark);
+  }
+
+
+
+  std::vector<std::string>
+  CurveComparison::warnings(const std::string &file) const
+  {
+    std::vector<std::string> texts;
+    if (rows_used == 0)
+      texts.push_back(file + " could not be compared with: " + why_none);
+    for (const std::string &remark : remarks)
+      texts.push_back(file + ": " + remark);
+    return texts;
+  }
+
+
+
   std::string
   CurveComparison::text() const
   {

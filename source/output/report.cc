@@ -1,4 +1,5 @@
 #include <debond/input/csv_table.h>
+#include <debond/output/reference_comparison.h>
 #include <debond/output/report.h>
 #include <debond/output/report_page.h>
 #include <debond/output/result_files.h>
@@ -67,6 +68,16 @@ namespace Debond
                "</b>";
       }
     };
+
+
+
+    /** The summary speaks of another content of the reference files. */
+    bool
+    has_changed_references(const Results &results)
+    {
+      return results.summary.contains("reference_files") &&
+             has_other_references(results.scene.output, results.summary);
+    }
 
 
 
@@ -186,7 +197,8 @@ namespace Debond
            << "\npng = " << quoted(results.directory + "/torque.png") << "\n";
       ReferenceCurve reference;
       const bool     turns = axes.x == Axes().x;
-      if (turns && fs::exists(results.scene.output.reference_curve))
+      if (turns && fs::exists(results.scene.output.reference_curve) &&
+          !has_changed_references(results))
         reference =
           read_reference_curve(results.scene.output.reference_curve,
                                results.scene.output.reference_columns);
@@ -359,6 +371,12 @@ namespace Debond
     warnings_of(const Results &results)
     {
       std::vector<std::string> list;
+      if (has_changed_references(results))
+        list.push_back("The content of " +
+                       escaped(results.scene.output.reference_curve) +
+                       " or of the reference profiles is not that which the "
+                       "differences on this page belong to: run the scene "
+                       "again.");
       for (const char *const name : {"warnings", "remarks"})
         if (const auto found = results.summary.find(name);
             found != results.summary.end())

@@ -1,6 +1,7 @@
 #include <debond/input/allowed_values.h>
 #include <debond/input/csv_table.h>
 #include <debond/input/scene_file.h>
+#include <debond/output/reference_comparison.h>
 #include <debond/output/report.h>
 #include <debond/output/report_page.h>
 #include <debond/output/result_files.h>
@@ -351,8 +352,11 @@ namespace Debond
       const bool             is_ensemble = fs::exists(ensemble);
       const OutputParameters output =
         Scene::from_file(a_variant + "/parameters.prm").output;
+      const auto     summary = read_json(a_variant + "/summary.json");
       ReferenceCurve reference;
-      if (fs::exists(output.reference_curve))
+      if (fs::exists(output.reference_curve) &&
+          !(summary.contains("reference_files") &&
+            has_other_references(output, summary)))
         reference = read_reference_curve(output.reference_curve,
                                          output.reference_columns);
       const Scratch scratch;

@@ -430,25 +430,6 @@ namespace Debond
 
 
 
-    /** Eqs. (19) and (50). */
-    void
-    measure_errors(const Rows           &rows,
-                   const ReferenceCurve &reference,
-                   Measures             &measures)
-    {
-      if (reference.empty())
-        return;
-      const CurveComparison comparison(angles_and_torques(rows), reference);
-      measures.update(comparison.members());
-      if (comparison.rows_used == 0)
-        measures["remarks"].push_back("e_mp, e_rel: null, " +
-                                      comparison.why_none);
-      for (const std::string &remark : comparison.remarks)
-        measures["remarks"].push_back("e_mp, e_rel: " + remark);
-    }
-
-
-
     /** Pressure at the end of the last phase before the angle first changes. */
     double
     pressure_before_rotation(const Rows                &rows,
@@ -576,7 +557,9 @@ namespace Debond
             measures["theta_debonding_deg"] = breaks->angle_deg;
           }
         measure_energies(rows, rotation, settings, T_max, measures);
-        measure_errors(rows, settings.reference, measures);
+        if (!settings.reference.empty()) // Eqs. (19) and (50)
+          CurveComparison(angles_and_torques(rows), settings.reference)
+            .put_into(measures);
       }
     else
       measures["remarks"].push_back(

@@ -1,37 +1,19 @@
 #include <debond/bulk/modulus_field.h>
 #include <debond/input/entry_table.h>
+#include <debond/input/input_file.h>
 #include <debond/input/scene_file.h>
 #include <debond/scene/scene.h>
 #include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
-#include <debond/support/written_files.h>
 
 #include <boost/algorithm/string/replace.hpp>
-#include <boost/crc.hpp>
 
 #include <algorithm>
 #include <filesystem>
 #include <ostream>
-#include <sstream>
 
 namespace Debond
 {
-  std::string
-  identity_of(const std::string &filename)
-  {
-    if (filename.empty())
-      return "";
-    const std::string  content = read_whole_file(filename).value_or("");
-    boost::crc_32_type crc;
-    crc.process_bytes(content.data(), content.size());
-    Classic<std::ostringstream> text;
-    text << "# " << filename << ": " << content.size() << " bytes, CRC-32 "
-         << std::hex << crc.checksum() << "\n";
-    return text.str();
-  }
-
-
-
   namespace
   {
     /** All files whose content makes the results. */
@@ -54,9 +36,12 @@ namespace Debond
     std::string
     identities(const Scene &scene)
     {
-      std::string text;
-      for (const std::string &file : files_of(scene))
-        text += identity_of(file);
+      std::string text = scene.interface.bonding.identity +
+                         identity_of(scene.interface.friction->file());
+      for (const ChuckComponentParameters &component : scene.chuck.component)
+        text += identity_of(component.file);
+      if (scene.bone.modulus && scene.bone.modulus->voxels())
+        text += scene.bone.modulus->voxels()->identity;
       return text;
     }
   } // namespace
@@ -104,8 +89,9 @@ namespace Debond
   void
   Scene::take_values()
   {
-    interface.friction = create_friction_law(interface.friction_choice);
-    bone.rim           = {{0.5 * implant.width(0), 0.5 * implant.width(1)}};
+    interface.bonding.identity = identity_of(interface.bonding.file);
+    interface.friction         = create_friction_law(interface.friction_choice);
+    bone.rim = {{0.5 * implant.width(0), 0.5 * implant.width(1)}};
     bone.read_modulus(implant.characteristic_radius());
   }
 

@@ -56,13 +56,21 @@ namespace Debond
 
 
 
+  std::string
+  program_and_version()
+  {
+    return "debond " DEBOND_VERSION;
+  }
+
+
+
   std::vector<std::pair<std::string, std::string>>
   provenance()
   {
     char host[256] = "";
     gethostname(host, sizeof(host) - 1);
     std::vector<std::pair<std::string, std::string>> all{
-      {"program", "debond " DEBOND_VERSION},
+      {"program", program_and_version()},
       {"commit", DEBOND_COMMIT},
       {"deal.II", DEAL_II_PACKAGE_VERSION},
       {"date", date_now()},

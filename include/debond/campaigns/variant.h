@@ -49,7 +49,11 @@ namespace Debond
     nlohmann::ordered_json summary  = nlohmann::ordered_json::object();
     bool                   compared = false; ///< with the reference variant
     bool                   done     = false;
-    std::string            failure; ///< why it failed, if it did
+    /** Which program has computed it, if that was another one. */
+    std::string other_program;
+    /** Its distances are from references with another content. */
+    bool                                has_other_references = false;
+    std::string                         failure; ///< why it failed, if it did
     std::vector<nlohmann::ordered_json> repetitions; ///< summaries of its runs
 
     /** Reads what its directory holds. */

@@ -17,11 +17,28 @@ namespace Debond
                    const FileRefusal &refuse,
                    unsigned int       largest_MB);
 
+  /** A line `# NAME: N bytes, CRC-64 X`, a comment of a scene, that tells one
+   *  content of a file from another: whatever is made of a file belongs to its
+   *  content, not to its name or its time. Empty without a name; a file that
+   *  cannot be read counts as empty. */
+  std::string
+  identity_of(const std::string &filename);
+
   /** A text with lines that end in '\n' only, whatever system it is from, and
    *  without the mark that some editors begin a file with. Refuses what is no
    *  text: shown in a message it would be unreadable, and the cause is nearly
    *  always a wrong file name. */
   std::string
   plain_text(const std::string &bytes, const FileRefusal &refuse);
+
+  /** The same in UTF-8 with the plain one of marks that look alike: blanks of
+   *  any width, minus signs, dots of a product. Tables come from spreadsheets
+   *  and word processors, which choose them by themselves. */
+  std::string
+  plain_table(const std::string &bytes, const FileRefusal &refuse);
+
+  /** The same of a text that is UTF-8, as a scene's entry about a table. */
+  std::string
+  with_plain_marks(std::string text);
 } // namespace Debond
 #endif

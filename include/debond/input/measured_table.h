@@ -1,21 +1,13 @@
 #ifndef debond_input_measured_table_h
 #define debond_input_measured_table_h
 
+#include <debond/input/measured_units.h>
+
 #include <string>
 #include <vector>
 
 namespace Debond
 {
-  /** What a column of a measured table holds, and what it is read in. */
-  enum class Quantity
-  {
-    angle,  ///< [deg]
-    moment, ///< [N mm]
-    force,  ///< [N]
-    length, ///< [mm]
-    time    ///< [s]; a column called "time" needs no unit
-  };
-
   /** A column that is asked for. */
   struct MeasuredColumn
   {
@@ -27,11 +19,13 @@ namespace Debond
    * Reads columns of a table as instruments, spreadsheets and this program
    * write them, in the units of Quantity, with a row for each of the file.
    *
-   * Items are separated by semicolons, tabs, commas or blanks, numbers have a
-   * point or, where commas do not separate, a comma. Numbers begin with the
-   * first line that has nothing else. The one or two lines above, if they have
-   * as many items, name the columns and their units; what stands before them is
-   * not read, nor are lines that begin with `#`.
+   * Items are separated by semicolons, tabs, commas or blanks, in the way that
+   * makes most lines rows of numbers; these have a point or a comma, where
+   * commas separate in quotes. The first such line begins the table. The one or
+   * two lines above, if they have as many items and no numbers, or else a
+   * comment right above, name the columns and their units; what stands before
+   * them is not read, nor are comments: lines that begin with `#`, `%` or `//`.
+   * What may be read in two ways is refused.
    *
    * @p choice names the columns in the order of @p columns, each by its name in
    * the file or its number from 1, with a unit in brackets where the file has

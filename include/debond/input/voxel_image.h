@@ -21,6 +21,7 @@ namespace Debond
     /** In words, from which corner on and along which axes the file has them.
      */
     std::string order;
+    std::string identity; ///< of the files, see identity_of()
     /** What the file says, or does not say, and is not heeded, as sentences. */
     std::vector<std::string> remarks;
 
@@ -47,7 +48,8 @@ namespace Debond
    * Oblique axes are refused, and so is what a header says in two ways that
    * differ.
    *
-   * An image that is in use is not read again unless the file has changed.
+   * An image that is in use is not read again unless the content of the file,
+   * or of the data that it refers to, is another.
    * Throws EntryError for the @p entry of the scene that gave the file.
    */
   std::shared_ptr<const VoxelImage>

@@ -38,9 +38,11 @@ namespace Debond
     double             correlation_length = 0;   ///< random [mm]
     std::string        expression         = "1"; ///< phi_0(x, y, r, angle)
     std::string        file;                     ///< image or CSV
-    unsigned int       white_level = 0;          ///< image; 0: that of the file
-    double             threshold   = -1; ///< image; -1: grey levels as they are
-    BondingResolution  resolution  = BondingResolution::element;
+    /** Of the file when the scene was read, see identity_of(); empty: any. */
+    std::string       identity;
+    unsigned int      white_level = 0;  ///< image; 0: that of the file
+    double            threshold   = -1; ///< image; -1: grey levels as they are
+    BondingResolution resolution  = BondingResolution::element;
 
 
     /** Refuses entries that contradict each other or the implant. Throws

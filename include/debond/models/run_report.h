@@ -8,7 +8,9 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <functional>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace Debond
@@ -51,12 +53,13 @@ namespace Debond
     std::optional<GrowingFile> torque_curve; ///< from begin() on
 
   private:
-    const Scene           &scene;
-    const ResultDirectory &directory;
-    const ReferenceCurve   reference;
-    ProfileOutput          profiles;
-    InterfaceMaps          maps;
-    InterfaceMaps::Points  points_of_last_row;
+    const Scene                             &scene;
+    const ResultDirectory                   &directory;
+    const std::map<std::string, std::string> files_of_reference;
+    const ReferenceCurve                     reference;
+    ProfileOutput                            profiles;
+    InterfaceMaps                            maps;
+    InterfaceMaps::Points                    points_of_last_row;
   };
 } // namespace Debond
 #endif

@@ -64,6 +64,17 @@ namespace Debond
     nlohmann::ordered_json
     members() const;
 
+    static constexpr const char *remark_begins = "e_mp, e_rel: ";
+
+    /** Puts all numbers into a summary, and into its `remarks` what is to be
+     *  said of them. */
+    void
+    put_into(nlohmann::ordered_json &summary) const;
+
+    /** What a user is to be warned of, about the measured curve in @p file. */
+    std::vector<std::string>
+    warnings(const std::string &file) const;
+
     /** "2.3 % in the mean, 6 % at most, at 0.9 deg", or why not. */
     std::string
     text() const;

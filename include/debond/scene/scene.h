@@ -100,10 +100,11 @@ namespace Debond
     std::vector<double> profile_angles; ///< [deg]
     bool                friction_law_curve = false; ///< write friction_law.csv
     unsigned int        checkpoint_every = 0; ///< rows; 0: if interrupted only
-    double              checkpoint_minutes = 5.; ///< 0: no such checkpoints
-    bool                quiet            = false; ///< warnings only
-    bool                report           = true;  ///< write report.html
-    /** T_max, T_inf [N mm], theta_lin, theta_max [deg] to mark in the report. */
+    double              checkpoint_minutes = 5.;    ///< 0: no such checkpoints
+    bool                quiet              = false; ///< warnings only
+    bool                report             = true;  ///< write report.html
+    /** T_max, T_inf [N mm], theta_lin, theta_max [deg] to mark in the report.
+     */
     std::vector<double> published;
     /** Use a directory that holds results of another scene, or the checkpoint
      * of an interrupted run. No entry of the scene: the option --force of the
@@ -211,11 +212,6 @@ namespace Debond
     std::vector<Warning>
     warnings() const;
   };
-
-  /** A comment that tells one content of a file from another: results belong to
-   *  the content, not to the name. Empty without a name. */
-  std::string
-  identity_of(const std::string &filename);
 
   /** Writes all entries with documentation, what they allow and their values:
    *  those of @p scene, or the defaults without one. */

@@ -11,6 +11,10 @@ namespace Debond
   void
   note_command(int argc, const char *const *argv);
 
+  /** "debond 1.0.0" */
+  std::string
+  program_and_version();
+
   /** Where results come from, as pairs of a name and a text: program (with its
    *  version), commit, deal.II, date (that of the call, ISO 8601), host,
    *  command. What is not known is left out. */

@@ -1,0 +1,38 @@
+#ifndef debond_output_reference_comparison_h
+#define debond_output_reference_comparison_h
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <map>
+#include <string>
+
+namespace Debond
+{
+  struct OutputParameters;
+
+  /** The content of the reference curve and profiles of a scene, see
+   *  identity_of(): the member `reference_files` of a summary, whose distances
+   *  belong to it. */
+  std::map<std::string, std::string>
+  reference_files(const OutputParameters &output);
+
+  /** Whether the distances of a summary are from references whose content was
+   *  another one. */
+  bool
+  has_other_references(const OutputParameters       &output,
+                       const nlohmann::ordered_json &summary);
+
+  /** Computes the distances of results from the references anew, and writes
+   *  them into their summary.json, which is @p summary. */
+  void
+  compare_anew(const OutputParameters &output,
+               const std::string      &directory,
+               nlohmann::ordered_json &summary);
+
+  /** The same for finished results in a directory, if they have other
+   *  references; returns whether they had. */
+  bool
+  compare_anew_if_changed(const OutputParameters &output,
+                          const std::string      &directory);
+} // namespace Debond
+#endif

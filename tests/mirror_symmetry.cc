@@ -1,9 +1,12 @@
 // A linear body is condensed in four classes of motions, by what two mirrors
 // make of them. What comes of it is that of the whole stiffness, condensed
 // here as a dense matrix: even and odd numbers of cells, trilinear and spline,
-// and contact on a part of the face that is not symmetric itself.
+// and contact on a part of the face that is not symmetric itself. Bodies whose
+// mesh is not its own mirror image, whatever the shape, give that of the whole
+// stiffness, too.
 
 #include <debond/bulk/bulk_solvers.h>
+#include <debond/bulk/dof_classes.h>
 
 #include <Eigen/LU>
 
@@ -18,11 +21,10 @@
 using namespace Debond;
 
 void
-check(const std::string &name, BodyParameters parameters, const Side side)
+check(const std::string &name, const BodyMesh &mesh)
 {
-  parameters.material = Material::linear;
-  const BodyMesh mesh(parameters, side);
-  const auto     bulk =
+  const BodyParameters &parameters = mesh.parameters();
+  const auto            bulk =
     make_condensed_bulk(mesh,
                         NeoHookean::from_young(parameters.young_modulus,
                                                parameters.poisson_ratio));
@@ -86,6 +88,68 @@ check(const std::string &name, BodyParameters parameters, const Side side)
 
 
 
+void
+check(const std::string &name, BodyParameters parameters, const Side side)
+{
+  parameters.material = Material::linear;
+  check(name, BodyMesh(parameters, side));
+}
+
+
+
+/** A block on faces that are no mirror images by what a shape may do wrong:
+ *  it lies beside the middle, its cells are graded to one side, or a control
+ *  point or a weight is another one. */
+void
+check_unsymmetric(const ElementKind element, const std::string &name)
+{
+  BodyParameters block;
+  block.material        = Material::linear;
+  block.element         = element;
+  block.size            = {{5., 4., 2.}};
+  block.cells           = {{5, 4, 2}};
+  block.lateral_grading = 1.2; // splines are no lattice
+  const KnotVector knots_1 =
+                     KnotVector::from_breakpoints(2,
+                                                  block.lateral_fractions(0)),
+                   knots_2 =
+                     KnotVector::from_breakpoints(2,
+                                                  block.lateral_fractions(1));
+  const NurbsSurface face = NurbsSurface::rectangle(5., 4., knots_1, knots_2);
+  const auto         changed = [&](const unsigned int     A,
+                           const Eigen::Vector3d &motion,
+                           const double           weight) {
+    ControlNet          points  = face.control_points();
+    std::vector<double> weights = face.weights();
+    points.col(A) += motion;
+    weights[A] = weight;
+    return NurbsSurface(knots_1, knots_2, points, weights);
+  };
+  const auto show = [&](const std::string &what, const NurbsSurface &surface) {
+    for (const Side side : both_sides)
+      {
+        const BodyMesh mesh(block, side, surface);
+        report(what + name + " is its mirror image", is_mirror_image(mesh));
+        check(what + " as " + name_of(side) + name, mesh);
+      }
+  };
+  ControlNet shifted = face.control_points();
+  shifted.row(1).array() += 0.5;
+  show("Shifted face", NurbsSurface(knots_1, knots_2, shifted, face.weights()));
+  show("Graded to one side",
+       NurbsSurface::rectangle(
+         5.,
+         4.,
+         KnotVector::from_breakpoints(2, {0., 0.1, 0.25, 0.45, 0.7, 1.}),
+         knots_2));
+  // the control point i = 2 of 7, j = 1 of 6
+  show("One control point", changed(2 + 7 * 1, {0.1, 0.05, 0.}, 1.));
+  show("One weight", changed(2 + 7 * 1, Eigen::Vector3d::Zero(), 0.8));
+  show("Nothing changed", face);
+}
+
+
+
 int
 main()
 {
@@ -110,5 +174,6 @@ main()
       coin.cap_radius = 6.;
       coin.cells      = {{4, 4, 2}};
       check("Cap" + name, coin, Side::implant);
+      check_unsymmetric(element, name);
     }
 }

@@ -95,6 +95,34 @@ main()
         "Load steps/Times=0, 1, 2",
         "Load steps/Steps=1, 400"});
 
+  // A coin is lowered beside the bone, and moved in; from above, too. A block
+  // that hangs over the edge is moved in as well.
+  const std::vector<std::string> beside = {"Bone/Material=rigid",
+                                           "Implant/Material=rigid",
+                                           turn + "0",
+                                           "Load steps/Times=0, 1",
+                                           "Load steps/Steps=20"};
+  const auto move_in = [&](const std::string &x, const std::string &z) {
+    std::vector<std::string> all = beside;
+    all.push_back("Chuck/Translation x/Value=" + x);
+    all.push_back(push + z);
+    return all;
+  };
+  show("from the side", move_in("12 - 8 * t", "-0.05"));
+  show("in one step", [&] {
+    auto all = move_in("12 - 8 * t", "-0.005");
+    all.push_back("Load steps/Steps=1");
+    return all;
+  }());
+  show("from the side, the bone as slave", [&] {
+    auto all = move_in("12 - 8 * t", "-0.05");
+    all.push_back("Interface/Slave=bone");
+    return all;
+  }());
+  show("from above", move_in("12 - 8 * t", "if(t < 0.9, 0.05, 0.55 - t)"));
+  show("hangs over and slides in",
+       move_in("if(t < 0.5, 6, 8 - 4 * t)", "-0.05 * min(2 * t, 1)"));
+
   // Friction falls by a third in few steps, and no spring could make a jump.
   show("fretting in large steps",
        {"Chuck/Translation x/Value=0.06 * sin(2 * pi * max(t - 1, 0))",

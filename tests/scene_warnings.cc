@@ -63,6 +63,17 @@ main()
         "Bone/Element=spline",
         "Interface/Quadrature points=7"});
 
+  // the rim over the bone's cells, rows of points over its edge
+  const std::string shear = "Chuck/Translation x/Value=",
+                    stiff = "Interface/Penalty stiffness=1e5";
+  show({shear + "2 * max(t - 1, 0)"});
+  show({shear + "2 * max(t - 1, 0)", stiff});
+  show({shear + "0.1 * max(t - 1, 0)", stiff});
+  show({shear + "2 * max(t - 1, 0)", stiff, "Bone/Cells=30, 30, 2"});
+  show({shear + "5 * max(t - 1, 0)"});
+  show({shear + "3 * max(t - 1, 0)"});
+  show({shear + "5 * max(t - 1, 0)", "Implant/Cells=8, 2"});
+
   show({twist + "5 * (t - 1)"});
   show({twist + "5 * (t - 1)", "Load steps/Times=1, 2, 3"});
   show({twist + "2 + 10 * max(t - 1, 0)"});

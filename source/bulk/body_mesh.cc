@@ -53,13 +53,21 @@ namespace Debond
 
 
   BodyMesh::BodyMesh(const BodyParameters &parameters, const Side side)
+    : BodyMesh(parameters, side, make_contact_surface(parameters))
+  {}
+
+
+
+  BodyMesh::BodyMesh(const BodyParameters &parameters,
+                     const Side            side,
+                     const NurbsSurface   &face)
     : body_parameters(parameters)
     , body_side(side)
     , columns(columns_of_rank(
         parameters.cells,
         parameters.bulk_solver == BulkSolver::multigrid ? Ranks::own() : 0,
         parameters.bulk_solver == BulkSolver::multigrid ? Ranks::number() : 1))
-    , contact_surface(make_contact_surface(parameters))
+    , contact_surface(face)
     , layer_knots(make_layers(parameters))
   {
     make_grid();

@@ -37,8 +37,8 @@ namespace Debond
       // body's frame, and nothing has to be moved to the right-hand side as
       // AffineConstraints would.
       //
-      // A body with small strains is its own mirror image, if its modulus is,
-      // and K falls into blocks.
+      // Where mesh and modulus of a body with small strains are their own
+      // mirror images, K falls into blocks.
       CondensedBulk(const BodyMesh &mesh, const NeoHookean &material)
         : CondensingBulk(mesh, material)
         , is_symmetric(!mesh.parameters().has_large_strains() &&

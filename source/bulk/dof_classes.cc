@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-// Mirror symmetry of a body: all that this program makes have it, blocks, coins
-// and caps, as long as strains are small. The stiffness then falls into four
-// parts of a quarter of the size, whose dense parts take a quarter of the
-// memory together, and whose factorisations a tenth of the time.
+// Mirror symmetry of a body: blocks, coins and caps have it, as long as strains
+// are small. The stiffness then falls into four parts of a quarter of the size,
+// whose dense parts take a quarter of the memory together, and whose
+// factorisations a tenth of the time. Whether a mesh has it is asked, never
+// taken for granted.
 namespace Debond
 {
   Eigen::VectorXd
@@ -91,6 +92,85 @@ namespace Debond
       return result;
     }
   } // namespace
+
+
+
+  namespace
+  {
+    /** More than rounding of positions, moduli and weights, relative to their
+     *  size, and less than what changes a result. */
+    constexpr double rounding = 1e-10;
+
+
+
+    /** Whether the functions of the face are mirror images of each other, the
+     *  parameter of the mirrored direction @p d running backwards. */
+    bool
+    has_mirrored_functions(const NurbsSurface &face, const unsigned int d)
+    {
+      const std::vector<double> &knots   = face.knots(d).breakpoints();
+      const std::vector<double> &weights = face.weights();
+      for (unsigned int k = 0; k < knots.size(); ++k)
+        if (std::abs(knots[k] + knots[knots.size() - 1 - k] - 1.) > rounding)
+          return false;
+      const unsigned int n_1 = face.knots(0).n_basis_functions(),
+                         n_2 = face.knots(1).n_basis_functions();
+      for (unsigned int j = 0; j < n_2; ++j)
+        for (unsigned int i = 0; i < n_1; ++i)
+          {
+            const double own   = weights[i + n_1 * j],
+                         image = weights[d == 0 ? n_1 - 1 - i + n_1 * j :
+                                                  i + n_1 * (n_2 - 1 - j)];
+            if (std::abs(own - image) > rounding * own)
+              return false;
+          }
+      return true;
+    }
+  } // namespace
+
+
+
+  bool
+  is_mirror_image(const BodyMesh &mesh)
+  {
+    const auto &cells  = mesh.parameters().cells;
+    const auto  number = [&](const unsigned int                 node,
+                            const std::array<unsigned int, 3> &index) {
+      std::size_t result = node < mesh.n_inner_nodes() ? 0 : 1;
+      for (unsigned int d = 0; d < 3; ++d)
+        result = result * (cells[d] + 2) + index[d];
+      return result;
+    };
+    std::vector<unsigned int> node_at(2UL * (cells[0] + 2) * (cells[1] + 2) *
+                                      (cells[2] + 2));
+    Eigen::Vector3d           extent = Eigen::Vector3d::Zero();
+    for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
+      {
+        node_at[number(node, mesh.place_of(node).index)] = node;
+        extent = extent.cwiseMax(mesh.reference_position(node).cwiseAbs());
+      }
+    const auto is_image = [&](const unsigned int node, const unsigned int d) {
+      BodyMesh::Place place    = mesh.place_of(node);
+      place.index[d]           = place.last[d] - place.index[d];
+      const unsigned int image = node_at[number(node, place.index)];
+      Eigen::Vector3d    X     = mesh.reference_position(image);
+      X[d]                     = -X[d];
+      for (unsigned int c = 0; c < 3; ++c)
+        if (mesh.is_fixed(node, c) != mesh.is_fixed(image, c))
+          return false;
+      return (X - mesh.reference_position(node)).norm() <=
+             rounding * extent.norm();
+    };
+    for (const unsigned int d : {0, 1})
+      {
+        if (!has_mirrored_functions(mesh.surface(), d))
+          return false;
+        for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
+          if (!is_image(node, d))
+            return false;
+      }
+    return true;
+  }
 
 
 

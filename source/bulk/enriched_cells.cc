@@ -1,3 +1,4 @@
+#include <debond/bulk/dof_classes.h>
 #include <debond/bulk/enriched_cells.h>
 #include <debond/bulk/modulus_field.h>
 #include <debond/support/runtime.h>
@@ -98,6 +99,8 @@ namespace Debond
   bool
   EnrichedCells::are_mirror_images() const
   {
+    if (!is_mirror_image(mesh))
+      return false;
     const auto               &n = mesh.parameters().cells;
     std::vector<unsigned int> cell_at(n[0] * n[1] * n[2]);
     const auto                place = [&](const BodyMesh::Cell &cell,

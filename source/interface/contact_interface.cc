@@ -4,6 +4,8 @@
 #include <debond/interface/rigid_motion.h>
 #include <debond/support/number_text.h>
 
+#include <boost/math/quadrature/gauss.hpp>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -537,7 +539,7 @@ namespace Debond
             point.clearance -= moved;
             continue;
           }
-        works.add(point, *law.friction, mode_now, Q);
+        works.add(point, law, mode_now, Q);
         // g_s^n and xi_hat^n of the next step, and what its trapezoids begin
         // with: tangential traction and pressure [MPa], stored energy [N/mm].
         const ContactPointResult &trial = point.trial;
@@ -697,11 +699,43 @@ namespace Debond
             summary.softening_slope    = slope;
           }
       }
+    find_side(summary);
     // means over the area that faced the implant at the start
     summary.phi_mean /= area;
     for (double *part : share)
       *part /= area;
     return summary;
+  }
+
+
+
+  // A body that comes from beside the other one, below its face, would run into
+  // its side, which is no contact face. What has come to it from above, and
+  // hangs over its edge, may well be pressed deeper while it slides in; other
+  // points have faced the master then.
+  void
+  ContactInterface::find_side(InterfaceSummary &summary) const
+  {
+    if (summary.n_closed == 0 ||
+        std::any_of(points.begin(), points.end(), [](const SlavePoint &point) {
+          return point.accepted.has_partner;
+        }))
+      return;
+    const MasterSurface before{&mesh[master_side()]->surface(),
+                               &accepted_positions[master_side()],
+                               mesh[master_side()]->outward_sign()};
+    for (const SlavePoint &point : points)
+      {
+        const double depth = -point.trial.normal_gap;
+        if (point.trial.state.status == PointStatus::open ||
+            -project(before,
+                     interpolate(point.basis, accepted_positions[slave]),
+                     &point.trial.state.xi)
+                .height < 0.5 * depth)
+          continue;
+        ++summary.n_from_side;
+        summary.side_depth = std::max(summary.side_depth, depth);
+      }
   }
 
 
@@ -726,30 +760,80 @@ namespace Debond
 
 
 
+  namespace
+  {
+    // The pressure of a point that is lifted falls evenly to zero, and with it
+    // the length that friction can hold its tangential gap at, from @p limit.
+    // The point sticks, and its gap follows the motion, until the two are
+    // equal; from there on it slides, and the gap turns towards the motion.
+    // What is dissipated until it opens, over eps_t [mm^2]: doc/theory.md,
+    // Energies.
+    double
+    friction_until_open(const Eigen::Vector3d &gap,
+                        const Eigen::Vector3d &motion,
+                        const double           limit)
+    {
+      // |gap + s motion| = (1 - s) limit
+      const double a       = motion.squaredNorm() - limit * limit,
+                   b       = gap.dot(motion) + limit * limit,
+                   c       = std::min(0., gap.squaredNorm() - limit * limit),
+                   root    = std::sqrt(std::max(0., b * b - a * c)),
+                   slides  = b > 0. ? -c / (b + root) :
+                             a > 0. ? (root - b) / a :
+                                      1.,
+                   length  = (1. - slides) * limit;
+      const double product = length * motion.norm();
+      if (length <= 0.)
+        return 0.;
+      const double cosine =
+        product > 0. ?
+          std::clamp((gap + slides * motion).dot(motion) / product, -1., 1.) :
+          1.;
+      const double ratio = motion.norm() / limit;
+      // of the angle between gap and motion, over the square of the pressure
+      const double mean_cosine =
+        boost::math::quadrature::gauss<double, 15>::integrate(
+          [&](const double square) {
+            const double behind = (1. - cosine) * std::pow(square, ratio);
+            return (1. + cosine - behind) / (1. + cosine + behind);
+          },
+          0.,
+          1.);
+      return 0.5 * length * length * (1. + ratio * mean_cosine);
+    }
+  } // namespace
+
+
+
   // While a point slides it dissipates t_t . dy, taken as a trapezoid between
   // the accepted and the trial traction, of which the accepted one was kept in
   // the frame of the master. With the trapezoid of the chuck's work that makes
-  // the balance of energies an identity, but for turns. Beside that stands the
-  // work that the law itself allows for this slip, with the exact integral of
-  // mu over the distance: a step in which the state jumps cannot dissipate
-  // more.
+  // the balance of energies an identity, but for turns and for points that open
+  // or close. Beside that stands the work that the law itself allows for this
+  // slip, with the exact integral of mu over the distance: a step in which the
+  // state jumps cannot dissipate more.
   void
   InterfaceWork::add(const SlavePoint       &point,
-                     const FrictionLaw      &law,
+                     const ContactPointLaw  &law,
                      const ContactPointMode &mode,
                      const Eigen::Matrix3d  &frame)
   {
-    const ContactPointResult &trial = point.trial;
-    const Eigen::Vector3d     slip  = point.JxW * trial.slip_increment;
+    const ContactPointResult &trial        = point.trial;
+    const Eigen::Vector3d     old_traction = frame * point.accepted_traction;
+    if (trial.state.status == PointStatus::open)
+      {
+        if (point.accepted.status != PointStatus::open)
+          add_opening(point, law, mode, old_traction);
+        return;
+      }
+    const Eigen::Vector3d slip = point.JxW * trial.slip_increment;
     // Both are in space. xi_hat follows the slave point, and t_t, of the sign
     // of the gap x - y(xi_hat), points from it to the point: the product is
     // positive where sliding costs energy [N mm]. With the tractions at the end
     // alone it is negative only where points slide along their traction, which
     // no law of friction does.
     step_dissipation += trial.tangential_traction.dot(slip);
-    dissipation +=
-      0.5 *
-      (frame * point.accepted_traction + trial.tangential_traction).dot(slip);
+    dissipation += 0.5 * (old_traction + trial.tangential_traction).dot(slip);
     // The viscous traction is anything between its two ends. It stands in both
     // balances, of which the second takes the law for the rest.
     const double viscous_part =
@@ -757,43 +841,83 @@ namespace Debond
               .dot(slip);
     for (double *work : {&viscous, &friction, &friction_bound})
       *work += viscous_part;
-
-    // A point that opens lets go of its springs, and may have slid before it
-    // did: up to all of its stored energy may have gone into friction, which
-    // cannot be told from the two ends of the step.
-    const bool          opens = trial.state.status == PointStatus::open;
-    const FrictionState start =
-      friction_state(point.accepted, point.phi_0, mode.duration);
-    if (opens)
-      {
-        // One that goes over the edge is rubbed on the way there, at a pressure
-        // that is known at the beginning only.
-        const double rubbed =
-          mode.frictionless ?
-            0. :
-            point.JxW * point.accepted.pressure *
-              law.friction_strength(start, trial.path_to_edge);
-        friction += rubbed;
-        friction_bound += point.JxW * point.accepted_energy + 0.5 * rubbed;
-      }
-    if (opens || mode.frictionless)
+    if (mode.frictionless)
       return;
     // The law is integrated over the distance that the point slides, from its
     // accepted state, with the pressure between its two ends. Pressures times
     // mm are works per area. Of the friction the bond has its part, int (mu -
     // mu_b) dg_s: D_adh, which tells what the adhesion costs without reading it
     // off the torque curve as Eq. (20) does.
+    const FrictionState start =
+      friction_state(point.accepted, point.phi_0, mode.duration);
     const double distance = trial.state.slip - point.accepted.slip;
     const double p        = point.accepted.pressure,
                  mean     = 0.5 * (p + trial.state.pressure);
     const double per_pressure =
-      point.JxW * law.friction_strength(start, distance);
-    adhesive += point.JxW * mean * law.adhesive_strength(start, distance);
+      point.JxW * law.friction->friction_strength(start, distance);
+    adhesive +=
+      point.JxW * mean * law.friction->adhesive_strength(start, distance);
     friction += mean * per_pressure;
     // What the mean pressure can be wrong by, and a speed that changes within
     // the step. The bound keeps a fast but stable fall from being reported as a
     // jump.
-    friction_bound += 0.5 * std::abs(p - trial.state.pressure) * per_pressure +
-                      mean * point.JxW * law.strength_bound(start, distance);
+    friction_bound +=
+      0.5 * std::abs(p - trial.state.pressure) * per_pressure +
+      mean * point.JxW * law.friction->strength_bound(start, distance);
+  }
+
+
+
+  // A point that opens loses all that its tangential spring has stored, and
+  // what friction takes of its motion before. Its normal spring gives back to
+  // the chuck what it has stored, unless the point leaves over the edge while
+  // it is still pressed: then that is lost, too. g_s stays.
+  void
+  InterfaceWork::add_opening(const SlavePoint       &point,
+                             const ContactPointLaw  &law,
+                             const ContactPointMode &mode,
+                             const Eigen::Vector3d  &old_traction)
+  {
+    const ContactPointResult &trial = point.trial;
+    const double        p = point.accepted.pressure, g_n = trial.normal_gap;
+    const FrictionState start =
+      friction_state(point.accepted, point.phi_0, mode.duration);
+    const Eigen::Vector3d gap       = old_traction / law.tangential_penalty;
+    const bool            over_edge = g_n < -mode.touch_tolerance;
+    double                lost = 0., of_springs = 0.; // per area [N/mm]
+    if (over_edge)
+      {
+        // rubbed on the way there, at a pressure that is known at the beginning
+        // only
+        if (!mode.frictionless)
+          lost = p * law.friction->friction_strength(start, trial.path_to_edge);
+        friction_bound += 0.5 * point.JxW * lost;
+        lost += 0.5 * old_traction.dot(gap);
+        of_springs = -0.5 * p * g_n;
+      }
+    else if (!mode.frictionless && p > 0.)
+      {
+        // it is closed until the motion has used up the penetration
+        const double          penetration = p / law.normal->initial_stiffness();
+        const Eigen::Vector3d motion      = (trial.slip_increment - gap) *
+                                       penetration /
+                                       (penetration + std::max(0., g_n));
+        const double distance = (gap + motion).norm(); // it slides no further
+        const double mu =
+          distance > 0. ?
+            law.friction->friction_strength(start, distance) / distance :
+            law.friction->coefficient(start, 0.).mu;
+        const double limit =
+          std::max(gap.norm(), mu * p / law.tangential_penalty);
+        lost = law.tangential_penalty * friction_until_open(gap, motion, limit);
+      }
+    // as the trapezoid of the chuck's work has it, with a traction that falls
+    // evenly to zero over the whole step
+    const double as_trapezoid = 0.5 * old_traction.dot(trial.slip_increment);
+    const double bound        = point.JxW * std::abs(lost - as_trapezoid);
+    dissipation += point.JxW * (lost + of_springs);
+    friction += point.JxW * (lost + of_springs);
+    dissipation_bound += bound;
+    friction_bound += bound;
   }
 } // namespace Debond

@@ -81,8 +81,11 @@ namespace Debond
     const Vector3d gap = x - geometry.y;
     const Vector3d n   = MasterNormal(geometry, master.outward_sign).n;
     if (regular)
-      result.clearance =
-        n.dot(gap) >= 0. ? gap.norm() : (gap - n.dot(gap) * n).norm();
+      {
+        result.height = n.dot(gap);
+        result.clearance =
+          n.dot(gap) >= 0. ? gap.norm() : (gap - n.dot(gap) * n).norm();
+      }
     return result;
   }
 
@@ -289,7 +292,8 @@ namespace Debond
         // iteration is given up and the step made smaller.
         const bool failed = outcome == SlipOutcome::not_found;
         open(failed ? 0. : g_n);
-        result.failed = failed;
+        result.failed         = failed;
+        result.slip_increment = tangential_gap; // where it lets go
         if (outcome == SlipOutcome::left_patch)
           result.path_to_edge = problem.at_end().distance;
       }

@@ -306,7 +306,10 @@ namespace Debond
     // Extrapolated over it Newton's method would start far away, and a motion
     // that turns back would not be seen.
     if (step_control.is_between_phases())
-      step_control.begin_phase(state());
+      {
+        step_control.begin_phase(state());
+        state_checks.begin_phase();
+      }
     unsigned int iterations = 0;
     while (true)
       {

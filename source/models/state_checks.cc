@@ -126,6 +126,16 @@ namespace Debond
                     << summary.max_penetration << " mm, more than " << too_deep
                     << " mm, a tenth of the thinner one or a whole surface "
                        "element: lengths are mm, is the push-in right?");
+      if (summary.n_from_side > 0)
+        note("side",
+             Text() << summary.n_from_side << " points of the "
+                    << name_of(interface.slave_side())
+                    << " come under the face of the other body over its edge, "
+                    << summary.side_depth
+                    << " mm deep at once: the implant runs into the side of "
+                       "the bone, which is no contact face, and is pressed on "
+                       "its top instead. Raise the implant before it comes, or "
+                       "enlarge Bone / Size");
       if (interface.n_enclosed() > 0.1 * summary.n_closed)
         note("enclosed",
              Text() << interface.n_enclosed()
@@ -156,14 +166,14 @@ namespace Debond
         note("dissipation falls",
              "sliding gives energy back: points slide along their traction "
              "instead of against it");
-      if (std::abs(energy_balance.defect()) >
-          energy_balance.defect_bound() + 1e-9)
-        note(
-          "energy balance",
-          Text() << "of the chuck's work, " << energy_balance.defect()
-                 << " of its largest value is neither stored nor dissipated; "
-                    "the size of the steps accounts for "
-                 << energy_balance.defect_bound());
+      if (std::abs(energy_balance.missing_share()) >
+          energy_balance.missing_share_bound())
+        note("energy balance",
+             Text() << "of the chuck's work in this phase, "
+                    << energy_balance.missing_share()
+                    << " of the largest work so far is neither stored nor "
+                       "dissipated; the size of the steps accounts for "
+                    << energy_balance.missing_share_bound());
     }
   } // namespace
 
@@ -271,7 +281,8 @@ namespace Debond
     energy_balance.add({system.chuck_forces(),
                         system.chuck.position(),
                         system.bulk_energy() + summary.energy,
-                        system.interface.work().dissipation});
+                        system.interface.work().dissipation,
+                        system.interface.work().dissipation_bound});
     // the explicit law does not dissipate what InterfaceWork::friction says
     if (!parameters.interface.explicit_friction)
       check_for_jump(

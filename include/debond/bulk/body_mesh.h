@@ -65,6 +65,11 @@ namespace Debond
      *  face on top; the implant is held at its top, contact face at the bottom.
      *  Both contact faces lie in z = 0; that of a cap touches it. */
     BodyMesh(const BodyParameters &parameters, Side side);
+    /** The same on this contact face instead of that of the shape. It has as
+     *  many elements as the body has cells across. */
+    BodyMesh(const BodyParameters &parameters,
+             Side                  side,
+             const NurbsSurface   &face);
 
     const BodyParameters &
     parameters() const

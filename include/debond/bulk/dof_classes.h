@@ -28,6 +28,12 @@ namespace Debond
     unfold(const Eigen::VectorXd &y, Eigen::VectorXd &v) const;
   };
 
+  /** Whether a mesh is its own mirror image in the planes x = 0 and y = 0, but
+   *  for rounding: knots, weights, places and supports of nodes. The classes
+   *  and images below are for such meshes. Cells follow the knots. */
+  bool
+  is_mirror_image(const BodyMesh &mesh);
+
   /** All degrees of freedom that nothing holds or ties, each a motion of its
    *  own. */
   DofClass

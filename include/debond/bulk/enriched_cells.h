@@ -77,8 +77,8 @@ namespace Debond
       return Eigen::Map<const Eigen::Array<double, n_q, 1>>(
         &factors[n_q * cell]);
     }
-    /** Whether these are mirror images of each other in the planes x = 0 and y
-     *  = 0. */
+    /** Whether mesh and moduli are their own mirror images in the planes x = 0
+     *  and y = 0. */
     bool
     are_mirror_images() const;
 

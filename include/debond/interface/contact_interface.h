@@ -33,6 +33,11 @@ namespace Debond
     unsigned int bonded_opened =
       0; ///< points with phi > 0 that opened in this step
     unsigned int n_closed = 0;
+    /** Where nothing faced the master before: points that came over its edge
+     *  from below its surface and are closed now, and how deep they are at most
+     *  [mm]. */
+    unsigned int n_from_side = 0;
+    double       side_depth  = 0;
   };
 
   /** Area mean of the sliding distance g_s over the contact face [mm], and its
@@ -49,8 +54,12 @@ namespace Debond
   /** The works of the interface up to the accepted state [N mm]. */
   struct InterfaceWork
   {
-    /** Dissipated work, a trapezoid in the traction. */
+    /** Dissipated work, a trapezoid in the traction; with what is lost where
+     *  points open. */
     double dissipation = 0;
+    /** By how much trapezoids would have taken that to be another amount; a
+     *  bound of the sum over all steps. */
+    double dissipation_bound = 0;
     /** Slip of the last step times the tractions at its end. A trapezoid may be
      *  negative where the slip reverses; this is so only where points slide
      *  along their traction. */
@@ -66,16 +75,15 @@ namespace Debond
      *  no more than that. */
     double friction = 0;
     /** How far the work of friction and the stored energy may be wrong because
-     *  the pressure or the speed changes while a point slides, and because
-     *  points that open slide before they do; a bound of the sum over all
-     *  steps. */
+     *  the pressure or the speed changes while a point slides, and where points
+     *  open; a bound of the sum over all steps. */
     double friction_bound = 0;
 
     /** Adds the work of @p point from its accepted state to its trial state;
      *  @p mode: of the step; @p frame: Q of the master. */
     void
     add(const SlavePoint       &point,
-        const FrictionLaw      &law,
+        const ContactPointLaw  &law,
         const ContactPointMode &mode,
         const Eigen::Matrix3d  &frame);
 
@@ -84,9 +92,16 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &dissipation &adhesive &viscous &friction &friction_bound;
-      archive                                           &step_dissipation;
+      archive &dissipation &dissipation_bound &adhesive &viscous &friction
+        &friction_bound &step_dissipation;
     }
+
+  private:
+    void
+    add_opening(const SlavePoint       &point,
+                const ContactPointLaw  &law,
+                const ContactPointMode &mode,
+                const Eigen::Vector3d  &old_traction);
   };
 
 
@@ -298,6 +313,8 @@ namespace Debond
     }
     MasterSurface
     master(const InterfaceConfiguration &configuration) const;
+    void
+    find_side(InterfaceSummary &summary) const;
     void
     assign_bonding();
     BondingPattern

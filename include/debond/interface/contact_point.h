@@ -19,6 +19,9 @@ namespace Debond
     /** How far the surfaces can move before a point that does not face the
      *  master can be in contact [mm]. */
     double clearance = 0;
+    /** How high the point lies over the plane that touches the surface there
+     *  [mm]. */
+    double height = 0;
   };
   Projection
   project(const MasterSurface   &master,

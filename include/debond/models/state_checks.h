@@ -30,6 +30,13 @@ namespace Debond
     void
     add_motion(unsigned int step, const Chuck &chuck, double from, double to);
 
+    /** A phase of the load begins with the last state. */
+    void
+    begin_phase()
+    {
+      energy_balance.begin_phase();
+    }
+
     /** Notes a state that has just been accepted in a planned step. @p summary
      *  and @p reaction_defect are those of the state before commit(). A check
      *  that it does not pass is a warning, and counts in the next row. */

@@ -14,7 +14,7 @@ namespace Debond
     Chuck::Vector6 position   = Chuck::Vector6::Zero();
     double         stored     = 0; ///< [N mm]
     double         dissipated = 0; ///< [N mm]
-    double         bound = 0; ///< sum of the errors of the two above [N mm]
+    double bound = 0; ///< of errors of the two above, sum so far [N mm]
 
     /** See serialization.h. */
     template <class Archive>
@@ -31,7 +31,9 @@ namespace Debond
    * The energy balance W = E_bulk + E_interface + D, counted from the first
    * row. W is the work of the chuck, a trapezoid of the generalised forces over
    * the motion of the six components; the trapezoid's own error is bounded by
-   * half the sum of |dF| |dq|.
+   * half the sum of |dF| |dq|. The bound of one phase of the load, a push-in in
+   * one step say, is no excuse for a fault in another one: each is judged by
+   * what is gathered in it.
    */
   class EnergyBalance
   {
@@ -40,6 +42,9 @@ namespace Debond
      *  that of bodies and interface. */
     void
     add(const EnergyState &state);
+    /** What follows the last state is judged by itself. */
+    void
+    begin_phase();
 
     bool
     has_state() const
@@ -67,7 +72,20 @@ namespace Debond
     {
       return max_W > 0. ? bound / max_W : 0.;
     }
-    /** Dissipated more than was put in, beyond the bound? */
+    /** Work that is neither stored nor dissipated in this phase, and the bound
+     *  of the part of it that the size of the steps accounts for, over max |W|.
+     */
+    double
+    missing_share() const
+    {
+      return max_W > 0. ? missing() / max_W : 0.;
+    }
+    double
+    missing_share_bound() const
+    {
+      return max_W > 0. ? missing_bound() / max_W : 0.;
+    }
+    /** Dissipated more in this phase than was put in, beyond the bound? */
     bool
     dissipates_too_much() const;
     /** Whether sliding gave energy back: @p step_dissipation is
@@ -84,12 +102,23 @@ namespace Debond
     serialize(Archive &archive, const unsigned int)
     {
       archive &started &first &last &W &max_W &bound;
+      archive &phase.stored &phase.dissipated &phase.work &phase.bound;
     }
 
   private:
+    double
+    missing() const;
+    double
+    missing_bound() const;
+
     bool        started = false;
     EnergyState first, last;
     double      W = 0, max_W = 0, bound = 0;
+    /** Where the phase began [N mm]. */
+    struct
+    {
+      double stored = 0, dissipated = 0, work = 0, bound = 0;
+    } phase;
   };
 
 

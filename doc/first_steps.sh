@@ -152,7 +152,7 @@ files output/my_implant/{report.html,curve.csv}
 say "5. Compare with a measured curve"
 head -n 7 prm/tutorial/measured.csv # as the torque meter writes it; this one is made up
 debond --compare output/my_implant prm/tutorial/measured.csv | tee compare.log
-has compare.log "column 2 'Angle deg', column 3 'Torque N m'; 501 rows"
+has compare.log "column 2 'Angle [deg]', column 3 'Torque [N m]'; 501 rows"
 has compare.log "output/my_implant: 8." # % in the mean: the guesses are not that good yet
 
 say "6. Fit the interface to it"

@@ -50,7 +50,8 @@ bodies() {
 make_pictures() {
   case $1 in
     calibration)
-      "$DEBOND" prm/calibrate/data_set_1.prm --force && gnuplot -e "dir='output/calibrate/data_set_1'" doc/plot_calibration.gp
+      "$DEBOND" prm/calibrate/data_set_1.prm --force
+      gnuplot -e "dir='output/calibrate/data_set_1'; source='Eq. (18)'" doc/plot_calibration.gp
       cp output/calibrate/data_set_1/fit.png doc/images/calibration_data_set_1.png
       ;;
     geometry) gnuplot doc/geometry.gp && gnuplot doc/towing.gp && publish output/geometry output/towing ;;

@@ -4,6 +4,7 @@
 #   gnuplot -e "dir='output/calibrate/data_set_1'" doc/plot_calibration.gp
 #
 # One of several experiments: files='fit-2.csv'. Another curve than the torque: curve='chuck_Fz_N', label='Axial force [N]'.
+# A curve that was not measured: source='Eq. (18)'.
 
 if (!exists("dir")) {
   print "usage: gnuplot -e \"dir='output/calibrate/data_set_1'\" doc/plot_calibration.gp"
@@ -13,6 +14,7 @@ if (!exists("curve")) { curve = "torque_Nmm" }
 if (!exists("label")) { label = "Torque {/:Italic T} [N mm]" }
 if (!exists("files")) { files = system("cd '" . dir . "' && grep -l '" . curve . "_measured' fit*.csv") }
 data(i) = dir . "/" . word(files, i)
+if (!exists("source")) { source = "measured" }
 measured = curve . "_measured"
 fitted = curve . "_fitted"
 array points_of = ["#c03028", "#2e8b3d", "#8a5fbf", "#b07a00"]
@@ -52,7 +54,7 @@ plot for [i = 1:words(files)] data(i) using over:(column(curve . "_lower_95")):(
        with filledcurves linecolor rgb "#9ecae1" title i == 1 ? "95 % band of the fit" : "", \
      for [i = 1:words(files)] data(i) using over:(column(fitted)) with lines linecolor rgb lines_of[colour(i)] title "fit" . name(i), \
      for [i = 1:words(files)] data(i) using over:(column(measured)) \
-       with points pointtype 6 pointsize 0.7 linecolor rgb points_of[colour(i)] title "measured" . name(i)
+       with points pointtype 6 pointsize 0.7 linecolor rgb points_of[colour(i)] title source . name(i)
 
 unset title
 set yrange [*:*]
@@ -62,7 +64,7 @@ set tmargin 0.5
 set bmargin 3.5
 set format x "%g"
 set xlabel over eq "angle_deg" ? "Rotation angle {/:Italic θ} [°]" : over
-set ylabel "measured - fit"
+set ylabel source . " - fit"
 set ytics font ",12"
 set xzeroaxis linetype 1 linecolor rgb "#08519c"
 plot for [i = 1:words(files)] data(i) using over:(column(measured) - column(fitted)) \

@@ -6,6 +6,7 @@
 #include <debond/campaigns/calibration.h>
 #include <debond/input/parameter_loop.h>
 #include <debond/models/closed_form_solution.h>
+#include <debond/output/report_page.h>
 #include <debond/support/input_error.h>
 
 #include <nlohmann/json.hpp>
@@ -94,6 +95,10 @@ calibration_of(const std::string &file, const std::string &entries)
 
 
 
+/** The warnings of all calibrations that were shown on the console are those
+ *  of calibration.json and of the page. */
+bool one_list = true;
+
 /** What a calibration prints but for seconds and counts, and its results. */
 nlohmann::ordered_json
 calibrate(const std::string &name, const std::string &text, const bool show)
@@ -112,15 +117,31 @@ calibrate(const std::string &name, const std::string &text, const bool show)
     {
       std::cout << name << ": " << error.what() << '\n';
     }
-  std::istringstream lines(out.str());
-  std::string        line;
-  // words, and no numbers that are rounding
-  while (show && std::getline(lines, line))
-    if (line.rfind("warning: the curves", 0) == 0 ||
-        line.rfind("Experiment", 0) == 0)
-      std::cout << "  " << line.substr(0, line.find_first_of("(+")) << '\n';
+  std::istringstream       lines(out.str());
+  std::string              line;
+  std::vector<std::string> warnings;
+  const std::string        warning = "warning: ";
+  while (std::getline(lines, line))
+    {
+      if (line.rfind(warning, 0) == 0)
+        warnings.push_back(line.substr(warning.size()));
+      // words, and no numbers that are rounding
+      if (show && (line.rfind("warning: the curves", 0) == 0 ||
+                   line.rfind("Experiment", 0) == 0))
+        std::cout << "  " << line.substr(0, line.find_first_of("(+")) << '\n';
+    }
   std::ifstream file(directory + "/calibration.json");
-  return file ? nlohmann::ordered_json::parse(file) : nlohmann::ordered_json();
+  if (!file)
+    return {};
+  auto               json = nlohmann::ordered_json::parse(file);
+  std::ifstream      page(directory + "/report.html");
+  std::ostringstream html;
+  html << page.rdbuf();
+  one_list = one_list && json["warnings"] == warnings;
+  for (const std::string &said : warnings)
+    one_list = one_list && html.str().find("<li>" + ReportPage::escaped(said) +
+                                           "</li>") != std::string::npos;
+  return json;
 }
 
 
@@ -401,7 +422,8 @@ check_warnings()
     "  set Tangential penalty stiffness = 700\n");
   report("a bound that was hit is told",
          bound["unknowns"]["mu_ub"]["at_bound"] == true &&
-           bound["unknowns"]["a_s"]["at_bound"] == false);
+           bound["unknowns"]["a_s"]["at_bound"] == false &&
+           says(bound, "mu_ub ends at one of its bounds"));
 }
 
 
@@ -548,4 +570,5 @@ main()
   check_profiles();
   check_coverage();
   check_what_cannot_be_told();
+  report("console, calibration.json and page have the same warnings", one_list);
 }

@@ -846,7 +846,6 @@ check_open(const std::vector<Master> &masters, const Setting &basic)
                        result.normal_gap > 0.;
             all_zero = all_zero && result.traction.isZero(0.) &&
                        result.tangential_traction.isZero(0.) &&
-                       result.slip_increment.isZero(0.) &&
                        result.viscous_traction.isZero(0.) &&
                        result.state.pressure == 0. && result.softening == 0. &&
                        result.dt.isZero(0.) && result.dxi.isZero(0.);

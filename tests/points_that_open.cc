@@ -14,6 +14,18 @@
 
 #include "driven_scene.h"
 
+const char *const rigid = R"(
+subsection Bone
+  set Material = rigid
+end
+subsection Implant
+  set Material = rigid
+end
+subsection Interface
+  set Friction law = coulomb
+end
+)";
+
 const double eps = 585., d = 0.0049, mu = 0.4, radius = 2.5;
 const double area = M_PI * radius * radius, limit = mu * d; // [mm]
 
@@ -30,11 +42,8 @@ lifted(const std::array<double, 2> &before,
   };
   return run_scene(
     "points_that_open",
-    "",
-    {"Bone/Material=rigid",
-     "Implant/Material=rigid",
-     "Implant/Cells=6, 2",
-     "Interface/Friction law=coulomb",
+    rigid,
+    {"Implant/Cells=6, 2",
      "Interface/Friction coefficient broken=" + std::to_string(mu),
      "Interface/Penalty stiffness=" + std::to_string(eps),
      "Chuck/Translation z/Value=-0.0049 * min(t, 1) + 0.0098 * max(t - 2, 0)",
@@ -122,21 +131,18 @@ check_edge(const double coefficient)
   std::cout << "pushed over the edge, mu = " << coefficient << std::endl;
   const auto rows =
     run_scene("points_over_edge",
-              "",
-              {"Bone/Material=rigid",
-               "Bone/Size=6, 6, 3",
-               "Implant/Material=rigid",
+              rigid,
+              {"Bone/Size=6, 6, 3",
                "Implant/Shape=block",
                "Implant/Size=4, 4, 2",
                "Implant/Cells=20, 4, 2",
-               "Interface/Friction law=coulomb",
                "Interface/Friction coefficient broken=" +
                  std::to_string(coefficient),
                "Interface/Penalty stiffness=" + std::to_string(eps),
                "Chuck/Translation z/Value=-0.0049 * min(t, 1)",
                "Chuck/Translation x/Value=3 * max(t - 1, 0)",
-               "Load steps/Times=0, 1, 2",
-               "Load steps/Steps=1, 37"});
+               "Load steps/Times=0, 1, 1.001, 2",
+               "Load steps/Steps=1, 10, 37"});
   const double stored  = 0.5 * eps * d * d,
                springs = stored * (1. + coefficient * coefficient) * 8.,
                rubbed  = coefficient * eps * d * (16. * 1. + 12. * 2.);

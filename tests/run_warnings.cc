@@ -119,7 +119,7 @@ main()
     all.push_back("Interface/Slave=bone");
     return all;
   }());
-  show("from above", move_in("12 - 8 * t", "if(t < 0.9, 0.05, 0.55 - t)"));
+  show("from above", move_in("12 - 8 * t", "if(t < 0.9, 0.05, 0.95 - t)"));
   show("hangs over and slides in",
        move_in("if(t < 0.5, 6, 8 - 4 * t)", "-0.05 * min(2 * t, 1)"));
 

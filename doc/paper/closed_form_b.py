@@ -3,7 +3,7 @@ measured curves, prm/paper/data/closed_form_b_data_set_[12].csv, and prints the 
 
     python3 doc/paper/closed_form_b.py [--print-only]
 
-theta_max = 1.33 degrees of data set 2 is not printed but inferred: doc/reproduction.md, section Contradictions.
+theta_slide = theta_fric = 1.33 degrees of data set 2 is not printed but inferred: doc/reproduction.md, section Contradictions.
 """
 
 import math
@@ -13,7 +13,7 @@ import sys
 R, MU_B = 2.5, 0.40  # [mm], -
 ANGLES = [0.02, 0.05] + [round(0.1 * i, 1) for i in range(101)]
 
-# p [MPa] from T(10 degrees); theta_lin, theta_max, and where sliding distances begin in Eq. (49) [degrees]; a_s [mm]
+# p [MPa] from T(10 degrees); a_s [mm]; theta_lin, theta_fric (end) and theta_slide (slide) [degrees]
 SET_1 = dict(p=2.8113, mu_ub=0.58, a_s=0.022, b_s=0.74, lin=0.13, end=1.13, slide=1.13)
 SET_2 = dict(p=3.3804, mu_ub=0.55, a_s=0.026, b_s=1.86, lin=0.11, end=1.33, slide=1.33)
 BONDING = 0.73, 0.72  # observed on the implants
@@ -56,7 +56,7 @@ def write(number, c, remark):
     with open(name, "w") as file:
         file.write("# NOT a measurement: the closed form of Immel et al. (2020), Eqs. (17), (18), (49), data set %d, made by\n"
                    "# doc/paper/closed_form_b.py with p = %.4f MPa (T(10 deg) = %.2f N mm), mu_b = %g, mu_ub = %g,\n"
-                   "# a_s = %g um, b_s = %g, theta_lin = %g deg, theta_max = %g deg, R = %g mm. %s\n"
+                   "# a_s = %g um, b_s = %g, theta_lin = %g deg, theta_slide = %g deg, R = %g mm. %s\n"
                    "# A stand-in for the measured curve, which is not published as numbers.\n"
                    % (number, c["p"], torque(10, c), MU_B, c["mu_ub"], 1e3 * c["a_s"], c["b_s"], c["lin"], c["end"], R, remark))
         file.write("angle_deg,torque_Nmm\n")
@@ -67,14 +67,14 @@ def write(number, c, remark):
 def main():
     if "--print-only" not in sys.argv:
         write(1, SET_1, "All entries are printed, but\n# their W_adh is 1.30 N mm; Table 5 has 1.4.")
-        write(2, SET_2, "theta_max is inferred from\n# Table 5, which it meets; Table 2 prints 2.02 deg.")
+        write(2, SET_2, "theta_slide is inferred from\n# Table 5, which it meets; Table 2 prints theta_max = 2.02 deg.")
     print("                                      T_max  T(10)  E_deb E_fric W_adh w_adh w*_adh")
-    for name, c, bonding in (("1, theta_max = 1.13 as printed", SET_1, BONDING[0]),
-                             ("1, the same, slip (49) from 1.5", dict(SET_1, slide=1.5), BONDING[0]),
-                             ("2, theta_max = 2.02 as printed", dict(SET_2, p=3.3772, end=2.02, slide=2.02), BONDING[1]),
-                             ("2, theta_max = 1.29", dict(SET_2, end=1.29, slide=1.29), BONDING[1]),
-                             ("2, theta_max = 1.33, inferred", SET_2, BONDING[1]),
-                             ("2, theta_max = 1.42", dict(SET_2, end=1.42, slide=1.42), BONDING[1])):
+    for name, c, bonding in (("1, both 1.13 degrees, as printed", SET_1, BONDING[0]),
+                             ("1, the same, theta_slide = 1.5", dict(SET_1, slide=1.5), BONDING[0]),
+                             ("2, both 2.02, as printed", dict(SET_2, p=3.3772, end=2.02, slide=2.02), BONDING[1]),
+                             ("2, both 1.29", dict(SET_2, end=1.29, slide=1.29), BONDING[1]),
+                             ("2, both 1.33, inferred", SET_2, BONDING[1]),
+                             ("2, both 1.42", dict(SET_2, end=1.42, slide=1.42), BONDING[1])):
         print("%-36s %6.2f %6.2f %6.3f %6.3f %5.3f %5.1f %5.1f" % ((name,) + tuple(energies(c, bonding))))
 
 

@@ -3,8 +3,9 @@
 
   python3 prm/tutorial/make_measured.py build/release/debond
 
-The implant of implant.prm has other values of the interface (`true`). The torque meter shows the angle of the machine, which
-is 0.06 degrees when the implant begins to turn, and 0.0005 N m without a load. Noise is normal, 0.25 N mm of the torque.
+A run of debond itself: the implant of implant.prm with other values of the interface (`true`), so that the model is right. The
+torque meter shows the angle of the machine, which is 0.06 degrees when the implant begins to turn, and 0.0005 N m without a
+load. Noise is normal, 0.25 N mm of the torque, and independent from row to row.
 """
 import csv
 import math
@@ -45,7 +46,7 @@ def main():
     draw = random_numbers(2020)
     comma = lambda value, digits: f"{value:.{digits}f}".replace(".", ",")
     with open("prm/tutorial/measured.csv", "w") as file:
-        print("# Made up, not measured: prm/tutorial/make_measured.py", "Sample;A7", "Speed [deg/s];0,02", "",
+        print("# Made up, not measured: a run of debond with implant.prm and white noise, prm/tutorial/make_measured.py", "Sample;A7", "Speed [deg/s];0,02", "",
               "Time;Angle;Torque;Axial force", "s;deg;N m;N", sep="\n", file=file)
         i = 0
         for second in range(seconds + 1):

@@ -1,4 +1,6 @@
 #include <debond/campaigns/calibration.h>
+#include <debond/input/input_file.h>
+#include <debond/output/curve_comparison.h>
 #include <debond/output/report.h>
 #include <debond/output/result_files.h>
 #include <debond/support/interruption.h>
@@ -555,6 +557,10 @@ namespace Debond
           0.5 * misfit.residuals(result.at_best.values).squaredNorm();
       result.statistics =
         std::make_unique<FitStatistics>(misfit, best, result.at_best);
+      if (!result.optima.front().converged)
+        result.statistics->warnings.push_back(
+          "the search has not converged: it ended after 100 steps with closed "
+          "forms, 30 with runs, or where no step helped");
       judge_candidates(result, misfit, model);
       if (profiles)
         find_profiles(result, search, model);
@@ -637,6 +643,31 @@ namespace Debond
         }
       return text;
     }
+
+
+
+    /** Torques over the angle that help the rotation that is prescribed. */
+    bool
+    turns_against_its_load(const Experiment &experiment)
+    {
+      constexpr auto twist = ChuckComponent::rotation_z;
+      const auto    &over  = experiment.measured.over;
+      for (std::size_t c = 0; c < experiment.columns.size(); ++c)
+        if (experiment.over.is(CurveColumn::position, twist) &&
+            experiment.columns[c].is(CurveColumn::reaction, twist))
+          {
+            ReferenceCurve curve;
+            for (Eigen::Index i = 0; i < over.size(); ++i)
+              curve.emplace_back(over[i], experiment.measured.values(i, c));
+            const auto remarks =
+              comparison_before_run(experiment.scene, curve).remarks;
+            if (std::count(remarks.begin(),
+                           remarks.end(),
+                           CurveComparison::opposite_sign) > 0)
+              return true;
+          }
+      return false;
+    }
   } // namespace
 
 
@@ -670,6 +701,9 @@ namespace Debond
                     "searched with the closed form first" :
                     "no closed form: " + experiment->why_no_closed_form)
               << '\n';
+        if (turns_against_its_load(*experiment))
+          out << "warning: " << measured.file << ": "
+              << CurveComparison::opposite_sign << '\n';
       }
   }
 } // namespace Debond

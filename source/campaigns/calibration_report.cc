@@ -350,16 +350,6 @@ namespace Debond
               << to_text(calibration.optima[1].unknowns[j], 5);
         out << '\n';
       }
-    for (const FlatDirection &direction : statistics.flat)
-      out << "warning: " << text_of(direction, misfit.unknowns) << '\n';
-    for (std::size_t j = 0; j < list.size(); ++j)
-      if (statistics.unknowns[j].at_bound)
-        out << "warning: " << list[j].name
-            << " ends at one of its bounds: the best value may lie beyond\n";
-    if (!calibration.optima.front().converged)
-      out
-        << "warning: the search has not converged: it ended after 100 steps with "
-           "closed forms, 30 with runs, or where no step helped\n";
     for (const std::string &warning : statistics.warnings)
       out << "warning: " << warning << '\n';
     if (calibration.failures.n > 0)

@@ -200,6 +200,11 @@ namespace Debond
             (list[j].logarithmic ? 1. : size_of(list[j], best[j]));
           columns.push_back(j);
         }
+    for (const Unknown &unknown : list)
+      if (!is_free[&unknown - list.data()])
+        warnings.push_back(
+          unknown.name +
+          " ends at one of its bounds: the best value may lie beyond");
     if (columns.empty())
       return;
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinV);
@@ -222,6 +227,7 @@ namespace Debond
                                .maxCoeff() /
                              size;
           flat.push_back(direction);
+          warnings.push_back(text_of(direction, misfit.unknowns));
         }
   }
 

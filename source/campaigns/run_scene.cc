@@ -2,6 +2,7 @@
 #include <debond/campaigns/run_scene.h>
 #include <debond/models/closed_form_solution.h>
 #include <debond/models/debonding_problem.h>
+#include <debond/output/curve_comparison.h>
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
 #include <debond/support/ranks.h>
@@ -22,6 +23,9 @@ namespace Debond
         *plan << "warning: " << warning.text << '\n';
     try
       {
+        if (plan != nullptr)
+          for (const std::string &doubt : doubts_of_reference(scene))
+            *plan << "warning: " << doubt << '\n';
         if (scene.model == ModelKind::finite_elements)
           {
             DebondingProblem problem(scene, std::move(bodies));

@@ -6,6 +6,7 @@
 #include <debond/input/csv_table.h>
 #include <debond/input/parameter_loop.h>
 #include <debond/models/memory_estimate.h>
+#include <debond/output/curve_comparison.h>
 #include <debond/output/reference_comparison.h>
 #include <debond/output/report.h>
 #include <debond/output/result_files.h>
@@ -31,6 +32,7 @@
 #include <filesystem>
 #include <iostream>
 #include <ostream>
+#include <set>
 #include <sstream>
 
 namespace Debond
@@ -175,6 +177,7 @@ namespace Debond
       check(std::ostream &out)
       {
         out << variants.size() << " variants\n";
+        std::set<std::string> said;
         for (Variant &variant : variants)
           {
             variant.look_up();
@@ -185,6 +188,9 @@ namespace Debond
                     variant.done ? " (done already)" :
                                    "")
                 << '\n';
+            for (const std::string &doubt : doubts_of_reference(variant.scene))
+              if (said.insert(doubt).second)
+                out << "warning: " << doubt << '\n';
             Classic<std::ostringstream> none; // only refuses what it cannot do
             if (variant.scene.model != ModelKind::finite_elements)
               run_scene(variant.scene, nullptr, &none);

@@ -78,8 +78,9 @@ namespace Debond
   std::string
   identity_of(const std::string &filename)
   {
-    if (filename.empty())
-      return "";
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(filename, ignored))
+      return ""; // or without an end
     // CRC-64/XZ
     boost::crc_optimal<64,
                        0x42F0E1EBA9EA3693ULL,
@@ -87,10 +88,10 @@ namespace Debond
                        ~std::uint64_t(0),
                        true,
                        true>
-                      crc;
-    std::ifstream     file(filename, std::ios::binary);
-    std::vector<char> part(1 << 20);
-    std::uint64_t     size = 0;
+                           crc;
+    Classic<std::ifstream> file(filename, std::ios::binary);
+    std::vector<char>      part(1 << 20);
+    std::uint64_t          size = 0;
     while (file)
       {
         file.read(part.data(), part.size());

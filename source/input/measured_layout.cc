@@ -3,11 +3,12 @@
 #include <debond/input/measured_layout.h>
 #include <debond/input/measured_units.h>
 #include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
 
 #include <boost/algorithm/string.hpp>
 
 #include <algorithm>
-#include <cctype>
+#include <locale>
 #include <map>
 #include <regex>
 #include <sstream>
@@ -30,7 +31,7 @@ namespace Debond
   {
     const std::size_t comma = item.find(',');
     if (comma != item.npos && comma + 1 < item.size() &&
-        std::isdigit(static_cast<unsigned char>(item[comma + 1])) &&
+        std::isdigit(item[comma + 1], std::locale::classic()) &&
         item.find_first_of(".,", comma + 1) == item.npos &&
         item.find('.') == item.npos)
       item[comma] = '.';
@@ -50,9 +51,9 @@ namespace Debond
     std::vector<Line>
     lines_of(const std::string &text)
     {
-      std::vector<Line>  lines;
-      std::istringstream stream(text);
-      std::string        line;
+      std::vector<Line>           lines;
+      Classic<std::istringstream> stream(text);
+      std::string                 line;
       for (unsigned int number = 1; std::getline(stream, line); ++number)
         {
           boost::trim_right_if(line, boost::is_any_of(" "));
@@ -133,7 +134,7 @@ namespace Debond
           const Item kind = kind_of(items[i]);
           if (kind == Item::text &&
               std::none_of(items[i].begin(), items[i].end(), [](const char c) {
-                return std::isalpha(static_cast<unsigned char>(c)) || c < 0;
+                return std::isalpha(c, std::locale::classic()) || c < 0;
               }))
             return "";
           n_numbers += kind == Item::number;

@@ -189,7 +189,8 @@ namespace Debond
         // "Force in lbf" is no moment
         const std::string rest = name.substr(at);
         const bool        begins_with_in =
-          boost::istarts_with(rest, "in ") || boost::istarts_with(rest, "in_");
+          boost::istarts_with(rest, "in ", std::locale::classic()) ||
+          boost::istarts_with(rest, "in_", std::locale::classic());
         if (at == 0 ||
             (std::string("/_ ,").find(name[at - 1]) != std::string::npos &&
              !begins_with_in))

@@ -137,8 +137,9 @@ namespace Debond
         for (const std::string &name : names)
           if (has(name))
             {
-              const std::string value = boost::to_upper_copy(text(name));
-              const bool        yes   = value == "TRUE" || value == "1";
+              const std::string value =
+                boost::to_upper_copy(text(name), std::locale::classic());
+              const bool yes = value == "TRUE" || value == "1";
               if (!yes && value != "FALSE" && value != "0")
                 refuse(line(name) + ": expected True or False");
               if (result && *result != yes)
@@ -218,7 +219,8 @@ namespace Debond
     check_orientation(const MetaHeader &header, const StoredVoxels &voxels)
     {
       const std::string given =
-        boost::to_upper_copy(header.text("AnatomicalOrientation", "?"));
+        boost::to_upper_copy(header.text("AnatomicalOrientation", "?"),
+                             std::locale::classic());
       if (given.find_first_not_of("?") == std::string::npos)
         return;
       std::string from, to;

@@ -309,7 +309,7 @@ namespace Debond
       slip_per_radius(const double theta) const
       {
         const double angle = std::abs(theta);
-        // the angle went from degrees to radians, as theta_max did
+        // the angle went from degrees to radians, as theta_slide did
         return angle < full_sliding * (1. - 1e-12) ?
                  0. :
                  angle - full_sliding + linear_limit;

@@ -1,4 +1,5 @@
 #include <debond/output/curve_comparison.h>
+#include <debond/scene/scene.h>
 #include <debond/support/number_text.h>
 
 #include <nlohmann/json.hpp>
@@ -85,6 +86,12 @@ namespace Debond
 
 
 
+  const char *const CurveComparison::opposite_sign =
+    "the torques of the reference curve have the opposite sign: a minus "
+    "before the unit turns it, as in Reference columns = 1 [deg], 2 [-N m]";
+
+
+
   CurveComparison::CurveComparison(const ReferenceCurve &computed,
                                    const ReferenceCurve &measured)
   {
@@ -137,10 +144,7 @@ namespace Debond
     ask(measured_end < 0.05 * end,
         "the reference curve ends at " + to_text(measured_end, 4) +
           " and the run at " + to_text(end, 4) + " degrees: is it in degrees?");
-    ask(
-      products < 0.,
-      "the torques of the reference curve have the opposite sign: a minus "
-      "before the unit turns it, as in Reference columns = 1 [deg], 2 [-N m]");
+    ask(products < 0., opposite_sign);
     ask(
       turns_back(measured),
       "the angles of the reference curve turn back: loading and unloading, or "
@@ -213,5 +217,51 @@ namespace Debond
     return percent(difference_mean) + " % in the mean, " +
            percent(difference_max) + " % at most, at " +
            to_text(angle_of_max_deg, 3) + " deg";
+  }
+
+
+
+  CurveComparison
+  comparison_before_run(const Scene &scene, const ReferenceCurve &measured)
+  {
+    constexpr auto twist = ChuckComponent::rotation_z;
+    const double   T_largest =
+      largest(measured, &ReferenceCurve::value_type::second);
+    const TimeFunction value_at =
+      scene.chuck.value_over_time(twist, scene.implant.characteristic_radius());
+    ReferenceCurve expected;
+    for (const double time : scene.load_steps.sample_times())
+      {
+        const double value = value_at(time);
+        expected.emplace_back(value, std::copysign(T_largest, value));
+        if (value == 0.) // also -0
+          expected.back() = {0., 0.};
+      }
+    // of a moment only the direction is known
+    const double load = largest(expected, &ReferenceCurve::value_type::first);
+    if (scene.chuck.component[twist].loaded && load > 0.)
+      for (auto &[angle, torque] : expected)
+        angle *= largest(measured, &ReferenceCurve::value_type::first) / load;
+    return CurveComparison(expected, measured);
+  }
+
+
+
+  std::vector<std::string>
+  doubts_of_reference(const Scene &scene)
+  {
+    const std::string   &file = scene.output.reference_curve;
+    const ReferenceCurve measured =
+      read_reference_curve(file, scene.output.reference_columns);
+    std::vector<std::string> doubts;
+    if (measured.empty())
+      return doubts;
+    const CurveComparison comparison = comparison_before_run(scene, measured);
+    if (comparison.rows_used == 0)
+      doubts.push_back(file +
+                       " could not be compared with: " + comparison.why_none);
+    for (const std::string &remark : comparison.remarks)
+      doubts.push_back(file + ": " + remark);
+    return doubts;
   }
 } // namespace Debond

@@ -639,10 +639,12 @@ namespace Debond
   {
     const Json json = read_json(directory + "/calibration.json");
     const int  n    = json.value("evaluations", 0); // but of closed forms
-    Fields     remarks;
+    Fields     warnings;
     for (const char *const name : {"cannot_be_told", "warnings"})
       for (const std::string text : json.at(name))
-        remarks.push_back(escaped(text));
+        if (std::find(warnings.begin(), warnings.end(), escaped(text)) ==
+            warnings.end())
+          warnings.push_back(escaped(text));
     write(directory,
           heading(json.value("title", ""), "calibration", directory),
           state(true,
@@ -651,7 +653,7 @@ namespace Debond
                   (n == 0 ? "closed form" :
                             std::to_string(n) + " evaluations")) +
             section("Fitted values", fitted_values(json.at("unknowns"))) +
-            section("Warnings", list_of(remarks, " class=\"warnings\"")) +
+            section("Warnings", list_of(warnings, " class=\"warnings\"")) +
             section("Unknowns that can stand in for each other",
                     large_correlations(json.at("correlations"))) +
             section("Rig", rig_in_words(json.value("rig", Json::array()))) +

@@ -124,7 +124,7 @@ namespace Debond
       std::vector<std::string> lines;
       for (const SceneEntry &entry : read_scene_text(text, ""))
         lines.push_back(entry.full_name() + " = '" + entry.value + "'");
-      std::istringstream comments(text);
+      Classic<std::istringstream> comments(text);
       for (std::string line; std::getline(comments, line);)
         if (line.rfind("# ", 0) == 0)
           lines.push_back("the file " + line.substr(2));

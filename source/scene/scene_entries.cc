@@ -40,7 +40,7 @@ namespace Debond
       table.add("Full sliding angle",
                 closed_form.full_sliding,
                 Allowed::number_between(1e-9, 1e6, "deg"),
-                "Angle theta_max [deg] of the model analytical from which on "
+                "Angle theta_slide [deg] of the model analytical from which on "
                 "sliding wears the bond, Eq. (49).");
       table.add(
         "Shear modulus",
@@ -275,8 +275,9 @@ namespace Debond
         "Full sliding angle",
         output.full_sliding_angle,
         Allowed::number_from(0, "deg"),
-        "Angle theta_full [deg] from which on E_fric is counted. 0: the "
-        "last angle with a torque of at least 0.999 of the largest.");
+        "Angle theta_fric [deg] from which on E_fric is counted, Eq. (20). 0: "
+        "theta_full, the last angle with a torque of at least 0.999 of the "
+        "largest.");
       table.add("Observed bonding",
                 output.observed_bonding,
                 Allowed::number_between(0, 1, ""),
@@ -319,8 +320,9 @@ namespace Debond
         "Published values",
         output.published,
         Allowed::list(Allowed::number(""), 0, 4),
-        "T_max, T_inf [N mm], theta_lin, theta_max [deg], the first of "
-        "them or all, that the report marks in the curve. Empty: none.");
+        "T_max, T_inf [N mm], theta_lin, theta_max (of the peak) [deg], the "
+        "first of them or all, that the report marks in the curve. Empty: "
+        "none.");
       table.add("Console",
                 output.quiet,
                 Allowed::choice("steps | quiet"),

@@ -48,10 +48,9 @@ namespace Debond
 
 
 
-    // With all threads that there may be: those of Python, of which others may
-    // use MPI while one is here.
+    // @p threads: what MPI calls the level of their support.
     void
-    initialise()
+    initialise(const int threads)
     {
       static std::mutex                 mutex;
       const std::lock_guard<std::mutex> guard(mutex);
@@ -62,7 +61,7 @@ namespace Debond
       if (says_yes(MPI_Initialized))
         return;
       int provided = 0;
-      MPI_Init_thread(nullptr, nullptr, MPI_THREAD_MULTIPLE, &provided);
+      MPI_Init_thread(nullptr, nullptr, threads, &provided);
       process_that_initialised = getpid();
       std::atexit(finalise);
     }
@@ -202,7 +201,7 @@ namespace Debond
     void
     start()
     {
-      initialise();
+      initialise(MPI_THREAD_SERIALIZED);
       at_work = make_team(MPI_COMM_WORLD);
     }
 
@@ -222,7 +221,8 @@ namespace Debond
     {
       if (at_work)
         return at_work->communicator;
-      initialise();
+      // others of Python's threads may use MPI at the same time
+      initialise(MPI_THREAD_MULTIPLE);
       return MPI_COMM_SELF;
     }
 

@@ -17,6 +17,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
 here = os.path.dirname(os.path.abspath(__file__))
 debond = os.path.abspath(sys.argv[1])
@@ -235,20 +236,20 @@ def check_memory():
         expect(run.stdout == one + other, name + ', an older one in its place: expected %s%s' % (one, other), run)
 
 
-def check_pattern_after_reading():
-    """A picture that changes between the reading of the scene and the run."""
-    put(os.path.join(here, 'files', 'whole.pgm'), 'picture.pgm', 0)
-    run = call('-c', in_python + '''
-import _debond
-scene = debond.Scene("scene.prm", {"Interface/Bonding/Pattern": "image", "Interface/Bonding/File": "picture.pgm"})._scene
-shutil.copy2("%s", "picture.pgm")
-try:
-    _debond.Run(scene, {})
-    print("taken for the picture of the scene")
-except debond.SceneError as error:
-    print(error)
-''' % os.path.join(here, 'files', 'half.pgm'), module, program=sys.executable)
-    expect('has changed since the scene was read' in run.stdout, 'a picture that changes', run)
+def check_change_during_study():
+    """A picture that changes while the first variant runs: the second one is not of the scenes that were read."""
+    whole, half = (os.path.join(here, 'files', name) for name in ('whole.pgm', 'half.pgm'))
+    put(whole, 'picture.pgm', 0)
+    options = with_entries('Interface/Bonding/Pattern=image', 'Interface/Bonding/File=picture.pgm', 'Load steps/Steps=1, 300',
+                           'Implant/Poisson ratio={{0.3|0.31}}', 'Output/Directory=study')
+    study = subprocess.Popen([debond, 'scene.prm', *options, '--jobs', '1'], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    while study.poll() is None and not os.path.exists('study/variant-001/torque.csv'):
+        time.sleep(0.01)
+    put(half, 'picture.pgm', 1000)
+    study.wait()
+    rows = table('study/study.csv')
+    expect(study.returncode == 2 and rows[0]['phi_0_mean'] == '1' and
+           'has changed since the scene was read' in rows[1]['reason'], 'a picture that changes during a study: %s' % rows[1])
 
 
 def check(work, *arguments):
@@ -264,11 +265,10 @@ def check(work, *arguments):
 
 if module:
     check(check_memory)
-    check(check_pattern_after_reading)
 else:
     for line in table(os.path.join(here, 'expected.csv')):
         check(check_file, *line.values())
-    for work in check_reference_curve, check_reference_profiles, check_other_program, check_ensemble:
+    for work in check_reference_curve, check_reference_profiles, check_other_program, check_ensemble, check_change_during_study:
         check(work)
 print('\n'.join(failures) or 'all results belong to their files')
 sys.exit(bool(failures))

@@ -6,7 +6,9 @@
 A line of expected.csv has the file, what --columns says of it, and either the rows that it holds, ANGLE:TORQUE in deg and
 N mm, or behind an exclamation mark words, separated by semicolons, that the one line of the refusal must have. The numbers
 are what a person reads in the file. Units are exact by definition: 1 in = 25.4 mm, 1 lbf = 4.4482216152605 N = 16 ozf,
-1 kgf = 9.80665 N, 1 gon = 0.9 deg. `lab_files.py DEBOND NAME...` tries these files only.
+1 kgf = 9.80665 N, 1 gon = 0.9 deg. A line of expected_chuck.csv has a table for Translation z of the chuck, its File
+columns, its Control, and words that --check of scene.prm, or the refusal, must have. `lab_files.py DEBOND NAME...` tries
+these files only.
 """
 import csv
 import os
@@ -28,13 +30,16 @@ def compare(name, columns, rows):
     return subprocess.run(command, cwd=os.path.join(here, 'files'), text=True, capture_output=True)
 
 
+def is_refused(run, name, words):
+    return (run.returncode == 1 and run.stderr.count('\n') == 1 and name in run.stderr and
+            all(word.strip() in run.stderr.replace(name, '') for word in words.split(';')))
+
+
 def why_wrong(name, columns, expected):
     if expected.startswith('!'):
         run = compare(name, columns, [('0', '0'), ('1', '1')])
-        words = [word.strip() for word in expected[1:].split(';')]
-        missing = [word for word in words if word not in run.stderr.replace(name, '')]
-        return '' if run.returncode == 1 and run.stderr.count('\n') == 1 and name in run.stderr and not missing else \
-            'expected a line with %s, got %d, %s' % (missing or words, run.returncode, run.stdout + run.stderr)
+        return '' if is_refused(run, name, expected[1:]) else \
+            'expected a line with%s, got %d, %s' % (expected[1:], run.returncode, run.stdout + run.stderr)
     rows = [tuple(row.split(':')) for row in expected.split()]
     run = compare(name, columns, rows)
     n_rows = re.search(r'; (\d+) rows, ', run.stdout)
@@ -43,12 +48,28 @@ def why_wrong(name, columns, expected):
     return '' if run.returncode == 0 and is_right else 'expected %s, got %s' % (expected, run.stdout + run.stderr)
 
 
-with open(os.path.join(here, 'expected.csv'), newline='') as table:
-    lines = [line for line in csv.reader(table)][1:]
+def why_wrong_chuck(name, columns, control, expected):
+    entries = ['File=' + name, 'Control=' + control] + (['File columns=' + columns] if columns else [])
+    command = [debond, '--check', os.path.join(here, 'scene.prm')]
+    for entry in entries:
+        command += ['--set', 'Chuck/Translation z/' + entry]
+    run = subprocess.run(command, cwd=os.path.join(here, 'files'), text=True, capture_output=True)
+    is_right = is_refused(run, name, expected[1:]) if expected.startswith('!') else expected in run.stdout
+    return '' if is_right else 'expected %s, got %d, %s' % (expected, run.returncode, run.stdout + run.stderr)
+
+
+def lines_of(name):
+    with open(os.path.join(here, name), newline='') as table:
+        return list(csv.reader(table))[1:]
+
+
+lines = lines_of('expected.csv') + lines_of('expected_chuck.csv')
 unlisted = set(os.listdir(os.path.join(here, 'files'))) - {line[0] for line in lines} - {'.gitattributes'}
 failures = ['no line of expected.csv: ' + name for name in sorted(unlisted)]
 for line in lines:
-    why = why_wrong(*line) if not chosen or line[0] in chosen else ''
+    if chosen and line[0] not in chosen:
+        continue
+    why = (why_wrong if len(line) == 3 else why_wrong_chuck)(*line)
     if why:
         failures.append('%s %s: %s' % (line[0], line[1], why.strip()))
 print('\n'.join(failures) or '%d tables are read, or refused, as they should be' % len(lines))

@@ -5,6 +5,7 @@
 #   locale.sh IN_LOCALE DEBOND DIRECTORY [PYTHON...]
 # PYTHON runs scripts with the module; without it that part is left out.
 set -eu
+export LC_ALL=C
 in_locale=$1 debond=$2 directory=$3
 shift 3
 here=$(cd "$(dirname "$0")" && pwd)
@@ -30,12 +31,18 @@ awk 'BEGIN {
   }
 }' > input/measured.csv
 
-# What tells of the run and not of the result: times, when, by which command, and how much memory.
+# Without what tells of the run and not of the result: when, for how long, by which command, in how much memory. Of
+# checkpoints, which hold seconds, the lines at their beginning.
 plain() {
-  find "$1" -type f ! -name '*.stamp' | LC_ALL=C sort | while read -r file; do
-    sed -i -E 's/"[a-z_]*(second|memory)[a-z_]*": [^,}]*//g; s/"(date|command|host)": "[^"]*"//g
-      s/[0-9.,e+-]+ (s|min),? //g; /seconds?,/d; /run time|<code>/d' "$file"
-  done
+  find "$1" -type f ! -name 'checkpoint-*' ! -name study.csv -exec sed -i -E '/Written by|run time|<td>date<|seconds?,/d
+    s/"[a-z_]*(second|memory)[A-Za-z_]*": [^,}]*//g; s/"(date|command|host)": "[^"]*"//g; s/, [0-9.e-]+ s$//; /^[0-9.]+ (s|min), /d' {} +
+  find "$1" -type f -name 'checkpoint-*' -exec sed -i -nE '/^(format|program|step|parameters|state) [0-9.]*$/p' {} +
+  (cd "$1/library/ensemble"
+   sed -i -E 's/<td>[0-9.e-]+<\/td><\/tr>$//' report.html # seconds of each variant
+   awk -F, -v OFS=, '{ gsub(/"[^"]*"/, "") }
+     NR == 1 { for (i = 1; i <= NF; ++i) of_run[i] = $i ~ /seconds|memory/ }
+     { for (i = 1; i <= NF; ++i) if (of_run[i]) $i = ""; print }' study.csv > plain_study.csv
+   rm study.csv)
 }
 
 for locale in C $german; do
@@ -45,7 +52,7 @@ for locale in C $german; do
    "$in_locale" $locale input/everything.prm input/ensemble.prm input/expression.prm input/pattern.prm input/fit.prm \
      input/closed.prm > ../number)
   if [ $# -gt 0 ]; then
-    (cd "$locale/python" && "$@" "$here/in_locale.py" $locale input/expression.prm > result 2> ../point)
+    (cd "$locale/python" && "$@" "$here/in_locale.py" $locale input/rigid.prm > result 2> ../point)
   fi
   (cd "$locale/program"
    export LC_ALL=$locale

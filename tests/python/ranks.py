@@ -247,7 +247,7 @@ def run(n, name, *options, n_lines=0):
         if os.path.exists(f"{name}.{rank}"):
             os.remove(f"{name}.{rank}")
     done = subprocess.run([sys.argv[1], sys.argv[2], str(n), sys.executable, *options, os.path.abspath(__file__), name],
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120)
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=400)
     if done.returncode != 0 or len(done.stdout.splitlines()) != n_lines:
         return done
     return [json.load(open(f"{name}.{rank}")) for rank in range(n) if os.path.exists(f"{name}.{rank}")]

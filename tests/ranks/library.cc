@@ -8,6 +8,8 @@
 #include <debond/support/ranks.h>
 #include <debond/support/runtime.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <memory>
 
@@ -128,7 +130,9 @@ main()
     const Ranks::Together together(MPI_COMM_WORLD);
     Simulation            differ(coin(BulkSolver::multigrid, 5. + rank));
   });
-  if (rank == n_processes - 1)
-    std::cout << refusal.substr(0, refusal.find(" over time")) << std::endl
-              << why << std::endl;
+  // those of the last one, which mpirun might print before lines of the first
+  const auto words = dealii::Utilities::MPI::all_gather(
+    MPI_COMM_WORLD, refusal.substr(0, refusal.find(" over time")) + '\n' + why);
+  if (rank == 0)
+    std::cout << words[n_processes - 1] << std::endl;
 }

@@ -45,8 +45,8 @@ namespace Debond
    * the DoFHandler numbers them), then the control points of the contact
    * surface. In the layer of cells that touches the contact surface the contact
    * face is interpolated by the NURBS surface (Corbett & Sauer 2014, 2015), so
-   * the vertices on it are no unknowns: constraints tie them to the control
-   * points, v_vertex = sum_A N_A(vertex) v_A.
+   * the vertices on it are no unknowns: they belong to no cell and follow the
+   * control points, v_vertex = sum_A N_A(vertex) v_A.
    *
    * With the contact surface `bilinear` the surface is of degree 1, has one
    * control point at each surface vertex, and everything else stays the same.

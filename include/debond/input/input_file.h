@@ -19,8 +19,8 @@ namespace Debond
 
   /** A line `# NAME: N bytes, CRC-64 X`, a comment of a scene, that tells one
    *  content of a file from another: whatever is made of a file belongs to its
-   *  content, not to its name or its time. Empty without a name; a file that
-   *  cannot be read counts as empty. */
+   *  content, not to its name or its time. Empty if there is no such file, or
+   *  none with an end. */
   std::string
   identity_of(const std::string &filename);
 

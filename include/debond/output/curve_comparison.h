@@ -11,6 +11,8 @@
 
 namespace Debond
 {
+  struct Scene;
+
   /** How the angle runs over the rows of a curve. Changes that are rounding
    *  errors of a chuck that is free to turn are no rotation. */
   struct Rotation
@@ -56,6 +58,9 @@ namespace Debond
     std::vector<std::string> remarks;
     std::string              why_none; ///< no row is used; else empty
 
+    /** The remark on torques that do not resist the rotation. */
+    static const char *const opposite_sign;
+
     CurveComparison() = default;
     CurveComparison(const ReferenceCurve &computed,
                     const ReferenceCurve &measured);
@@ -79,5 +84,15 @@ namespace Debond
     std::string
     text() const;
   };
+
+  /** What can be said of a measured curve before the scene is run: as if the
+   *  implant turned as the scene prescribes, with a torque that resists it and
+   *  is as large as the measured one. Only `remarks` and `why_none` count. */
+  CurveComparison
+  comparison_before_run(const Scene &scene, const ReferenceCurve &measured);
+
+  /** The same of `Output / Reference curve`, as warnings. */
+  std::vector<std::string>
+  doubts_of_reference(const Scene &scene);
 } // namespace Debond
 #endif

@@ -40,7 +40,7 @@ namespace Debond
     double normal_stiffness    = 0;    ///< p / d [MPa/mm], 0: from the bulk
     double torsional_stiffness = 0;    ///< lambda [MPa/mm], 0: from the bulk
     double linear_limit        = 0.13; ///< theta_lin [deg]
-    double full_sliding        = 1.13; ///< theta_max [deg]
+    double full_sliding        = 1.13; ///< theta_slide [deg]
     double shear_modulus       = 40.4; ///< G [MPa]
     double adhesion_energy     = 22.2; ///< w_adh [N/m]
   };

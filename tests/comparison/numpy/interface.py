@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import scipy.sparse as sparse
+from scipy.integrate import solve_ivp
 
 import towing
 
@@ -360,6 +361,7 @@ class Interface:
             raise ArithmeticError('a coefficient of friction is negative')
         begin, way = state.begin, (state.point - state.start.point) * state.sliding[:, None]
         viscous = np.zeros(state.shear.shape)
+        before, shear = self.pressure, self.shear @ turn.T
         if begin.friction:
             if begin.duration:
                 viscous = (self.viscosity / begin.duration * state.way)[:, None] * state.direction
@@ -367,12 +369,75 @@ class Interface:
             self.adhesive_work += (self.area * (state.pressure + self.pressure) / 2 * spent).sum()
             self.slid = self.slid + state.way
             self.theta = np.where(state.closed, self.law.theta(begin, state.way), self.theta)
-        self.dissipation += (self.area * _dot(state.shear + self.shear @ turn.T, way) / 2).sum()
+        self.dissipation += (self.area * _dot(state.shear + shear, way) / 2).sum()
         self.viscous_work += (self.area * _dot(viscous + self.viscous @ turn.T, way) / 2).sum()
         self.xi, self.beyond = state.xi, state.beyond
         self.pressure, self.shear, self.viscous = state.pressure, state.shear, viscous
         self.gap_parts = np.einsum('mki,mi->mk', state.dual, state.shear) / self.tangential_stiffness
         self.face(slave_points, master_points, ~state.closed)
+        opens = state.opens = (before > 0) & ~state.closed
+        if begin.friction and opens.any():
+            place = self._place(master_points, self.xi)
+            height = _dot(place.normal, self.positions(slave_points) - place.point)
+            height[state.beyond | self.beyond] = state.normal_gap[state.beyond | self.beyond]
+            lost = self._lost(before[opens], shear[opens], height[opens], state, _some(begin, opens))
+            self.dissipation += (self.area[opens] * lost).sum()
+
+    def _mean_coefficient(self, begin, way):
+        """mu (k,) over the way [mm] of a step, by Gauss points."""
+        abscissae, weights = np.polynomial.legendre.leggauss(15)
+        mean = np.zeros(len(way))
+        for part, weight in zip((1 + abscissae) / 2, weights / 2):
+            there = SimpleNamespace(**{**vars(begin), 'duration': part * begin.duration})
+            mean += weight * self.law.coefficient(there, part * way)[0]
+        return mean
+
+    def _lost(self, pressure, shear, height, state, begin):
+        """Dissipated per area (k,) [N/mm] by points that open, whose pressure and tangential traction (k, 3) before are given.
+
+        While a point is lifted its pressure falls evenly to zero, in that part of the step in which it is closed; `height`
+        is its normal gap at the end. Its tangential gap moves with it as long as it is shorter than the string mu p / eps_t,
+        which gets shorter. From there on it is as long as that, and turns towards the motion m: with its direction e,
+        d((1 - s) L e) = m ds - e dlambda. The work eps_t (1 - s) L dlambda is integrated numerically, over -ln(1 - s).
+
+        What goes over the edge while it is pressed loses all that it has stored, and is rubbed from where it was to the
+        place of the edge where it is in the end.
+        """
+        gap = shear / self.tangential_stiffness
+        depth = pressure / self.normal_stiffness
+        normal = state.start.normal[state.opens]
+        motion = begin.trial - _dot(begin.trial, normal)[:, None] * normal - gap
+        motion *= (depth / (depth + np.maximum(height, 0)))[:, None]
+
+        mu = self._mean_coefficient(begin, np.linalg.norm(gap + motion, axis=1))
+        length = np.linalg.norm(gap, axis=1)
+        string = np.maximum(np.maximum(length, mu * pressure / self.tangential_stiffness), 1e-300)
+        speed = np.linalg.norm(motion, axis=1)
+        # the smallest s from 0 to 1 at which |gap + s motion| = (1 - s) string, by bisection
+        low, high = np.zeros(len(speed)), np.ones(len(speed))
+        low_is_on = length >= string * (1 - 1e-14)
+        for _ in range(60):
+            middle = (low + high) / 2
+            within = np.linalg.norm(gap + middle[:, None] * motion, axis=1) < (1 - middle) * string
+            low, high = np.where(within, middle, low), np.where(within, high, middle)
+        first = np.where(low_is_on & (_dot(gap, motion) >= -string * string), 0., high)
+        at_first = gap + first[:, None] * motion
+        cosine = _dot(at_first, motion) / np.maximum(np.linalg.norm(at_first, axis=1) * speed, 1e-300)
+        angle = np.where(speed > 0, np.arccos(np.clip(np.where(np.linalg.norm(at_first, axis=1) > 0, cosine, 1.), -1, 1)), 0.)
+        count = len(speed)
+
+        def rates(x, values):
+            """Of the angle from the motion to the gap and of the work, by x = -ln((1 - s) / (1 - first))."""
+            left = (1 - first) * np.exp(-x)
+            turned = values[:count]
+            return np.concatenate([-speed / string * np.sin(turned),
+                                   left ** 2 * string * (string + speed * np.cos(turned))])
+
+        result = solve_ivp(rates, (0, 20), np.concatenate([angle, 0 * angle]), method='DOP853', rtol=1e-12, atol=1e-18)
+        lost = self.tangential_stiffness * result.y[count:, -1]
+        rubbed = np.linalg.norm(state.point[state.opens] - begin.point, axis=1)
+        beyond = pressure * self._mean_coefficient(begin, rubbed) * rubbed + (_dot(shear, gap) - pressure * height) / 2
+        return np.where(height < 0, beyond, lost)
 
     def energy(self, state):
         """Energy stored in the interface's two compliances, N mm."""

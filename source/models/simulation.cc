@@ -281,8 +281,7 @@ namespace Debond
     if (result.hopeless)
       give_up({}, result);
     if (!result.is_acceptable())
-      throw RunError("The state at the first time, " +
-                     to_text(solver.time()) +
+      throw RunError("The state at the first time, " + to_text(solver.time()) +
                      ", could not be found: " + result.why);
     accept(result);
     add_row(result.interface, result.iterations);

@@ -236,7 +236,8 @@ namespace Debond
     if (n > 1 && (bone.bulk_solver == BulkSolver::direct ||
                   bone.bulk_solver == BulkSolver::lattice))
       refuse("that solver is for one process, and here are " +
-             std::to_string(n) + ": expected auto or multigrid, or one process");
+             std::to_string(n) +
+             ": expected auto or multigrid, or one process");
     if (bulk_solver() == BulkSolver::multigrid &&
         parts_across(bone.cells, n)[0] == 0)
       refuse(std::to_string(n) + " processes cannot share columns of " +

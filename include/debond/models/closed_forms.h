@@ -244,8 +244,8 @@ namespace Debond
    * The analytical model of the paper with the modified Coulomb law, Eqs. (17),
    * (18), (37), (49): c(theta) = R theta_lin / theta; inside, the traction is
    * t_max r / c with t_max = mu(0) p; outside it is mu(g_s) p with g_s = 0
-   * while theta < theta_slide and g_s = r (theta - theta_slide + theta_lin) from
-   * then on.
+   * while theta < theta_slide and g_s = r (theta - theta_slide + theta_lin)
+   * from then on.
    *
    * The sliding distance of Eq. (49) is not the motion that the traction works
    * on, so this model does not balance energy.

@@ -160,7 +160,7 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      const Ranks::Together together(team);
+      const Ranks::Together            together(team);
       archive &coupled_system &solver &state_checks;
       archive &so_far.steps &so_far.newton_iterations &so_far.smallest_step;
       archive                                         &accepted_rates;

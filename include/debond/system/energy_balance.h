@@ -14,7 +14,7 @@ namespace Debond
     Chuck::Vector6 position   = Chuck::Vector6::Zero();
     double         stored     = 0; ///< [N mm]
     double         dissipated = 0; ///< [N mm]
-    double bound = 0; ///< of errors of the two above, sum so far [N mm]
+    double         bound = 0; ///< of errors of the two above, sum so far [N mm]
 
     /** See serialization.h. */
     template <class Archive>

@@ -681,7 +681,7 @@ namespace Debond
       }
     centre                            = {values,
                                          Eigen::Vector2d::Zero(),
-                                         Eigen::MatrixXd::Zero(2, values.size())};
+                                         Eigen::Matrix2Xd::Zero(2, values.size())};
     const ClosedFormParameters &given = scene.closed_form;
     if (!has_elastic_bodies ||
         (given.torsional_stiffness > 0. && given.normal_stiffness > 0.))

@@ -59,9 +59,12 @@ namespace Debond
     // (33), give their changes from motions, since the basis does not depend
     // on positions.
     contract(point.trial.basis, master, false, motion);
-    LocalVector dw;
-    dw << interpolate(point.basis, moved[slave]), motion.y, motion.a1,
-      motion.a2, Vector3d::Zero(), Vector3d::Zero(), turn;
+    LocalVector dw    = LocalVector::Zero();
+    dw.segment<3>(0)  = interpolate(point.basis, moved[slave]);
+    dw.segment<3>(3)  = motion.y;
+    dw.segment<3>(6)  = motion.a1;
+    dw.segment<3>(9)  = motion.a2;
+    dw[dw.size() - 1] = turn;
     if (point.trial.state.status != PointStatus::slip)
       return dw;
     const SurfaceBasis &old = point.trial.old_basis;
@@ -118,7 +121,10 @@ namespace Debond
       const Vector3d        t   = point.JxW * point.trial.traction;
       const Eigen::Vector2d dxi = point.trial.dxi * dw;
       LocalForce            force;
-      force << dt, -dt, -dxi[0] * t, -dxi[1] * t;
+      force.segment<3>(0) = dt;
+      force.segment<3>(3) = -dt;
+      force.segment<3>(6) = -dxi[0] * t;
+      force.segment<3>(9) = -dxi[1] * t;
       return force;
     }
   } // namespace

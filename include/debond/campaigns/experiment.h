@@ -120,9 +120,9 @@ namespace Debond
      *  changes slowly. */
     struct Foundation
     {
-      Eigen::VectorXd unknowns;   ///< where it is exact
-      Eigen::Vector2d compliance; ///< of the bodies, normal and torsional
-      Eigen::MatrixXd slopes;     ///< of the logarithms, by unknown
+      Eigen::VectorXd  unknowns;   ///< where it is exact
+      Eigen::Vector2d  compliance; ///< of the bodies, normal and torsional
+      Eigen::Matrix2Xd slopes;     ///< of the logarithms, by unknown
     };
     Eigen::Vector2d
     exact_compliance(const Eigen::VectorXd &values);

@@ -131,6 +131,9 @@ main()
   expect(1, "exp(1000 * x) > 5", 1);
   expect(1, "tanh(exp(1000 * x))", 1);
   expect(none, "exp(1000 * x) - exp(1000 * x)", 1);
+  expect(none, "min(1, (-exp(1000 * x))^0.5)", 1);
+  expect(none, "max(1, pow(-exp(1000 * x), -0.5))", 1);
+  expect(1, "min(1, (-exp(1000 * x))^2)", 1);
 
   // what is not 0 is true
   expect(5, "if(0.4, 5, 6)");

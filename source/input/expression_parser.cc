@@ -128,10 +128,13 @@ namespace Debond
 
 
 
+    /** A negative number has no power that is not whole, also where it is too
+     *  large for the machine. */
     double
     power(const double a, const double b)
     {
-      if (std::isunordered(a, b) || (a == 0. && b < 0.))
+      if (std::isunordered(a, b) || (a == 0. && b < 0.) ||
+          (a < 0. && b != std::floor(b)))
         return no_value;
       return b == 2. ? a * a : std::pow(a, b);
     }

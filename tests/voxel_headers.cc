@@ -260,6 +260,19 @@ namespace
           "DimSize = 4 3 2\nElementSpacing = 0.5 1 2\nOffset = -1.5 2 -7\n"
           "ElementType = MET_SHORT\nElementDataFile = LOCAL\n" +
             values);
+    reads("colons",
+          "colons.mha",
+          "DimSize : 4 3 2\nElementSpacing: 0.5 1 2\nOffset: -1.5 2 -7\n"
+          "ElementType: MET_SHORT\nElementDataFile: LOCAL\n" +
+            values);
+    Order back;
+    back.along = {{-1, -2, 3}};
+    reads("names of version 1",
+          "version_1.mha",
+          "FileFormatVersion = 1\nDimSize = 4 3 2\nElementSpacing = 0.5 1 2\n"
+          "ElementOrigin = 0 4 -7\nElementDirection = -1 0 0 0 -1 0 0 0 1\n"
+          "ElementType = MET_SHORT\nElementDataFile = LOCAL\n" +
+            data<std::int16_t>(back));
     reads("two fields of one byte order",
           "big.mha",
           meta("ElementByteOrderMSB = True\nBinaryDataByteOrderMSB = true\n") +
@@ -276,6 +289,9 @@ namespace
     for (const std::string wrong :
          {"BinaryDataByteOrderMSB = False\nElementByteOrderMSB = True\n",
           "Offset = -1.5 2 -7\nPosition = 0 0 0\n",
+          "ImagePosition = 0 0 0\n",
+          "FileFormatVersion = 1\nElementOrigin = 0 0 0\n",
+          "ElementDirection = -1 0 0 0 -1 0 0 0 1\n",
           "Offset = -1.5 2 -7\nOrigin = -1.5 2 -7.01\n",
           "TransformMatrix = 1 0 0 0 1 0 0 0 1\n"
           "Orientation = -1 0 0 0 -1 0 0 0 1\n",

@@ -7,6 +7,7 @@
 #include <boost/algorithm/string/split.hpp>
 #include <boost/algorithm/string/trim.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -39,7 +40,7 @@ namespace Debond
             const std::size_t end =
               std::min(bytes.find('\n', size), bytes.size());
             const std::string line = bytes.substr(size, end - size);
-            const std::size_t at   = line.find('=');
+            const std::size_t at   = line.find_first_of("=:");
             size                   = std::min(end + 1, bytes.size());
             if (at == std::string::npos)
               continue;
@@ -214,9 +215,11 @@ namespace Debond
 
 
     /** AnatomicalOrientation has a letter for where each index begins; some
-     *  write where it ends. */
+     *  write where it ends. @p source: what says how they run. */
     void
-    check_orientation(const MetaHeader &header, const StoredVoxels &voxels)
+    check_orientation(const MetaHeader   &header,
+                      const StoredVoxels &voxels,
+                      const std::string  &source)
     {
       const std::string given =
         boost::to_upper_copy(header.text("AnatomicalOrientation", "?"),
@@ -231,28 +234,37 @@ namespace Debond
         }
       if (given != from && given != to)
         header.refuse(header.line("AnatomicalOrientation") + ", but by its " +
-                      (header.has("TransformMatrix") ? "" : "lack of a ") +
-                      "TransformMatrix the axes run from " + from + " to " +
-                      to + ": remove the one that is wrong");
+                      source + " the axes run from " + from + " to " + to +
+                      ": remove the one that is wrong");
     }
 
 
 
+    /** In files of version 1 it is ElementOrigin and ElementDirection that
+     * place the voxels. */
     void
     read_place(const MetaHeader &header, StoredVoxels &voxels)
     {
-      const Names axes{"TransformMatrix", "Rotation", "Orientation"};
+      const Names axes{"TransformMatrix",
+                       "Rotation",
+                       "Orientation",
+                       "ElementDirection"};
+      const auto  name =
+        std::find_if(axes.begin(), axes.end(), [&](const std::string &each) {
+          return header.has(each);
+        });
+      const std::string source =
+        name != axes.end() ? *name : "lack of a TransformMatrix";
       // the direction of the first index comes first
       if (const auto matrix = header.agreed_numbers(axes, 9))
         voxels.along =
           axes_along(Eigen::Map<const Eigen::Matrix3d>(matrix->data()),
-                     header.has(axes[0]) ? axes[0] :
-                     header.has(axes[1]) ? axes[1] :
-                                           axes[2],
+                     source,
                      header.refuse);
-      check_orientation(header, voxels);
-      if (const auto first =
-            header.agreed_numbers({"Offset", "Position", "Origin"}, 3))
+      check_orientation(header, voxels, source);
+      if (const auto first = header.agreed_numbers(
+            {"Offset", "Position", "Origin", "ImagePosition", "ElementOrigin"},
+            3))
         voxels.first = unit_of_length(header) *
                        Eigen::Map<const Eigen::Vector3d>(first->data());
     }

@@ -43,7 +43,7 @@ check_rigid_bodies()
     end
     subsection Chuck
       subsection Translation z
-        set Value = -2.6 / 585 * min(t, 1)
+        set Value = -2.6 / 585 * min(t^1.5, 1) # none before the first time
       end
       subsection Rotation z
         set Value     = 2 * max(t - 1, 0)

@@ -32,14 +32,16 @@ namespace Debond
                          const double                  reference)
   {
     gradient.setZero(number + 1);
-    // d value_k / dt of what the scene prescribes, in its unit of time: the
-    // column of the time is made of these.
-    rates = configuration.chuck->rates(time);
+    rates.setZero();
     if (slip == 0.)
       {
         gradient[number] = reference;
         return 0.;
       }
+    // d value_k / dt of what the scene prescribes, in its unit of time: the
+    // column of the time is made of these. At the first time, which is given,
+    // they would be asked for before there are any.
+    rates = configuration.chuck->rates(time);
     // The exact gradient, in which xi_hat moves: without it Newton's method
     // would not be quadratic.
     const MeanSlip mean   = interface.mean_slip(configuration);

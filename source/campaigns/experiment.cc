@@ -142,7 +142,17 @@ namespace Debond
         {
           Eigen::VectorXd at_bound = unknowns.starts();
           at_bound[j]              = bound;
-          scene_at(at_bound).check();
+          try
+            {
+              scene_at(at_bound).check();
+            }
+          catch (const EntryError &error)
+            {
+              if (!error.place.empty())
+                throw;
+              unknowns.list[j].entry.refuse("at the bound " + to_text(bound) +
+                                            ": " + error.what());
+            }
           const std::string why = is_differentiated && changes[j].model ?
                                     why_no_derivative(at_bound, j) :
                                     "";

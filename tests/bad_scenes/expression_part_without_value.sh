@@ -19,3 +19,5 @@ debond input.prm --set "Bone/Voxel file=input.mha" --set "Bone/Young modulus=min
 cp "$here/calibrate.prm" input.prm
 debond input.prm --set "Interface/Friction coefficient broken=<<a: 0.3 in 0.1..0.5>>" \
   --set "Interface/Sliding threshold=<<max(0.01, sqrt(a - 1))>>"
+debond input.prm --set "Interface/Friction coefficient broken=0.3" --set Calibration/Noise=1 \
+  --set "Chuck/Rotation z/Value=max(t - 1, 0) + 0 * sqrt(2 - <<a: 0.3 in 0.1..2.5>>)"

@@ -8,6 +8,7 @@
 #include <boost/algorithm/string.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <locale>
 #include <map>
 #include <regex>
@@ -38,7 +39,10 @@ namespace Debond
     if (const std::size_t at = item.find_first_of("dD");
         at != item.npos && at > 0)
       item[at] = 'e';
-    return read_number(item);
+    const auto value = read_number(item);
+    // SCPI, the language of many instruments, has 9.9E37 for infinity, and
+    // 9.91E37 for what is no number
+    return value && std::abs(*value) < 9.9e37 ? value : std::nullopt;
   }
 
 
@@ -109,10 +113,12 @@ namespace Debond
     {
       static const std::regex time("[0-9]{1,4}([-./])[0-9]{1,2}\\1[0-9]{1,4}.*|"
                                    "[0-9]{1,2}:[0-9]{2}.*"),
-        nothing(
-          "[-*?]*|.*#.*|[-+]?(nan|inf|infinity)|n/?a|none|null|o\\.?l\\.?|"
-          "ovld?|over|over-?(load|flow|range)|underflow|err|error|invalid",
-          std::regex::icase);
+        nothing("[-*?]*|.*#.*|"
+                "[-+]?[0-9]+[.,]?[0-9]*[ed][-+]?[0-9]+|" // too large
+                "[-+]?(nan|inf|infinity|∞|n/?a|none|null|o\\.?l\\.?|"
+                "ovld?|ovf|over|over-?(load|flow|range)|underflow|err|error|"
+                "invalid)",
+                std::regex::icase);
       return read_measured_value(item)       ? Item::number :
              std::regex_match(item, nothing) ? Item::nothing :
              std::regex_match(item, time)    ? Item::time :
@@ -407,9 +413,20 @@ namespace Debond
     const std::string first = "line " + std::to_string(rows[0].first);
     if (names.empty() && above.size() > 1 &&
         std::any_of(above.begin(), above.end(), unit_in))
-      refuse("line " + std::to_string(line_above.number) + " names " +
-             std::to_string(n_filled(above)) + " columns, " + first + " has " +
-             std::to_string(n_filled(rows[0].second)) + " values" + what_to_do);
+      {
+        const auto number =
+          std::find_if(above.begin(), above.end(), read_measured_value);
+        if (number != above.end() &&
+            n_filled(above) == n_filled(rows[0].second))
+          refuse("line " + std::to_string(line_above.number) + " has '" +
+                 *number +
+                 "' among the names or units of columns: expected names or "
+                 "units only");
+        refuse("line " + std::to_string(line_above.number) + " names " +
+               std::to_string(n_filled(above)) + " columns, " + first +
+               " has " + std::to_string(n_filled(rows[0].second)) + " values" +
+               what_to_do);
+      }
     if (separator != ',')
       return;
     bool is_whole = n_columns > 2;

@@ -193,10 +193,10 @@ class Scene:
 
 class Result:
     """rows: {column of torque.csv: array with a value per row}; summary: the measures of the curve that summary.json has;
-    sensitivities: {entry of Output / Sensitivities: {column: array}}, derivatives per unit of the entry; warnings: texts."""
+    warnings: texts."""
 
-    def __init__(self, rows, summary, sensitivities, warnings):
-        self.rows, self.summary, self.sensitivities, self.warnings = rows, summary, sensitivities, warnings
+    def __init__(self, rows, summary, warnings):
+        self.rows, self.summary, self.warnings = rows, summary, warnings
 
     def frame(self):
         """The rows as a pandas.DataFrame. Raises ImportError without pandas."""
@@ -276,7 +276,7 @@ class Simulation:
     def result(self) -> Result:
         """All rows so far."""
         run = self._run
-        return Result(run.rows(), _known(run.summary()), run.sensitivities(), run.warnings)
+        return Result(run.rows(), _known(run.summary()), run.warnings)
 
 
 def _checked(scene) -> Scene:

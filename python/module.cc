@@ -201,7 +201,6 @@ namespace
       times = scene.load_steps.planned_times();
       const py::gil_scoped_release others_go_on;
       simulation = std::make_unique<Simulation>(scene);
-      simulation->differentiate(variations_of(scene));
     }
 
     void
@@ -289,31 +288,6 @@ namespace
         for (unsigned int i = 0; i < n; ++i)
           columns[names[i]].push_back(point[i]);
       return arrays(columns);
-    }
-
-    /** By entry, of torque and of force and place of the chuck. */
-    std::map<std::string, py::dict>
-    sensitivities() const
-    {
-      std::map<std::string, py::dict> result;
-      const auto &entries = simulation->scene.output.sensitivities;
-      for (unsigned int j = 0; j < entries.size(); ++j)
-        {
-          Columns columns;
-          for (const auto &row : simulation->row_derivatives())
-            {
-              columns["torque_Nmm"].push_back(row.torque[j]);
-              for (unsigned int k = 0; k < 6; ++k)
-                {
-                  columns[ChuckParameters::column_name(k, true)].push_back(
-                    row.reaction(k, j));
-                  columns[ChuckParameters::column_name(k, false)].push_back(
-                    row.position(k, j));
-                }
-            }
-          result[entries[j]] = arrays(columns);
-        }
-      return result;
     }
 
     std::string
@@ -500,7 +474,6 @@ PYBIND11_MODULE(_debond, module)
          })
     .def("last_row", &Run::last_row)
     .def("points", &Run::points)
-    .def("sensitivities", &Run::sensitivities)
     .def("summary", &Run::summary)
     .def("rows", [](const Run &run) { return arrays(run.simulation->rows()); })
     .def_property_readonly("is_finished",

@@ -137,7 +137,6 @@ simulation_of(const std::vector<std::string> &overrides, Attempt &attempt)
     return value(time) + (time > begin ? attempt.excess : 0.);
   };
   auto simulation = std::make_unique<Simulation>(scene);
-  simulation->differentiate(variations_of(scene));
   return simulation;
 }
 
@@ -397,10 +396,6 @@ check_all()
          "Chuck/Rotation z/Value=40 * max(t - 1, 0)"});
   check("Rate and state friction",
         {"Interface/Friction law=rate and state", turns});
-  check("Derivatives",
-        {"Output/Sensitivities=Interface/Sliding threshold, Interface/Friction "
-         "coefficient unbroken",
-         turns});
   check("Multigrid", {"Bone/Bulk solver=multigrid", turns, large_x}, 5);
   check_refused_load();
   check_resumed();

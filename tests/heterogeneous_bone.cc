@@ -6,8 +6,7 @@
 //  - voxels in three formats: the expression that they were made from;
 //  - layers on the lattice, and a modulus with its mirror images: the direct
 //    solver on one block;
-//  - the lattice as preconditioner: the direct solver;
-//  - the derivative by a factor of the modulus: the difference of two runs.
+//  - the lattice as preconditioner: the direct solver.
 
 #include <debond/bulk/body.h>
 #include <debond/bulk/cell_shape.h>
@@ -471,35 +470,6 @@ check_preconditioner()
 
 
 
-/** By a factor of the whole modulus: the difference of two runs. */
-void
-check_derivative()
-{
-  const auto scene = [](const std::string &factor) {
-    return Scene::from_text(coin,
-                            {"Bone/Young modulus=" + factor +
-                               " * exp(x / 5 + z)",
-                             "Output/Sensitivities=Bone/Young modulus"});
-  };
-  const double h = 1e-3;
-  Simulation   own(scene("9000")), plus(scene(exact_text(9000. * (1. + h)))),
-    minus(scene(exact_text(9000. * (1. - h))));
-  own.differentiate(variations_of(scene("9000")));
-  for (Simulation *const simulation : {&own, &plus, &minus})
-    simulation->run();
-  double error = 0., largest = 0.;
-  for (unsigned int i = 0; i < own.rows().size(); ++i)
-    {
-      const double difference =
-        (plus.rows()[i].torque_Nmm - minus.rows()[i].torque_Nmm) / (2. * h);
-      grow(error, std::abs(own.row_derivatives()[i].torque[0] - difference));
-      grow(largest, std::abs(difference));
-    }
-  report("derivative by a factor of the modulus", error / largest, 1e-4);
-}
-
-
-
 int
 main()
 {
@@ -508,5 +478,4 @@ main()
   check_voxels();
   check_solvers();
   check_preconditioner();
-  check_derivative();
 }

@@ -374,20 +374,6 @@ namespace Debond
 
 
 
-  Eigen::MatrixXd
-  Condensation::schur_solve_all(const Eigen::MatrixXd &B) const
-  {
-    Eigen::MatrixXd X = B;
-    if (n_c > 0 && X.cols() > 0)
-      {
-        L_cc.triangularView<Eigen::Lower>().solveInPlace(X);
-        L_cc.transpose().triangularView<Eigen::Upper>().solveInPlace(X);
-      }
-    return X;
-  }
-
-
-
   // With P K P^T = L L^T the rows i of L y = P r give y_i = L_ii^-1 (P r)_i,
   // and what those above the condensed rows leave is
   //

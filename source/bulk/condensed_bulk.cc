@@ -126,15 +126,6 @@ namespace Debond
           block.unfold(block.condensation.schur_solve(block.fold(b)), result);
         return result;
       }
-      Eigen::MatrixXd
-      solve_all(const Eigen::MatrixXd &B) const override
-      {
-        Eigen::MatrixXd result = Eigen::MatrixXd::Zero(B.rows(), B.cols());
-        for (const Block &block : blocks)
-          block.unfold(block.condensation.schur_solve_all(block.fold(B)),
-                       result);
-        return result;
-      }
       // A condensed bulk couples every unknown with every other one. It has S
       // as a matrix, if at the price of n_c^3 work.
       bool

@@ -14,11 +14,8 @@
 #include <boost/random/uniform_01.hpp>
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <numeric>
 #include <ostream>
-#include <thread>
 
 namespace Debond
 {
@@ -28,39 +25,6 @@ namespace Debond
 
     /** Of starts that are followed: runs of finite elements take longer. */
     constexpr unsigned int n_followed = 5, n_followed_slowly = 2;
-
-
-
-    /** Calls work(i, worker) for i < n, as many at a time as there are
-     *  workers. */
-    template <typename Work>
-    void
-    for_each_at_once(const unsigned int n,
-                     const unsigned int n_workers,
-                     const Work        &work)
-    {
-      std::atomic<unsigned int>       next{0};
-      std::vector<std::exception_ptr> errors(n_workers);
-      std::vector<std::thread>        threads;
-      for (unsigned int worker = 0; worker < n_workers; ++worker)
-        threads.emplace_back([&, worker] {
-          factorise_on_one_thread();
-          try
-            {
-              for (unsigned int i = next++; i < n; i = next++)
-                work(i, worker);
-            }
-          catch (...)
-            {
-              errors[worker] = std::current_exception();
-            }
-        });
-      for (std::thread &thread : threads)
-        thread.join();
-      for (const std::exception_ptr &error : errors)
-        if (error)
-          std::rethrow_exception(error);
-    }
 
 
 
@@ -136,6 +100,7 @@ namespace Debond
           Ranks::communicator(); // begins with MPI here
         for (unsigned int i = 1; i < n_threads && !one_at_a_time; ++i)
           add_worker();
+        deal_out(1);
       }
 
       Misfit &
@@ -222,26 +187,52 @@ namespace Debond
           worker->keep_in(log);
       }
 
+      /** work(i, misfit) for i < n, at the same time as far as there are
+       *  workers; those that are left help the others. */
+      template <typename Work>
+      void
+      for_each(const unsigned int n, const Work &work)
+      {
+        const unsigned int n_leaders =
+          std::clamp<std::size_t>(n, 1, workers.size());
+        deal_out(n_leaders);
+        for_each_at_once(n,
+                         n_leaders,
+                         [&](const unsigned int i, const unsigned int leader) {
+                           work(i, *workers[leader]);
+                         });
+        deal_out(1);
+        stop_if_asked();
+      }
+
       std::vector<std::unique_ptr<Misfit>> workers;
       Failures                             failures; ///< in the order of starts
 
     private:
-      /** work(i, misfit) for i < n, and counts what fails. */
+      void
+      deal_out(const unsigned int n_leaders)
+      {
+        for (std::size_t i = 0; i < workers.size(); ++i)
+          {
+            workers[i]->helped_by_none();
+            if (i >= n_leaders)
+              workers[i % n_leaders]->helped_by(*workers[i]);
+          }
+      }
+
+      /** The same, and counts what fails. */
       template <typename Work>
       void
       on_workers(const unsigned int n, const Work &work)
       {
         std::vector<Failures> failed(n);
-        for_each_at_once(n,
-                         workers.size(),
-                         [&](const unsigned int i, const unsigned int worker) {
-                           if (interrupting_signal() != 0)
-                             return;
-                           workers[worker]->failures = {};
-                           work(i, *workers[worker]);
-                           failed[i] = workers[worker]->failures;
-                         });
-        stop_if_asked();
+        for_each(n, [&](const unsigned int i, Misfit &misfit) {
+          if (interrupting_signal() != 0)
+            return;
+          misfit.failures = {};
+          work(i, misfit);
+          failed[i] = misfit.failures;
+        });
         for (const Failures &more : failed)
           failures.add(more);
       }
@@ -383,10 +374,8 @@ namespace Debond
       const FitStatistics   &known    = *calibration.statistics;
       std::vector<std::vector<Calibration::ProfilePoint>> profiles(
         unknowns.list.size());
-      for_each_at_once(
-        unknowns.list.size(),
-        search.workers.size(),
-        [&](const unsigned int j, const unsigned int worker) {
+      search.for_each(
+        unknowns.list.size(), [&](const unsigned int j, Misfit &misfit) {
           const Unknown &u      = unknowns.list[j];
           const double   centre = u.to_search(best.unknowns[j]),
                        reach    = 2. * known.half_widths[j];
@@ -400,8 +389,7 @@ namespace Debond
             {
               Eigen::VectorXd start = best.unknowns;
               start[j] = u.from_search(begin + (end - begin) * i / (n - 1));
-              const Optimum other =
-                minimise(*search.workers[worker], start, model, fixed);
+              const Optimum other = minimise(misfit, start, model, fixed);
               profiles[j].push_back(
                 {j,
                  start[j],
@@ -411,7 +399,6 @@ namespace Debond
                 profiles[j].back().chi_squared = NAN;
             }
         });
-      stop_if_asked();
       for (const auto &points : profiles)
         calibration.profiles.insert(calibration.profiles.end(),
                                     points.begin(),

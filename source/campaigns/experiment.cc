@@ -4,6 +4,7 @@
 #include <debond/models/simulation.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
+#include <debond/support/runtime.h>
 
 #include <boost/algorithm/string/predicate.hpp>
 
@@ -153,12 +154,6 @@ namespace Debond
               unknowns.list[j].entry.refuse("at the bound " + to_text(bound) +
                                             ": " + error.what());
             }
-          const std::string why = is_differentiated && changes[j].model ?
-                                    why_no_derivative(at_bound, j) :
-                                    "";
-          if (!why.empty())
-            unknowns.list[j].entry.refuse("at the bound " + to_text(bound) +
-                                          " " + why);
         }
   }
 
@@ -170,7 +165,6 @@ namespace Debond
   {
     const Eigen::VectorXd starts = unknowns.starts();
     const auto            before = unknowns.varied_entries(number, starts);
-    is_differentiated            = scene.model == ModelKind::finite_elements;
     for (Eigen::Index j = 0; j < starts.size(); ++j)
       {
         Eigen::VectorXd other = starts;
@@ -198,8 +192,6 @@ namespace Debond
               keeps_bodies = keeps_bodies && !is_bulk;
             }
         changes.push_back(change);
-        if (is_differentiated && change.model)
-          is_differentiated = why_no_derivative(starts, j).empty();
       }
   }
 
@@ -260,28 +252,11 @@ namespace Debond
 
 
 
-  // The rig is no part of the model.
-  SceneVariation
-  Experiment::variation(const Eigen::VectorXd &values, const unsigned int j)
+  // The rig enters without rounding of iterations.
+  std::array<Eigen::VectorXd, 2>
+  Experiment::ends_of(const Eigen::VectorXd &values, const unsigned int j) const
   {
-    const auto     ends = moved(values, j, 1e-5);
-    SceneVariation result{unknowns.list[j].name,
-                          scene_at(ends[1]),
-                          scene_at(ends[0]),
-                          ends[1][j] - ends[0][j]};
-    result.plus.calibration = result.minus.calibration = scene.calibration;
-    return result;
-  }
-
-
-
-  std::string
-  Experiment::why_no_derivative(const Eigen::VectorXd &values,
-                                const unsigned int     j)
-  {
-    Scene now       = scene_at(values);
-    now.calibration = scene.calibration;
-    return why_not_differentiable(now, variation(values, j));
+    return moved(values, j, changes[j].model ? 1e-3 : 1e-5);
   }
 
 
@@ -507,45 +482,19 @@ namespace Debond
   {
     if (model == By::closed_form)
       return predict_by_disk(values, with_derivatives);
-    if (with_derivatives && !is_differentiated)
-      return predict_by_differences(values);
-    if (scene.model == ModelKind::finite_elements)
-      return predict_by_run(values, with_derivatives);
-    const Scene &now = scene_at(values);
-    return at_measured_rows(ClosedFormSolution(now).rows,
-                            {},
-                            now.calibration,
-                            {});
+    return with_derivatives ?
+             predict_by_differences(values) :
+             PredictedCurves{seen(curve_by_scene(values), values), {}};
   }
 
 
 
-  namespace
+  Eigen::VectorXd
+  Experiment::seen(const std::vector<TorqueRow> &curve,
+                   const Eigen::VectorXd        &values)
   {
-    /** Derivatives of @p rows, which lie on the curve between rows of a run:
-     *  straight lines in time. They lead the search and give intervals; what is
-     *  fitted is the curve itself. */
-    std::vector<RowDerivative>
-    on_fine_curve(const std::vector<TorqueRow>     &rows,
-                  const std::vector<TorqueRow>     &of_run,
-                  const std::vector<RowDerivative> &derivatives)
-    {
-      std::vector<RowDerivative> result;
-      std::size_t                end = 0;
-      for (const TorqueRow &row : rows)
-        {
-          while (end + 1 < of_run.size() && of_run[end].time < row.time)
-            ++end;
-          const std::size_t begin = end == 0 ? 0 : end - 1;
-          const double      width = of_run[end].time - of_run[begin].time;
-          const double      share =
-            width == 0. ? 1. : (row.time - of_run[begin].time) / width;
-          result.push_back((1. - share) * derivatives[begin] +
-                           share * derivatives[end]);
-        }
-      return result;
-    }
-  } // namespace
+    return at_measured_rows(curve, {}, scene_at(values).calibration, {}).values;
+  }
 
 
 
@@ -586,11 +535,12 @@ namespace Debond
 
 
 
-  PredictedCurves
-  Experiment::predict_by_run(const Eigen::VectorXd &values,
-                             const bool             with_derivatives)
+  std::vector<TorqueRow>
+  Experiment::curve_by_scene(const Eigen::VectorXd &values)
   {
     Scene now = scene_at(values);
+    if (scene.model != ModelKind::finite_elements)
+      return ClosedFormSolution(now).rows;
     if (!ends_of_steps.empty())
       {
         now.load_steps.adaptive = false;
@@ -598,66 +548,47 @@ namespace Debond
         for (std::size_t i = 0; i < ends_of_steps.size(); ++i)
           now.load_steps.steps[i] = ends_of_steps[i].size();
       }
-    const CalibrationParameters rig = now.calibration;
-    now.calibration                 = scene.calibration; // no part of the run
-    const auto  run                 = simulation_of(now);
-    Simulation &simulation          = *run;
-
-    std::vector<SceneVariation> variations;
-    std::vector<unsigned int>   varied;
-    Eigen::MatrixXd rig_derivatives = Eigen::MatrixXd::Zero(4, values.size());
-    for (Eigen::Index j = 0; with_derivatives && j < values.size(); ++j)
-      {
-        rig_derivatives.col(j) = rig_derivative(values, j);
-        if (!changes[j].model)
-          continue;
-        variations.push_back(variation(values, j));
-        variations.back().plus.load_steps = variations.back().minus.load_steps =
-          now.load_steps;
-        varied.push_back(j);
-      }
-    simulation.differentiate(variations);
-    simulation.run();
-
-    std::vector<RowDerivative> derivatives;
-    if (with_derivatives)
-      for (std::size_t i = 0; i < simulation.rows().size(); ++i)
-        {
-          derivatives.emplace_back(
-            RowDerivative::Zero(RowDerivative::RowsAtCompileTime,
-                                values.size()));
-          for (std::size_t v = 0; v < varied.size(); ++v)
-            {
-              const auto &row = simulation.row_derivatives()[i];
-              derivatives[i].col(varied[v]) << row.reaction.col(v),
-                row.position.col(v), row.torque[v];
-            }
-        }
-    if (!now.load_steps.draws_curve())
-      return at_measured_rows(simulation.rows(),
-                              derivatives,
-                              rig,
-                              rig_derivatives);
-    const auto fine = fine_curve(simulation.rows());
-    if (with_derivatives)
-      derivatives = on_fine_curve(fine, simulation.rows(), derivatives);
-    return at_measured_rows(fine, derivatives, rig, rig_derivatives);
+    now.calibration       = scene.calibration; // no part of the run
+    const auto simulation = simulation_of(now);
+    simulation->run();
+    return now.load_steps.draws_curve() ? fine_curve(simulation->rows()) :
+                                          simulation->rows();
   }
 
 
 
+  // Central ones. What changes the rig alone needs no runs.
   PredictedCurves
   Experiment::predict_by_differences(const Eigen::VectorXd &values)
   {
-    PredictedCurves result = predict(values, By::scene, false);
+    std::vector<Eigen::VectorXd> places{values};
+    for (Eigen::Index j = 0; j < values.size(); ++j)
+      for (const Eigen::VectorXd &end : ends_of(values, j))
+        if (changes[j].model)
+          places.push_back(end);
+    for (Experiment *helper : helpers)
+      helper->ends_of_steps = ends_of_steps;
+    std::vector<std::vector<TorqueRow>> curves(places.size());
+    for_each_at_once(places.size(),
+                     1 + helpers.size(),
+                     [&](const unsigned int i, const unsigned int worker) {
+                       Experiment &experiment =
+                         worker == 0 ? *this : *helpers[worker - 1];
+                       curves[i] = experiment.curve_by_scene(places[i]);
+                     });
+
+    PredictedCurves result{seen(curves[0], values), {}};
     result.derivatives.resize(result.values.size(), values.size());
+    std::size_t next = 1;
     for (Eigen::Index j = 0; j < values.size(); ++j)
       {
-        const auto ends = moved(values, j, 1e-3);
+        const auto            ends   = ends_of(values, j);
+        const unsigned int    moves  = changes[j].model ? 1 : 0;
+        const Eigen::VectorXd before = seen(curves[moves * next], ends[0]),
+                              after = seen(curves[moves * (next + 1)], ends[1]);
         result.derivatives.col(j) =
-          (predict(ends[1], By::scene, false).values -
-           predict(ends[0], By::scene, false).values) /
-          (ends[1][j] - ends[0][j]);
+          (after - before) / (ends[1][j] - ends[0][j]);
+        next += 2 * moves;
       }
     return result;
   }

@@ -72,39 +72,21 @@ namespace Debond
     // The pattern is a field over the implant's face, evaluated here once for
     // all: osseointegration is over before the test begins (footnote 2 of the
     // paper).
-    pattern = std::make_unique<BondingPattern>(bonding_pattern(parameters));
+    pattern =
+      std::make_unique<BondingPattern>(parameters.bonding_of_law(),
+                                       mesh[Side::implant]->parameters(),
+                                       mesh[Side::implant]->surface(),
+                                       n);
     for (SlavePoint &point : points)
       point.faces_implant =
         slave == Side::implant || point.accepted.has_partner;
-    const std::vector<double> phi_0 = initial_bonding(*pattern);
-    for (unsigned int q = 0; q < points.size(); ++q)
-      points[q].phi_0 = phi_0[q];
-  }
-
-
-
-  // The points of the implant are those of the pattern. Those of the bone look
-  // it up at their interacting point, which initialise() has just found.
-  std::vector<double>
-  ContactInterface::initial_bonding(const BondingPattern &pattern) const
-  {
-    std::vector<double> phi_0(points.size(), 0.);
+    // The points of the implant are those of the pattern. Those of the bone
+    // look it up at their interacting point, which initialise() has just found.
     for (unsigned int q = 0; q < points.size(); ++q)
       if (points[q].faces_implant)
-        phi_0[q] = slave == Side::implant ? pattern.at(q) :
-                                            pattern.at(points[q].accepted.xi);
-    return phi_0;
-  }
-
-
-
-  BondingPattern
-  ContactInterface::bonding_pattern(const InterfaceParameters &of) const
-  {
-    return BondingPattern(of.bonding_of_law(),
-                          mesh[Side::implant]->parameters(),
-                          mesh[Side::implant]->surface(),
-                          n);
+        points[q].phi_0 = slave == Side::implant ?
+                            pattern->at(q) :
+                            pattern->at(points[q].accepted.xi);
   }
 
 

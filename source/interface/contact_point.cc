@@ -370,44 +370,4 @@ namespace Debond
       }
   }
 
-
-
-  // The data of a step are no unknowns, and nothing of this is needed to solve
-  // for it; derivatives by parameters ask for it afterwards, where the point
-  // has come to.
-  PointData
-  differentiate_by_data(const ContactPointLaw    &law,
-                        const ContactPointState  &start,
-                        const double              phi_0,
-                        const Vector3d           &x,
-                        const MasterSurface      &master,
-                        const ContactPointMode   &mode,
-                        const ContactPointResult &result)
-  {
-    SurfaceBasis    basis;
-    SurfaceGeometry geometry;
-    master.surface->evaluate(start.xi, basis, false);
-    contract(basis, *master.positions, false, geometry);
-    const MasterNormal normal(geometry, master.outward_sign);
-    PointData          by;
-    if (result.state.status == PointStatus::stick)
-      {
-        // t = -p n + eps_t g_t, and xi_hat stays
-        by.dt.setZero();
-        by.dxi.setZero();
-        by.dslip.setZero();
-        const Vector3d gap             = x - geometry.y;
-        by.dt.col(PointData::pressure) = -normal.n;
-        by.dt.col(PointData::eps_t)    = gap - normal.n.dot(gap) * normal.n;
-        return by;
-      }
-    ContactPointResult unused;
-    const PointStep    step{law, start, x, master, mode, unused};
-    PointFriction      friction = step.friction(phi_0);
-    if (law.slip_direction == SlipDirection::integrated)
-      step.integrate(normal, friction.after(0.).mu, friction);
-    SlipProblem(law, friction, start, x, geometry.y, master)
-      .differentiate(result.state.xi, by);
-    return by;
-  }
 } // namespace Debond

@@ -1,8 +1,6 @@
 #include <debond/interface/contact_interface.h>
-#include <debond/interface/local_motion.h>
 #include <debond/interface/point_tangent.h>
 
-#include <algorithm>
 #include <tuple>
 
 namespace Debond
@@ -20,6 +18,11 @@ namespace Debond
 
   namespace
   {
+    /** A change of w of a point, see ContactPointResult. */
+    using LocalVector = Matrix<double, ContactPointResult::n_w, 1>;
+
+
+
     // The local unknowns of a point are w = (x, y, a_1, a_2, y_n, g_n, turn),
     // see ContactPointResult: six vectors, each of which is a sum over control
     // points with the factors N_A of the slave, N_B, N_B,1 and N_B,2 of the
@@ -39,46 +42,43 @@ namespace Debond
       const Eigen::Vector2d &gap = point.accepted.gap;
       return gap[0] * old.N_1[b] + gap[1] * old.N_2[b];
     }
-  } // namespace
 
 
 
-  // dw when the control points of both surfaces move. While a point sticks
-  // its xi_hat stays, and y_n has no part. Parameters are held fixed here:
-  // how xi_hat moves is in the derivatives dt/dw and dxi/dw already, by the
-  // implicit function theorem.
-  LocalVector
-  local_motion(const SlavePoint &point,
-               const Side        slave,
-               const NodalSums  &moved,
-               const double      turn)
-  {
-    const NodalSums::value_type &master = moved[other(slave)];
-    SurfaceGeometry              motion;
-    // The same sums that give y and a_alpha from positions, Eqs. (23) and
-    // (33), give their changes from motions, since the basis does not depend
-    // on positions.
-    contract(point.trial.basis, master, false, motion);
-    LocalVector dw    = LocalVector::Zero();
-    dw.segment<3>(0)  = interpolate(point.basis, moved[slave]);
-    dw.segment<3>(3)  = motion.y;
-    dw.segment<3>(6)  = motion.a1;
-    dw.segment<3>(9)  = motion.a2;
-    dw[dw.size() - 1] = turn;
-    if (point.trial.state.status != PointStatus::slip)
+    // dw when the control points of both surfaces move. While a point sticks
+    // its xi_hat stays, and y_n has no part. Parameters are held fixed here:
+    // how xi_hat moves is in the derivatives dt/dw and dxi/dw already, by the
+    // implicit function theorem.
+    LocalVector
+    local_motion(const SlavePoint &point,
+                 const Side        slave,
+                 const NodalSums  &moved,
+                 const double      turn)
+    {
+      const NodalSums::value_type &master = moved[other(slave)];
+      SurfaceGeometry              motion;
+      // The same sums that give y and a_alpha from positions, Eqs. (23) and
+      // (33), give their changes from motions, since the basis does not depend
+      // on positions.
+      contract(point.trial.basis, master, false, motion);
+      LocalVector dw    = LocalVector::Zero();
+      dw.segment<3>(0)  = interpolate(point.basis, moved[slave]);
+      dw.segment<3>(3)  = motion.y;
+      dw.segment<3>(6)  = motion.a1;
+      dw.segment<3>(9)  = motion.a2;
+      dw[dw.size() - 1] = turn;
+      if (point.trial.state.status != PointStatus::slip)
+        return dw;
+      const SurfaceBasis &old = point.trial.old_basis;
+      dw.segment<3>(12)       = interpolate(old, master);
+      for (unsigned int b = 0; b < old.size; ++b)
+        dw.segment<3>(15) +=
+          along_old_gap(point, b) * master.col(old.control_point[b]);
       return dw;
-    const SurfaceBasis &old = point.trial.old_basis;
-    dw.segment<3>(12)       = interpolate(old, master);
-    for (unsigned int b = 0; b < old.size; ++b)
-      dw.segment<3>(15) +=
-        along_old_gap(point, b) * master.col(old.control_point[b]);
-    return dw;
-  }
+    }
 
 
 
-  namespace
-  {
     // Forces on w; none acts at xi_hat^n, which the traction does not see.
     using LocalForce = Matrix<double, 12, 1>;
 
@@ -127,31 +127,9 @@ namespace Debond
       force.segment<3>(9) = -dxi[1] * t;
       return force;
     }
-  } // namespace
 
 
 
-  // The same at the control points at once, where both changes meet.
-  void
-  spread_change(const SlavePoint      &point,
-                const Side             slave,
-                const Vector3d        &dt,
-                const Eigen::Vector2d &dxi,
-                NodalSums             &sums)
-  {
-    const SurfaceBasis &basis  = point.trial.basis;
-    ControlNet         &master = sums[other(slave)];
-    const Vector3d      t      = point.JxW * point.trial.traction;
-    spread(point.basis, dt, sums[slave]);
-    for (unsigned int b = 0; b < basis.size; ++b)
-      master.col(basis.control_point[b]) -=
-        basis.N[b] * dt + (basis.N_1[b] * dxi[0] + basis.N_2[b] * dxi[1]) * t;
-  }
-
-
-
-  namespace
-  {
     // How the unknowns of the coupled system move w: a column dw for each that
     // does, control points of both surfaces in the frames of their bodies, and
     // components of the chuck.
@@ -246,116 +224,6 @@ namespace Debond
       unsigned int                                          n = 0;
     };
   } // namespace
-
-
-
-  LaneSums
-  zero_lanes(const InterfaceConfiguration &configuration)
-  {
-    LaneSums sums;
-    for (const Side side : both_sides)
-      sums[side].setZero(3 * n_lanes,
-                         configuration.side[side].positions.cols());
-    return sums;
-  }
-
-
-
-  void
-  set_lane(LaneSums &lanes, const unsigned int lane, const NodalSums &sums)
-  {
-    for (const Side side : both_sides)
-      for (unsigned int c = 0; c < 3; ++c)
-        lanes[side].row(c * n_lanes + lane) = sums[side].row(c);
-  }
-
-
-
-  NodalSums
-  get_lane(const LaneSums &lanes, const unsigned int lane)
-  {
-    NodalSums sums;
-    for (const Side side : both_sides)
-      {
-        sums[side].resize(3, lanes[side].cols());
-        for (unsigned int c = 0; c < 3; ++c)
-          sums[side].row(c) = lanes[side].row(c * n_lanes + lane);
-      }
-    return sums;
-  }
-
-
-
-  Lanes<3>
-  interpolate_place(const SurfaceBasis &basis, const LaneNet &moved)
-  {
-    Lanes<3> result = Lanes<3>::Zero();
-    for (unsigned int a = 0; a < basis.size; ++a)
-      result += basis.N[a] * Eigen::Map<const Lanes<3>>(
-                               moved.col(basis.control_point[a]).data());
-    return result;
-  }
-
-
-
-  Lanes<9>
-  interpolate_tangents(const SurfaceBasis &basis, const LaneNet &moved)
-  {
-    Lanes<9> result = Lanes<9>::Zero();
-    for (unsigned int a = 0; a < basis.size; ++a)
-      {
-        const Eigen::Map<const Lanes<3>> p(
-          moved.col(basis.control_point[a]).data());
-        result.leftCols<3>() += basis.N[a] * p;
-        result.middleCols<3>(3) += basis.N_1[a] * p;
-        result.rightCols<3>() += basis.N_2[a] * p;
-      }
-    return result;
-  }
-
-
-
-  // As for one change above.
-  Lanes<ContactPointResult::n_w>
-  local_motion(const SlavePoint &point, const Side slave, const LaneSums &moved)
-  {
-    const LaneNet                 &master = moved[other(slave)];
-    Lanes<ContactPointResult::n_w> dw;
-    dw.leftCols<3>()    = interpolate_place(point.basis, moved[slave]);
-    dw.middleCols<9>(3) = interpolate_tangents(point.trial.basis, master);
-    dw.rightCols<7>().setZero();
-    if (point.trial.state.status != PointStatus::slip)
-      return dw;
-    const Lanes<9> old = interpolate_tangents(point.trial.old_basis, master);
-    const Eigen::Vector2d &gap = point.accepted.gap;
-    dw.middleCols<3>(12)       = old.leftCols<3>();
-    dw.middleCols<3>(15) =
-      gap[0] * old.middleCols<3>(3) + gap[1] * old.rightCols<3>();
-    return dw;
-  }
-
-
-
-  void
-  spread_change(const SlavePoint &point,
-                const Side        slave,
-                const Lanes<3>   &dt,
-                const Lanes<2>   &dxi,
-                LaneSums         &sums)
-  {
-    const Vector3d t    = point.JxW * point.trial.traction;
-    const Lanes<3> by_1 = dxi.col(0) * t.transpose(),
-                   by_2 = dxi.col(1) * t.transpose();
-    const auto at       = [](LaneNet &net, const unsigned int control_point) {
-      return Eigen::Map<Lanes<3>>(net.col(control_point).data());
-    };
-    for (unsigned int a = 0; a < point.basis.size; ++a)
-      at(sums[slave], point.basis.control_point[a]) += point.basis.N[a] * dt;
-    const SurfaceBasis &basis = point.trial.basis;
-    for (unsigned int b = 0; b < basis.size; ++b)
-      at(sums[other(slave)], basis.control_point[b]) -=
-        basis.N[b] * dt + basis.N_1[b] * by_1 + basis.N_2[b] * by_2;
-  }
 
 
 
@@ -522,7 +390,7 @@ namespace Debond
       }
     const double dxi_2_now = dxi_2.dot(w.reshaped()) + turn * dxi_2_by_turn;
 
-    // as in spread_change()
+    // as in change_of_force()
     const Vector4d by_1 = change[3] * t, by_2 = dxi_2_now * t;
     change[3] = 0.;
     for (unsigned int a = 0; a < on_slave.size; ++a)
@@ -532,52 +400,6 @@ namespace Debond
         const auto &N = on_master.N[b];
         master_force.col(on_master.control_point[b]) -=
           N[0] * change + N[1] * by_1 + N[2] * by_2;
-      }
-  }
-
-
-
-  // For several directions at once, as a solver for several right-hand sides
-  // has them.
-  void
-  ContactInterface::apply_tangent(const InterfaceConfiguration &configuration,
-                                  const Eigen::MatrixXd        &directions,
-                                  Eigen::MatrixXd              &result) const
-  {
-    for (unsigned int begin = 0; begin < directions.cols(); begin += n_lanes)
-      {
-        const unsigned int n =
-          std::min<unsigned int>(n_lanes, directions.cols() - begin);
-        LaneSums moved = zero_lanes(configuration);
-        Lanes<6> chuck = Lanes<6>::Zero();
-        for (unsigned int lane = 0; lane < n; ++lane)
-          {
-            const Eigen::VectorXd direction = directions.col(begin + lane);
-            set_lane(moved, lane, nodal_motion(direction, configuration));
-            for (const auto &[component, number] : configuration.chuck_unknowns)
-              chuck(lane, component) = direction[number];
-          }
-        const auto change = [&](const unsigned int q, LaneSums &sums) {
-          const SlavePoint &point = points[q];
-          if (point.trial.state.status == PointStatus::open)
-            return;
-          auto dw = local_motion(point, slave, moved);
-          dw.col(18) += chuck * point.trial.turn_by_chuck;
-          spread_change(point,
-                        slave,
-                        point.JxW * dw.lazyProduct(point.trial.dt.transpose()),
-                        dw.lazyProduct(point.trial.dxi.transpose()),
-                        sums);
-        };
-        const LaneSums sums =
-          sum_in_chunks(points.size(), zero_lanes(configuration), change);
-        Eigen::VectorXd column;
-        for (unsigned int lane = 0; lane < n; ++lane)
-          {
-            column = result.col(begin + lane);
-            add_in_unknowns(get_lane(sums, lane), configuration, 1., column);
-            result.col(begin + lane) = column;
-          }
       }
   }
 

@@ -286,43 +286,6 @@ namespace Debond
 
 
 
-  // With respect to the data, at fixed xi_hat and w. They change the limit mu p
-  // + eta / dt times the distance, and, where slip is integrated, the lengths
-  // at which the string begins to slide: L_n, and mu(g_s^n) p / eps_t at the
-  // end. In h stands t_t / eps_t.
-  inline SlipEquations::Derivative<PointData::n_columns>
-  SlipEquations::along_data() const
-  {
-    using Data                                      = PointData;
-    const double                              eps_t = law.tangential_penalty;
-    Eigen::Matrix<double, 4, Data::n_columns> d;
-    d.setZero();
-    d.col(Data::mu)       = with(pressure * tau, 0.);
-    d.col(Data::pressure) = with(coefficient.mu * tau, 0.);
-    d.col(Data::viscous)  = with(distance * tau, 0.);
-    if (towed)
-      {
-        const Vector4d by_held = by_towed() * towed->derivative.col(4);
-        d.col(Data::old_limit) = by_towed() * towed->by_old_limit();
-        d.col(Data::old_mu)    = pressure / eps_t * by_held;
-        d.col(Data::pressure) += friction.old_mu / eps_t * by_held;
-        d.col(Data::eps_t) =
-          -friction.old_mu * pressure / (eps_t * eps_t) * by_held;
-      }
-    Derivative<Data::n_columns> result;
-    result.distance = d.row(3);
-    result.traction = d.topRows<3>();
-    Eigen::Matrix<double, 3, 2> tangents;
-    tangents << geometry.a1, geometry.a2;
-    result.h = -1. / eps_t * tangents.transpose() * d.topRows<3>();
-    result.h.col(Data::eps_t) +=
-      tangents.transpose() * tangential_traction / (eps_t * eps_t);
-    result.traction.col(Data::pressure) -= normal.n;
-    return result;
-  }
-
-
-
   // With respect to xi_hat: y moves along the tangents, and the tangents change
   // with the second derivatives of the surface, a_alpha,beta. x and y_n stay.
   inline SlipEquations::Derivative<2>
@@ -438,21 +401,6 @@ namespace Debond
 
 
 
-  namespace
-  {
-    // By the implicit function theorem, see SlipProblem::report().
-    template <typename Along, typename AlongXi, typename Result>
-    void
-    eliminate(const Along &along, const AlongXi &along_xi, Result &result)
-    {
-      result.dxi   = -along_xi.h.inverse() * along.h;
-      result.dt    = along.traction + along_xi.traction * result.dxi;
-      result.dslip = along.distance + along_xi.distance * result.dxi;
-    }
-  } // namespace
-
-
-
   // The point as the rest of the program sees it. xi_hat is no unknown of the
   // whole system: with h(xi_hat, w) = 0 the implicit function theorem gives its
   // motion,
@@ -491,17 +439,11 @@ namespace Debond
         result.state.internal =
           friction.law.advance(friction.start, e.distance);
       }
-    eliminate(e.along_w(), e.along_surface(), result);
-  }
-
-
-
-  void
-  SlipProblem::differentiate(const Vector2d &xi, PointData &by)
-  {
-    SurfaceBasis basis;
-    evaluate(xi, basis);
-    eliminate(equations->along_data(), equations->along_surface(), by);
+    const auto by_w  = e.along_w();
+    const auto by_xi = e.along_surface();
+    result.dxi       = -by_xi.h.inverse() * by_w.h;
+    result.dt        = by_w.traction + by_xi.traction * result.dxi;
+    result.dslip     = by_w.distance + by_xi.distance * result.dxi;
   }
 
 

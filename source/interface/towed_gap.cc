@@ -331,6 +331,5 @@ namespace Debond
     derivative << -tau.imag() * d_tau, tau.real() * d_tau,
       turning.growth * d_mean + mean_length * at_end.row(1) + start.d_length;
     derivative(2, 5) -= 1.;
-    held_fraction = beginning.fraction;
   }
 } // namespace Debond

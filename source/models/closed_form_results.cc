@@ -1,7 +1,6 @@
 #include <debond/interface/contact_point_state.h>
 #include <debond/models/closed_form_solution.h>
 #include <debond/models/run_report.h>
-#include <debond/models/sensitivities.h>
 #include <debond/support/number_text.h>
 
 #include <deal.II/base/timer.h>
@@ -42,27 +41,6 @@ namespace Debond
               2. * M_PI * r * R / n}});
         }
       return points;
-    }
-    // By differences, at the times of the rows, which adaptive steps would
-    // choose differently.
-    std::vector<RowDerivatives>
-    derivatives_of(const ClosedFormSolution &solution)
-    {
-      LoadSteppingParameters steps;
-      steps.times.clear();
-      for (const TorqueRow &row : solution.rows)
-        steps.times.push_back(row.time);
-      steps.steps.assign(steps.times.size() - 1, 1);
-      auto variations = variations_of(solution.scene);
-      std::vector<std::array<std::vector<TorqueRow>, 2>> rows;
-      for (SceneVariation &variation : variations)
-        {
-          for (Scene *varied : {&variation.plus, &variation.minus})
-            varied->load_steps = steps;
-          rows.push_back({{ClosedFormSolution(variation.plus).rows,
-                           ClosedFormSolution(variation.minus).rows}});
-        }
-      return differences(variations, rows);
     }
   } // namespace
 
@@ -135,11 +113,6 @@ namespace Debond
         facts["jumps"]               = solution.jumps.size();
         facts["released_energy_Nmm"] = solution.rows.back().released_energy_Nmm;
       }
-    if (!scene.output.sensitivities.empty())
-      write_file(directory.file("sensitivities.csv"),
-                 sensitivity_table(scene,
-                                   solution.rows,
-                                   derivatives_of(solution)));
     report.finish(solution.rows, solution.curve_settings(), facts);
   }
 

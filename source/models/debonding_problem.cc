@@ -131,7 +131,6 @@ namespace Debond
                  simulation.system().chuck)
       {
         Ranks::meet(); // all have seen what was in the directory
-        simulation.differentiate(variations_of(scene));
         if (checkpoint != nullptr)
           restore(*checkpoint);
         else
@@ -358,11 +357,6 @@ namespace Debond
                       {"largest_bonded_patch_mm2", bonding.largest_patch},
                       {"jumps", released.n_jumps()},
                       {"released_energy_Nmm", released.total()}});
-        if (!scene.output.sensitivities.empty())
-          write_file(directory.file("sensitivities.csv"),
-                     sensitivity_table(scene,
-                                       simulation.rows(),
-                                       simulation.row_derivatives()));
         report.finish(simulation.rows(), simulation.curve_settings(), facts);
         if (!converged)
           return;

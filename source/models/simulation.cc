@@ -88,18 +88,6 @@ namespace Debond
 
 
 
-  void
-  Simulation::differentiate(std::vector<SceneVariation> variations)
-  {
-    Assert(all_rows.empty(), dealii::ExcMessage("There are rows already."));
-    const Ranks::Together together(team);
-    if (!variations.empty())
-      sensitivities =
-        std::make_unique<Sensitivities>(scene, coupled_system, variations);
-  }
-
-
-
   // Three strategies lead through the load history; they share the interface
   // StepControl. Planned steps are those of the scene. Adaptive ones keep the
   // curves, drawn as cubics from row to row, within a tolerance. Where the load
@@ -167,9 +155,8 @@ namespace Debond
     if (is_lost)
       throw RunError("the state of the last row is lost, as it could not be "
                      "restored after an error: begin anew");
-    const std::size_t n_rows        = all_rows.size(),
-                      n_warnings    = all_warnings.size(),
-                      n_derivatives = all_derivatives.size();
+    const std::size_t n_rows     = all_rows.size(),
+                      n_warnings = all_warnings.size();
     last_row.save(*this);
     try
       {
@@ -187,7 +174,6 @@ namespace Debond
               last_row.restore(*this);
               all_rows.resize(n_rows);
               all_warnings.resize(n_warnings);
-              all_derivatives.resize(n_derivatives);
               is_lost = false;
             }
           catch (const std::exception &)
@@ -482,12 +468,6 @@ namespace Debond
         if (scene.has_friction() && scene.has_friction_after(from))
           state_checks.add_motion(row, coupled_system.chuck, from, to);
       }
-    // with the history that the step began with, and the tangent of its end
-    if (sensitivities)
-      {
-        const TimedSection t(timer, "sensitivities");
-        sensitivities->advance();
-      }
     solver.commit();
     accepted_rates = rates;
     // Energies, jumps, penetration: a check that is not passed does not end the
@@ -574,8 +554,6 @@ namespace Debond
       }
     if (row.step > 0 && scene.load_steps.draws_curve())
       set_rates(row);
-    if (sensitivities)
-      all_derivatives.push_back(sensitivities->of_row());
     all_rows.push_back(row);
   }
 

@@ -23,8 +23,8 @@ namespace Debond
     static const std::regex rung("rung-[0-9]+"),
       file("(summary|repetition-[0-9]+)\\.json|checkpoint-[12]|"
            "report\\.html|torque\\.(svg|png)|"
-           "(torque|curve|curve_at|auto|bonding|profiles|friction_law|maps|"
-           "sensitivities)\\.csv|"
+           "(torque|curve|curve_at|auto|bonding|profiles|friction_law|maps)"
+           "\\.csv|"
            "(bulk|interface)(-[0-9]+(\\.[0-9]+)?\\.p?vtu|\\.pvd)");
     const fs::directory_iterator entries(directory);
     for (const fs::path &path :

@@ -3,7 +3,6 @@
 #include <debond/interface/bonding_pattern.h>
 #include <debond/scene/reference_data.h>
 #include <debond/scene/scene.h>
-#include <debond/scene/scene_variation.h>
 #include <debond/support/number_text.h>
 
 #include <cmath>
@@ -279,7 +278,6 @@ namespace Debond
       throw EntryError("Bone / Young modulus",
                        "one that varies is for Model = finite elements, and "
                        "closed forms know none: expected a number");
-    check_sensitivities(*this);
     if (bone.bulk_solver == BulkSolver::lattice && !why_not_lattice().empty())
       throw EntryError("Bone / Bulk solver",
                        why_not_lattice() +

@@ -259,19 +259,6 @@ namespace Debond
         "through one of them; between rows as curve.csv has them, or "
         "linear. Empty: no such file.");
       table.add(
-        "Sensitivities",
-        output.sensitivities,
-        Allowed::list(Allowed::text("an entry with its subsections", false),
-                      0,
-                      0),
-        "Entries by which the rows are differentiated, into "
-        "sensitivities.csv, as --set names them: Interface/Sliding threshold, "
-        "Bone/Young modulus, Chuck/Rotation z/Value. A Value of the chuck, or a "
-        "Young modulus that is an expression, is varied by a factor. Exactly with finite elements, for friction laws "
-        "that do not depend on the rate, penalty stiffnesses, viscosity, "
-        "bonding, Young's moduli and motion of the chuck; by differences with "
-        "closed forms. Empty: none.");
-      table.add(
         "Full sliding angle",
         output.full_sliding_angle,
         Allowed::number_from(0, "deg"),

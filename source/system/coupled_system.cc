@@ -573,20 +573,6 @@ namespace Debond
 
 
 
-  Eigen::MatrixXd
-  CoupledSystem::solve_all(const Eigen::MatrixXd &right,
-                           const double           relative_tolerance) const
-  {
-    if (!bone.whole())
-      return solver.solve_all(matrix, right, relative_tolerance);
-    Eigen::MatrixXd result(right.rows(), right.cols());
-    for (unsigned int j = 0; j < right.cols(); ++j)
-      result.col(j) = solve_with_whole_bone(right.col(j), relative_tolerance);
-    return result;
-  }
-
-
-
   // v <- v + dv for both bodies, q <- q + dq for the chuck. In the frame of the
   // chuck the implant's v is a plain vector, so adding is all it takes, even in
   // a large rotation. Along a path the time is corrected as well; prescribed

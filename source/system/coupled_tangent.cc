@@ -170,27 +170,6 @@ namespace Debond
 
 
 
-  // The same for several at once; nobody asks for that along a path.
-  Eigen::MatrixXd
-  CoupledTangent::interface_products(const Eigen::MatrixXd &X) const
-  {
-    if (path.follow)
-      return SplitMatrix::interface_products(X);
-    Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(X.rows(), X.cols());
-    interface.apply_tangent(configuration, X, Y);
-    for (unsigned int j = 0; j < X.cols(); ++j)
-      {
-        Eigen::VectorXd y = Y.col(j);
-        add_geometric_part(X.col(j), y);
-        Y.col(j) = y;
-      }
-    for (const auto &[k, row] : configuration.chuck_unknowns)
-      Y.row(row) -= chuck_stiffness_of_bulk(k) * X.row(row);
-    return Y;
-  }
-
-
-
   // A x. Needed only where a factorisation is the preconditioner; with B^-1
   // there is no product with B.
   Eigen::VectorXd
@@ -266,21 +245,6 @@ namespace Debond
     for (const auto &[k, row] : configuration.chuck_unknowns)
       x[row - n_bone] /= chuck_stiffness_of_bulk(k);
     return x;
-  }
-
-
-
-  Eigen::MatrixXd
-  CoupledTangent::solve_bulk_all(const Eigen::MatrixXd &B) const
-  {
-    Eigen::MatrixXd X = B;
-    for_each_bulk(
-      [&](const CondensingBulk &bulk, const int first, const int n) {
-        X.middleRows(first, n) = bulk.solve_all(B.middleRows(first, n));
-      });
-    for (const auto &[k, row] : configuration.chuck_unknowns)
-      X.row(row) /= chuck_stiffness_of_bulk(k);
-    return X;
   }
 
 

@@ -147,20 +147,11 @@ def check_law():
 
 def check_more():
     seen = []
-    scene = debond.Scene(text=coin, entries={"Output/Sensitivities": "Interface/Friction coefficient unbroken"})
+    scene = debond.Scene(text=coin, entries={"Interface/Friction coefficient unbroken": 0.58})
     result = scene.run(on_row=lambda row: seen.append(row["torque_Nmm"]))
     check("each row is shown", seen == list(result.rows["torque_Nmm"]))
-    h = 1e-4
-    plus, minus = (debond.Scene(text=coin, entries={"Interface/Friction coefficient unbroken": 0.58 + sign * h}).run().rows
-                   for sign in (1, -1))
-    base = debond.Scene(text=coin, entries={"Interface/Friction coefficient unbroken": 0.58}).run().rows
-    slope = (plus["torque_Nmm"] - minus["torque_Nmm"]) / (2 * h)
-    exact = debond.Scene(text=coin, entries={"Interface/Friction coefficient unbroken": 0.58, "Output/Sensitivities":
-                         "Interface/Friction coefficient unbroken"}).run().sensitivities
-    exact = exact["Interface/Friction coefficient unbroken"]["torque_Nmm"]
-    check("sensitivities are slopes", len(exact) == len(base["torque_Nmm"]) and abs(exact - slope).max() < 1e-6 * exact.max())
     closed = debond.Scene(text=coin, entries={"Model": "foundation"}).run()
-    check("closed forms", 1e-3 < abs(closed.rows["torque_Nmm"].max() / base["torque_Nmm"].max() - 1) < 2e-2)
+    check("closed forms", 1e-3 < abs(closed.rows["torque_Nmm"].max() / result.rows["torque_Nmm"].max() - 1) < 2e-2)
 
     too_much = {"Chuck/Rotation z/Control": "moment", "Chuck/Rotation z/Value": "60 * max(t - 1, 0)"}
     simulation = debond.Simulation(debond.Scene(text=coin, entries=too_much))

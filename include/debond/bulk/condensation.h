@@ -42,9 +42,6 @@ namespace Debond
     /** S^-1 b. */
     Eigen::VectorXd
     schur_solve(const Eigen::VectorXd &b) const;
-    /** The same for each column of @p B: several share the reading of L_cc. */
-    Eigen::MatrixXd
-    schur_solve_all(const Eigen::MatrixXd &B) const;
 
     /** What is left of a vector r over all unknowns. */
     struct Condensed

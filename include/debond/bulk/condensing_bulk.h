@@ -17,15 +17,6 @@ namespace Debond
     product(const Eigen::VectorXd &x) const = 0;
     virtual Eigen::VectorXd
     solve(const Eigen::VectorXd &b) const = 0;
-    /** The same for each column of @p B. */
-    virtual Eigen::MatrixXd
-    solve_all(const Eigen::MatrixXd &B) const
-    {
-      Eigen::MatrixXd X(B.rows(), B.cols());
-      for (unsigned int j = 0; j < B.cols(); ++j)
-        X.col(j) = solve(B.col(j));
-      return X;
-    }
     /** Whether there is S as a dense matrix; the coupled system must else do
      *  with products and solves. */
     virtual bool

@@ -82,6 +82,21 @@ namespace Debond
       log = &where;
     }
 
+    /** From now on runs for derivatives are shared with one more, which nobody
+     *  else uses at the same time. */
+    void
+    helped_by(const Misfit &other)
+    {
+      for (std::size_t i = 0; i < experiments.size(); ++i)
+        experiments[i]->helpers.push_back(other.experiments[i].get());
+    }
+    void
+    helped_by_none()
+    {
+      for (const auto &experiment : experiments)
+        experiment->helpers.clear();
+    }
+
     Evaluation
     evaluate(const Eigen::VectorXd &unknowns,
              Experiment::By         model,

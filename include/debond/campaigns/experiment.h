@@ -5,7 +5,6 @@
 #include <debond/campaigns/unknowns.h>
 #include <debond/models/foundation.h>
 #include <debond/models/torsion_curve.h>
-#include <debond/scene/scene_variation.h>
 #include <debond/scene/varying_scene.h>
 
 #include <Eigen/Core>
@@ -44,7 +43,7 @@ namespace Debond
   {
   public:
     /** Of TorqueRow::chuck_reaction, chuck_position and torque_Nmm, by column
-     *  with respect to the unknowns. */
+     *  with respect to the unknowns: a closed form has them. */
     using RowDerivative = Eigen::Matrix<double, 13, Eigen::Dynamic>;
 
     /** Experiment @p number of @p unknowns. Throws InputError. */
@@ -81,6 +80,9 @@ namespace Debond
     const CurveColumn        over;
     Measurement              measured;
 
+    /** The same experiment, for runs at the same time as those of this one. */
+    std::vector<Experiment *> helpers;
+
   private:
     void
     find_changes();
@@ -92,11 +94,9 @@ namespace Debond
      *  over its bounds. */
     std::array<Eigen::VectorXd, 2>
     moved(const Eigen::VectorXd &values, unsigned int j, double part) const;
-    SceneVariation
-    variation(const Eigen::VectorXd &values, unsigned int j);
-    /** Of a run by the unknown @p j; empty: there is one. */
-    std::string
-    why_no_derivative(const Eigen::VectorXd &values, unsigned int j);
+    /** Where differences by the unknown @p j are taken. */
+    std::array<Eigen::VectorXd, 2>
+    ends_of(const Eigen::VectorXd &values, unsigned int j) const;
     /** Of the numbers of the rig. */
     Eigen::Vector4d
     rig_derivative(const Eigen::VectorXd &values, unsigned int j);
@@ -112,8 +112,13 @@ namespace Debond
     predict_by_differences(const Eigen::VectorXd &values);
     std::unique_ptr<Simulation>
     simulation_of(const Scene &scene);
-    PredictedCurves
-    predict_by_run(const Eigen::VectorXd &values, bool with_derivatives);
+    /** The rows by the scene's own model, or points of the curve between them.
+     */
+    std::vector<TorqueRow>
+    curve_by_scene(const Eigen::VectorXd &values);
+    /** The same at the measured rows. */
+    Eigen::VectorXd
+    seen(const std::vector<TorqueRow> &curve, const Eigen::VectorXd &values);
 
     /** Stiffness of the foundation, for unknowns near those that it was
      *  computed for: what the bodies add to the compliance of the interface
@@ -145,10 +150,8 @@ namespace Debond
     {
       bool model = false, law = false, stiffness = false;
     };
-    std::vector<Changes> changes;
-    bool                 keeps_bodies = true; ///< no unknown changes them
-    /** Runs of the scene are differentiated exactly, not compared. */
-    bool                      is_differentiated = false;
+    std::vector<Changes>      changes;
+    bool                      keeps_bodies = true; ///< no unknown changes them
     bool                      has_elastic_bodies;
     Foundation                begin, centre; ///< the first one, and that now
     std::shared_ptr<BodyPair> bodies, linear_bodies;

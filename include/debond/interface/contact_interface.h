@@ -187,12 +187,6 @@ namespace Debond
     apply_tangent(const InterfaceConfiguration &configuration,
                   const Eigen::VectorXd        &direction,
                   Eigen::VectorXd              &result) const;
-    /** The same for several, each in a column. */
-    void
-    apply_tangent(const InterfaceConfiguration &configuration,
-                  const Eigen::MatrixXd        &directions,
-                  Eigen::MatrixXd              &result) const;
-
     /** Accepts the last evaluate(): history, and the works it sums up. Open
      *  points are projected anew in the accepted configuration. */
     void
@@ -304,8 +298,6 @@ namespace Debond
     }
 
   private:
-    friend class InterfaceSensitivity; // reads history and geometry
-
     Side
     master_side() const
     {
@@ -317,11 +309,6 @@ namespace Debond
     find_side(InterfaceSummary &summary) const;
     void
     assign_bonding();
-    BondingPattern
-    bonding_pattern(const InterfaceParameters &of) const;
-    /** phi_0 of all points. */
-    std::vector<double>
-    initial_bonding(const BondingPattern &pattern) const;
     void
     project_accepted(SlavePoint                   &point,
                      const InterfaceConfiguration &configuration,

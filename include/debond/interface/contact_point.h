@@ -65,19 +65,6 @@ namespace Debond
                        const ContactPointMode  &mode,
                        ContactPointResult      &result);
 
-  /** Derivatives of a closed point by its data, in the state @p result that
-   *  update_contact_point() has made of the same arguments. */
-  PointData
-  differentiate_by_data(const ContactPointLaw    &law,
-                        const ContactPointState  &start,
-                        double                    phi_0,
-                        const Eigen::Vector3d    &x,
-                        const MasterSurface      &master,
-                        const ContactPointMode   &mode,
-                        const ContactPointResult &result);
-
-
-
   /** What a quadrature point of the slave surface keeps of a step. Members are
    *  numbers and matrices of fixed size only, see SavedState. */
   struct SlavePointHistory

@@ -95,27 +95,6 @@ namespace Debond
     }
   };
 
-  /** What traction and xi_hat of a closed point depend on besides w, see
-   *  ContactPointResult: where parameters of the law and the history of the
-   *  point enter. */
-  struct PointData
-  {
-    enum Column
-    {
-      old_limit, ///< L_n = mu(g_s^n) p_n / eps_t [mm]
-      old_mu,    ///< mu(g_s^n)
-      mu,        ///< at the end of the step, at a given distance
-      pressure,  ///< p at a given gap [MPa]
-      eps_t,     ///< [MPa/mm]
-      viscous,   ///< eta / dt [MPa/mm]
-      n_columns
-    };
-    /** Total derivatives by them, as those by w. */
-    Eigen::Matrix<double, 3, n_columns> dt;
-    Eigen::Matrix<double, 2, n_columns> dxi;
-    Eigen::Matrix<double, 1, n_columns> dslip;
-  };
-
   /** What becomes of a quadrature point, as far as it is to be seen between two
    *  steps. Members are numbers and matrices of fixed size only, see
    *  SavedState. */

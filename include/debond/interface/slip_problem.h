@@ -109,9 +109,6 @@ namespace Debond
     /** With respect to w, see ContactPointResult: for the whole system. */
     Derivative<ContactPointResult::n_w>
     along_w() const;
-    /** With respect to the data of the step, for derivatives by parameters. */
-    Derivative<PointData::n_columns>
-    along_data() const;
     /** With respect to the two parameters of the surface: for this point. */
     Derivative<2>
     along_surface() const;
@@ -249,11 +246,6 @@ namespace Debond
      */
     void
     report(ContactPointResult &result) const;
-
-    /** The same for derivatives by the data, at an @p xi that solves the
-     *  equations. */
-    void
-    differentiate(const Eigen::Vector2d &xi, PointData &by);
 
     /** Where the last iteration ended. */
     const SlipEquations &

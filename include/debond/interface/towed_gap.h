@@ -64,17 +64,6 @@ namespace Debond
     double distance;
     /** d(direction, distance)/d(old_gap, motion, held_limit, length, turn). */
     Eigen::Matrix<double, 3, 7> derivative;
-    /** Part of the way on which the string holds. */
-    double held_fraction;
-    /** d(direction, distance)/d(old_limit): both limits matter by what they
-     *  make L where sliding begins. */
-    Eigen::Vector3d
-    by_old_limit() const
-    {
-      if (held_fraction == 0.)
-        return Eigen::Vector3d::Zero();
-      return (1. - held_fraction) / held_fraction * derivative.col(4);
-    }
   };
 } // namespace Debond
 #endif

@@ -1,7 +1,6 @@
 #ifndef debond_models_simulation_h
 #define debond_models_simulation_h
 
-#include <debond/models/sensitivities.h>
 #include <debond/models/state_checks.h>
 #include <debond/output/torque_curve.h>
 #include <debond/scene/scene.h>
@@ -66,12 +65,6 @@ namespace Debond
     };
     Signals signals;
 
-    /** Has the rows differentiated by the parameters of @p variations, to be
-     *  called before the first row. They change nothing else. Throws InputError
-     *  for what why_not_differentiable() refuses. */
-    void
-    differentiate(std::vector<SceneVariation> variations);
-
     /** Solves for all rows that are left. Throws RunError where the load cannot
      *  be followed; the rows before stay. Throws InputError if an expression of
      *  the scene has no finite value. */
@@ -99,14 +92,6 @@ namespace Debond
     rows() const
     {
       return all_rows;
-    }
-    using RowDerivatives = Debond::RowDerivatives;
-    /** As many as rows() if there is something to differentiate by, else none.
-     */
-    const std::vector<RowDerivatives> &
-    row_derivatives() const
-    {
-      return all_derivatives;
     }
     /** Bodies, chuck and interface in the last accepted state. */
     const CoupledSystem &
@@ -165,10 +150,8 @@ namespace Debond
       archive &so_far.steps &so_far.newton_iterations &so_far.smallest_step;
       archive                                         &accepted_rates;
       std::visit([&archive](auto &chosen) { archive &chosen; }, steps);
-      if (sensitivities) // as the scene says
-        archive &*sensitivities;
       if constexpr (!is_in_memory<Archive>) // what a row is appended to
-        archive &all_rows &all_warnings &all_derivatives;
+        archive &all_rows &all_warnings;
       if (Archive::is_loading::value)
         rates = accepted_rates;
     }
@@ -220,9 +203,7 @@ namespace Debond
     double                 reaction_defect = 0; ///< of the last accepted state
     CoupledSystem::Rates   rates; ///< of the last step that was solved
     CoupledSystem::Rates   accepted_rates;
-    std::unique_ptr<Sensitivities> sensitivities; ///< if there are any
-    std::vector<RowDerivatives>    all_derivatives;
-    SavedState                     last_row; ///< while the next one is at work
+    SavedState             last_row; ///< while the next one is at work
     /** A row failed, and the state of the last one could not be restored. */
     bool is_lost = false;
   };

@@ -93,9 +93,7 @@ namespace Debond
     std::vector<std::string> reference_columns;  ///< of it; empty: recognised
     std::string              reference_profiles; ///< a profiles.csv, or empty
     std::vector<double>      curve_at;           ///< angles [deg]
-    /** Entries "Interface/Sliding threshold" to differentiate by. */
-    std::vector<std::string> sensitivities;
-    double full_sliding_angle = 0;      ///< [deg], 0: from the curve
+    double full_sliding_angle = 0;               ///< [deg], 0: from the curve
     double observed_bonding   = 0;      ///< mean phi_0 of w_adh, 0: the scene's
     std::vector<double> profile_angles; ///< [deg]
     bool                friction_law_curve = false; ///< write friction_law.csv

@@ -147,11 +147,6 @@ namespace Debond
      *  for to @p relative_tolerance. */
     Correction
     solve(const Residual &residual, double relative_tolerance);
-    /** Solves with the tangent of the last evaluate() for each column of
-     *  @p right, to |b - A x| <= @p relative_tolerance |b|. Changes nothing:
-     * what follows is the same to the last digit. */
-    Eigen::MatrixXd
-    solve_all(const Eigen::MatrixXd &right, double relative_tolerance) const;
     /** Null where the bone is condensed. */
     const MultigridEffort *
     multigrid_effort() const

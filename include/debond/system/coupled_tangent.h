@@ -77,8 +77,6 @@ namespace Debond
     product(const Eigen::VectorXd &x) const override;
     Eigen::VectorXd
     interface_product(const Eigen::VectorXd &x) const override;
-    Eigen::MatrixXd
-    interface_products(const Eigen::MatrixXd &X) const override;
     bool
     can_be_assembled() const override;
     bool
@@ -88,8 +86,6 @@ namespace Debond
     }
     Eigen::VectorXd
     solve_bulk(const Eigen::VectorXd &b) const override;
-    Eigen::MatrixXd
-    solve_bulk_all(const Eigen::MatrixXd &B) const override;
     void
     assemble(Eigen::MatrixXd &matrix) const override;
 

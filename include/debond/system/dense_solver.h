@@ -22,30 +22,12 @@ namespace Debond
     /** C x. */
     virtual Eigen::VectorXd
     interface_product(const Eigen::VectorXd &x) const = 0;
-    /** C X. */
-    virtual Eigen::MatrixXd
-    interface_products(const Eigen::MatrixXd &X) const
-    {
-      Eigen::MatrixXd result(X.rows(), X.cols());
-      for (unsigned int j = 0; j < X.cols(); ++j)
-        result.col(j) = interface_product(X.col(j));
-      return result;
-    }
     /** Whether B has an inverse. */
     virtual bool
     bulk_is_regular() const = 0;
     /** B^-1 b. */
     virtual Eigen::VectorXd
     solve_bulk(const Eigen::VectorXd &b) const = 0;
-    /** B^-1 X. */
-    virtual Eigen::MatrixXd
-    solve_bulk_all(const Eigen::MatrixXd &X) const
-    {
-      Eigen::MatrixXd result(X.rows(), X.cols());
-      for (unsigned int j = 0; j < X.cols(); ++j)
-        result.col(j) = solve_bulk(X.col(j));
-      return result;
-    }
     /** Whether A can be written: a part of it may exist as products only. */
     virtual bool
     can_be_assembled() const
@@ -77,13 +59,6 @@ namespace Debond
     solve(const SplitMatrix     &A,
           const Eigen::VectorXd &b,
           double                 relative_tolerance);
-
-    /** The same for each column of @p B, with what there is to precondition
-     *  with. Later solutions do not know of it. */
-    Eigen::MatrixXd
-    solve_all(const SplitMatrix     &A,
-              const Eigen::MatrixXd &B,
-              double                 relative_tolerance) const;
 
     /** Matrices to come have nothing to do with those before. */
     void
@@ -117,17 +92,6 @@ namespace Debond
 
   private:
     bool
-    add_directions(const SplitMatrix     &A,
-                   const Eigen::MatrixXd &residuals,
-                   Eigen::MatrixXd       &Q,
-                   Eigen::MatrixXd       &Z,
-                   unsigned int          &n_directions) const;
-    bool
-    iterate_all(const SplitMatrix     &A,
-                const Eigen::MatrixXd &B,
-                double                 relative_tolerance,
-                Eigen::MatrixXd       &X) const;
-    bool
     iterate(const SplitMatrix     &A,
             const Eigen::VectorXd &b,
             double                 relative_tolerance,
@@ -139,12 +103,11 @@ namespace Debond
       Eigen::MatrixXd                                          lu;
       Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic> permutation;
 
-      /** A^-1 b, or the same for each column. */
-      template <class Derived>
-      typename Derived::PlainObject
-      solve(const Eigen::MatrixBase<Derived> &b) const
+      /** A^-1 b. */
+      Eigen::VectorXd
+      solve(const Eigen::VectorXd &b) const
       {
-        typename Derived::PlainObject x = permutation * b;
+        Eigen::VectorXd x = permutation * b;
         lu.triangularView<Eigen::UnitLower>().solveInPlace(x);
         lu.triangularView<Eigen::Upper>().solveInPlace(x);
         return x;

@@ -1,6 +1,5 @@
 #include <debond/bulk/body_partition.h>
 #include <debond/bulk/bulk_solvers.h>
-#include <debond/bulk/lattice_preconditioner.h>
 #include <debond/bulk/whole_bulk.h>
 #include <debond/support/ranks.h>
 
@@ -139,9 +138,6 @@ namespace Debond
         for (unsigned int k = 0; k < dofs.size(); ++k)
           if (const int place = place_of(numbers[k]); place >= 0)
             dof_of_owned[place] = dofs[k];
-        if (LatticePreconditioner::pays(mesh, cells))
-          lattice =
-            std::make_unique<LatticePreconditioner>(mesh, cells, dof_of_owned);
       }
 
       /** To be called once by all ranks. */
@@ -182,19 +178,13 @@ namespace Debond
         if (Ranks::sum(is_new) == 0.)
           return true;
         assemble(v);
-        if (!has_positive_diagonal() ||
-            (lattice && !lattice->set_up(K.trilinos_matrix())))
+        if (!has_positive_diagonal())
           {
             if (linearised_at.size() > 0)
-              {
-                assemble(linearised_at);
-                if (lattice)
-                  lattice->set_up(K.trilinos_matrix());
-              }
+              assemble(linearised_at);
             return false;
           }
-        if (!lattice)
-          set_up_multigrid();
+        set_up_multigrid();
         linearised_at = v;
         return true;
       }
@@ -266,8 +256,6 @@ namespace Debond
       void
       cycle(const double *const x, double *const y) const override
       {
-        if (lattice)
-          return lattice->solve(x, y);
         apply(
           [&](const Epetra_MultiVector &in, Epetra_MultiVector &out) {
             multigrid->ApplyInverse(in, out);
@@ -438,8 +426,7 @@ namespace Debond
       std::unique_ptr<Maps>     maps;
       dealii::TrilinosWrappers::SparseMatrix               K;
       std::unique_ptr<ML_Epetra::MultiLevelPreconditioner> multigrid;
-      std::unique_ptr<LatticePreconditioner> lattice; ///< instead, if not null
-      Eigen::VectorXd                        linearised_at;
+      Eigen::VectorXd                                      linearised_at;
       /** Unknown, place among the owned. */
       std::vector<std::pair<unsigned int, unsigned int>> owned_unknowns;
     };

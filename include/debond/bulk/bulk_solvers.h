@@ -19,13 +19,12 @@ namespace Debond
   /** A bone of equal splines across (BodyParameters::has_equal_splines), which
    *  sines and cosines make diagonal. Its unknowns are all control points of
    *  the contact face but those at the sides, which contact must not reach:
-   *  set_contact() throws EntryError. A modulus that varies across counts as
-   *  the mean of each layer of @p cells. */
+   *  set_contact() throws EntryError. Layers of @p cells may differ in their
+   *  modulus. */
   std::unique_ptr<CondensingBulk>
   make_lattice_bulk(const BodyMesh &mesh, const EnrichedCells &cells);
 
-  /** A WholeBulk with algebraic multigrid, on all ranks; in one process with
-   *  the lattice in its place where that pays (LatticePreconditioner). */
+  /** A WholeBulk with algebraic multigrid, on all ranks. */
   std::unique_ptr<WholeBulk>
   make_multigrid_bulk(const BodyMesh &mesh, const NeoHookean &material);
 

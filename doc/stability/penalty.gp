@@ -10,10 +10,7 @@ do for [format in "png svg"] {
   set ylabel "Newton iterations in 101 steps"
   set yrange [0:]
   set xrange [3:1e6]
-  set key top left
-  plot data using 1:"extrapolate" with linespoints pointtype 7 title "extrapolate (default)", \
-    data using 1:"rigid" with linespoints pointtype 6 title "rigid", \
-    data using 1:"stick first" with linespoints pointtype 5 title "stick first", \
-    data using 1:"none" with linespoints pointtype 8 title "none"
+  unset key
+  plot data using 1:"iterations" with linespoints pointtype 7
 }
 unset output

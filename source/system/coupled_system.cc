@@ -244,7 +244,7 @@ namespace Debond
   // through the last two, of which it is the continuation over the time or,
   // along a path, over the number of the step. In 100 steps of the main scene
   // with linear bodies it takes 105 iterations, and starting from the last
-  // state with sticking points 301 (doc/solution.md, Predictor).
+  // state with sticking points 301.
   //
   // What is prescribed is put where the scene wants it at once; the residual
   // then holds what that does to the interface. In the implant's frame the
@@ -261,35 +261,6 @@ namespace Debond
     chuck.prescribe(time);
     trial_time = time;
     path.slip  = 0.;
-  }
-
-
-
-  // For the predictor `none`. The opposite of letting the implant's face go
-  // along with the chuck: its displacement in the moving frame undoes the
-  // chuck's motion,
-  //
-  //   v = Q^T (x - C - u) - (X - C),
-  //
-  // with x the accepted positions. The first iteration then starts with the old
-  // gaps and tractions, but the motion of the chuck is all in strains of the
-  // implant, which are large and false where the step is a large rotation.
-  void
-  CoupledSystem::leave_surface_behind()
-  {
-    const ControlNet back =
-      chuck.rotation().transpose() *
-      (interface.accepted_surface(Side::implant) -
-       chuck.map_points(implant.surface().control_points(),
-                        implant.contact_displacement()));
-    const auto     &numbers = implant.unknown_of();
-    Eigen::VectorXd dv      = Eigen::VectorXd::Zero(implant.n_unknowns());
-    for (unsigned int i = 0; i < numbers.size(); ++i)
-      if (numbers[i] >= 0)
-        dv[numbers[i]] = back.data()[i];
-    // No residual is known yet: the interior follows as if it were in
-    // equilibrium.
-    implant.correct(implant.correction(dv, {}));
   }
 
 

@@ -56,19 +56,6 @@ namespace Debond
                 Allowed::number_between(1e-14, 0.1, ""),
                 "A step has converged when the residual is below this fraction "
                 "of the contact force.");
-      table.add(
-        "Predictor",
-        parameters.predictor,
-        Allowed::choice("extrapolate | stick first | rigid | none"),
-        "What the first iteration of a step starts from. `extrapolate': the "
-        "straight line through the last two states where there is one in this "
-        "phase; else, and if that fails, as `stick first'. The others are there "
-        "to be compared with, and a step that fails with them is halved at once. "
-        "`stick first': the last state with the chuck moved, so that the implant "
-        "goes along as it is; closed points stick in the first iteration. "
-        "`rigid': the same, but every point sticks or slides as it must from the "
-        "first iteration on. `none': the implant's deformable contact face stays "
-        "where it is in space.");
     }
   } // namespace
 

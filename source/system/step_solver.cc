@@ -46,15 +46,13 @@ namespace Debond
   std::vector<StepSolver::Attempt>
   StepSolver::attempts(const Step &step) const
   {
-    const bool predicts = step.extrapolate && parameters.load_steps.predictor ==
-                                                Predictor::extrapolate;
     // Along a path (doc/solution.md, Snap-back) the branch is the one that the
     // line points to; another start would leave the direction in which the path
     // goes.
     if (step.by_slip()) // without a prediction nothing slides
-      return {predicts ? extrapolated : from_rest};
+      return {step.extrapolate ? extrapolated : from_rest};
     std::vector<Attempt> list;
-    if (predicts)
+    if (step.extrapolate)
       list.push_back(extrapolated);
     list.push_back(from_rest); // the prediction may be to blame
     // A chuck that is loaded or compliant may have no state of equilibrium near
@@ -74,8 +72,7 @@ namespace Debond
 
   // Nothing has happened before the first time: one attempt, from where the
   // bodies were placed, undeformed. Points that are closed there start from
-  // their closest points on the master and, unless the predictor is `rigid` or
-  // `none`, stick in the first iteration.
+  // their closest points on the master and stick in the first iteration.
   StepResult
   StepSolver::solve_first()
   {
@@ -175,8 +172,6 @@ namespace Debond
       system.prescribe_slip(step.slip);
     if (attempt.relaxes_machine)
       system.chuck.relax_machine();
-    if (load_steps.predictor == Predictor::none)
-      system.leave_surface_behind();
 
     // How it goes on. The first iteration from the last state has all closed
     // points stick (station 5): sticking points are a linear spring, and cannot
@@ -185,10 +180,7 @@ namespace Debond
     NewtonOptions options;
     options.residual_tolerance = load_steps.residual_tolerance;
     options.points.stick_first =
-      !attempt.relaxes_machine &&
-      (load_steps.predictor == Predictor::stick_first ||
-       (load_steps.predictor == Predictor::extrapolate &&
-        !attempt.extrapolates));
+      !attempt.relaxes_machine && !attempt.extrapolates;
     // For viscosity and rates, in the scene's unit of time.
     options.points.duration        = step.time - accepted_time;
     options.points.touch_tolerance = 1e-12 * system.R;

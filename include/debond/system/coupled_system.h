@@ -95,10 +95,6 @@ namespace Debond
      *  and what was given to commit() with them. */
     void
     predict(double time, double parameter, bool extrapolate);
-    /** Puts the implant's contact unknowns back to where they are in space in
-     *  the accepted state, after predict(). */
-    void
-    leave_surface_behind();
     /** To be called after predict() with a guess of the time: the step grows
      *  the mean sliding distance by @p slip [mm], and the time is found. Only
      *  where the scene follows the path. */

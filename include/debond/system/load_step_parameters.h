@@ -11,15 +11,6 @@ namespace Debond
 {
   class EntryTable;
 
-  /** What the first iteration of a step starts from. */
-  enum class Predictor
-  {
-    extrapolate,
-    stick_first,
-    rigid,
-    none
-  };
-
   /** The subsection `Load steps` of a scene. */
   struct LoadSteppingParameters
   {
@@ -29,7 +20,6 @@ namespace Debond
     double                    residual_tolerance     = 1e-8;
     bool                      adaptive               = false;
     double                    tolerance = 1e-3; ///< of the curves, if adaptive
-    Predictor                 predictor = Predictor::extrapolate;
     /** Follow the path of equilibrium by the mean sliding distance. */
     bool follow_path = false;
     /** Largest step of the mean sliding distance [mm]; 0: from the law. */
@@ -37,9 +27,9 @@ namespace Debond
     /** Mean sliding distance at which the path ends [mm]; 0: the radius. */
     double path_ends_at_slip = 0;
 
-    /** Ends of the planned steps of each phase, if they are not even: those that
-     *  another run has chosen. For scenes that a program makes; no entry of a
-     *  file. The curve between them is drawn as with adaptive steps. */
+    /** Ends of the planned steps of each phase, if they are not even: those
+     * that another run has chosen. For scenes that a program makes; no entry of
+     * a file. The curve between them is drawn as with adaptive steps. */
     std::vector<std::vector<double>> ends;
 
     /** Whether the curve between rows is known. */

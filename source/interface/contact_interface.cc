@@ -235,91 +235,53 @@ namespace Debond
 
   namespace
   {
-    /** turn_of_way() of a step, and its derivatives by the components of the
-     *  chuck that are unknown. */
-    class TurnOfWay
+    /** Derivatives of turn_of_way() by the components of the chuck that are
+     *  unknown. */
+    Chuck::Vector6
+    turn_by_chuck(const RigidMotion            &rigid,
+                  const InterfaceConfiguration &configuration,
+                  const Eigen::Vector3d        &old_x,
+                  const Side                    slave)
     {
-    public:
-      TurnOfWay(const Eigen::Matrix3d        &old_frame,
-                const Eigen::Vector3d        &old_centre,
-                const InterfaceConfiguration &configuration)
-        : rigid({old_frame, old_centre}, Place::of_implant(configuration))
-        // a little of the motion of the step [mm], [rad]
-        , dq(1e-6 *
-             ((rigid.centre - rigid.old_centre).norm() + rigid.axis.norm()))
-      {
-        if (dq > 0.)
-          for (const auto &unknown : configuration.chuck_unknowns)
-            for (const double sign : {-1., 1.})
-              varied[unknown.first].emplace_back(Place{old_frame, old_centre},
-                                                 varied_place(configuration,
-                                                              unknown.first,
-                                                              sign * dq));
-      }
-
-      double
-      of(const Eigen::Vector3d &x, const Side slave) const
-      {
-        return rigid.turn_of_way(x, slave);
-      }
-
-      Chuck::Vector6
-      by_chuck(const Eigen::Vector3d &x, const Side slave) const
-      {
-        Chuck::Vector6 result = Chuck::Vector6::Zero();
-        for (unsigned int k = 0; k < 6; ++k)
-          if (!varied[k].empty())
-            result[k] = (varied[k][1].turn_of_way(x, slave) -
-                         varied[k][0].turn_of_way(x, slave)) /
-                        (2. * dq);
+      Chuck::Vector6 result = Chuck::Vector6::Zero();
+      if (configuration.chuck_unknowns.empty())
         return result;
-      }
-
-    private:
-      /** @p component of the chuck is moved a little further. */
-      static Place
-      varied_place(const InterfaceConfiguration &configuration,
-                   const unsigned int            component,
-                   const double                  dq)
-      {
-        Place place = Place::of_implant(configuration);
-        if (is_rotation(component))
-          place.frame =
-            Eigen::AngleAxisd(dq, configuration.chuck->axis(component)) *
-            place.frame;
-        else
-          place.centre[component] += dq;
-        return place;
-      }
-
-      const RigidMotion                       rigid;
-      const double                            dq;
-      std::array<std::vector<RigidMotion>, 6> varied;
-    };
+      const RigidMotion::TurnGradient by = rigid.gradient_of_turn(old_x, slave);
+      for (const auto &unknown : configuration.chuck_unknowns)
+        {
+          const unsigned int k = unknown.first;
+          result[k]            = is_rotation(k) ?
+                                   by.spin.dot(configuration.chuck->axis(k)) :
+                                   by.centre[k];
+        }
+      return result;
+    }
 
 
 
     /** From the state @p start at @p old_x to @p x, the slave point in space
      * [mm]; finds what master and law make of it (contact_point.cc). */
     void
-    update_point(const ContactPointLaw   &law,
-                 const Side               slave,
-                 const SlavePoint        &point,
-                 const ContactPointState &start,
-                 const Eigen::Vector3d   &old_x,
-                 const Eigen::Vector3d   &old_traction,
-                 const MasterSurface     &surface,
-                 const TurnOfWay         &turn,
-                 ContactPointMode         mode,
-                 const Eigen::Vector3d   &x,
-                 ContactPointResult      &result)
+    update_point(const ContactPointLaw        &law,
+                 const Side                    slave,
+                 const SlavePoint             &point,
+                 const ContactPointState      &start,
+                 const Eigen::Vector3d        &old_x,
+                 const Eigen::Vector3d        &old_traction,
+                 const MasterSurface          &surface,
+                 const RigidMotion            &rigid,
+                 const InterfaceConfiguration &configuration,
+                 ContactPointMode              mode,
+                 const Eigen::Vector3d        &x,
+                 ContactPointResult           &result)
     {
       if (law.slip_direction == SlipDirection::previous_gap)
         mode.slip_direction = old_traction;
       else if (law.slip_direction == SlipDirection::integrated)
         {
-          mode.turn            = turn.of(old_x, slave);
-          result.turn_by_chuck = turn.by_chuck(old_x, slave);
+          mode.turn = rigid.turn_of_way(old_x, slave);
+          result.turn_by_chuck =
+            turn_by_chuck(rigid, configuration, old_x, slave);
         }
       update_contact_point(law, start, point.phi_0, x, surface, mode, result);
     }
@@ -347,8 +309,9 @@ namespace Debond
     const double        moved   = motion(configuration);
     const auto         &sides   = configuration.side;
     mode_now                    = mode;
-    const TurnOfWay turn(accepted_frame, accepted_centre, configuration);
-    const auto      update = [&](const unsigned int q, NodalSums &sums) {
+    const RigidMotion rigid({accepted_frame, accepted_centre},
+                            Place::of_implant(configuration));
+    const auto        update = [&](const unsigned int q, NodalSums &sums) {
       SlavePoint         &point  = points[q];
       ContactPointResult &result = point.trial;
       // Most points beyond the edge stay there: they need no projection until
@@ -373,7 +336,8 @@ namespace Debond
                    interpolate(point.basis, accepted_positions[slave]),
                    sides[master_side()].frame * point.accepted_traction,
                    surface,
-                   turn,
+                   rigid,
+                   configuration,
                    mode,
                    interpolate(point.basis, sides[slave].positions),
                    result);
@@ -416,8 +380,9 @@ namespace Debond
     first.chuck_unknowns.clear(); // no derivatives
     last.chuck_unknowns.clear();
     const MasterSurface surface = master(first), last_surface = master(last);
-    const TurnOfWay     turn(accepted_frame, accepted_centre, first),
-      last_turn(first.side[Side::implant].frame, first.chuck->centre(), last);
+    const Place         middle_place = Place::of_implant(first);
+    const RigidMotion   rigid({accepted_frame, accepted_centre}, middle_place),
+      last_rigid(middle_place, Place::of_implant(last));
     ContactPointMode mode = mode_now;
     mode.duration *= 0.5;
     const auto update = [&](const unsigned int q, NodalSums &sums) {
@@ -440,7 +405,8 @@ namespace Debond
                    old_x,
                    first.side[master_side()].frame * point.accepted_traction,
                    surface,
-                   turn,
+                   rigid,
+                   first,
                    mode,
                    x,
                    half);
@@ -451,7 +417,8 @@ namespace Debond
                    x,
                    half.tangential_traction,
                    last_surface,
-                   last_turn,
+                   last_rigid,
+                   last,
                    mode,
                    at(last.side[slave].positions),
                    whole);
@@ -482,11 +449,14 @@ namespace Debond
     tangent_is_gathered = false;
     if (law.slip_direction != SlipDirection::integrated)
       return;
-    const TurnOfWay turn(accepted_frame, accepted_centre, configuration);
+    const RigidMotion rigid({accepted_frame, accepted_centre},
+                            Place::of_implant(configuration));
     for (SlavePoint &point : points)
       if (point.trial.state.status == PointStatus::slip)
         point.trial.turn_by_chuck =
-          turn.by_chuck(interpolate(point.basis, accepted_positions[slave]),
+          turn_by_chuck(rigid,
+                        configuration,
+                        interpolate(point.basis, accepted_positions[slave]),
                         slave);
   }
 

@@ -60,26 +60,13 @@ namespace Debond
 
 
 
-  // The turn T = Q Q_n^T spins by psi = omega - T omega_n, and its rotation
-  // vector a changes by J^-1 psi: for a rotation by t = |a|,
+  // Backwards: from the angle to sine and cosine, to the two velocities and n,
+  // and to what these are made of. The turn T = Q Q_n^T spins with the frame by
+  // psi, and its rotation vector a changes by J^-1 psi: for a rotation by t =
+  // |a|,
   //
   //   J^-1 psi = psi - a x psi / 2 + c a x (a x psi),
   //   c = 1 / t^2 - (1 + cos t) / (2 t sin t).
-  Vector3d
-  RigidMotion::change_of_axis(const Vector3d &spin) const
-  {
-    const double t = axis.norm();
-    const double c =
-      t < 0.01 ? 1. / 12. + t * t / 720. :
-                 1. / (t * t) - (1. + std::cos(t)) / (2. * t * std::sin(t));
-    const Vector3d by = axis.cross(spin);
-    return spin - 0.5 * by + c * axis.cross(by);
-  }
-
-
-
-  // Backwards: from the angle to sine and cosine, to the two velocities and n,
-  // and to what these are made of.
   RigidMotion::TurnGradient
   RigidMotion::gradient_of_turn(const Vector3d &x, const Side slave) const
   {
@@ -105,22 +92,22 @@ namespace Debond
     const Vector3d by_velocity =
       is_bone ? Vector3d(turn.transpose() * by_first) : by_first;
     const Vector3d arm    = is_bone ? Vector3d(x - centre) : Vector3d(turn * r);
-    const Vector3d by_arm = by_last.cross(axis), by_r = by_velocity.cross(axis),
-                   by_centre = by_velocity + by_last;
-    by.axis                  = r.cross(by_velocity) + arm.cross(by_last);
+    const Vector3d by_arm = by_last.cross(axis);
+    const Vector3d by_axis = r.cross(by_velocity) + arm.cross(by_last);
+    const double   t       = axis.norm();
+    const double   c =
+      t < 0.01 ? 1. / 12. + t * t / 720. :
+                   1. / (t * t) - (1. + std::cos(t)) / (2. * t * std::sin(t));
+    const Vector3d across = axis.cross(by_axis);
+    by.spin               = by_axis + 0.5 * across + c * axis.cross(across);
+    by.centre             = by_velocity + by_last;
     if (is_bone)
       {
-        by.x          = by_r + by_arm;
-        by.old_centre = -by_centre - by_r;
-        by.centre     = by_centre - by_arm;
-        by.turn       = first.cross(by_first);
-        by.frame      = -implant_axis.cross(by_n);
-        return by;
+        by.centre -= by_arm;
+        by.spin += first.cross(by_first) - implant_axis.cross(by_n);
       }
-    by.x          = by_r + turn.transpose() * by_arm;
-    by.old_centre = -by_centre - by.x;
-    by.centre     = by_centre;
-    by.turn       = (turn * r).cross(by_arm);
+    else
+      by.spin += arm.cross(by_arm);
     return by;
   }
 } // namespace Debond

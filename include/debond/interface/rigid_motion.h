@@ -27,20 +27,14 @@ namespace Debond
     double
     turn_of_way(const Eigen::Vector3d &x, Side slave) const;
 
-    /** Derivatives of that angle. */
+    /** Derivatives of that angle by the place of the implant at the end. */
     struct TurnGradient
     {
-      Eigen::Vector3d x          = Eigen::Vector3d::Zero(); ///< by the point
-      Eigen::Vector3d old_centre = x, centre = x;
-      Eigen::Vector3d axis = x, turn = x; ///< by `axis', by the spin of `turn'
-      Eigen::Vector3d frame = x;          ///< by the spin of the frame
+      Eigen::Vector3d centre = Eigen::Vector3d::Zero(); ///< [rad/mm]
+      Eigen::Vector3d spin = Eigen::Vector3d::Zero(); ///< by that of the frame
     };
     TurnGradient
     gradient_of_turn(const Eigen::Vector3d &x, Side slave) const;
-
-    /** How `axis' changes if `turn' spins a little. */
-    Eigen::Vector3d
-    change_of_axis(const Eigen::Vector3d &spin) const;
 
     Eigen::Matrix3d turn;               ///< from beginning to end
     Eigen::Vector3d axis;               ///< of the turn, times its angle [rad]

@@ -229,6 +229,7 @@ struct Setting
   double                    eps_n = 600;
   ModifiedCoulombParameters friction; ///< frictionless: with zero coefficients
   bool                      frictionless_law = false;
+  bool                      is_explicit      = false; ///< mu at g_s^n
   RateAndState              rate_and_state;
   ContactPointMode          mode;
   ContactPointState         old_state;
@@ -437,7 +438,7 @@ slip_equations(const Setting             &setting,
       g_s += distance;
       mu = friction_coefficient_at(setting.friction,
                                    setting.bond(),
-                                   setting.law.explicit_friction ?
+                                   setting.is_explicit ?
                                      Number(setting.old_state.slip) :
                                      g_s);
       if (setting.rate_and_state.is_used)
@@ -446,9 +447,10 @@ slip_equations(const Setting             &setting,
         viscous = setting.law.viscosity * distance / setting.mode.duration;
     }
   Vector<Number> pull = add(x, Number(-1.), old.y);
-  if (!setting.mode.slip_direction.isZero(0.))
-    for (unsigned int c = 0; c < 3; ++c)
-      pull[c] = setting.mode.slip_direction[c];
+  if (setting.law.slip_direction == SlipDirection::previous_gap)
+    pull = add(add({{0., 0., 0.}}, Number(setting.old_state.gap[0]), old.a1),
+               Number(setting.old_state.gap[1]),
+               old.a2);
   const Vector<Number> u = add(pull, Number(-dot(pull, at.n)), at.n);
   const Number         elastic =
     (mu * gap.pressure + viscous) / (setting.law.tangential_penalty * norm(u));
@@ -990,14 +992,16 @@ main()
   setting.set_frictionless();
   check(
     "Frictionless law, no viscosity either", masters, setting, g_n, 0.05, slip);
-  setting                       = basic;
-  setting.old_state.slip        = 0.035;
-  setting.law.explicit_friction = true;
+  setting                = basic;
+  setting.old_state.slip = 0.035;
+  setting.is_explicit    = true;
+  setting.law.friction   = explicit_update(setting.law.friction);
   check("Slip, explicit coefficient", masters, setting, g_n, 0.045, slip);
-  setting                     = basic;
-  setting.old_state.slip      = 0.018;
-  setting.mode.slip_direction = Eigen::Vector3d(0.3, 0.5, -0.2);
-  check("Slip, given direction", masters, setting, g_n, 0.045, slip);
+  setting                    = basic;
+  setting.old_state.slip     = 0.018;
+  setting.law.slip_direction = SlipDirection::previous_gap;
+  setting.old_state.gap      = {0.01, 0.017};
+  check("Slip along the previous gap", masters, setting, g_n, 0.045, slip);
 
   // The gap of the step before has a third to all of the length at which it
   // slides, some 0.028 mm.

@@ -267,7 +267,6 @@ namespace Debond
                  const SlavePoint             &point,
                  const ContactPointState      &start,
                  const Eigen::Vector3d        &old_x,
-                 const Eigen::Vector3d        &old_traction,
                  const MasterSurface          &surface,
                  const RigidMotion            &rigid,
                  const InterfaceConfiguration &configuration,
@@ -275,9 +274,7 @@ namespace Debond
                  const Eigen::Vector3d        &x,
                  ContactPointResult           &result)
     {
-      if (law.slip_direction == SlipDirection::previous_gap)
-        mode.slip_direction = old_traction;
-      else if (law.slip_direction == SlipDirection::integrated)
+      if (law.slip_direction == SlipDirection::integrated)
         {
           mode.turn = rigid.turn_of_way(old_x, slave);
           result.turn_by_chuck =
@@ -327,14 +324,11 @@ namespace Debond
         entered = entry(point, configuration);
       const ContactPointState &start =
         point.accepted.has_partner ? point.accepted : entered;
-      // the previous gap of Eq. (31) as printed has the direction of the
-      // previous traction, which is kept in the frame of the master
       update_point(law,
                    slave,
                    point,
                    start,
                    interpolate(point.basis, accepted_positions[slave]),
-                   sides[master_side()].frame * point.accepted_traction,
                    surface,
                    rigid,
                    configuration,
@@ -403,7 +397,6 @@ namespace Debond
                    point,
                    point.accepted,
                    old_x,
-                   first.side[master_side()].frame * point.accepted_traction,
                    surface,
                    rigid,
                    first,
@@ -415,7 +408,6 @@ namespace Debond
                    point,
                    half.state,
                    x,
-                   half.tangential_traction,
                    last_surface,
                    last_rigid,
                    last,
@@ -633,9 +625,7 @@ namespace Debond
           std::max(summary.max_penetration, -trial.normal_gap);
         summary.max_traction =
           std::max(summary.max_traction, trial.traction.norm());
-        // With mu taken at g_s^n the local problem has no slope and so is never
-        // ambiguous; the variant lags behind instead.
-        if (law.explicit_friction || mode_now.frictionless)
+        if (mode_now.frictionless)
           continue;
         // -dmu/dg_s [1/mm] where it is largest, from the accepted g_s on. The
         // steepest point is kept with its numbers, which the message of a run

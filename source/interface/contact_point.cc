@@ -127,28 +127,24 @@ namespace Debond
       // beginning, and with it the bond that is left.
       //
       // In the frictionless part of a load history (`Friction starts at') mu is
-      // 0 and g_s does not grow; the variant `Friction update = explicit' takes
-      // mu at g_s^n.
+      // 0 and g_s does not grow.
       PointFriction
       friction(const double phi_0) const
       {
         return {*law.friction,
                 friction_state(start, phi_0, mode.duration),
                 mode.frictionless,
-                law.explicit_friction,
-                viscous_stiffness(law, mode),
-                mode.slip_direction};
+                viscous_stiffness(law, mode)};
       }
 
-      // What slip that is integrated over the step starts from. The master has
-      // taken the parts of the old gap along a_1 and a_2 with it; the string
-      // was L_n = mu p / eps_t long. @p mu: at g_s^n.
+      // What the step starts from. The master has taken the parts of the old
+      // gap along a_1 and a_2 with it; where slip is integrated over the step
+      // the string was L_n = mu p / eps_t long. @p mu: at g_s^n.
       void
-      integrate(const MasterNormal &old,
-                const double        mu,
-                PointFriction      &friction) const
+      bring_along(const MasterNormal &old,
+                  const double        mu,
+                  PointFriction      &friction) const
       {
-        friction.is_integrated = true;
         friction.old_gap =
           start.gap[0] * old.geometry.a1 + start.gap[1] * old.geometry.a2;
         friction.old_mu    = mu;
@@ -364,8 +360,7 @@ namespace Debond
       step.open(g_n);
     else
       {
-        if (law.slip_direction == SlipDirection::integrated)
-          step.integrate(normal, mu, friction);
+        step.bring_along(normal, mu, friction);
         step.slide_or_open(friction, normal, tangential_gap, limit);
       }
   }

@@ -66,7 +66,9 @@ namespace Debond
     if (bone.element == ElementKind::trilinear &&
         implant.element == ElementKind::trilinear)
       return 5;
-    return std::clamp(fewest_points_per_element(bone, implant), 6U, most_points);
+    return std::clamp(fewest_points_per_element(bone, implant),
+                      6U,
+                      most_points);
   }
 
 
@@ -94,9 +96,8 @@ namespace Debond
   {
     return {penalty_law(normal_penalty, opening_breaks_bond),
             tangential_stiffness(),
-            friction,
+            explicit_friction ? explicit_update(friction) : friction,
             viscosity,
-            explicit_friction,
             slip_direction};
   }
 

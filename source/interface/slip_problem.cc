@@ -10,17 +10,6 @@ namespace Debond
   using Eigen::Vector3d;
   using Eigen::Vector4d;
 
-  namespace
-  {
-    Vector4d
-    with(const Vector3d &vector, const double number)
-    {
-      return {vector[0], vector[1], vector[2], number};
-    }
-  } // namespace
-
-
-
   // What changes along a_1 x a_2 only makes it longer, and a unit vector has no
   // part in that: dn = (1 - n n^T) dm / |m| with m = a_1 x a_2.
   inline Vector3d
@@ -67,7 +56,7 @@ namespace Debond
     normal_response = law.normal->respond(g_n, history);
     // tension, where a law has any, does not press the faces together
     pressure = std::max(0., normal_response.pressure);
-    if (friction.is_integrated)
+    if (law.slip_direction == SlipDirection::integrated)
       integrate_slip();
     else
       find_direction();
@@ -77,36 +66,11 @@ namespace Debond
 
 
 
-  // tau is the direction in which the point is pulled: that of the trial gap
-  // x - y(xi_hat^n), from where its interacting point was to where the point is
-  // now, without its part along the normal at xi_hat. Eq. (31) as printed has
-  // the gap of the step before in its place. Then the new gap is parallel to
-  // the old one, and slip never turns away from the direction in which it once
-  // began, say that of the push-in; for comparison that gap can be given.
-  inline void
-  SlipEquations::find_direction()
-  {
-    direction_is_given = !friction.slip_direction.isZero(0.);
-    const Vector3d &pull =
-      direction_is_given ? friction.slip_direction : trial_gap;
-    pull_along_n       = normal.n.dot(pull);
-    const Vector3d u   = pull - pull_along_n * normal.n; // in the tangent plane
-    pull_along_surface = u.norm();
-    // a point right under its old partner is pulled nowhere: it has no tau, and
-    // no tangential traction
-    has_direction = pull_along_surface > std::numeric_limits<double>::min();
-    tau           = Vector3d::Zero();
-    if (has_direction)
-      tau = u / pull_along_surface;
-  }
-
-
-
-  // The same to second order, with the distance that the point slides: TowedGap
-  // in the tangent plane at xi_hat. What the point moves by, seen from the
-  // master, is the trial gap less the gap of the step before. The string ends
-  // as long as the gap is; that this is as long as friction holds it is what
-  // the equations ask for.
+  // The direction of the slip, tau, and the distance that the point slides:
+  // TowedGap in the tangent plane at xi_hat. What the point moves by, seen from
+  // the master, is the trial gap less the gap of the step before. The string
+  // ends as long as the gap is; that this is as long as friction holds it is
+  // what the equations ask for.
   inline void
   SlipEquations::integrate_slip()
   {
@@ -130,31 +94,17 @@ namespace Debond
 
 
 
-  // The sliding distance is updated with the length of the path of the
-  // interacting point in this step, both of its ends on the surface as it is
-  // now, Eq. (32):
-  //
-  //     g_s = g_s^n + |y(xi_hat) - y(xi_hat^n)|.
-  //
-  // The law is asked there, at the end of the step. Asked at g_s^n it would lag
-  // behind, by 8 % of the torque in the softening branch with 50 steps. The
-  // traction is the limit t_t = (mu p + eta V) tau, Eq. (30), V being that
-  // length over the duration of the step. What the gap is more than the elastic
-  // t_t / eps_t, its excess, must have no part in the surface, Eq. (29).
+  // The law is asked at the updated sliding distance, Eq. (32), at the end of
+  // the step. Asked at g_s^n it would lag behind, by 8 % of the torque in the
+  // softening branch with 50 steps. The traction is the limit t_t = (mu p + eta
+  // V) tau, Eq. (30), V being the distance over the duration of the step. What
+  // the gap is more than the elastic t_t / eps_t, its excess, must have no part
+  // in the surface, Eq. (29).
   inline void
   SlipEquations::find_traction()
   {
-    // The length of y - y_n has a derivative along its own direction; where
-    // slip only just begins it has none yet, but the limit tau. It counts as
-    // negative against what pulls the point (PointFriction::limit()).
     if (!towed)
-      {
-        const double length    = slip.norm();
-        const bool   backwards = !direction_is_given && slip.dot(tau) < 0.;
-        distance               = backwards ? -length : length;
-        forward =
-          length > 1e-14 * trial_gap.norm() ? Vector3d(slip / distance) : tau;
-      }
+      find_distance();
     const auto friction_limit = friction.limit(pressure, distance);
     coefficient               = friction_limit.coefficient;
     limit                     = friction_limit.value;
@@ -179,10 +129,6 @@ namespace Debond
   // starts with the changes of four vectors: of the gap x - y, of the trial gap
   // x - y_n, of the gap of the step before, and of the normal n, which stays
   // a unit vector.
-  //
-  // With m = n x tau the tangent plane has the axes tau and m. A tau that is
-  // the direction of a vector turns towards m by the part along m of its
-  // change, over its length; and with the plane, out of it.
   inline void
   SlipEquations::find_changes()
   {
@@ -211,24 +157,7 @@ namespace Debond
           -n.dot(g) * held - n.dot(trial_gap - g) * moved - g_n * change.gap;
       }
     else
-      {
-        // The path in this step is y - y_n = (x - y_n) - (x - y): the
-        // difference of the two gaps.
-        change.trial = by_distance * forward.transpose();
-        change.gap   = -change.trial;
-        change.old_gap.setZero();
-        change.turn.setZero();
-        change.normal.setZero();
-        if (has_direction)
-          {
-            const Vector3d                    m = n.cross(tau);
-            const Eigen::Matrix<double, 4, 3> turn =
-              with(limit / pull_along_surface * m, 0.) * m.transpose();
-            if (!direction_is_given)
-              change.trial += turn;
-            change.normal = -pull_along_n * turn;
-          }
-      }
+      find_changes_of_direction(by_distance);
     change.normal.noalias() -= with(limit * n, 0.) * tau.transpose();
     if (pressure > 0.)
       {

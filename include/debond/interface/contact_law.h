@@ -63,6 +63,11 @@ namespace Debond
     previous_gap ///< along that of the step before, Eq. (31) as printed
   };
 
+  /** `Friction update = explicit': the same law with mu at g_s^n, whatever the
+   *  distance. See compared_methods.cc. */
+  FrictionLawPointer
+  explicit_update(FrictionLawPointer law);
+
   /** What governs all points of an interface. */
   struct ContactPointLaw
   {
@@ -72,11 +77,8 @@ namespace Debond
     FrictionLawPointer friction = default_friction_law();
     /** eta [MPa per (mm per unit of time)]: resistance of a point to the speed
      *  it slides with. */
-    double viscosity = 0;
-    /** mu at g_s^n instead of g_s: a variant that the implicit law is compared
-     *  with. */
-    bool          explicit_friction = false;
-    SlipDirection slip_direction    = SlipDirection::integrated;
+    double        viscosity      = 0;
+    SlipDirection slip_direction = SlipDirection::integrated;
   };
 } // namespace Debond
 #endif

@@ -77,9 +77,6 @@ namespace Debond
     /** Duration of the step [unit of time]; 0 where no time passes, and nothing
      *  has a speed. */
     double duration = 0;
-    /** For SlipDirection::previous_gap: that gap in space, of any length; zero:
-     *  there is none yet. The tangent takes it as fixed. */
-    Eigen::Vector3d slip_direction = Eigen::Vector3d::Zero();
     /** For SlipDirection::integrated: the angle by which the rigid motion of
      *  the bodies turns the way of the point over the master in the step, about
      *  the normal [rad]. */
@@ -91,7 +88,7 @@ namespace Debond
     serialize(Archive &archive, const unsigned int)
     {
       archive &stick_first &touch_tolerance &frictionless &duration;
-      archive &slip_direction                             &turn;
+      archive                                             &turn;
     }
   };
 

@@ -15,36 +15,26 @@ namespace Debond
   struct PointFriction
   {
     // The law, and the point at the beginning of the step. The answer of the
-    // law is not used in the frictionless part of a load history; the explicit
-    // variant takes it at g_s^n, with the slope 0. The viscosity resists with a
-    // stiffness. The direction of slip is zero unless the variant with Eq. (31)
-    // as printed gives it; tau is then found from the trial gap.
+    // law is not used in the frictionless part of a load history. The viscosity
+    // resists with a stiffness.
     const FrictionLaw &law;
     FrictionState      start;
-    bool               frictionless   = false;
-    bool               is_explicit    = false;
-    double             viscous        = 0.; ///< eta / dt [MPa/mm]
-    Eigen::Vector3d    slip_direction = Eigen::Vector3d::Zero();
-    // For slip that is integrated over the step: the gap of the step before, in
-    // space; mu at its end, and the length at which it slides there; and the
-    // way.
-    bool            is_integrated = false;
-    Eigen::Vector3d old_gap       = Eigen::Vector3d::Zero();
-    double          old_mu        = 0.;
-    double          old_limit     = 0.; ///< [mm]
-    Arc             arc           = Arc();
+    bool               frictionless = false;
+    double             viscous      = 0.; ///< eta / dt [MPa/mm]
+    /** The gap of the step before, where the master has taken it [mm]. */
+    Eigen::Vector3d old_gap = Eigen::Vector3d::Zero();
+    // For slip that is integrated over the step: mu at the end of the step
+    // before, the length at which it slides there, and the way.
+    double old_mu    = 0.;
+    double old_limit = 0.; ///< [mm]
+    Arc    arc       = Arc();
 
     /** mu and its slope once the point has slid by @p distance. */
     FrictionCoefficient
     after(const double distance) const
     {
-      if (frictionless)
-        return {};
-      FrictionCoefficient result =
-        law.coefficient(start, is_explicit ? 0. : distance);
-      if (is_explicit)
-        result.dmu = 0.;
-      return result;
+      return frictionless ? FrictionCoefficient() :
+                            law.coefficient(start, distance);
     }
 
     /** mu p + eta V once it has slid by @p distance [MPa]. */

@@ -154,17 +154,31 @@ namespace Debond
     // The two halves of the evaluation, in this order: the traction needs tau,
     // and tau no traction.
     void
-    find_direction();
+    integrate_slip();
     void
     find_traction();
 
-    /** The same where the slip is integrated over the step. */
+    /** @name What slip that is not integrated over the step has instead
+     *  See compared_methods.cc. */
+    //@{
     void
-    integrate_slip();
+    find_direction();
+    void
+    find_distance();
+    void
+    find_changes_of_direction(const Eigen::Vector4d &by_distance);
+    //@}
 
     /** What traction and distance change with. */
     void
     find_changes();
+
+    /** A change of tangential traction and distance. */
+    static Eigen::Vector4d
+    with(const Eigen::Vector3d &vector, const double number)
+    {
+      return {vector[0], vector[1], vector[2], number};
+    }
 
     /** Tangential traction and distance by what TowedGap says of tau and the
      *  distance. */
@@ -180,11 +194,12 @@ namespace Debond
     const MasterNormal     normal;
     const Eigen::Vector3d  gap, trial_gap; ///< x - y and x - y_n [mm]
 
-    /** Of what pulls the point: its part along n, the length of the rest, and
-     * tau, the direction of the rest; zero if there is none. */
-    double          pull_along_n, pull_along_surface;
-    Eigen::Vector3d tau;
-    bool            has_direction, direction_is_given;
+    Eigen::Vector3d tau; ///< direction of the slip; zero if there is none
+    // Where slip is not integrated, of what pulls the point: its part along n,
+    // the length of the rest; whether there is a rest, and whether it is the
+    // gap of the step before.
+    double pull_along_n, pull_along_surface;
+    bool   has_direction, is_previous_gap;
     // axes of the tangent plane, and the direction of the gap in it, for slip
     // that is integrated
     Eigen::Matrix<double, 3, 2> axes;

@@ -2,7 +2,7 @@
 // ends without reaching the tolerance, and the parts of its estimates. That
 // the estimates bound the error is tested by prm/verification/auto.prm.
 
-#include <debond/bulk/body_mesh.h>
+#include <debond/bulk/bulk_space.h>
 #include <debond/campaigns/model_choice.h>
 #include <debond/campaigns/run_scene.h>
 #include <debond/models/closed_forms.h>
@@ -337,8 +337,8 @@ test_cells_that_heed_the_rim()
                 << " under the implant\n";
       report("unknowns are those of the bodies",
              level.unknowns() ==
-               BodyMesh(bone, Side::bone).n_unknowns() +
-                 BodyMesh(implant, Side::implant).n_unknowns());
+               BulkSpace(bone, Side::bone).n_unknowns() +
+                 BulkSpace(implant, Side::implant).n_unknowns());
     }
   const auto [coarser, ratio] = hierarchy.below_coarsest();
   std::cout << "below: " << in_words(coarser.bone.cells) << ", "

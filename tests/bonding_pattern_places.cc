@@ -2,7 +2,7 @@
 // means over elements, the orientation of images, values from CSV files, and
 // what is said of those that are wrong.
 
-#include <debond/bulk/body_mesh.h>
+#include <debond/bulk/bulk_space.h>
 #include <debond/interface/bonding_pattern.h>
 #include <debond/interface/bonding_source.h>
 #include <debond/scene/scene.h>

@@ -3,7 +3,7 @@
 // that of its area with the fourth. The graded rectangle: knot lines where they
 // should be, an affine map, and closest points that are found.
 
-#include <debond/bulk/body_mesh.h>
+#include <debond/bulk/bulk_space.h>
 #include <debond/geometry/surface_geometry.h>
 #include <debond/geometry/surface_geometry.h>
 
@@ -136,9 +136,9 @@ check_cap()
   for (const SurfaceKind kind : {SurfaceKind::nurbs, SurfaceKind::bilinear})
     {
       parameters.contact_surface = kind;
-      const BodyMesh mesh(parameters, Side::implant);
+      const BulkSpace mesh(parameters, Side::implant);
       double         corners = 0, layers = 0;
-      for (const BodyMesh::Cell &cell : mesh.cells())
+      for (const BulkSpace::Cell &cell : mesh.cells())
         if (cell.enriched)
           {
             const auto bounds =

@@ -9,7 +9,7 @@
 //  - multigrid, where the modulus jumps or varies across: the direct solver.
 
 #include <debond/bulk/body.h>
-#include <debond/bulk/cell_shape.h>
+#include <debond/bulk/cell_functions.h>
 #include <debond/bulk/enriched_cells.h>
 #include <debond/bulk/modulus_field.h>
 #include <debond/models/simulation.h>
@@ -149,33 +149,31 @@ manufactured_error(const ElementKind element, const unsigned int n)
 {
   const BodyParameters bone = manufactured_bone(element, n);
   const auto           body = make_body(bone, Side::bone);
-  const BodyMesh      &mesh = body->mesh();
+  const BulkSpace     &mesh = body->mesh();
   body->set_contact_control_points(
     std::vector<bool>(mesh.surface().n_control_points(), true));
 
   const NeoHookean        unit = NeoHookean::from_young(1., bone.poisson_ratio);
   const dealii::QGauss<3> quadrature(6);
   const auto              for_each_point = [&](const auto &work) {
-    for (const BodyMesh::Cell &cell : mesh.cells())
+    for (const BulkSpace::Cell &cell : mesh.cells())
       for (unsigned int q = 0; q < quadrature.size(); ++q)
         {
-          const auto           &p = quadrature.point(q);
-          const Eigen::Vector3d at(2 * p[0] - 1, 2 * p[1] - 1, 2 * p[2] - 1);
-          const CellShape       shape = shape_functions(mesh, cell, at);
-          Eigen::Matrix3d       J = Eigen::Matrix3d::Zero();
-          Eigen::Vector3d       X = Eigen::Vector3d::Zero();
-          for (unsigned int a = 0; a < shape.N.size(); ++a)
+          const ShapeValues N =
+            CellFunctions(mesh, cell).at(quadrature.point(q));
+          Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
+          Eigen::Vector3d X = Eigen::Vector3d::Zero();
+          for (unsigned int a = 0; a < N.rows(); ++a)
             {
-              X += shape.N[a] * mesh.reference_position(cell.nodes[a]);
-              J += mesh.reference_position(cell.nodes[a]) *
-                   shape.derivative[a].transpose();
+              X += N(a, 0) * mesh.reference_position(cell.nodes[a]);
+              J += mesh.reference_position(cell.nodes[a]) * N.row(a).tail<3>();
             }
-          work(cell, shape, X, J, 8. * quadrature.weight(q) * J.determinant());
+          work(cell, N, X, J, quadrature.weight(q) * J.determinant());
         }
   };
   Eigen::VectorXd load = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
   for_each_point([&](const auto  &cell,
-                     const auto  &shape,
+                     const auto  &N,
                      const auto  &X,
                      const auto  &J,
                      const double JxW) {
@@ -185,9 +183,10 @@ manufactured_error(const ElementKind element, const unsigned int n)
     for (unsigned int d = 0; d < 3; ++d)
       H[2][d] = w[d];
     const Eigen::Matrix3d sigma = exact_E(X) * unit.linear_stress(H);
-    for (unsigned int a = 0; a < shape.N.size(); ++a)
+    for (unsigned int a = 0; a < N.rows(); ++a)
       load.segment<3>(3 * cell.nodes[a]) +=
-        JxW * (sigma * (J.inverse().transpose() * shape.derivative[a]));
+        JxW *
+        (sigma * (J.inverse().transpose() * N.row(a).tail(3).transpose()));
   });
   const Bulk::Residual  r = body->condensing()->condense(-load);
   const Eigen::VectorXd v =
@@ -195,13 +194,13 @@ manufactured_error(const ElementKind element, const unsigned int n)
 
   double error = 0., size = 0.;
   for_each_point([&](const auto &cell,
-                     const auto &shape,
+                     const auto &N,
                      const auto &X,
                      const auto &,
                      const double JxW) {
     Eigen::Vector3d u = Eigen::Vector3d::Zero(), w;
-    for (unsigned int a = 0; a < shape.N.size(); ++a)
-      u += shape.N[a] * v.segment<3>(3 * cell.nodes[a]);
+    for (unsigned int a = 0; a < N.rows(); ++a)
+      u += N(a, 0) * v.segment<3>(3 * cell.nodes[a]);
     const double exact = exact_w(X, w);
     error += JxW * (u - Eigen::Vector3d(0, 0, exact)).squaredNorm();
     size += JxW * exact * exact;
@@ -333,16 +332,16 @@ check_voxels()
   // 4: a point has the mean of 2 x 2 x 2
   for (const unsigned int n : {16, 4})
     {
-      const BodyMesh      mesh(bone_of(of_place, "", n), Side::bone);
+      const BulkSpace     mesh(bone_of(of_place, "", n), Side::bone);
       const EnrichedCells by_place(mesh, {});
       for (const std::string voxels :
            {"voxels.csv", "voxels.mhd", "voxels.nii"})
         {
-          const BodyMesh other(bone_of("40 * grey", voxels, n), Side::bone);
+          const BulkSpace other(bone_of("40 * grey", voxels, n), Side::bone);
           const EnrichedCells by_voxels(other, {});
-          const BodyMesh      smooth(
+          const BulkSpace     smooth(
             bone_of("40 * (100 + 10 * (4 * x + 7.5) + 3 * (4 * y + 7.5) + 5 * "
-                         "(4 * z + 11.5))",
+                        "(4 * z + 11.5))",
                     "",
                     n),
             Side::bone);

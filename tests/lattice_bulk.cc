@@ -21,7 +21,7 @@ using namespace Debond;
  *  control points at a side move along it with their neighbours. @p free: the
  *  latter. */
 Eigen::MatrixXd
-mirrored_motions(const BodyMesh &mesh, std::vector<unsigned int> &free)
+mirrored_motions(const BulkSpace &mesh, std::vector<unsigned int> &free)
 {
   const unsigned int n   = 3 * mesh.n_nodes();
   const auto         key = [&](const unsigned int dof) {
@@ -57,7 +57,7 @@ check(const std::string &name, BodyParameters parameters)
   parameters.element     = ElementKind::spline;
   parameters.material    = Material::linear;
   parameters.bulk_solver = BulkSolver::lattice;
-  const BodyMesh mesh(parameters, Side::bone);
+  const BulkSpace mesh(parameters, Side::bone);
   const auto     bulk = make_lattice_bulk(
     mesh,
     EnrichedCells(mesh,

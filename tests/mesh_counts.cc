@@ -1,7 +1,7 @@
 // Degrees of freedom of the paper's three meshes, unknowns, layers with
 // grading, nodes of cells, and what is fixed and what is tied.
 
-#include <debond/bulk/body_mesh.h>
+#include <debond/bulk/bulk_space.h>
 
 #include <algorithm>
 #include <set>
@@ -37,7 +37,7 @@ count(const std::string &name, BodyParameters bone, BodyParameters implant)
   for (const SurfaceKind kind : {SurfaceKind::nurbs, SurfaceKind::bilinear})
     {
       bone.contact_surface = implant.contact_surface = kind;
-      const BodyMesh b(bone, Side::bone), i(implant, Side::implant);
+      const BulkSpace b(bone, Side::bone), i(implant, Side::implant);
       std::cout << name
                 << (kind == SurfaceKind::nurbs ? ", NURBS: " : ", bilinear: ")
                 << b.n_dofs_as_published() << " + " << i.n_dofs_as_published()
@@ -52,7 +52,7 @@ count(const std::string &name, BodyParameters bone, BodyParameters implant)
 /** Heights of the vertices that are not on the contact face, lowest |z| first,
  *  against -+ H (k/n)^g. */
 double
-layer_deviation(const BodyMesh &mesh, const double sign, const double grading)
+layer_deviation(const BulkSpace &mesh, const double sign, const double grading)
 {
   const unsigned int     n         = mesh.parameters().cells[2];
   const double           H         = mesh.parameters().thickness();
@@ -90,7 +90,7 @@ check_cells(const std::string    &name,
             const Side            side)
 {
   std::cout << name << std::endl;
-  const BodyMesh     mesh(parameters, side);
+  const BulkSpace     mesh(parameters, side);
   const auto        &n      = mesh.parameters().cells;
   const unsigned int n_face = n[0] * n[1];
   const unsigned int n_functions =
@@ -99,7 +99,7 @@ check_cells(const std::string    &name,
   std::set<unsigned int> elements;
   bool                   sizes = true, no_tied_nodes = true;
   double                 corners = 0;
-  for (const BodyMesh::Cell &cell : mesh.cells())
+  for (const BulkSpace::Cell &cell : mesh.cells())
     {
       sizes =
         sizes && cell.nodes.size() == (cell.enriched ? n_functions + 4 : 8);
@@ -207,10 +207,10 @@ main()
       bone.layer_grading = implant.layer_grading = grading;
       std::cout << "Layers with grading " << grading << std::endl;
       report("  bone, deviation",
-             layer_deviation(BodyMesh(bone, Side::bone), -1., grading),
+             layer_deviation(BulkSpace(bone, Side::bone), -1., grading),
              1e-14);
       report("  implant, deviation",
-             layer_deviation(BodyMesh(implant, Side::implant), 1., grading),
+             layer_deviation(BulkSpace(implant, Side::implant), 1., grading),
              1e-14);
     }
 

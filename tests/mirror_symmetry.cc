@@ -6,7 +6,7 @@
 // stiffness, too.
 
 #include <debond/bulk/bulk_solvers.h>
-#include <debond/bulk/dof_classes.h>
+#include <debond/bulk/mirror_symmetry.h>
 
 #include <Eigen/LU>
 
@@ -21,7 +21,7 @@
 using namespace Debond;
 
 void
-check(const std::string &name, const BodyMesh &mesh)
+check(const std::string &name, const BulkSpace &mesh)
 {
   const BodyParameters &parameters = mesh.parameters();
   const auto            bulk =
@@ -87,7 +87,7 @@ void
 check(const std::string &name, BodyParameters parameters, const Side side)
 {
   parameters.material = Material::linear;
-  check(name, BodyMesh(parameters, side));
+  check(name, BulkSpace(parameters, side));
 }
 
 
@@ -125,11 +125,12 @@ check_unsymmetric(const ElementKind element, const std::string &name)
                         const bool          is_mirrored = false) {
     for (const Side side : both_sides)
       {
-        const BodyMesh mesh(block, side, surface);
+        const BulkSpace mesh(block, side, surface);
         check(what + " as " + name_of(side) + name, mesh);
         report(is_mirrored ? "  is its own mirror image" :
                              "  is not its own mirror image",
-               is_mirror_image(mesh) == is_mirrored);
+               MirrorSymmetry::of(mesh, EnrichedCells(mesh, {})).has_value() ==
+                 is_mirrored);
       }
   };
   ControlNet shifted = face.control_points();

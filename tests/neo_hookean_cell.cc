@@ -37,8 +37,8 @@ quadratic_splines(const std::array<double, 6> &u, const double x)
 /** Derivatives of all shape functions of a cell with respect to its local
  *  coordinates at a point of [-1,1]^3, the interpolation of the theory. */
 std::vector<Eigen::Vector3d>
-local_gradients(const BodyMesh        &mesh,
-                const BodyMesh::Cell  &cell,
+local_gradients(const BulkSpace        &mesh,
+                const BulkSpace::Cell  &cell,
                 const Eigen::Vector3d &point)
 {
   const double near = 0.5 * (1. - point[2]), far = 0.5 * (1. + point[2]);
@@ -113,8 +113,8 @@ energy_density(const double G, const double Lambda, const N (&F)[3][3])
 /** The energy of a cell with its first and second derivatives with respect to
  *  the positions of its nodes. */
 Number
-cell_energy(const BodyMesh        &mesh,
-            const BodyMesh::Cell  &cell,
+cell_energy(const BulkSpace        &mesh,
+            const BulkSpace::Cell  &cell,
             const Eigen::VectorXd &v,
             const double           G,
             const double           Lambda)
@@ -180,7 +180,7 @@ check(const std::string    &name,
       const Side            side,
       const double          amplitude)
 {
-  const BodyMesh   mesh(parameters, side);
+  const BulkSpace   mesh(parameters, side);
   const NeoHookean material =
     NeoHookean::from_young(parameters.young_modulus, parameters.poisson_ratio);
   const double nu     = parameters.poisson_ratio;
@@ -200,7 +200,7 @@ check(const std::string    &name,
   const std::unique_ptr<Number> W = std::make_unique<Number>();
   for (unsigned int c = 0; c < cells.n_cells(); ++c)
     {
-      const BodyMesh::Cell &cell = mesh.cells()[c];
+      const BulkSpace::Cell &cell = mesh.cells()[c];
       ++(cell.enriched ? n_enriched : n_ordinary);
       *W = cell_energy(mesh, cell, v, G, Lambda);
       reference_energy += W->val().val();

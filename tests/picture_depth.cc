@@ -2,7 +2,7 @@
 // and masks of 0 and 1, ask for it; the levels of all others are what the file
 // says. Expected levels are those written, over the white one.
 
-#include <debond/bulk/body_mesh.h>
+#include <debond/bulk/bulk_space.h>
 #include <debond/interface/bonding_pattern.h>
 #include <debond/interface/bonding_source.h>
 #include <debond/support/input_error.h>

@@ -2,7 +2,7 @@
 // Gauss points leave them no motions without energy but the six rigid ones; the
 // torque is that of an independent program; large strains hardly change it.
 
-#include <debond/bulk/cell_shape.h>
+#include <debond/bulk/cell_functions.h>
 #include <debond/models/simulation.h>
 
 #include <Eigen/Eigenvalues>
@@ -39,11 +39,11 @@ check_cylinder()
 {
   BodyParameters parameters = coin(3, 3);
   parameters.layer_grading  = 1.7;
-  const BodyMesh mesh(parameters, Side::implant);
-  double         deviation = 0., highest = 0.;
-  for (const BodyMesh::Cell &cell : mesh.cells())
-    for (const double z : {-1., 0.3, 1.})
-      for (const double s : {-1., -0.2, 0.7})
+  const BulkSpace mesh(parameters, Side::implant);
+  double          deviation = 0., highest = 0.;
+  for (const BulkSpace::Cell &cell : mesh.cells())
+    for (const double z : {0., 0.65, 1.})
+      for (const double s : {0., 0.4, 0.85})
         for (unsigned int side = 0; side < 4; ++side)
           {
             const bool         first = side % 2 == 0, at_end = side / 2 == 1;
@@ -51,12 +51,10 @@ check_cylinder()
               first ? cell.surface_element % 3 : cell.surface_element / 3;
             if (place != (at_end ? 2 : 0))
               continue;
-            const double          end = at_end ? 1. : -1.;
-            const Eigen::Vector3d point(first ? end : s, first ? s : end, z);
-            const auto            N = shape_functions(mesh, cell, point).N;
-            Eigen::Vector3d       X = Eigen::Vector3d::Zero();
-            for (unsigned int a = 0; a < N.size(); ++a)
-              X += N[a] * mesh.reference_position(cell.nodes[a]);
+            const double          end = at_end ? 1. : 0.;
+            const Eigen::Vector3d X =
+              CellFunctions(mesh, cell)
+                .position({first ? end : s, first ? s : end, z});
             grow(deviation, std::abs(X.head<2>().norm() - parameters.radius));
             highest = std::max(highest, X[2]);
           }
@@ -73,7 +71,7 @@ void
 check_modes(const std::string &name, const BodyParameters &parameters)
 {
   const Eigen::MatrixXd K =
-    stiffness_at_rest(BodyMesh(parameters, Side::implant));
+    stiffness_at_rest(BulkSpace(parameters, Side::implant));
   const Eigen::VectorXd values =
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues();
   const double largest = values[values.size() - 1];

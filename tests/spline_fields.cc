@@ -34,7 +34,7 @@ strained_body(BodyParameters parameters, const Side side)
   parameters.material      = Material::linear;
   parameters.layer_grading = 1.5;
   auto            body     = make_body(parameters, side);
-  const BodyMesh &mesh     = body->mesh();
+  const BulkSpace &mesh     = body->mesh();
   Eigen::VectorXd v(3 * mesh.n_nodes());
   for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
     v.segment<3>(3 * node) = H * mesh.reference_position(node);

@@ -5,7 +5,7 @@
 
 /** K at rest over all degrees of freedom of a body, supports not heeded. */
 inline Eigen::MatrixXd
-stiffness_at_rest(const Debond::BodyMesh &mesh)
+stiffness_at_rest(const Debond::BulkSpace &mesh)
 {
   const Debond::EnrichedCells cells(
     mesh,

@@ -47,7 +47,7 @@ namespace Debond
 
 
 
-  BodyPartition::BodyPartition(const BodyMesh &mesh)
+  BodyPartition::BodyPartition(const BulkSpace &mesh)
     : mesh(mesh)
     , n_parts(parts_across(mesh.parameters().cells, Ranks::number()))
     , rank(Ranks::own())

@@ -71,16 +71,22 @@ namespace Debond
         const auto factors = cells.stiffness_factors(cell);
         for (unsigned int q = 0; q < EnrichedCells::n_q; ++q)
           at_points[q] = factors[q] * (cells.material().*law)(H[q]);
-        for (unsigned int a = 0; a < n_corners; ++a)
+        for (const unsigned int a : dealii::GeometryInfo<3>::vertex_indices())
           {
-            // The weights are those of the trilinear polynomial through the
-            // eight points, at corner a. Vertices of the contact face are
-            // corners as any other here: pictures show the mesh, not the
-            // control points.
-            const unsigned int vertex = mesh.cells()[cell].vertices[a];
-            const auto         weight = extrapolation_weights(a);
+            // The trilinear polynomial through the eight points, which are the
+            // corners of a cell that is smaller by sqrt(3), at corner a.
+            // Vertices of the contact face are corners as any other here:
+            // pictures show the mesh, not the control points.
+            const unsigned int     vertex = mesh.cells()[cell].vertices[a];
+            const dealii::Point<3> middle(0.5, 0.5, 0.5);
+            const dealii::Point<3> corner =
+              middle +
+              std::sqrt(3.) *
+                (dealii::GeometryInfo<3>::unit_cell_vertex(a) - middle);
             for (unsigned int q = 0; q < EnrichedCells::n_q; ++q)
-              stress[vertex] += weight[q] * at_points[q];
+              stress[vertex] +=
+                dealii::GeometryInfo<3>::d_linear_shape_function(corner, q) *
+                at_points[q];
             ++n_cells[vertex];
           }
       }

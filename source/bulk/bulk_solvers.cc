@@ -5,7 +5,7 @@ namespace Debond
   // G and Lambda [MPa] from E and nu by Eq. (2). Other elements, or another
   // solver, get their place here.
   std::unique_ptr<Bulk>
-  make_bulk(const BodyMesh &mesh)
+  make_bulk(const BulkSpace &mesh)
   {
     const BodyParameters &body = mesh.parameters();
     const NeoHookean      material =

@@ -1,19 +1,21 @@
 #include <debond/bulk/bulk_solvers.h>
 #include <debond/bulk/condensation.h>
-#include <debond/bulk/dof_classes.h>
+#include <debond/bulk/mirror_symmetry.h>
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/sparse_matrix.h>
+#include <deal.II/lac/sparsity_pattern.h>
 
-#include <algorithm>
 #include <utility>
 
 // The bulk of a body that deforms: hexahedra with a NURBS face (Corbett and
 // Sauer, Eqs. (33) to (35) of the paper), their stiffness K as a sparse matrix,
 // and its condensation on the contact face.
 //
-// It is deal.II's system_setup and assemble_system for one body, with two
-// differences. The cells have 13 nodes where they touch the contact face, so
-// FEValues cannot describe them and EnrichedCells does. And K is assembled
+// It is deal.II's setup_system and assemble_system for one body, with two
+// differences. Cells that touch the contact face have functions that FEValues
+// does not know, so that EnrichedCells keeps all gradients. And K is assembled
 // seldom: for a linear body once, unless contact spreads, and for a Neo-Hookean
 // one also when the tangent at hand has become a poor one. What happens in
 // every iteration is products and solves with what has been condensed, and for
@@ -22,8 +24,8 @@
 // Three numberings of degrees of freedom meet here:
 //
 //   dof       3 node + component, control points after vertices;
-//   number    of a motion of free ones in its block: rows of the blocks of K;
-//   unknown   those of control points that contact can reach.
+//   number    of a motion of free ones in its block: rows of what is
+//   factorised; unknown   those of control points that contact can reach.
 namespace Debond
 {
   namespace
@@ -31,26 +33,23 @@ namespace Debond
     class CondensedBulk : public CondensingBulk
     {
     public:
-      // Vertices of the contact face follow the control points, v_vertex =
-      // sum_A N_A v_A, and belong to no cell, so that they have no row in K.
-      // Fixed components have none either: supports are homogeneous in the
-      // body's frame, and nothing has to be moved to the right-hand side as
-      // AffineConstraints would.
-      //
-      // Where mesh and modulus of a body with small strains are their own
-      // mirror images, K falls into blocks.
-      CondensedBulk(const BodyMesh &mesh, const NeoHookean &material)
+      // Nodes of FE_Q on the contact face follow the control points, and what
+      // supports hold stays zero: the AffineConstraints of the space, so that
+      // neither is an unknown. Where a body with small strains is its own
+      // mirror image, more of them make images follow each other, in four
+      // ways, and K falls into four blocks that know nothing of each other.
+      CondensedBulk(const BulkSpace &mesh, const NeoHookean &material)
         : CondensingBulk(mesh, material)
-        , is_symmetric(!mesh.parameters().has_large_strains() &&
-                       cells.are_mirror_images())
+        , symmetry(mesh.parameters().has_large_strains() ?
+                     std::nullopt :
+                     MirrorSymmetry::of(mesh, cells))
       {
-        if (is_symmetric)
-          for (DofClass &dofs : mirror_classes_of(mesh))
-            blocks.push_back({std::move(dofs), {}, {}, {}, {}, {}});
+        if (!symmetry)
+          add_block(mesh.constraints());
         else
-          blocks.push_back({free_dofs_of(mesh), {}, {}, {}, {}, {}});
-        for (Block &block : blocks)
-          make_pattern(block);
+          for (const double along_x : {1., -1.})
+            for (const double along_y : {1., -1.})
+              add_block(symmetry->constraints(mesh, {{along_x, along_y}}));
       }
 
       // c: the free components of these control points, and of their images in
@@ -61,15 +60,15 @@ namespace Debond
       set_contact(const std::vector<bool> &control_points) override
       {
         const std::vector<bool> reached =
-          is_symmetric ? with_mirror_images(mesh, control_points) :
-                         control_points;
+          symmetry ? symmetry->with_images(mesh, control_points) :
+                     control_points;
         unknowns.clear();
         for (unsigned int A = 0; A < reached.size(); ++A)
           for (unsigned int c = 0; c < 3; ++c)
             if (reached[A] && !mesh.is_fixed(mesh.control_point_node(A), c))
               unknowns.push_back(3 * mesh.control_point_node(A) + c);
-        for (Block &block : blocks)
-          block.condense_on(unknowns);
+        for (const auto &block : blocks)
+          block->condense_on(unknowns);
         return unknowns;
       }
 
@@ -86,24 +85,33 @@ namespace Debond
       {
         // The patterns stay, with the memory that they took: only values
         // change.
-        for (Block &block : blocks)
-          block.tangent.coeffs().setZero();
-        Eigen::MatrixXd K;
+        for (const auto &block : blocks)
+          block->K = 0.;
+        Eigen::MatrixXd                              tangent;
+        dealii::FullMatrix<double>                   K;
+        std::vector<dealii::types::global_dof_index> dofs;
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
           if (const unsigned int n_images = n_images_of(cell))
             {
-              cells.tangent(cell, v, K);
-              for (Block &block : blocks)
-                add_cell(cell, n_images, K, block);
+              cells.tangent(cell, v, tangent);
+              dofs_of(cell, dofs);
+              K.reinit(dofs.size(), dofs.size(), true);
+              Eigen::Map<Eigen::MatrixXd>(&K(0, 0), K.m(), K.n()) =
+                n_images * tangent; // symmetric
+              for (const auto &block : blocks)
+                block->constraints.distribute_local_to_global(K,
+                                                              dofs,
+                                                              block->K);
             }
         // The unknowns are those of the last set_contact(): condensing is where
         // their choice takes effect.
         std::vector<Condensation> attempts(blocks.size());
         for (unsigned int k = 0; k < blocks.size(); ++k)
-          if (!attempts[k].factorise(blocks[k].tangent, blocks[k].condensed))
+          if (!attempts[k].factorise(blocks[k]->lower_triangle(),
+                                     blocks[k]->condensed))
             return false;
         for (unsigned int k = 0; k < blocks.size(); ++k)
-          blocks[k].condensation = std::move(attempts[k]);
+          blocks[k]->condensation = std::move(attempts[k]);
         return true;
       }
 
@@ -114,16 +122,18 @@ namespace Debond
       product(const Eigen::VectorXd &x) const override
       {
         Eigen::MatrixXd result = Eigen::MatrixXd::Zero(x.size(), 1);
-        for (const Block &block : blocks)
-          block.unfold(block.condensation.schur_product(block.fold(x)), result);
+        for (const auto &block : blocks)
+          block->unfold(block->condensation.schur_product(block->fold(x)),
+                        result);
         return result;
       }
       Eigen::VectorXd
       solve(const Eigen::VectorXd &b) const override
       {
         Eigen::MatrixXd result = Eigen::MatrixXd::Zero(b.size(), 1);
-        for (const Block &block : blocks)
-          block.unfold(block.condensation.schur_solve(block.fold(b)), result);
+        for (const auto &block : blocks)
+          block->unfold(block->condensation.schur_solve(block->fold(b)),
+                        result);
         return result;
       }
       // A condensed bulk couples every unknown with every other one. It has S
@@ -138,17 +148,17 @@ namespace Debond
       {
         const unsigned int n = unknowns.size();
         Eigen::MatrixXd    S = Eigen::MatrixXd::Zero(n, n);
-        for (const Block &block : blocks)
+        for (const auto &block : blocks)
           {
-            const Eigen::MatrixXd part = block.condensation.schur_complement();
+            const Eigen::MatrixXd part = block->condensation.schur_complement();
             for (unsigned int j = 0; j < n; ++j)
               for (unsigned int i = 0; i < n; ++i)
-                if (block.unknown_number[i] >= 0 &&
-                    block.unknown_number[j] >= 0)
+                if (block->unknown_number[i] >= 0 &&
+                    block->unknown_number[j] >= 0)
                   S(i, j) +=
-                    block.unknown_coefficient[i] *
-                    block.unknown_coefficient[j] *
-                    part(block.unknown_number[i], block.unknown_number[j]);
+                    block->unknown_coefficient[i] *
+                    block->unknown_coefficient[j] *
+                    part(block->unknown_number[i], block->unknown_number[j]);
           }
         return S;
       }
@@ -166,17 +176,17 @@ namespace Debond
         Bulk::Residual  result;
         Eigen::MatrixXd condensed = Eigen::MatrixXd::Zero(unknowns.size(), 1);
         std::vector<double> interior;
-        for (const Block &block : blocks)
+        for (const auto &block : blocks)
           {
-            const Eigen::VectorXd folded = block.dofs.fold(r);
-            const auto            parts  = block.condensation.forward(folded);
-            block.unfold(parts.condensed, condensed);
+            const Eigen::VectorXd folded = block->dofs.fold(r);
+            const auto            parts  = block->condensation.forward(folded);
+            block->unfold(parts.condensed, condensed);
             interior.insert(interior.end(),
                             parts.interior.begin(),
                             parts.interior.end());
             result.norm_squared += folded.squaredNorm();
             result.interior_squared +=
-              folded.squaredNorm() - folded(block.condensed).squaredNorm();
+              folded.squaredNorm() - folded(block->condensed).squaredNorm();
           }
         result.condensed = condensed;
         result.interior =
@@ -187,20 +197,20 @@ namespace Debond
       // The other half. backward() solves K_ii x_i = r_i - K_ic x_c; with x =
       // -dv this is what a correction is to fulfil, dv_i = -K_ii^-1 (r_i + K_ic
       // dv_c). Vertices that follow control points are left at zero here: no
-      // cell asks for them (BodyMesh::distribute).
+      // cell asks for them (BulkSpace::distribute).
       Eigen::VectorXd
       correction(const Eigen::VectorXd &dv_c, const Residual &r) const override
       {
         Eigen::VectorXd dv    = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
         unsigned int    first = 0;
-        for (const Block &block : blocks)
+        for (const auto &block : blocks)
           {
             const unsigned int n = r.interior.size() == 0 ?
                                      0 :
-                                     block.dofs.n - block.condensed.size();
-            block.dofs.unfold(
-              -block.condensation.backward(-block.fold(dv_c),
-                                           r.interior.segment(first, n)),
+                                     block->dofs.n - block->condensed.size();
+            block->dofs.unfold(
+              -block->condensation.backward(-block->fold(dv_c),
+                                            r.interior.segment(first, n)),
               dv);
             first += n;
           }
@@ -212,14 +222,46 @@ namespace Debond
       /** A part of K that is coupled with no other. */
       struct Block
       {
-        DofClass              dofs; ///< rows of the part
-        SymmetricSparseMatrix tangent;
-        std::vector<int>      condensed; ///< numbers of those of the unknowns
+        const dealii::AffineConstraints<double> constraints;
+        const DofClass                          dofs; ///< what these leave
+        dealii::SparsityPattern                 pattern;
+        dealii::SparseMatrix<double>            K;
+        std::vector<int> condensed; ///< numbers of those of the unknowns
         /** Of an unknown: the number of its motion among the condensed ones,
          *  -1: none, and its coefficient. */
         std::vector<int>    unknown_number;
         std::vector<double> unknown_coefficient;
         Condensation        condensation;
+
+        Block(const BulkSpace                         &space,
+              const dealii::AffineConstraints<double> &constraints)
+          : constraints(constraints)
+          , dofs(space, constraints)
+        {}
+
+        // K without the rows of what is constrained, and motions of norm 1:
+        // what CHOLMOD wants. Numbers ascend with those of degrees of freedom,
+        // and deal.II's rows do, but for the diagonal, which comes first.
+        SymmetricSparseMatrix
+        lower_triangle() const
+        {
+          SymmetricSparseMatrix result(dofs.n, dofs.n);
+          result.reserve((K.n_nonzero_elements() + dofs.n) / 2);
+          for (unsigned int j = 0; j < K.m(); ++j)
+            if (!constraints.is_constrained(j))
+              {
+                const int column = dofs.number[j];
+                result.startVec(column);
+                for (auto entry = K.begin(j); entry != K.end(j); ++entry)
+                  if (const unsigned int i = entry->column();
+                      i >= j && !constraints.is_constrained(i))
+                    result.insertBack(dofs.number[i], column) =
+                      dofs.coefficient[i] * dofs.coefficient[j] *
+                      entry->value();
+              }
+          result.finalize();
+          return result;
+        }
 
         void
         condense_on(const std::vector<unsigned int> &unknowns)
@@ -263,102 +305,47 @@ namespace Debond
       unsigned int
       n_images_of(const unsigned int cell) const
       {
-        return is_symmetric ? n_mirror_images(mesh, mesh.cells()[cell]) : 1;
+        return symmetry ? symmetry->n_images(cell) : 1;
       }
 
-      /** Numbers in a block, ascending, of a cell's degrees of freedom, with
-       *  the number in the cell. */
-      std::vector<std::pair<int, int>>
-      numbers_in(const Block &block, const unsigned int cell) const
-      {
-        std::vector<std::pair<int, int>> numbers;
-        for (unsigned int i = 0; i < 3 * cells.n_nodes(cell); ++i)
-          {
-            const int number =
-              block.dofs.number[3 * cells.nodes(cell)[i / 3] + i % 3];
-            if (number >= 0)
-              numbers.emplace_back(number, i);
-          }
-        std::sort(numbers.begin(), numbers.end());
-        return numbers;
-      }
-
-      // The pattern of K, which is made once. Cells couple all their degrees of
-      // freedom with each other; the lower triangle is stored, column by
-      // column, as CHOLMOD wants it. Rows of the pattern are columns of K:
-      // entry (j, i), i >= j, is put into row j.
       void
-      make_pattern(Block &block) const
+      dofs_of(const unsigned int                            cell,
+              std::vector<dealii::types::global_dof_index> &dofs) const
       {
-        dealii::DynamicSparsityPattern pattern(block.dofs.n);
+        dofs.clear();
+        for (const unsigned int node : mesh.cells()[cell].nodes)
+          for (unsigned int c = 0; c < 3; ++c)
+            dofs.push_back(3 * node + c);
+      }
+
+      // The pattern of K, which is made once.
+      void
+      add_block(const dealii::AffineConstraints<double> &constraints)
+      {
+        blocks.push_back(std::make_unique<Block>(mesh, constraints));
+        Block                         &block = *blocks.back();
+        dealii::DynamicSparsityPattern pattern(3 * mesh.n_nodes());
+        std::vector<dealii::types::global_dof_index> dofs;
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
-          {
-            if (n_images_of(cell) == 0)
-              continue;
-            std::vector<dealii::types::global_dof_index> numbers;
-            for (const auto &number : numbers_in(block, cell))
-              numbers.push_back(number.first);
-            numbers.erase(std::unique(numbers.begin(), numbers.end()),
-                          numbers.end());
-            for (auto i = numbers.begin(); i != numbers.end(); ++i)
-              pattern.add_entries(*i, i, numbers.end(), true);
-          }
-        // The same as Eigen's matrix, with zeros that stay in the pattern, so
-        // that add_cell() finds all that it adds to.
-        SymmetricSparseMatrix &K = block.tangent;
-        K.resize(block.dofs.n, block.dofs.n);
-        K.reserve(pattern.n_nonzero_elements());
-        for (int column = 0; column < K.cols(); ++column)
-          {
-            K.startVec(column);
-            for (unsigned int k = 0; k < pattern.row_length(column); ++k)
-              K.insertBack(pattern.column_number(column, k), column) = 0.;
-          }
-        K.finalize();
+          if (n_images_of(cell) > 0)
+            {
+              dofs_of(cell, dofs);
+              constraints.add_entries_local_to_global(dofs, pattern, false);
+            }
+        block.pattern.copy_from(pattern);
+        block.K.reinit(block.pattern);
       }
 
-      // The cell's K is full and symmetric. Rows of fixed components are left
-      // out, and of each pair of equal entries the one below the diagonal of
-      // the block is taken. Beside a mirror two nodes of a cell may be images
-      // of each other and have one number.
-      void
-      add_cell(const unsigned int     cell,
-               const unsigned int     n_images,
-               const Eigen::MatrixXd &K,
-               Block                 &block) const
-      {
-        const auto numbers     = numbers_in(block, cell);
-        const auto coefficient = [&](const int i) {
-          return block.dofs.coefficient[3 * cells.nodes(cell)[i / 3] + i % 3];
-        };
-        const int *rows   = block.tangent.innerIndexPtr();
-        double    *values = block.tangent.valuePtr();
-        for (auto j = numbers.begin(); j != numbers.end(); ++j)
-          {
-            // rows of the column and of the cell ascend
-            const double weight = n_images * coefficient(j->second);
-            int          at     = block.tangent.outerIndexPtr()[j->first];
-            for (auto i = j; i != numbers.end(); ++i)
-              {
-                while (rows[at] < i->first)
-                  ++at;
-                const bool twice = i != j && i->first == j->first;
-                values[at] += (twice ? 2. : 1.) * weight *
-                              coefficient(i->second) * K(i->second, j->second);
-              }
-          }
-      }
-
-      const bool                is_symmetric; ///< to both mirrors
-      std::vector<Block>        blocks;
-      std::vector<unsigned int> unknowns; ///< degrees of freedom
+      const std::optional<MirrorSymmetry> symmetry; ///< of small strains
+      std::vector<std::unique_ptr<Block>> blocks;
+      std::vector<unsigned int>           unknowns; ///< degrees of freedom
     };
   } // namespace
 
 
 
   std::unique_ptr<CondensingBulk>
-  make_condensed_bulk(const BodyMesh &mesh, const NeoHookean &material)
+  make_condensed_bulk(const BulkSpace &mesh, const NeoHookean &material)
   {
     return std::make_unique<CondensedBulk>(mesh, material);
   }

@@ -1,4 +1,3 @@
-#include <debond/bulk/dof_classes.h>
 #include <debond/bulk/enriched_cells.h>
 #include <debond/bulk/modulus_field.h>
 #include <debond/support/runtime.h>
@@ -14,15 +13,26 @@ namespace Debond
 {
   // Where all cells across are equal, all but those beside the ends of the
   // splines have the same functions.
-  EnrichedCells::EnrichedCells(const BodyMesh &mesh, const NeoHookean &material)
+  EnrichedCells::EnrichedCells(const BulkSpace  &mesh,
+                               const NeoHookean &material)
     : mesh(mesh)
     , bulk_material(material)
+    , quadrature(2)
   {
-    const BodyParameters &body = mesh.parameters();
+    const BodyParameters    &body = mesh.parameters();
+    dealii::FEValues<3>      fe_values(mesh.mapping(),
+                                  mesh.element(),
+                                  quadrature,
+                                  dealii::update_gradients |
+                                    dealii::update_JxW_values);
+    std::vector<ShapeValues> phi;
+    for (const dealii::Point<3> &point : quadrature.get_points())
+      phi.push_back(shape_values(mesh.element(), point));
+    auto active_cell = mesh.dof_handler().begin_active();
     std::map<std::array<unsigned int, 3>, unsigned int> kind_of_place;
     for (unsigned int cell = 0; cell < n_cells(); ++cell)
       {
-        const BodyMesh::Cell       &info = mesh.cells()[cell];
+        const BulkSpace::Cell      &info = mesh.cells()[cell];
         std::array<unsigned int, 3> place{{cell, 0, 0}};
         if (body.has_equal_splines())
           {
@@ -35,9 +45,17 @@ namespace Debond
           }
         const auto [found, is_new] =
           kind_of_place.emplace(place, first_gradient.size());
-        if (is_new)
-          add_kind(info);
+        if (is_new && (info.enriched || mesh.has_splines()))
+          add_cell(info, phi);
+        else if (is_new)
+          {
+            fe_values.reinit(
+              dealii::Triangulation<3>::active_cell_iterator(active_cell));
+            add_cell(fe_values);
+          }
         kinds.push_back(found->second);
+        if (!mesh.has_splines())
+          ++active_cell;
       }
     if (body.modulus)
       find_factors();
@@ -45,114 +63,91 @@ namespace Debond
 
 
 
-  namespace
-  {
-    /** Where a cell of a block is: its corners [mm]. */
-    std::array<Eigen::Vector3d, 2>
-    corners_of(const BodyMesh &mesh, const BodyMesh::Cell &cell)
-    {
-      const BodyParameters &body = mesh.parameters();
-      const auto bounds = mesh.surface().element_bounds(cell.surface_element);
-      std::array<Eigen::Vector3d, 2> result;
-      for (unsigned int end = 0; end < 2; ++end)
-        {
-          for (unsigned int d = 0; d < 2; ++d)
-            result[end][d] = (bounds[end][d] - 0.5) * body.size[d];
-          // the lower one is the one farther from the top
-          result[end][2] = -mesh.depth().breakpoints()[cell.layer + 1 - end] *
-                           body.thickness();
-        }
-      return result;
-    }
-  } // namespace
-
-
-
   // W and P are proportional to Young's modulus, so that one which varies is
   // nothing but other weights of the Gauss points. A point stands for its
-  // eighth of the cell.
+  // eighth of the cell, which is a box.
   void
   EnrichedCells::find_factors()
   {
     const BodyParameters &body = mesh.parameters();
     factors.reserve(n_q * n_cells());
-    for (const BodyMesh::Cell &cell : mesh.cells())
+    for (const BulkSpace::Cell &cell : mesh.cells())
       {
-        const auto            corners = corners_of(mesh, cell);
-        const Eigen::Vector3d middle  = 0.5 * (corners[0] + corners[1]),
-                              half    = 0.5 * (corners[1] - corners[0]);
+        const CellFunctions   functions(mesh, cell);
+        const Eigen::Vector3d lower  = functions.position({0., 0., 0.}),
+                              upper  = functions.position({1., 1., 1.}),
+                              middle = 0.5 * (lower + upper);
         for (unsigned int q = 0; q < n_q; ++q)
           {
-            const Eigen::Vector3d other = middle + half.cwiseProduct(corner(q));
-            factors.push_back(
-              body.modulus->over_box(middle.cwiseMin(other),
-                                     middle.cwiseMax(other),
-                                     middle +
-                                       half.cwiseProduct(gauss_point(q))) /
-              body.young_modulus);
+            // the corner next to the point
+            Eigen::Vector3d corner, point;
+            for (unsigned int d = 0; d < 3; ++d)
+              {
+                const double t = quadrature.point(q)[d];
+                corner[d]      = t < 0.5 ? lower[d] : upper[d];
+                point[d]       = (1. - t) * lower[d] + t * upper[d];
+              }
+            factors.push_back(body.modulus->over_box(middle.cwiseMin(corner),
+                                                     middle.cwiseMax(corner),
+                                                     point) /
+                              body.young_modulus);
           }
       }
   }
 
 
 
-  bool
-  EnrichedCells::are_mirror_images() const
+  // Cells of FE_Q are what FEValues is for; of those with other functions it
+  // takes the isoparametric map X(xi) = sum_a N_a X_a: with J = dX/dxi
+  // gradients are J^-T dN_a/dxi, and a Gauss point stands for det J of the
+  // volume.
+  void
+  EnrichedCells::add_cell(const dealii::FEValues<3> &fe_values)
   {
-    if (!is_mirror_image(mesh))
-      return false;
-    const auto               &n = mesh.parameters().cells;
-    std::vector<unsigned int> cell_at(n[0] * n[1] * n[2]);
-    const auto                place = [&](const BodyMesh::Cell &cell,
-                           const unsigned int    mirror) {
-      unsigned int i = cell.surface_element % n[0],
-                   j = cell.surface_element / n[0];
-      if (mirror == 1)
-        i = n[0] - 1 - i;
-      if (mirror == 2)
-        j = n[1] - 1 - j;
-      return i + n[0] * (j + n[1] * cell.layer);
-    };
-    for (unsigned int cell = 0; cell < n_cells(); ++cell)
-      cell_at[place(mesh.cells()[cell], 0)] = cell;
-    for (unsigned int cell = 0; cell < n_cells() && !factors.empty(); ++cell)
-      for (const unsigned int mirror : {1, 2})
-        {
-          const PointValues own   = stiffness_factors(cell),
-                            image = stiffness_factors(
-                              cell_at[place(mesh.cells()[cell], mirror)]);
-          for (unsigned int q = 0; q < n_q; ++q)
-            if (std::abs(own[q] - image[q ^ mirror]) > 1e-10 * own[q])
-              return false;
-        }
-    return true;
+    double *gradient = new_kind(fe_values.dofs_per_cell);
+    for (const unsigned int a : fe_values.dof_indices())
+      for (unsigned int d = 0; d < 3; ++d)
+        for (const unsigned int q : fe_values.quadrature_point_indices())
+          *gradient++ = fe_values.shape_grad(a, q)[d];
+    JxW.insert(JxW.end(),
+               fe_values.get_JxW_values().begin(),
+               fe_values.get_JxW_values().end());
   }
 
 
 
-  // Gradients with respect to the reference position X of the isoparametric
-  // map X(xi) = sum_a N_a X_a: with J = dX/dxi they are J^-T dN_a/dxi, and a
-  // Gauss point stands for det J of the volume.
   void
-  EnrichedCells::add_kind(const BodyMesh::Cell &cell)
+  EnrichedCells::add_cell(const BulkSpace::Cell          &cell,
+                          const std::vector<ShapeValues> &phi)
   {
-    const unsigned int n      = cell.nodes.size();
-    const std::size_t  offset = gradient_list.size();
-    first_gradient.push_back(offset);
-    gradient_list.resize(offset + 3 * n_q * n);
+    const unsigned int  n        = cell.nodes.size();
+    double *const       gradient = new_kind(n);
+    const CellFunctions functions(mesh, cell);
+    ControlNet          X(3, n);
+    for (unsigned int a = 0; a < n; ++a)
+      X.col(a) = mesh.reference_position(cell.nodes[a]);
     for (unsigned int q = 0; q < n_q; ++q)
       {
-        const auto dN = shape_functions(mesh, cell, gauss_point(q)).derivative;
-        Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
-        for (unsigned int a = 0; a < n; ++a)
-          J += mesh.reference_position(cell.nodes[a]) * dN[a].transpose();
-        JxW.push_back(J.determinant());
+        const ShapeValues     N = functions.at(quadrature.point(q), phi[q]);
+        const Eigen::Matrix3d J = X.lazyProduct(N.rightCols<3>());
+        JxW.push_back(J.determinant() * quadrature.weight(q));
         const Eigen::Matrix3d J_inverse = J.inverse();
         for (unsigned int a = 0; a < n; ++a)
           for (unsigned int d = 0; d < 3; ++d)
-            gradient_list[offset + (3 * a + d) * n_q + q] =
-              J_inverse.col(d).dot(dN[a]);
+            gradient[(3 * a + d) * n_q + q] =
+              N.row(a).tail<3>().dot(J_inverse.col(d));
       }
+  }
+
+
+
+  double *
+  EnrichedCells::new_kind(const unsigned int n_functions)
+  {
+    const std::size_t offset = gradient_list.size();
+    first_gradient.push_back(offset);
+    gradient_list.resize(offset + 3 * n_q * n_functions);
+    return &gradient_list[offset];
   }
 
 

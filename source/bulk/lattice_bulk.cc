@@ -174,7 +174,7 @@ namespace Debond
     class LatticeBulk : public CondensingBulk
     {
     public:
-      LatticeBulk(const BodyMesh &mesh, const EnrichedCells &cells)
+      LatticeBulk(const BulkSpace &mesh, const EnrichedCells &cells)
         : CondensingBulk(mesh, cells)
         , across{{Waves(mesh.parameters().cells[0], mesh.parameters().size[0]),
                   Waves(mesh.parameters().cells[1], mesh.parameters().size[1])}}
@@ -567,7 +567,7 @@ namespace Debond
 
 
   std::unique_ptr<CondensingBulk>
-  make_lattice_bulk(const BodyMesh &mesh, const EnrichedCells &cells)
+  make_lattice_bulk(const BulkSpace &mesh, const EnrichedCells &cells)
   {
     return std::make_unique<LatticeBulk>(mesh, cells);
   }

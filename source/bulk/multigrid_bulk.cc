@@ -120,7 +120,7 @@ namespace Debond
     class MultigridBulk : public WholeBulk
     {
     public:
-      MultigridBulk(const BodyMesh &mesh, const NeoHookean &material)
+      MultigridBulk(const BulkSpace &mesh, const NeoHookean &material)
         : WholeBulk(mesh, material)
         , partition(mesh)
       {
@@ -435,7 +435,7 @@ namespace Debond
 
 
   std::unique_ptr<WholeBulk>
-  make_multigrid_bulk(const BodyMesh &mesh, const NeoHookean &material)
+  make_multigrid_bulk(const BulkSpace &mesh, const NeoHookean &material)
   {
     Ranks::communicator(); // begins with MPI, before anything of Trilinos
     // a modulus that makes no sense in the cells of one rank is told to all

@@ -1,4 +1,4 @@
-#include <debond/bulk/body_mesh.h>
+#include <debond/bulk/bulk_space.h>
 #include <debond/bulk/body_parameters.h>
 #include <debond/interface/bonding_pattern.h>
 #include <debond/interface/bonding_source.h>

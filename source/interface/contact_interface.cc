@@ -1,4 +1,4 @@
-#include <debond/bulk/body_mesh.h>
+#include <debond/bulk/bulk_space.h>
 #include <debond/bulk/chuck.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/interface/rigid_motion.h>
@@ -30,8 +30,8 @@ namespace Debond
   // with the bone as slave the rim of the implant cuts through elements of the
   // bone, and part of the points face nothing.
   ContactInterface::ContactInterface(const InterfaceParameters &parameters,
-                                     const BodyMesh            &bone,
-                                     const BodyMesh            &implant)
+                                     const BulkSpace            &bone,
+                                     const BulkSpace            &implant)
     : parameters(parameters)
     , law(parameters.law())
     , slave(parameters.slave)

@@ -84,8 +84,8 @@ namespace Debond
     std::string
     unknowns_of(const CoupledSystem &system)
     {
-      const BodyMesh &bone    = system.bone.mesh();
-      const BodyMesh &implant = system.implant.mesh();
+      const BulkSpace &bone    = system.bone.mesh();
+      const BulkSpace &implant = system.implant.mesh();
       return Text() << bone.n_dofs_as_published() +
                          implant.n_dofs_as_published()
                     << " degrees of freedom, "
@@ -318,7 +318,7 @@ namespace Debond
       finish(const bool converged, const std::string &reason)
       {
         const CoupledSystem &system     = simulation.system();
-        const BodyMesh      &bone       = system.bone.mesh(),
+        const BulkSpace      &bone       = system.bone.mesh(),
                        &implant         = system.implant.mesh();
         const auto            &bonding  = system.interface.bonding().report();
         const auto            &released = simulation.checks().released();

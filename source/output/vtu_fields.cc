@@ -1,5 +1,5 @@
 #include <debond/bulk/body.h>
-#include <debond/bulk/cell_shape.h>
+#include <debond/bulk/cell_functions.h>
 #include <debond/bulk/chuck.h>
 #include <debond/geometry/surface_geometry.h>
 #include <debond/interface/contact_interface.h>
@@ -9,6 +9,7 @@
 #include <debond/support/runtime.h>
 
 #include <deal.II/base/data_out_base.h>
+#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
@@ -57,9 +58,17 @@ namespace Debond
           }
       }
 
-      /** Adds a patch of @p n pieces in each direction. draw(point, values) is
-       *  called for their corners, of [-1, 1]^dim: it appends the values of all
-       *  fields to an empty list and returns the position. */
+      /** Where the corners of the pieces are in [0, 1]^dim, if there are @p n
+       * in each direction; the first coordinate is the fastest. */
+      static std::vector<dealii::Point<dim>>
+      corners_of_pieces(const unsigned int n)
+      {
+        return dealii::QIterated<dim>(dealii::QTrapezoid<1>(), n).get_points();
+      }
+
+      /** Adds a patch of @p n pieces in each direction. draw(k, values) is
+       *  called for their corners k: it appends the values of all fields to an
+       *  empty list and returns the position. */
       template <typename Draw>
       void
       add_patch(const unsigned int n, const Draw &draw)
@@ -74,12 +83,8 @@ namespace Debond
         std::vector<double> values;
         for (unsigned int p = 0; p < n_points; ++p)
           {
-            // the first coordinate is the fastest
-            Eigen::Matrix<double, dim, 1> point;
-            for (unsigned int d = 0, rest = p; d < dim; ++d, rest /= n + 1)
-              point[d] = 2. * (rest % (n + 1)) / n - 1.;
             values.clear();
-            const Eigen::Vector3d position = draw(point, values);
+            const Eigen::Vector3d position = draw(p, values);
             AssertDimension(values.size(), names.size());
             append_values(values, position);
             for (unsigned int i = 0; i < values.size(); ++i)
@@ -158,13 +163,17 @@ namespace Debond
     /** What is drawn of a body: its state, and how finely. */
     struct DrawnBody
     {
-      const BodyMesh              &mesh;
+      const BulkSpace             &mesh;
       const Chuck                 &chuck;
       Eigen::VectorXd              v; ///< of all nodes, in the body's frame
       std::vector<Eigen::Matrix3d> stress;     ///< at the vertices
       unsigned int                 n_enriched; ///< pieces of a curved cell
       bool                         draws_modulus;
       const Bulk                  *bulk;
+      /** Corners of the pieces, and functions of FE_Q there, of ordinary and of
+       *  curved cells. */
+      std::array<std::vector<dealii::Point<3>>, 2> corners;
+      std::array<std::vector<ShapeValues>, 2>      phi;
 
       DrawnBody(const Body  &body,
                 const Chuck &chuck,
@@ -180,29 +189,41 @@ namespace Debond
                                     n_pieces(mesh.surface(), 24, 2, 8))
         , draws_modulus(has_modulus)
         , bulk(body.bulk())
-      {}
+      {
+        for (const bool is_curved : {false, true})
+          {
+            corners[is_curved] =
+              PatchSet<3>::corners_of_pieces(is_curved ? n_enriched : 1);
+            for (const dealii::Point<3> &corner : corners[is_curved])
+              phi[is_curved].push_back(shape_values(mesh.element(), corner));
+          }
+      }
 
       void
       draw(const unsigned int number, PatchSet<3> &output) const
       {
-        const BodyMesh::Cell &cell       = mesh.cells()[number];
-        const bool            is_implant = mesh.side() == Side::implant;
-        const Eigen::Matrix3d Q =
+        const BulkSpace::Cell &cell = mesh.cells()[number];
+        const CellFunctions    functions(mesh, cell);
+        const bool             is_implant = mesh.side() == Side::implant;
+        const Eigen::Matrix3d  Q =
           is_implant ? chuck.rotation() : Eigen::Matrix3d::Identity();
+        const bool is_curved = cell.enriched || mesh.has_splines();
         output.add_patch(
-          cell.enriched || mesh.has_splines() ? n_enriched : 1,
-          [&](const Eigen::Vector3d &point, std::vector<double> &values) {
-            const std::vector<double> N = shape_functions(mesh, cell, point).N;
-            Eigen::Vector3d           X = Eigen::Vector3d::Zero(), v_point = X;
-            for (unsigned int a = 0; a < N.size(); ++a)
+          is_curved ? n_enriched : 1,
+          [&](const unsigned int k, std::vector<double> &values) {
+            const dealii::Point<3> &point = corners[is_curved][k];
+            const ShapeValues       N = functions.at(point, phi[is_curved][k]);
+            Eigen::Vector3d         X = Eigen::Vector3d::Zero(), v_point = X;
+            for (unsigned int a = 0; a < N.rows(); ++a)
               {
-                X += N[a] * mesh.reference_position(cell.nodes[a]);
-                v_point += N[a] * v.segment<3>(3 * cell.nodes[a]);
+                X += N(a, 0) * mesh.reference_position(cell.nodes[a]);
+                v_point += N(a, 0) * v.segment<3>(3 * cell.nodes[a]);
               }
-            const auto      corners = trilinear(point);
-            Eigen::Matrix3d sigma   = Eigen::Matrix3d::Zero();
-            for (unsigned int a = 0; a < n_corners; ++a)
-              sigma += corners[a] * stress[cell.vertices[a]];
+            Eigen::Matrix3d sigma = Eigen::Matrix3d::Zero();
+            for (unsigned int a = 0; a < cell.vertices.size(); ++a)
+              sigma +=
+                dealii::GeometryInfo<3>::d_linear_shape_function(point, a) *
+                stress[cell.vertices[a]];
 
             append_values(values,
                           is_implant ? chuck.map(X, v_point) - X : v_point);
@@ -348,10 +369,13 @@ namespace Debond
                           (xi[d] - x[first[d]]) / (x[second[d]] - x[first[d]]);
           }
         Stencil result;
-        result.weight = bilinear(2. * share[0] - 1., 2. * share[1] - 1.);
         for (unsigned int a = 0; a < 4; ++a)
-          result.point[a] = &points[index(a % 2 == 0 ? first[0] : second[0],
-                                          a / 2 == 0 ? first[1] : second[1])];
+          {
+            result.weight[a] = dealii::GeometryInfo<2>::d_linear_shape_function(
+              dealii::Point<2>(share[0], share[1]), a);
+            result.point[a] = &points[index(a % 2 == 0 ? first[0] : second[0],
+                                            a / 2 == 0 ? first[1] : second[1])];
+          }
         result.nearest = &points[index(share[0] < 0.5 ? first[0] : second[0],
                                        share[1] < 0.5 ? first[1] : second[1])];
         return result;
@@ -481,12 +505,13 @@ namespace Debond
     const QuadratureGrid grid(interface, surface);
     SurfaceBasis         basis;
     SurfaceGeometry      position, displacement;
+    const unsigned int   n       = n_pieces(surface, 96, 4, 16);
+    const auto           corners = PatchSet<2>::corners_of_pieces(n);
     for (unsigned int element = 0; element < surface.n_elements(); ++element)
       output.add_patch(
-        n_pieces(surface, 96, 4, 16),
-        [&](const Eigen::Vector2d &point, std::vector<double> &values) {
+        n, [&](const unsigned int k, std::vector<double> &values) {
           const Eigen::Vector2d xi =
-            parameters_at(surface.element_bounds(element), point[0], point[1]);
+            parameters_at(surface.element_bounds(element), corners[k]);
           surface.evaluate_in_element(element, xi, basis, false);
           contract(basis, surface.control_points(), false, position);
           contract(basis, u, false, displacement);

@@ -1,7 +1,7 @@
 // Fuzz target: the tables that a scene may name: reference curve, reference
 // profiles and bonding pattern, each of which is read from the same bytes.
 
-#include <debond/bulk/body_mesh.h>
+#include <debond/bulk/bulk_space.h>
 #include <debond/interface/bonding_pattern.h>
 #include <debond/output/profile_output.h>
 #include <debond/output/torque_curve.h>

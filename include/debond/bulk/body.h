@@ -29,7 +29,7 @@ namespace Debond
     Body(const BodyParameters &parameters, Side side, StressLaw law = nullptr);
     virtual ~Body() = default;
 
-    const BodyMesh &
+    const BulkSpace &
     mesh() const
     {
       return body_mesh;
@@ -254,7 +254,7 @@ namespace Debond
     Eigen::MatrixXd
     support_modes(const Eigen::VectorXd &state) const;
 
-    const BodyMesh                 body_mesh;
+    const BulkSpace                body_mesh;
     const std::unique_ptr<Bulk>    own_bulk;
     const CondensingBulk *const    condensing_bulk;
     const WholeBulk *const         whole_bulk;

@@ -1,7 +1,7 @@
 #ifndef debond_bulk_body_partition_h
 #define debond_bulk_body_partition_h
 
-#include <debond/bulk/body_mesh.h>
+#include <debond/bulk/bulk_space.h>
 
 #include <vector>
 
@@ -19,7 +19,7 @@ namespace Debond
   {
   public:
     /** @p mesh: that of this rank. */
-    explicit BodyPartition(const BodyMesh &mesh);
+    explicit BodyPartition(const BulkSpace &mesh);
 
     /** Nodes of this rank, and of all. */
     unsigned int
@@ -61,7 +61,7 @@ namespace Debond
                   unsigned int place,
                   bool         on_face) const;
 
-    const BodyMesh           &mesh;
+    const BulkSpace          &mesh;
     std::array<unsigned, 2>   n_parts; ///< along x and y
     unsigned int              rank, n_levels;
     std::vector<unsigned int> first_node; ///< of each rank, and the end

@@ -1,7 +1,7 @@
 #ifndef debond_bulk_bulk_h
 #define debond_bulk_bulk_h
 
-#include <debond/bulk/body_mesh.h>
+#include <debond/bulk/bulk_space.h>
 #include <debond/bulk/neo_hookean.h>
 
 #include <Eigen/Core>

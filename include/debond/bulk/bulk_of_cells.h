@@ -27,11 +27,11 @@ namespace Debond
     }
 
   protected:
-    BulkOfCells(const BodyMesh &mesh, const NeoHookean &material)
+    BulkOfCells(const BulkSpace &mesh, const NeoHookean &material)
       : mesh(mesh)
       , cells(mesh, material)
     {}
-    BulkOfCells(const BodyMesh &mesh, const EnrichedCells &cells)
+    BulkOfCells(const BulkSpace &mesh, const EnrichedCells &cells)
       : mesh(mesh)
       , cells(cells)
     {}
@@ -43,7 +43,7 @@ namespace Debond
                        std::vector<double> & /*n_cells*/) const
     {}
 
-    const BodyMesh     &mesh;
+    const BulkSpace    &mesh;
     const EnrichedCells cells;
   };
 } // namespace Debond

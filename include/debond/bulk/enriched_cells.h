@@ -1,8 +1,11 @@
 #ifndef debond_bulk_enriched_cells_h
 #define debond_bulk_enriched_cells_h
 
-#include <debond/bulk/cell_shape.h>
+#include <debond/bulk/cell_functions.h>
 #include <debond/bulk/neo_hookean.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
 
 #include <Eigen/Core>
 
@@ -18,11 +21,11 @@ namespace Debond
   class EnrichedCells
   {
   public:
-    static constexpr unsigned int n_q = n_corners;
+    static constexpr unsigned int n_q = 8;
 
     /** @p mesh must outlive this object. @p material is that of the mesh's
      *  young_modulus. */
-    EnrichedCells(const BodyMesh &mesh, const NeoHookean &material);
+    EnrichedCells(const BulkSpace &mesh, const NeoHookean &material);
 
     unsigned int
     n_cells() const
@@ -77,11 +80,6 @@ namespace Debond
       return Eigen::Map<const Eigen::Array<double, n_q, 1>>(
         &factors[n_q * cell]);
     }
-    /** Whether mesh and moduli are their own mirror images in the planes x = 0
-     *  and y = 0. */
-    bool
-    are_mirror_images() const;
-
     const NeoHookean &
     material() const
     {
@@ -89,9 +87,15 @@ namespace Debond
     }
 
   private:
-    /** Shape functions of a cell and of all those that are alike. */
+    /** Add the gradients of a cell, and of all those that are alike, in the
+     *  reference configuration: of FE_Q, or by the functions @p phi of FE_Q at
+     *  the points. */
     void
-    add_kind(const BodyMesh::Cell &cell);
+    add_cell(const dealii::FEValues<3> &fe_values);
+    void
+    add_cell(const BulkSpace::Cell &cell, const std::vector<ShapeValues> &phi);
+    double *
+    new_kind(unsigned int n_functions);
     /** Gradient of shape function a in direction d at point q:
      *  gradients(cell)[(3 a + d) n_q + q]. */
     const double *
@@ -121,8 +125,9 @@ namespace Debond
     void
     find_factors();
 
-    const BodyMesh           &mesh;
+    const BulkSpace          &mesh;
     const NeoHookean          bulk_material;
+    const dealii::QGauss<3>   quadrature;
     std::vector<unsigned int> kinds;          ///< of each cell
     std::vector<std::size_t>  first_gradient; ///< of each kind
     std::vector<double>       gradient_list;

@@ -106,7 +106,7 @@ namespace Debond
 
 
 
-  class BodyMesh;
+  class BulkSpace;
 
   /**
    * The interface: the slave quadrature points, their history, the forces they
@@ -123,8 +123,8 @@ namespace Debond
   {
   public:
     ContactInterface(const InterfaceParameters &parameters,
-                     const BodyMesh            &bone,
-                     const BodyMesh            &implant);
+                     const BulkSpace            &bone,
+                     const BulkSpace            &implant);
 
     Side
     slave_side() const
@@ -329,7 +329,7 @@ namespace Debond
     const InterfaceParameters             parameters;
     const ContactPointLaw                 law;
     const Side                            slave;
-    std::array<const BodyMesh *, 2>       mesh;
+    std::array<const BulkSpace *, 2>       mesh;
     const unsigned int                    n; ///< points per direction, element
     std::vector<SlavePoint>               points;
     double                                area_of_implant = 0;

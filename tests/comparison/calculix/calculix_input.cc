@@ -2,7 +2,7 @@
 // conditions and load steps, the interface as surface-to-surface penalty
 // contact. See README.md here for what is the same and what is not.
 
-#include <debond/bulk/body_mesh.h>
+#include <debond/bulk/bulk_space.h>
 #include <debond/bulk/chuck.h>
 #include <debond/scene/scene.h>
 #include <debond/support/input_error.h>
@@ -92,7 +92,7 @@ Writes a scene of debond as an input of CalculiX.
     std::vector<Eigen::Vector3d>           positions; // mm
     std::vector<std::vector<unsigned int>> elements;
 
-    Nodes(const BodyMesh &body, const bool quadratic)
+    Nodes(const BulkSpace &body, const bool quadratic)
     {
       for (unsigned int vertex = 0; vertex < body.n_vertices(); ++vertex)
         positions.push_back(body.reference_position(vertex));
@@ -116,7 +116,7 @@ Writes a scene of debond as an input of CalculiX.
     std::map<std::pair<unsigned int, unsigned int>, unsigned int> midpoints;
 
     void
-    add_midpoints(std::vector<unsigned int> &element, const BodyMesh &body)
+    add_midpoints(std::vector<unsigned int> &element, const BulkSpace &body)
     {
       constexpr std::array<std::array<unsigned int, 2>, 12> edges{{{{0, 1}},
                                                                    {{1, 2}},
@@ -144,7 +144,7 @@ Writes a scene of debond as an input of CalculiX.
     static Eigen::Vector3d
     midpoint(const Eigen::Vector3d &a,
              const Eigen::Vector3d &b,
-             const BodyMesh        &body)
+             const BulkSpace        &body)
     {
       Eigen::Vector3d       middle    = (a + b) / 2;
       const BodyParameters &coin      = body.parameters();
@@ -215,19 +215,19 @@ Writes a scene of debond as an input of CalculiX.
     }
 
     const Nodes &
-    nodes(const BodyMesh &body) const
+    nodes(const BulkSpace &body) const
     {
       return &body == &implant ? implant_nodes : bone_nodes;
     }
 
     unsigned int
-    number(const BodyMesh &body, const unsigned int node) const
+    number(const BulkSpace &body, const unsigned int node) const
     {
       return 1 + node + (&body == &implant ? bone_nodes.positions.size() : 0);
     }
 
     static bool
-    is_at(const BodyMesh &body, const Eigen::Vector3d &X, const double z)
+    is_at(const BulkSpace &body, const Eigen::Vector3d &X, const double z)
     {
       return std::abs(X[2] - z) < 1e-9 * body.parameters().thickness();
     }
@@ -248,7 +248,7 @@ Writes a scene of debond as an input of CalculiX.
     write_nodes(std::ostream &out) const
     {
       out << "*NODE\n";
-      for (const BodyMesh *body : {&bone, &implant})
+      for (const BulkSpace *body : {&bone, &implant})
         for (unsigned int n = 0; n < nodes(*body).positions.size(); ++n)
           {
             const Eigen::Vector3d &X = nodes(*body).positions[n];
@@ -263,7 +263,7 @@ Writes a scene of debond as an input of CalculiX.
     // A line holds 16 numbers at most.
     void
     write_elements(std::ostream      &out,
-                   const BodyMesh    &body,
+                   const BulkSpace    &body,
                    const std::string &name,
                    const unsigned int n_before) const
     {
@@ -318,7 +318,7 @@ Writes a scene of debond as an input of CalculiX.
                                  "FACE_OF_BONE, FACE_OF_IMPLANT\n");
     }
 
-    // As BodyMesh does, but for the nodes of the contact face themselves.
+    // As BulkSpace does, but for the nodes of the contact face themselves.
     void
     write_fixed_nodes(std::ostream &out) const
     {
@@ -363,7 +363,7 @@ Writes a scene of debond as an input of CalculiX.
 
     const Scene               scene;
     const std::string         element;
-    const BodyMesh            bone, implant;
+    const BulkSpace            bone, implant;
     const Nodes               bone_nodes, implant_nodes;
     Chuck                     chuck;
     const std::vector<double> times;

@@ -1,12 +1,19 @@
-#ifndef debond_bulk_body_mesh_h
-#define debond_bulk_body_mesh_h
+#ifndef debond_bulk_bulk_space_h
+#define debond_bulk_bulk_space_h
 
 #include <debond/bulk/body_parameters.h>
 #include <debond/bulk/side.h>
 #include <debond/geometry/nurbs_surface.h>
 
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/mapping_q.h>
+#include <deal.II/grid/tria.h>
+#include <deal.II/lac/affine_constraints.h>
+
 #include <array>
-#include <map>
+#include <memory>
 #include <vector>
 
 namespace Debond
@@ -37,39 +44,54 @@ namespace Debond
 
 
 
+  /** Parts of the boundary of a body: its boundary ids in the triangulation.
+   */
+  namespace Boundary
+  {
+    constexpr dealii::types::boundary_id free = 0, contact = 1,
+                                         held = 2, ///< does not move
+      slides_x                                = 3, ///< held along x only
+      slides_y                                = 4; ///< held along y only
+  }                                                // namespace Boundary
+
+
+
   /**
-   * Mesh, numbering and boundary conditions of one body.
+   * Mesh, finite elements, numbering and constraints of one body.
    *
    * The bulk is a deal.II triangulation with FESystem(FE_Q(1), 3). Degrees of
-   * freedom are numbered node by node, three to a node: first the vertices (as
-   * the DoFHandler numbers them), then the control points of the contact
-   * surface. In the layer of cells that touches the contact surface the contact
-   * face is interpolated by the NURBS surface (Corbett & Sauer 2014, 2015), so
-   * the vertices on it are no unknowns: they belong to no cell and follow the
-   * control points, v_vertex = sum_A N_A(vertex) v_A.
+   * freedom are numbered node by node, three to a node: first those of the
+   * DoFHandler, then the control points of the contact surface. In cells with a
+   * face on the contact boundary that face is interpolated by the NURBS surface
+   * (Corbett & Sauer 2014, 2015): the functions of the nodes on it are replaced
+   * by N_A(xi, eta) l_0(zeta), l_0 being the function of FE_Q across. So these
+   * nodes are no unknowns: they belong to no cell and follow the control
+   * points, v = sum_A N_A v_A, which together with the supports stands in the
+   * AffineConstraints.
    *
    * With the contact surface `bilinear` the surface is of degree 1, has one
    * control point at each surface vertex, and everything else stays the same.
    *
    * With the element `spline` all nodes are control points, of functions that
    * are those of the contact surface times quadratic splines of the depth:
-   * level by level, that of the contact surface last. No vertex is a node.
+   * level by level, that of the contact surface last. In a cell they are
+   * combinations of the functions of FE_Q(2). No vertex is a node.
    *
    * With BulkSolver::multigrid a rank has its columns of cells only, and their
    * nodes; but always all control points of the contact surface.
    */
-  class BodyMesh
+  class BulkSpace
   {
   public:
     /** The bone is fixed at the bottom and held normal to its sides, contact
      *  face on top; the implant is held at its top, contact face at the bottom.
      *  Both contact faces lie in z = 0; that of a cap touches it. */
-    BodyMesh(const BodyParameters &parameters, Side side);
+    BulkSpace(const BodyParameters &parameters, Side side);
     /** The same on this contact face instead of that of the shape. It has as
      *  many elements as the body has cells across. */
-    BodyMesh(const BodyParameters &parameters,
-             Side                  side,
-             const NurbsSurface   &face);
+    BulkSpace(const BodyParameters &parameters,
+              Side                  side,
+              const NurbsSurface   &face);
 
     const BodyParameters &
     parameters() const
@@ -98,6 +120,32 @@ namespace Debond
     {
       return body_parameters.element == ElementKind::spline;
     }
+    /** Triangulation and FESystem of FE_Q(1), whose dofs 3 k + component belong
+     *  to node k; of splines for pictures only. */
+    const dealii::DoFHandler<3> &
+    dof_handler() const
+    {
+      return dofs;
+    }
+    /** FE_Q of a component; with splines what they are combinations of. */
+    const dealii::FE_Q<3> &
+    element() const
+    {
+      return scalar_fe;
+    }
+    const dealii::Mapping<3> &
+    mapping() const
+    {
+      return bulk_mapping;
+    }
+    /** What nodes follow, and what is held, over 3 n_nodes() degrees of
+     *  freedom. */
+    const dealii::AffineConstraints<double> &
+    constraints() const
+    {
+      return all_constraints;
+    }
+
     /** Corners of the cells, for pictures. */
     unsigned int
     n_vertices() const
@@ -123,9 +171,9 @@ namespace Debond
     unsigned int
     n_inner_nodes() const
     {
-      return has_splines() ? n_in_level() *
-                               (layer_knots.n_basis_functions() - 1) :
-                             n_vertices();
+      return has_splines() ?
+               n_in_level() * (layer_knots.n_basis_functions() - 1) :
+               n_vertices();
     }
     unsigned int
     n_nodes() const
@@ -168,11 +216,12 @@ namespace Debond
     {
       return fixed[3 * node + component];
     }
-    /** True for vertices of the contact surface. */
+    /** True for nodes of FE_Q on the contact surface, which follow its control
+     *  points. */
     bool
     is_tied(unsigned int node) const
     {
-      return !has_splines() && node < n_vertices() && lattice[node][2] == 0;
+      return tied[node];
     }
 
     /** Where a node stands among its like in each direction, the third from the
@@ -190,13 +239,13 @@ namespace Debond
     gathered(const Eigen::VectorXd &v) const;
     Eigen::VectorXd
     own_part(const Eigen::VectorXd &whole) const;
-    /** Fills in the tied vertices of a displacement vector (3 n_nodes). */
+    /** Fills in the tied nodes of a displacement vector (3 n_nodes). */
     void
     distribute(Eigen::VectorXd &v) const;
 
-    /** A cell of the bulk: the eight vertices of a trilinear hexahedron in
+    /** A cell of the bulk, active cell of the same number: the nodes of FE_Q in
      *  deal.II's order, or, in the contact layer, the control points of its
-     *  surface element followed by the four vertices of the opposite face. With
+     *  surface element followed by the nodes of FE_Q that are not on it. With
      *  splines: those of its surface element, in three levels. */
     struct Cell
     {
@@ -212,6 +261,13 @@ namespace Debond
       return bulk_cells;
     }
 
+    /** Face of a cell that is on the contact boundary, if it is enriched. */
+    unsigned int
+    contact_face() const
+    {
+      return body_side == Side::bone ? 5 : 4;
+    }
+
   private:
     void
     make_grid();
@@ -221,6 +277,12 @@ namespace Debond
     complete_cells();
     void
     make_constraints();
+    void
+    hold(const Cell &cell, unsigned int face, unsigned int components);
+    void
+    tell_held_control_points();
+    void
+    tie(const Cell &cell);
 
     /** Control points of a level of splines that the cells here have. */
     unsigned int
@@ -242,14 +304,19 @@ namespace Debond
     const NurbsSurface   contact_surface;
     const KnotVector     layer_knots;
 
+    dealii::Triangulation<3>          triangulation;
+    const dealii::MappingQ<3>         bulk_mapping;
+    const dealii::FE_Q<3>             scalar_fe;
+    const dealii::FESystem<3>         vector_fe;
+    dealii::DoFHandler<3>             dofs;
+    dealii::AffineConstraints<double> all_constraints;
+
     /** Lattice index (i, j, layer from the contact face) of each vertex node.
      */
     std::vector<std::array<unsigned int, 3>> lattice;
     std::vector<Eigen::Vector3d>             reference_positions;
-    std::vector<bool>                        fixed;
-    /** What the vertices of the contact surface follow. */
-    std::map<unsigned int, SurfaceBasis> tied;
-    std::vector<Cell>                    bulk_cells;
+    std::vector<bool>                        fixed, tied;
+    std::vector<Cell>                        bulk_cells;
   };
 } // namespace Debond
 #endif

@@ -1,0 +1,459 @@
+#include <debond/bulk/bulk_space.h>
+#include <debond/bulk/cell_functions.h>
+#include <debond/support/ranks.h>
+
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_tools.h>
+
+#include <cmath>
+#include <limits>
+
+namespace Debond
+{
+  NurbsSurface
+  make_contact_surface(const BodyParameters &parameters)
+  {
+    const NurbsSurface exact =
+      parameters.shape == BodyShape::coin ?
+        NurbsSurface::disk(parameters.radius, parameters.cells[0]) :
+      parameters.shape == BodyShape::cap ?
+        NurbsSurface::cap(parameters.radius,
+                          parameters.cap_radius,
+                          parameters.cells[0]) :
+        NurbsSurface::rectangle(
+          parameters.size[0],
+          parameters.size[1],
+          KnotVector::from_breakpoints(2, parameters.lateral_fractions(0)),
+          KnotVector::from_breakpoints(2, parameters.lateral_fractions(1)));
+    return parameters.contact_surface == SurfaceKind::nurbs ?
+             exact :
+             exact.bilinear_interpolant();
+  }
+
+
+
+  namespace
+  {
+    /** Layer k of n ends at the fraction (k/n)^g of the depth. */
+    KnotVector
+    make_layers(const BodyParameters &parameters)
+    {
+      const unsigned int  n = parameters.cells[2];
+      std::vector<double> fractions;
+      for (unsigned int k = 0; k <= n; ++k)
+        fractions.push_back(
+          std::pow(static_cast<double>(k) / n, parameters.layer_grading));
+      return KnotVector::from_breakpoints(
+        parameters.element == ElementKind::spline ? 2 : 1, fractions);
+    }
+  } // namespace
+
+
+
+  BulkSpace::BulkSpace(const BodyParameters &parameters, const Side side)
+    : BulkSpace(parameters, side, make_contact_surface(parameters))
+  {}
+
+
+
+  BulkSpace::BulkSpace(const BodyParameters &parameters,
+                       const Side            side,
+                       const NurbsSurface   &face)
+    : body_parameters(parameters)
+    , body_side(side)
+    , columns(columns_of_rank(
+        parameters.cells,
+        parameters.bulk_solver == BulkSolver::multigrid ? Ranks::own() : 0,
+        parameters.bulk_solver == BulkSolver::multigrid ? Ranks::number() : 1))
+    , contact_surface(face)
+    , layer_knots(make_layers(parameters))
+    , bulk_mapping(1)
+    , scalar_fe(has_splines() ? 2 : 1)
+    , vector_fe(dealii::FE_Q<3>(1), 3)
+    , dofs(triangulation)
+  {
+    make_grid();
+    number_nodes();
+    complete_cells();
+    make_constraints();
+    if (has_splines()) // of which nothing but the corners is asked for
+      {
+        dofs.clear();
+        triangulation.clear();
+      }
+  }
+
+
+
+  // The cells form a lattice. The triangulation is first made with lattice
+  // indices as coordinates, which say what its boundary is; then each vertex
+  // moves to its place: below or above the knots of the contact surface, along
+  // z by layers, at the fraction f of its layer at z_0 + (-+ H - z_0) f where
+  // the face has the height z_0.
+  void
+  BulkSpace::make_grid()
+  {
+    const auto &n            = body_parameters.cells;
+    const auto &[begin, end] = columns;
+    const bool is_bone       = body_side == Side::bone;
+    dealii::GridGenerator::subdivided_hyper_rectangle(
+      triangulation,
+      {end[0] - begin[0], end[1] - begin[1], n[2]},
+      dealii::Point<3>(begin[0], begin[1], 0),
+      dealii::Point<3>(end[0], end[1], n[2]));
+    for (const auto &face : triangulation.active_face_iterators())
+      if (face->at_boundary())
+        {
+          const dealii::Point<3> p       = face->center();
+          const auto             is_side = [&](const unsigned int d) {
+            return is_bone && (p[d] == 0. || p[d] == n[d]);
+          };
+          face->set_boundary_id(p[2] == (is_bone ? n[2] : 0) ?
+                                  Boundary::contact :
+                                p[2] == (is_bone ? 0 : n[2]) ? Boundary::held :
+                                is_side(0) ? Boundary::slides_x :
+                                is_side(1) ? Boundary::slides_y :
+                                             Boundary::free);
+        }
+    dofs.distribute_dofs(vector_fe);
+
+    // layers are counted from the contact face, which is the bone's top
+    const auto index_at = [&](const dealii::Point<3> &p) {
+      const auto i = static_cast<unsigned int>(std::lround(p[2]));
+      return std::array<unsigned int, 3>{
+        {static_cast<unsigned int>(std::lround(p[0])),
+         static_cast<unsigned int>(std::lround(p[1])),
+         is_bone ? n[2] - i : i}};
+    };
+    lattice.resize(dofs.n_dofs() / 3);
+    for (const auto &cell : dofs.active_cell_iterators())
+      {
+        Cell &info = bulk_cells.emplace_back();
+        for (const unsigned int v : cell->vertex_indices())
+          {
+            info.vertices[v]          = cell->vertex_dof_index(v, 0) / 3;
+            lattice[info.vertices[v]] = index_at(cell->vertex(v));
+          }
+      }
+
+    const double bottom = -outward_sign() * body_parameters.thickness();
+    dealii::GridTools::transform(
+      [&](const dealii::Point<3> &p) {
+        const auto      i = index_at(p);
+        Eigen::Vector3d X =
+          contact_surface.point({contact_surface.knots(0).breakpoints()[i[0]],
+                                 contact_surface.knots(1).breakpoints()[i[1]]});
+        X[2] += (bottom - X[2]) * layer_knots.breakpoints()[i[2]];
+        return dealii::Point<3>(X[0], X[1], X[2]);
+      },
+      triangulation);
+  }
+
+
+
+  // For splines fractions of the depth are Greville abscissae: the map is
+  // linear in the depth, and the sides of a disk are those of a cylinder.
+  void
+  BulkSpace::number_nodes()
+  {
+    const ControlNet &control_points = contact_surface.control_points();
+    if (has_splines())
+      {
+        const std::vector<double> fractions = layer_knots.greville_abscissae();
+        const double end = -outward_sign() * body_parameters.thickness();
+        for (unsigned int node = 0; node < n_inner_nodes(); ++node)
+          {
+            const auto      i = place_of(node).index;
+            Eigen::Vector3d X = control_points.col(
+              i[0] + contact_surface.knots(0).n_basis_functions() * i[1]);
+            X[2] += (end - X[2]) * fractions[i[2]];
+            reference_positions.push_back(X);
+          }
+      }
+    else
+      {
+        std::vector<dealii::Point<3>> places(dofs.n_dofs());
+        dealii::DoFTools::map_dofs_to_support_points(bulk_mapping,
+                                                     dofs,
+                                                     places);
+        for (unsigned int node = 0; node < n_inner_nodes(); ++node)
+          reference_positions.emplace_back(places[3 * node][0],
+                                           places[3 * node][1],
+                                           places[3 * node][2]);
+      }
+    for (unsigned int A = 0; A < control_points.cols(); ++A)
+      reference_positions.push_back(control_points.col(A));
+  }
+
+
+
+  // The first vertex of a cell is the one with the least coordinates.
+  void
+  BulkSpace::complete_cells()
+  {
+    const unsigned int n_functions =
+      (contact_surface.degree() + 1) * (contact_surface.degree() + 1);
+    for (Cell &info : bulk_cells)
+      {
+        const auto &first    = lattice[info.vertices.front()],
+                   &last     = lattice[info.vertices.back()];
+        info.layer           = std::min(first[2], last[2]);
+        info.enriched        = info.layer == 0;
+        info.surface_element = first[0] + body_parameters.cells[0] * first[1];
+        const auto control_points =
+          contact_surface.element_control_points(info.surface_element);
+        const auto add_face = [&] {
+          for (unsigned int a = 0; a < n_functions; ++a)
+            info.nodes.push_back(control_point_node(control_points[a]));
+        };
+        // functions begin with the number of their first cell
+        const auto add_level = [&](const unsigned int level) {
+          const auto        &begin = columns.begin, &end = columns.end;
+          const unsigned int n_1 = end[0] - begin[0] + 2;
+          for (unsigned int a = 0; a < n_functions; ++a)
+            info.nodes.push_back((level - 1) * n_in_level() + first[0] -
+                                 begin[0] + a % 3 +
+                                 n_1 * (first[1] - begin[1] + a / 3));
+        };
+        if (has_splines())
+          {
+            const unsigned int level =
+              layer_knots.first_basis_function(info.layer);
+            for (unsigned int k = level; k <= level + layer_knots.degree(); ++k)
+              if (k == 0)
+                add_face();
+              else
+                add_level(k);
+            continue;
+          }
+        if (info.enriched)
+          add_face();
+        for (unsigned int a = 0; a < scalar_fe.n_dofs_per_cell(); ++a)
+          if (!info.enriched ||
+              !scalar_fe.has_support_on_face(a, contact_face()))
+            info.nodes.push_back(info.vertices[a]);
+      }
+  }
+
+
+
+  BulkSpace::Place
+  BulkSpace::place_of(const unsigned int node) const
+  {
+    const auto        &n   = body_parameters.cells;
+    const unsigned int n_1 = contact_surface.knots(0).n_basis_functions(),
+                       n_2 = contact_surface.knots(1).n_basis_functions();
+    const bool is_inner    = node < n_inner_nodes();
+    if (is_inner && !has_splines())
+      return {lattice[node], n};
+    const std::array<unsigned int, 3> last{
+      {n_1 - 1, n_2 - 1, layer_knots.n_basis_functions() - 1}};
+    if (!is_inner)
+      {
+        const unsigned int A = node - n_inner_nodes();
+        return {{{A % n_1, A / n_1, 0}}, last};
+      }
+    const unsigned int n_here   = columns.end[0] - columns.begin[0] + 2,
+                       in_level = node % n_in_level();
+    return {{{columns.begin[0] + in_level % n_here,
+              columns.begin[1] + in_level / n_here,
+              1 + node / n_in_level()}},
+            last};
+  }
+
+
+
+  namespace
+  {
+    /** Inner nodes of a whole body along x or y. */
+    unsigned int
+    n_across(const BulkSpace &mesh, const unsigned int direction)
+    {
+      return mesh.parameters().cells[direction] + (mesh.has_splines() ? 2 : 1);
+    }
+  } // namespace
+
+
+
+  unsigned int
+  BulkSpace::number_in_whole(const unsigned int node) const
+  {
+    const auto         i = place_of(node).index;
+    const unsigned int n = n_across(*this, 0) * n_across(*this, 1);
+    if (node >= n_inner_nodes())
+      return n_nodes_of_whole() - n_nodes() + node;
+    return i[0] + n_across(*this, 0) * i[1] +
+           n * (has_splines() ? i[2] - 1 : i[2]);
+  }
+
+
+
+  unsigned int
+  BulkSpace::n_nodes_of_whole() const
+  {
+    const unsigned int n_levels =
+      layer_knots.n_basis_functions() - (has_splines() ? 1 : 0);
+    return n_across(*this, 0) * n_across(*this, 1) * n_levels +
+           contact_surface.n_control_points();
+  }
+
+
+
+  unsigned int
+  BulkSpace::n_dofs_as_published() const
+  {
+    return 3 * (n_nodes_of_whole() -
+                (body_parameters.contact_surface == SurfaceKind::nurbs ?
+                   0 :
+                   contact_surface.n_control_points()));
+  }
+
+
+
+  unsigned int
+  BulkSpace::n_unknowns() const
+  {
+    const auto &n = body_parameters.cells;
+    return 3 *
+           (n_nodes_of_whole() - (has_splines() ? 0 : (n[0] + 1) * (n[1] + 1)));
+  }
+
+
+
+  // What several ranks have is the same on all of them.
+  Eigen::VectorXd
+  BulkSpace::gathered(const Eigen::VectorXd &v) const
+  {
+    Eigen::VectorXd whole =
+      Eigen::VectorXd::Constant(3 * n_nodes_of_whole(),
+                                -std::numeric_limits<double>::infinity());
+    for (unsigned int node = 0; node < n_nodes(); ++node)
+      whole.segment<3>(3 * number_in_whole(node)) = v.segment<3>(3 * node);
+    Ranks::take_largest(whole.data(), whole.size());
+    return whole;
+  }
+
+
+
+  Eigen::VectorXd
+  BulkSpace::own_part(const Eigen::VectorXd &whole) const
+  {
+    Eigen::VectorXd v(3 * n_nodes());
+    for (unsigned int node = 0; node < n_nodes(); ++node)
+      v.segment<3>(3 * node) = whole.segment<3>(3 * number_in_whole(node));
+    return v;
+  }
+
+
+
+  namespace
+  {
+    const std::array<std::pair<dealii::types::boundary_id, unsigned int>, 3>
+      supports{{{Boundary::held, 7}, // bit c: component c
+                {Boundary::slides_x, 1},
+                {Boundary::slides_y, 2}}};
+  } // namespace
+
+
+
+  // What does not move at all is held at the far face and, of the bone, normal
+  // to its sides. Nodes of FE_Q on the contact face follow the control points;
+  // deal.II's make_zero_boundary_constraints() knows nothing of these, so that
+  // all that has a value in the middle of a held face is held here.
+  void
+  BulkSpace::make_constraints()
+  {
+    fixed.assign(3 * n_nodes(), false);
+    tied.assign(n_nodes(), false);
+    for (const auto &cell : dofs.active_cell_iterators())
+      {
+        if (!cell->at_boundary())
+          continue;
+        const Cell &info = bulk_cells[cell->active_cell_index()];
+        for (const unsigned int f : cell->face_indices())
+          for (const auto &[id, components] : supports)
+            if (cell->at_boundary(f) && cell->face(f)->boundary_id() == id)
+              hold(info, f, components);
+        if (info.enriched && !has_splines())
+          tie(info);
+      }
+    tell_held_control_points();
+    for (unsigned int dof = 0; dof < fixed.size(); ++dof)
+      if (fixed[dof])
+        all_constraints.add_line(dof);
+    all_constraints.close();
+  }
+
+
+
+  // A function that has no value in the middle of a face has none on the face:
+  // none of them is negative.
+  void
+  BulkSpace::hold(const Cell        &cell,
+                  const unsigned int face,
+                  const unsigned int components)
+  {
+    dealii::Point<3> middle(0.5, 0.5, 0.5);
+    middle[face / 2]    = face % 2;
+    const ShapeValues N = CellFunctions(*this, cell).at(middle);
+    for (unsigned int a = 0; a < N.rows(); ++a)
+      for (unsigned int c = 0; c < 3; ++c)
+        if (std::abs(N(a, 0)) > 1e-12 && (components >> c & 1) != 0)
+          fixed[3 * cell.nodes[a] + c] = true;
+  }
+
+
+
+  // All ranks know all control points, but each has its own cells.
+  void
+  BulkSpace::tell_held_control_points()
+  {
+    if (body_parameters.bulk_solver != BulkSolver::multigrid)
+      return;
+    const unsigned int  first = 3 * n_inner_nodes();
+    std::vector<double> held(fixed.begin() + first, fixed.end());
+    Ranks::take_largest(held.data(), held.size());
+    for (unsigned int i = 0; i < held.size(); ++i)
+      fixed[first + i] = held[i] == 1.;
+  }
+
+
+
+  void
+  BulkSpace::tie(const Cell &cell)
+  {
+    for (unsigned int a = 0; a < scalar_fe.n_dofs_per_cell(); ++a)
+      if (const unsigned int node = cell.vertices[a];
+          scalar_fe.has_support_on_face(a, contact_face()) && !tied[node])
+        {
+          tied[node] = true;
+          const ShapeValues N =
+            CellFunctions(*this, cell).at(scalar_fe.unit_support_point(a));
+          for (unsigned int c = 0; c < 3; ++c)
+            {
+              all_constraints.add_line(3 * node + c);
+              for (unsigned int b = 0; b < N.rows(); ++b)
+                if (N(b, 0) != 0.)
+                  all_constraints.add_entry(3 * node + c,
+                                            3 * cell.nodes[b] + c,
+                                            N(b, 0));
+            }
+        }
+  }
+
+
+
+  void
+  BulkSpace::distribute(Eigen::VectorXd &v) const
+  {
+    for (unsigned int node = 0; node < n_nodes(); ++node)
+      for (unsigned int dof = 3 * node; tied[node] && dof < 3 * node + 3; ++dof)
+        {
+          v[dof] = 0.;
+          for (const auto &[other, weight] :
+               *all_constraints.get_constraint_entries(dof))
+            v[dof] += weight * v[other];
+        }
+  }
+} // namespace Debond

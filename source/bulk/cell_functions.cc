@@ -1,0 +1,170 @@
+#include <debond/bulk/cell_functions.h>
+
+namespace Debond
+{
+  Eigen::Vector2d
+  parameters_at(const std::array<Eigen::Vector2d, 2> &bounds,
+                const dealii::Point<2>               &point)
+  {
+    const Eigen::Array2d t(point[0], point[1]);
+    return (1. - t) * bounds[0].array() + t * bounds[1].array();
+  }
+
+
+
+  ShapeValues
+  shape_values(const dealii::FE_Q<3> &element, const dealii::Point<3> &point)
+  {
+    ShapeValues phi(element.n_dofs_per_cell(), 4);
+    for (unsigned int a = 0; a < phi.rows(); ++a)
+      {
+        const dealii::Tensor<1, 3> slope = element.shape_grad(a, point);
+        phi.row(a) << element.shape_value(a, point), slope[0], slope[1],
+          slope[2];
+      }
+    return phi;
+  }
+
+
+
+  CellFunctions::CellFunctions(const BulkSpace       &space,
+                               const BulkSpace::Cell &cell)
+    : space(space)
+    , cell(cell)
+  {
+    if (space.has_splines())
+      extract_splines();
+  }
+
+
+
+  ShapeValues
+  CellFunctions::at(const dealii::Point<3> &point) const
+  {
+    return at(point, shape_values(space.element(), point));
+  }
+
+
+
+  ShapeValues
+  CellFunctions::at(const dealii::Point<3> &point, const ShapeValues &phi) const
+  {
+    return space.has_splines() ? splines(phi) :
+           cell.enriched       ? of_contact_layer(point, phi) :
+                                 phi;
+  }
+
+
+
+  Eigen::Vector3d
+  CellFunctions::position(const dealii::Point<3> &point) const
+  {
+    const ShapeValues N = at(point);
+    Eigen::Vector3d   X = Eigen::Vector3d::Zero();
+    for (unsigned int a = 0; a < N.rows(); ++a)
+      X += N(a, 0) * space.reference_position(cell.nodes[a]);
+    return X;
+  }
+
+
+
+  SurfaceBasis
+  CellFunctions::functions_of_face(const double xi, const double eta) const
+  {
+    SurfaceBasis basis;
+    space.surface().evaluate_in_element(
+      cell.surface_element,
+      parameters_at(space.surface().element_bounds(cell.surface_element),
+                    {xi, eta}),
+      basis,
+      false);
+    return basis;
+  }
+
+
+
+  // The functions of all nodes on a face add up to l_0, which depends on the
+  // coordinate across only.
+  ShapeValues
+  CellFunctions::of_contact_layer(const dealii::Point<3> &point,
+                                  const ShapeValues      &phi) const
+  {
+    const auto is_on_face = [&](const unsigned int a) {
+      return space.element().has_support_on_face(a, space.contact_face());
+    };
+    double l = 0., dl = 0.;
+    for (unsigned int a = 0; a < phi.rows(); ++a)
+      if (is_on_face(a))
+        {
+          l += phi(a, 0);
+          dl += phi(a, 3);
+        }
+    const auto bounds = space.surface().element_bounds(cell.surface_element);
+    const Eigen::Vector2d size  = bounds[1] - bounds[0];
+    const SurfaceBasis    basis = functions_of_face(point[0], point[1]);
+    ShapeValues           N(cell.nodes.size(), 4);
+    for (unsigned int b = 0; b < basis.size; ++b)
+      N.row(b) << basis.N[b] * l, basis.N_1[b] * size[0] * l,
+        basis.N_2[b] * size[1] * l, basis.N[b] * dl;
+    for (unsigned int a = 0, row = basis.size; a < phi.rows(); ++a)
+      if (!is_on_face(a))
+        N.row(row++) = phi.row(a);
+    return N;
+  }
+
+
+
+  // FE_Q(2) has its support points in a lattice, whose columns share the
+  // functions of the face, and its layers those of the depth.
+  void
+  CellFunctions::extract_splines()
+  {
+    const KnotVector &depth     = space.depth();
+    const double      begin     = depth.breakpoints()[cell.layer],
+                 end            = depth.breakpoints()[cell.layer + 1];
+    const unsigned int n_levels = depth.degree() + 1,
+                       n_face   = cell.nodes.size() / n_levels;
+    const auto points =
+      space.surface().element_control_points(cell.surface_element);
+    Eigen::VectorXd weights(n_face);
+    for (unsigned int b = 0; b < n_face; ++b)
+      weights[b] = space.surface().weights()[points[b]];
+    if ((weights.array() != 1.).any())
+      w = weights.replicate(n_levels, 1);
+
+    E.resize(space.element().n_dofs_per_cell(), cell.nodes.size());
+    for (unsigned int a = 0; a < E.rows(); ++a)
+      {
+        const dealii::Point<3> &p = space.element().unit_support_point(a);
+        const SurfaceBasis      N = functions_of_face(p[0], p[1]);
+        // sum_b B_b = 1 makes polynomials of the rational functions
+        const Eigen::VectorXd ratios =
+          Eigen::Map<const Eigen::ArrayXd>(N.N.data(), n_face) /
+          weights.array();
+        // zeta runs upwards, the depth from the contact face
+        const double inwards = space.contact_face() == 5 ? 1. - p[2] : p[2];
+        const auto   M =
+          depth.evaluate(cell.layer, (1. - inwards) * begin + inwards * end);
+        for (unsigned int k = 0; k < n_levels; ++k)
+          E.row(a).segment(k * n_face, n_face) =
+            M.B[k] / ratios.sum() * ratios.transpose();
+      }
+  }
+
+
+
+  ShapeValues
+  CellFunctions::splines(const ShapeValues &phi) const
+  {
+    ShapeValues N = E.transpose().lazyProduct(phi);
+    if (w.size() > 0) // the quotient rule
+      {
+        N                          = w.asDiagonal() * N;
+        const Eigen::RowVector4d W = N.colwise().sum();
+        N.col(0) /= W[0];
+        for (unsigned int d = 1; d < 4; ++d)
+          N.col(d) = (N.col(d) - N.col(0) * W[d]) / W[0];
+      }
+    return N;
+  }
+} // namespace Debond

@@ -1,0 +1,267 @@
+#include <debond/bulk/mirror_symmetry.h>
+
+#include <deal.II/numerics/rtree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+
+// Mirror symmetry of a body: blocks, coins and caps have it, as long as strains
+// are small. The stiffness then falls into four parts of a quarter of the size,
+// whose dense parts take a quarter of the memory together, and whose
+// factorisations a tenth of the time. Whether a body has it is asked, never
+// taken for granted.
+namespace Debond
+{
+  namespace
+  {
+    /** More than rounding of positions, moduli and weights, relative to their
+     *  size, and less than what changes a result. */
+    constexpr double rounding = 1e-10;
+
+
+
+    /** Whether the functions of the face are mirror images of each other, the
+     *  parameter of the mirrored direction @p d running backwards. */
+    bool
+    has_mirrored_functions(const NurbsSurface &face, const unsigned int d)
+    {
+      const std::vector<double> &knots   = face.knots(d).breakpoints();
+      const std::vector<double> &weights = face.weights();
+      for (unsigned int k = 0; k < knots.size(); ++k)
+        if (std::abs(knots[k] + knots[knots.size() - 1 - k] - 1.) > rounding)
+          return false;
+      const unsigned int n_1 = face.knots(0).n_basis_functions(),
+                         n_2 = face.knots(1).n_basis_functions();
+      for (unsigned int j = 0; j < n_2; ++j)
+        for (unsigned int i = 0; i < n_1; ++i)
+          {
+            const double own   = weights[i + n_1 * j],
+                         image = weights[d == 0 ? n_1 - 1 - i + n_1 * j :
+                                                  i + n_1 * (n_2 - 1 - j)];
+            if (std::abs(own - image) > rounding * own)
+              return false;
+          }
+      return true;
+    }
+
+
+
+    /** Images in mirror @p d of the nodes from @p first to before @p end, put
+     *  into @p images. False if one of them has none. */
+    bool
+    find_images(const BulkSpace           &space,
+                const unsigned int         d,
+                const unsigned int         first,
+                const unsigned int         end,
+                std::vector<unsigned int> &images)
+    {
+      std::vector<dealii::Point<3>> places;
+      double                        extent = 0.;
+      for (unsigned int node = first; node < end; ++node)
+        {
+          const Eigen::Vector3d &X = space.reference_position(node);
+          places.emplace_back(X[0], X[1], X[2]);
+          extent = std::max(extent, places.back().norm());
+        }
+      const auto                tree = dealii::pack_rtree_of_indices(places);
+      std::vector<unsigned int> nearest;
+      for (unsigned int node = first; node < end; ++node)
+        {
+          if (images[node] != dealii::numbers::invalid_unsigned_int)
+            continue; // it is an image itself
+          dealii::Point<3> mirrored = places[node - first];
+          mirrored[d]               = -mirrored[d];
+          nearest.clear();
+          tree.query(boost::geometry::index::nearest(mirrored, 1),
+                     std::back_inserter(nearest));
+          const unsigned int image = first + nearest.front();
+          if (places[nearest.front()].distance(mirrored) > rounding * extent ||
+              space.is_tied(node) != space.is_tied(image))
+            return false;
+          for (unsigned int c = 0; c < 3; ++c)
+            if (space.is_fixed(node, c) != space.is_fixed(image, c))
+              return false;
+          images[node]  = image;
+          images[image] = node;
+        }
+      return true;
+    }
+
+
+
+    /** Cells by their nodes, ascending. */
+    using CellsByNodes = std::map<std::vector<unsigned int>, unsigned int>;
+
+
+
+    /** The point of 2 x 2 x 2, or of 3 x 3 x 3, that is the image of q. */
+    unsigned int
+    image_of_point(const unsigned int q,
+                   const unsigned int d,
+                   const unsigned int n_along)
+    {
+      const unsigned int stride = d == 0 ? 1 : n_along,
+                         i      = q / stride % n_along;
+      return q + (n_along - 1 - i) * stride - i * stride;
+    }
+  } // namespace
+
+
+
+  std::optional<MirrorSymmetry>
+  MirrorSymmetry::of(const BulkSpace &space, const EnrichedCells &cells)
+  {
+    MirrorSymmetry     result;
+    const unsigned int n_inner = space.n_inner_nodes(),
+                       n_nodes = space.n_nodes();
+    CellsByNodes cell_of;
+    const auto   sorted = [](std::vector<unsigned int> nodes) {
+      std::sort(nodes.begin(), nodes.end());
+      return nodes;
+    };
+    for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
+      cell_of.emplace(sorted(space.cells()[cell].nodes), cell);
+
+    std::array<std::vector<unsigned int>, 2> image_of_cell;
+    for (const unsigned int d : {0, 1})
+      {
+        std::vector<unsigned int> &image = result.image[d];
+        image.assign(n_nodes, dealii::numbers::invalid_unsigned_int);
+        if (!has_mirrored_functions(space.surface(), d) ||
+            !find_images(space, d, 0, n_inner, image) ||
+            !find_images(space, d, n_inner, n_nodes, image))
+          return {};
+        for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
+          {
+            std::vector<unsigned int> nodes = space.cells()[cell].nodes;
+            for (unsigned int &node : nodes)
+              node = image[node];
+            const auto found = cell_of.find(sorted(nodes));
+            if (found == cell_of.end())
+              return {};
+            image_of_cell[d].push_back(found->second);
+            const Eigen::ArrayXd own   = cells.stiffness_factors(cell),
+                                 other = cells.stiffness_factors(found->second);
+            for (unsigned int q = 0; q < own.size(); ++q)
+              if (std::abs(own[q] - other[image_of_point(q, d, 2)]) >
+                  rounding * own[q])
+                return {};
+          }
+      }
+    for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
+      {
+        const unsigned int x = image_of_cell[0][cell],
+                           y = image_of_cell[1][cell];
+        const bool is_first  = cell <= std::min({x, y, image_of_cell[1][x]});
+        result.images_of_cells.push_back(
+          is_first ? (x == cell ? 1 : 2) * (y == cell ? 1 : 2) : 0);
+      }
+    return result;
+  }
+
+
+
+  std::vector<bool>
+  MirrorSymmetry::with_images(const BulkSpace  &space,
+                              std::vector<bool> control_points) const
+  {
+    const unsigned int first = space.n_inner_nodes();
+    for (const auto &images : image)
+      for (unsigned int A = 0; A < control_points.size(); ++A)
+        if (control_points[A])
+          control_points[images[first + A] - first] = true;
+    return control_points;
+  }
+
+
+
+  // A node on a mirror is its own image and can only move as its own sign says.
+  // That of the component across the mirror is the opposite.
+  dealii::AffineConstraints<double>
+  MirrorSymmetry::constraints(const BulkSpace             &space,
+                              const std::array<double, 2> &parity) const
+  {
+    dealii::AffineConstraints<double> result;
+    result.copy_from(space.constraints());
+    for (unsigned int node = 0; node < space.n_nodes(); ++node)
+      {
+        const unsigned int x = image[0][node], y = image[1][node],
+                           first = std::min({node, x, y, image[1][x]});
+        for (unsigned int c = 0; c < 3; ++c)
+          {
+            const unsigned int dof    = 3 * node + c;
+            const double       sign[] = {c == 0 ? -parity[0] : parity[0],
+                                   c == 1 ? -parity[1] : parity[1]};
+            if (result.is_constrained(dof))
+              continue;
+            if ((x == node && sign[0] < 0.) || (y == node && sign[1] < 0.))
+              result.add_line(dof);
+            else if (first != node)
+              {
+                // by which mirrors the first one becomes this one
+                const double product = first == x ? sign[0] :
+                                       first == y ? sign[1] :
+                                                    sign[0] * sign[1];
+                result.add_line(dof);
+                result.add_entry(dof, 3 * first + c, product);
+              }
+          }
+      }
+    result.close();
+    return result;
+  }
+
+
+
+  DofClass::DofClass(const BulkSpace                         &space,
+                     const dealii::AffineConstraints<double> &constraints)
+    : number(3 * space.n_nodes(), -1)
+    , coefficient(number.size(), 0.)
+  {
+    std::vector<unsigned int> n_images;
+    for (unsigned int dof = 0; dof < number.size(); ++dof)
+      if (!constraints.is_constrained(dof))
+        {
+          number[dof]      = n++;
+          coefficient[dof] = 1.;
+          n_images.push_back(1);
+        }
+    for (unsigned int dof = 0; dof < number.size(); ++dof)
+      if (constraints.is_constrained(dof) &&
+          !space.constraints().is_constrained(dof))
+        for (const auto &[other, sign] :
+             *constraints.get_constraint_entries(dof))
+          {
+            number[dof]      = number[other];
+            coefficient[dof] = sign;
+            ++n_images[number[dof]];
+          }
+    for (unsigned int dof = 0; dof < number.size(); ++dof)
+      if (number[dof] >= 0)
+        coefficient[dof] /= std::sqrt(n_images[number[dof]]);
+  }
+
+
+
+  Eigen::VectorXd
+  DofClass::fold(const Eigen::VectorXd &v) const
+  {
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(n);
+    for (unsigned int dof = 0; dof < number.size(); ++dof)
+      if (number[dof] >= 0)
+        y[number[dof]] += coefficient[dof] * v[dof];
+    return y;
+  }
+
+
+
+  void
+  DofClass::unfold(const Eigen::VectorXd &y, Eigen::VectorXd &v) const
+  {
+    for (unsigned int dof = 0; dof < number.size(); ++dof)
+      if (number[dof] >= 0)
+        v[dof] += coefficient[dof] * y[number[dof]];
+  }
+} // namespace Debond

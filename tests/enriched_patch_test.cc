@@ -28,7 +28,7 @@ struct Error
 Error
 patch_test(const BodyParameters &parameters, const Side side)
 {
-  const BulkSpace      mesh(parameters, side);
+  const BulkSpace     mesh(parameters, side);
   const NeoHookean    material = NeoHookean::from_young(18000., 0.3);
   const EnrichedCells cells(mesh, material);
   const double        H[3][3] = {{2e-3, -1e-3, 3e-3},
@@ -193,6 +193,9 @@ main()
   check_exact("Block, graded", block, Side::bone);
   block.element = ElementKind::spline;
   check_exact("Block, graded, splines", block, Side::bone);
+  block.element = ElementKind::quadratic;
+  check_exact("Block, graded, quadratic", block, Side::bone);
+  check_exact("Block, graded, quadratic, as implant", block, Side::implant);
   block.lateral_grading     = 1.;
   block.cells               = {{8, 6, 3}};
   block.cells_under_implant = 4;

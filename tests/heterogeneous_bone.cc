@@ -9,7 +9,7 @@
 //  - multigrid, where the modulus jumps or varies across: the direct solver.
 
 #include <debond/bulk/body.h>
-#include <debond/bulk/cell_functions.h>
+#include <debond/bulk/bulk_space.h>
 #include <debond/bulk/enriched_cells.h>
 #include <debond/bulk/modulus_field.h>
 #include <debond/models/simulation.h>
@@ -215,6 +215,12 @@ check_manufactured_solution()
                fine   = manufactured_error(ElementKind::trilinear, 16);
   report("trilinear, smooth modulus: error", fine, 0.01);
   report("of second order", std::abs(std::log2(coarse / fine) - 2.), 0.2);
+  const double coarse_quadratic = manufactured_error(ElementKind::quadratic, 4),
+               fine_quadratic   = manufactured_error(ElementKind::quadratic, 8);
+  report("quadratic, smooth modulus: error", fine_quadratic, 1e-3);
+  report("of third order or better",
+         3. - std::log2(coarse_quadratic / fine_quadratic),
+         0.2);
   const double coarse_splines = manufactured_error(ElementKind::spline, 6),
                fine_splines   = manufactured_error(ElementKind::spline, 12);
   report("splines, smooth modulus: error", fine_splines, 1e-3);

@@ -1,7 +1,7 @@
 // A linear body is condensed in four classes of motions, by what two mirrors
 // make of them. What comes of it is that of the whole stiffness, condensed
-// here as a dense matrix: even and odd numbers of cells, trilinear and spline,
-// and contact on a part of the face that is not symmetric itself. Bodies whose
+// here as a dense matrix: even and odd numbers of cells, all elements, and
+// contact on a part of the face that is not symmetric itself. Bodies whose
 // mesh is not its own mirror image, whatever the shape, give that of the whole
 // stiffness, too.
 
@@ -154,11 +154,13 @@ int
 main()
 {
   for (const ElementKind element :
-       {ElementKind::trilinear, ElementKind::spline})
+       {ElementKind::trilinear, ElementKind::quadratic, ElementKind::spline})
     {
-      const std::string name =
-        element == ElementKind::spline ? ", splines" : ", trilinear";
-      BodyParameters block;
+      const std::string name = element == ElementKind::spline ? ", splines" :
+                               element == ElementKind::quadratic ?
+                                                                ", quadratic" :
+                                                                ", trilinear";
+      BodyParameters    block;
       block.element       = element;
       block.size          = {{5., 4., 2.}};
       block.cells         = {{5, 4, 2}};

@@ -34,14 +34,34 @@ quadratic_splines(const std::array<double, 6> &u, const double x)
            {(1. - b) * right, next * right}}};
 }
 
+/** Of the triquadratic function of a node of a box, known by its place there,
+ *  with respect to the local coordinates at a point of [-1,1]^3. */
+Eigen::Vector3d
+triquadratic_gradient(const Eigen::Vector3d &place,
+                      const Eigen::Vector3d &point)
+{
+  Eigen::Vector3d N, dN;
+  for (unsigned int d = 0; d < 3; ++d)
+    {
+      const double x = point[d], s = std::round(place[d]);
+      N[d]  = s == 0. ? 1. - x * x : 0.5 * x * (x + s);
+      dN[d] = s == 0. ? -2. * x : x + 0.5 * s;
+    }
+  return {dN[0] * N[1] * N[2], N[0] * dN[1] * N[2], N[0] * N[1] * dN[2]};
+}
+
 /** Derivatives of all shape functions of a cell with respect to its local
  *  coordinates at a point of [-1,1]^3, the interpolation of the theory. */
 std::vector<Eigen::Vector3d>
-local_gradients(const BulkSpace        &mesh,
-                const BulkSpace::Cell  &cell,
+local_gradients(const BulkSpace       &mesh,
+                const BulkSpace::Cell &cell,
                 const Eigen::Vector3d &point)
 {
-  const double near = 0.5 * (1. - point[2]), far = 0.5 * (1. + point[2]);
+  // of quadratic elements the cell is a box, that of its nodes of FE_Q
+  const bool   is_quadratic = mesh.degree() == 2 && !mesh.has_splines();
+  const double z            = point[2],
+               near       = is_quadratic ? 0.5 * z * (z - 1.) : 0.5 * (1. - z),
+               slope_near = is_quadratic ? z - 0.5 : -0.5, far = 0.5 * (1. + z);
   std::vector<Eigen::Vector3d> dN;
   if (cell.enriched || mesh.has_splines())
     {
@@ -72,7 +92,24 @@ local_gradients(const BulkSpace        &mesh,
       for (unsigned int a = 0; a < basis.size; ++a)
         dN.emplace_back(near * basis.N_1[a] * h_1,
                         near * basis.N_2[a] * h_2,
-                        -0.5 * basis.N[a]);
+                        slope_near * basis.N[a]);
+    }
+  if (is_quadratic)
+    {
+      Eigen::Array3d lower = 1e9 * Eigen::Array3d::Ones(), upper = -lower;
+      for (const unsigned int vertex : cell.vertices)
+        {
+          lower = lower.min(mesh.reference_position(vertex).array());
+          upper = upper.max(mesh.reference_position(vertex).array());
+        }
+      for (unsigned int a = dN.size(); a < cell.nodes.size(); ++a)
+        {
+          const Eigen::Array3d X     = mesh.reference_position(cell.nodes[a]);
+          Eigen::Vector3d      place = 2. * (X - lower) / (upper - lower) - 1.;
+          place[2] *= -mesh.outward_sign(); // from the contact face, too
+          dN.push_back(triquadratic_gradient(place, point));
+        }
+      return dN;
     }
   // the opposite face of an enriched cell, or both faces of an ordinary one
   for (unsigned int face = (cell.enriched ? 1 : 0); face < 2; ++face)
@@ -113,8 +150,8 @@ energy_density(const double G, const double Lambda, const N (&F)[3][3])
 /** The energy of a cell with its first and second derivatives with respect to
  *  the positions of its nodes. */
 Number
-cell_energy(const BulkSpace        &mesh,
-            const BulkSpace::Cell  &cell,
+cell_energy(const BulkSpace       &mesh,
+            const BulkSpace::Cell &cell,
             const Eigen::VectorXd &v,
             const double           G,
             const double           Lambda)
@@ -130,11 +167,17 @@ cell_energy(const BulkSpace        &mesh,
       x[i].val() = First(n_seeds, i, position);
     }
 
-  Number       energy = 0.;
-  const double gauss  = 1. / std::sqrt(3.);
-  for (const double z : {-gauss, gauss})
-    for (const double t : {-gauss, gauss})
-      for (const double s : {-gauss, gauss})
+  // points and weights on [-1,1]
+  using Rule        = std::vector<std::pair<double, double>>;
+  const Rule rule   = mesh.degree() == 2 && !mesh.has_splines() ?
+                        Rule{{-std::sqrt(0.6), 5. / 9.},
+                           {0., 8. / 9.},
+                           {std::sqrt(0.6), 5. / 9.}} :
+                        Rule{{-1. / std::sqrt(3.), 1.}, {1. / std::sqrt(3.), 1.}};
+  Number     energy = 0.;
+  for (const auto &[z, w_z] : rule)
+    for (const auto &[t, w_t] : rule)
+      for (const auto &[s, w_s] : rule)
         {
           const auto      dN = local_gradients(mesh, cell, {s, t, z});
           Eigen::Matrix3d dX = Eigen::Matrix3d::Zero();
@@ -149,7 +192,8 @@ cell_energy(const BulkSpace        &mesh,
                 for (unsigned int a = 0; a < n; ++a)
                   F[i][j] += Number(x[3 * a + i] * dN[a].dot(inverse.col(j)));
               }
-          energy += std::abs(dX.determinant()) * energy_density(G, Lambda, F);
+          energy += w_z * w_t * w_s * std::abs(dX.determinant()) *
+                    energy_density(G, Lambda, F);
         }
   return energy;
 }
@@ -180,7 +224,7 @@ check(const std::string    &name,
       const Side            side,
       const double          amplitude)
 {
-  const BulkSpace   mesh(parameters, side);
+  const BulkSpace  mesh(parameters, side);
   const NeoHookean material =
     NeoHookean::from_young(parameters.young_modulus, parameters.poisson_ratio);
   const double nu     = parameters.poisson_ratio;
@@ -353,6 +397,9 @@ main()
   bone.cells                  = {{2, 2, 3}};
   check("Block, splines", bone, Side::bone, 0.06);
   check("Coin, splines", coin, Side::implant, 0.04);
+  bone.element = ElementKind::quadratic;
+  bone.cells   = {{2, 2, 2}};
+  check("Block, quadratic", bone, Side::bone, 0.02);
   bone.element = coin.element = ElementKind::trilinear;
   bone.cells                  = {{2, 1, 2}};
   bone.contact_surface        = SurfaceKind::bilinear;

@@ -2,7 +2,7 @@
 // Gauss points leave them no motions without energy but the six rigid ones; the
 // torque is that of an independent program; large strains hardly change it.
 
-#include <debond/bulk/cell_functions.h>
+#include <debond/bulk/bulk_space.h>
 #include <debond/models/simulation.h>
 
 #include <Eigen/Eigenvalues>

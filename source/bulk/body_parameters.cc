@@ -107,8 +107,8 @@ namespace Debond
               "How many of the cells across are under the implant, within its "
               "rim, the others as many to the left as to the right: cells "
               "become smaller towards the rim, where the pressure changes "
-              "most. 0: cells do not heed the rim. It is for Element = spline; "
-              "trilinear cells become too stiff below the rim.");
+              "most. 0: cells do not heed the rim. It is for Element = spline "
+              "or quadratic; trilinear cells become too stiff below the rim.");
     table.add("Rim grading",
               rim_grading,
               allowed_grading,
@@ -324,12 +324,12 @@ namespace Debond
     table.add(
       "Element",
       element,
-      Allowed::choice("trilinear | spline"),
-      "What the cells are. `trilinear': hexahedra with eight vertices, below "
-      "the contact face with that in the place of a side, as in the paper. "
-      "`spline': quadratic splines in all three directions, with continuous "
-      "strains: less error for the same time, most of all with cells that "
-      "heed the rim.");
+      Allowed::choice("trilinear | quadratic | spline"),
+      "What the cells are. `trilinear': hexahedra with eight nodes, below the "
+      "contact face with that in the place of a side, as in the paper. "
+      "`quadratic': the same with 27 nodes. `spline': quadratic splines in all "
+      "three directions, with continuous strains: less error for the same "
+      "time, most of all with cells that heed the rim.");
     table.add(
       "Layer grading",
       layer_grading,
@@ -388,11 +388,11 @@ namespace Debond
              "Cells",
              "one cell across is too few for Contact surface = nurbs: expected "
              "at least 2");
-      refuse(body.element == ElementKind::spline &&
+      refuse(body.element != ElementKind::trilinear &&
                body.contact_surface == SurfaceKind::bilinear,
              "Contact surface",
-             "splines have theirs for a face: with Element = spline expected "
-             "nurbs");
+             "only trilinear cells have such faces: with another Element "
+             "expected nurbs");
 
       constexpr double  thinnest = 1e-6;
       const std::string thinner  = "thinner than a millionth of the body";

@@ -1,6 +1,7 @@
 #include <debond/bulk/bulk_of_cells.h>
 
-#include <array>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_dgq.h>
 
 namespace Debond
 {
@@ -50,51 +51,39 @@ namespace Debond
 
   // Cauchy stress [MPa] for pictures: from the Gauss points, where it is
   // most accurate, to the corners of each cell, and there the mean over the
-  // cells. The trilinear extrapolation through the 2x2x2 points evaluates
-  // no gradient at a corner, where the disk's parametrisation is singular.
-  // It is not continuous from cell to cell; the mean hides that, so it is
-  // no measure of the error.
+  // cells. The polynomial through the points evaluates no gradient at a
+  // corner, where the disk's parametrisation is singular. It is not continuous
+  // from cell to cell; the mean hides that, so it is no measure of the error.
   std::vector<Eigen::Matrix3d>
   BulkOfCells::vertex_stress(const Eigen::VectorXd &v,
                              const StressLaw        law) const
   {
+    const dealii::FE_DGQArbitraryNodes<3> through_points(
+      dealii::QGauss<1>(cells.n_along()));
     std::vector<Eigen::Matrix3d> stress(mesh.n_vertices(),
                                         Eigen::Matrix3d::Zero());
     std::vector<double>          n_cells(mesh.n_vertices(), 0.);
     for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
       {
-        // H = dv/dX in the body's frame, and by the material's law the
-        // stress.
-        double H[EnrichedCells::n_q][3][3];
-        cells.displacement_gradients(cell, v, H);
-        std::array<Eigen::Matrix3d, EnrichedCells::n_q> at_points;
-        const auto factors = cells.stiffness_factors(cell);
-        for (unsigned int q = 0; q < EnrichedCells::n_q; ++q)
-          at_points[q] = factors[q] * (cells.material().*law)(H[q]);
+        const auto at_points = cells.stress(cell, v, law);
         for (const unsigned int a : dealii::GeometryInfo<3>::vertex_indices())
           {
-            // The trilinear polynomial through the eight points, which are the
-            // corners of a cell that is smaller by sqrt(3), at corner a.
             // Vertices of the contact face are corners as any other here:
             // pictures show the mesh, not the control points.
-            const unsigned int     vertex = mesh.cells()[cell].vertices[a];
-            const dealii::Point<3> middle(0.5, 0.5, 0.5);
-            const dealii::Point<3> corner =
-              middle +
-              std::sqrt(3.) *
-                (dealii::GeometryInfo<3>::unit_cell_vertex(a) - middle);
-            for (unsigned int q = 0; q < EnrichedCells::n_q; ++q)
+            const unsigned int vertex = mesh.cells()[cell].vertices[a];
+            for (unsigned int q = 0; q < at_points.size(); ++q)
               stress[vertex] +=
-                dealii::GeometryInfo<3>::d_linear_shape_function(corner, q) *
+                through_points.shape_value(
+                  q, dealii::GeometryInfo<3>::unit_cell_vertex(a)) *
                 at_points[q];
             ++n_cells[vertex];
           }
       }
     add_up_at_vertices(stress, n_cells);
-    // Every cell counts the same, whatever its volume; each vertex has at
-    // least one.
+    // Every cell counts the same, whatever its volume.
     for (unsigned int vertex = 0; vertex < mesh.n_vertices(); ++vertex)
-      stress[vertex] /= n_cells[vertex];
+      if (n_cells[vertex] > 0.)
+        stress[vertex] /= n_cells[vertex];
     return stress;
   }
 } // namespace Debond

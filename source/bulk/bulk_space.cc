@@ -1,8 +1,9 @@
 #include <debond/bulk/bulk_space.h>
-#include <debond/bulk/cell_functions.h>
 #include <debond/support/ranks.h>
 
 #include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/mapping_q.h>
+#include <deal.II/fe/mapping_q_cache.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 
@@ -68,12 +69,12 @@ namespace Debond
         parameters.bulk_solver == BulkSolver::multigrid ? Ranks::number() : 1))
     , contact_surface(face)
     , layer_knots(make_layers(parameters))
-    , bulk_mapping(1)
-    , scalar_fe(has_splines() ? 2 : 1)
-    , vector_fe(dealii::FE_Q<3>(1), 3)
+    , scalar_fe(degree())
+    , vector_fe(dealii::FE_Q<3>(has_splines() ? 1 : degree()), 3)
     , dofs(triangulation)
   {
     make_grid();
+    make_mapping();
     number_nodes();
     complete_cells();
     make_constraints();
@@ -87,21 +88,53 @@ namespace Debond
 
 
   // The cells form a lattice. The triangulation is first made with lattice
-  // indices as coordinates, which say what its boundary is; then each vertex
-  // moves to its place: below or above the knots of the contact surface, along
-  // z by layers, at the fraction f of its layer at z_0 + (-+ H - z_0) f where
-  // the face has the height z_0.
+  // indices as coordinates; then each vertex moves to its place.
   void
   BulkSpace::make_grid()
   {
     const auto &n            = body_parameters.cells;
     const auto &[begin, end] = columns;
-    const bool is_bone       = body_side == Side::bone;
     dealii::GridGenerator::subdivided_hyper_rectangle(
       triangulation,
       {end[0] - begin[0], end[1] - begin[1], n[2]},
       dealii::Point<3>(begin[0], begin[1], 0),
       dealii::Point<3>(end[0], end[1], n[2]));
+    set_boundary_ids();
+    dofs.distribute_dofs(vector_fe);
+    lattice.resize(dofs.n_dofs() / 3);
+    for (const auto &cell : dofs.active_cell_iterators())
+      {
+        Cell &info = bulk_cells.emplace_back();
+        for (const unsigned int v : cell->vertex_indices())
+          {
+            const dealii::Point<3> p = cell->vertex(v);
+            info.vertices[v]         = cell->vertex_dof_index(v, 0) / 3;
+            auto &index              = lattice[info.vertices[v]];
+            for (unsigned int d = 0; d < 3; ++d)
+              index[d] = std::lround(p[d]);
+            // layers are counted from the contact face, the bone's top
+            if (body_side == Side::bone)
+              index[2] = n[2] - index[2];
+          }
+      }
+    dealii::GridTools::transform(
+      [&](const dealii::Point<3> &p) {
+        const Eigen::Vector3d X = place_in_lattice(p);
+        return dealii::Point<3>(X[0], X[1], X[2]);
+      },
+      triangulation);
+  }
+
+
+
+  // Indices say what is at the boundary. Those of a rank's part are none where
+  // it is cut off.
+  void
+  BulkSpace::set_boundary_ids()
+  {
+    const auto  &n       = body_parameters.cells;
+    const bool   is_bone = body_side == Side::bone;
+    const double top = is_bone ? 0 : n[2], contact = is_bone ? n[2] : 0;
     for (const auto &face : triangulation.active_face_iterators())
       if (face->at_boundary())
         {
@@ -109,45 +142,68 @@ namespace Debond
           const auto             is_side = [&](const unsigned int d) {
             return is_bone && (p[d] == 0. || p[d] == n[d]);
           };
-          face->set_boundary_id(p[2] == (is_bone ? n[2] : 0) ?
-                                  Boundary::contact :
-                                p[2] == (is_bone ? 0 : n[2]) ? Boundary::held :
-                                is_side(0) ? Boundary::slides_x :
-                                is_side(1) ? Boundary::slides_y :
-                                             Boundary::free);
+          face->set_boundary_id(p[2] == contact ? Boundary::contact :
+                                p[2] == top     ? Boundary::held :
+                                is_side(0)      ? Boundary::slides_x :
+                                is_side(1)      ? Boundary::slides_y :
+                                                  Boundary::free);
         }
-    dofs.distribute_dofs(vector_fe);
+  }
 
-    // layers are counted from the contact face, which is the bone's top
-    const auto index_at = [&](const dealii::Point<3> &p) {
-      const auto i = static_cast<unsigned int>(std::lround(p[2]));
-      return std::array<unsigned int, 3>{
-        {static_cast<unsigned int>(std::lround(p[0])),
-         static_cast<unsigned int>(std::lround(p[1])),
-         is_bone ? n[2] - i : i}};
+
+
+  // Where a point of the lattice is: below or above the contact surface, the
+  // parameters of which go from knot to knot, at the fraction f of the layers
+  // at z_0 + (-+ H - z_0) f where the face has the height z_0.
+  Eigen::Vector3d
+  BulkSpace::place_in_lattice(const dealii::Point<3> &point) const
+  {
+    const auto between = [](const std::vector<double> &ends, const double s) {
+      const std::size_t i = std::min<std::size_t>(s, ends.size() - 2);
+      const double      t = s - i;
+      return (1. - t) * ends[i] + t * ends[i + 1];
     };
-    lattice.resize(dofs.n_dofs() / 3);
-    for (const auto &cell : dofs.active_cell_iterators())
-      {
-        Cell &info = bulk_cells.emplace_back();
-        for (const unsigned int v : cell->vertex_indices())
-          {
-            info.vertices[v]          = cell->vertex_dof_index(v, 0) / 3;
-            lattice[info.vertices[v]] = index_at(cell->vertex(v));
-          }
-      }
+    Eigen::Vector3d X = contact_surface.point(
+      {between(contact_surface.knots(0).breakpoints(), point[0]),
+       between(contact_surface.knots(1).breakpoints(), point[1])});
+    const double layers = body_side == Side::bone ?
+                            body_parameters.cells[2] - point[2] :
+                            point[2],
+                 end    = -outward_sign() * body_parameters.thickness();
+    X[2] += (end - X[2]) * between(layer_knots.breakpoints(), layers);
+    return X;
+  }
 
-    const double bottom = -outward_sign() * body_parameters.thickness();
-    dealii::GridTools::transform(
-      [&](const dealii::Point<3> &p) {
-        const auto      i = index_at(p);
-        Eigen::Vector3d X =
-          contact_surface.point({contact_surface.knots(0).breakpoints()[i[0]],
-                                 contact_surface.knots(1).breakpoints()[i[1]]});
-        X[2] += (bottom - X[2]) * layer_knots.breakpoints()[i[2]];
-        return dealii::Point<3>(X[0], X[1], X[2]);
-      },
-      triangulation);
+
+
+  // Quadratic cells are curved as the body is.
+  void
+  BulkSpace::make_mapping()
+  {
+    if (degree() == 1 || has_splines())
+      {
+        bulk_mapping = std::make_unique<dealii::MappingQ<3>>(1);
+        return;
+      }
+    auto mapping = std::make_unique<dealii::MappingQCache<3>>(degree());
+    mapping->initialize(
+      triangulation, [&](const dealii::Triangulation<3>::cell_iterator &cell) {
+        const auto &first = lattice[bulk_cells[cell->index()].vertices[0]];
+        const dealii::Point<3>        corner(first[0],
+                                      first[1],
+                                      body_side == Side::bone ?
+                                               body_parameters.cells[2] - first[2] :
+                                               first[2]);
+        std::vector<dealii::Point<3>> places;
+        for (const dealii::Point<3> &p : scalar_fe.get_unit_support_points())
+          {
+            const Eigen::Vector3d X =
+              place_in_lattice(dealii::Point<3>(corner + p));
+            places.emplace_back(X[0], X[1], X[2]);
+          }
+        return places;
+      });
+    bulk_mapping = std::move(mapping);
   }
 
 
@@ -174,7 +230,7 @@ namespace Debond
     else
       {
         std::vector<dealii::Point<3>> places(dofs.n_dofs());
-        dealii::DoFTools::map_dofs_to_support_points(bulk_mapping,
+        dealii::DoFTools::map_dofs_to_support_points(*bulk_mapping,
                                                      dofs,
                                                      places);
         for (unsigned int node = 0; node < n_inner_nodes(); ++node)
@@ -229,11 +285,36 @@ namespace Debond
           }
         if (info.enriched)
           add_face();
-        for (unsigned int a = 0; a < scalar_fe.n_dofs_per_cell(); ++a)
-          if (!info.enriched ||
-              !scalar_fe.has_support_on_face(a, contact_face()))
-            info.nodes.push_back(info.vertices[a]);
       }
+    if (!has_splines())
+      for (const auto &cell : dofs.active_cell_iterators())
+        {
+          Cell      &info  = bulk_cells[cell->active_cell_index()];
+          const auto nodes = nodes_of_fe(cell);
+          for (unsigned int a = 0; a < nodes.size(); ++a)
+            if (!info.enriched ||
+                !scalar_fe.has_support_on_face(a, contact_face()))
+              info.nodes.push_back(nodes[a]);
+        }
+  }
+
+
+
+  std::vector<unsigned int>
+  BulkSpace::nodes_of_fe(
+    const dealii::DoFHandler<3>::active_cell_iterator &cell) const
+  {
+    std::vector<dealii::types::global_dof_index> indices(
+      vector_fe.n_dofs_per_cell());
+    cell->get_dof_indices(indices);
+    std::vector<unsigned int> nodes(scalar_fe.n_dofs_per_cell());
+    for (unsigned int i = 0; i < indices.size(); ++i)
+      {
+        const auto [c, a] = vector_fe.system_to_component_index(i);
+        AssertThrow(indices[i] % 3 == c, dealii::ExcInternalError());
+        nodes[a] = indices[i] / 3;
+      }
+    return nodes;
   }
 
 
@@ -270,7 +351,8 @@ namespace Debond
     unsigned int
     n_across(const BulkSpace &mesh, const unsigned int direction)
     {
-      return mesh.parameters().cells[direction] + (mesh.has_splines() ? 2 : 1);
+      const unsigned int n = mesh.parameters().cells[direction];
+      return mesh.has_splines() ? n + 2 : mesh.degree() * n + 1;
     }
   } // namespace
 
@@ -292,8 +374,9 @@ namespace Debond
   unsigned int
   BulkSpace::n_nodes_of_whole() const
   {
-    const unsigned int n_levels =
-      layer_knots.n_basis_functions() - (has_splines() ? 1 : 0);
+    const unsigned int n_levels = has_splines() ?
+                                    layer_knots.n_basis_functions() - 1 :
+                                    degree() * body_parameters.cells[2] + 1;
     return n_across(*this, 0) * n_across(*this, 1) * n_levels +
            contact_surface.n_control_points();
   }
@@ -314,9 +397,8 @@ namespace Debond
   unsigned int
   BulkSpace::n_unknowns() const
   {
-    const auto &n = body_parameters.cells;
-    return 3 *
-           (n_nodes_of_whole() - (has_splines() ? 0 : (n[0] + 1) * (n[1] + 1)));
+    return 3 * (n_nodes_of_whole() -
+                (has_splines() ? 0 : n_across(*this, 0) * n_across(*this, 1)));
   }
 
 
@@ -360,7 +442,7 @@ namespace Debond
   // What does not move at all is held at the far face and, of the bone, normal
   // to its sides. Nodes of FE_Q on the contact face follow the control points;
   // deal.II's make_zero_boundary_constraints() knows nothing of these, so that
-  // all that has a value in the middle of a held face is held here.
+  // all functions that do not vanish on a held face are held here.
   void
   BulkSpace::make_constraints()
   {
@@ -376,7 +458,7 @@ namespace Debond
             if (cell->at_boundary(f) && cell->face(f)->boundary_id() == id)
               hold(info, f, components);
         if (info.enriched && !has_splines())
-          tie(info);
+          tie(info, nodes_of_fe(cell));
       }
     tell_held_control_points();
     for (unsigned int dof = 0; dof < fixed.size(); ++dof)
@@ -387,16 +469,16 @@ namespace Debond
 
 
 
-  // A function that has no value in the middle of a face has none on the face:
-  // none of them is negative.
+  // Functions that do not vanish on a face have no zero at a point of it that is
+  // nothing special to them.
   void
   BulkSpace::hold(const Cell        &cell,
                   const unsigned int face,
                   const unsigned int components)
   {
-    dealii::Point<3> middle(0.5, 0.5, 0.5);
-    middle[face / 2]    = face % 2;
-    const ShapeValues N = CellFunctions(*this, cell).at(middle);
+    dealii::Point<3> point(0.3, 0.3, 0.3);
+    point[face / 2]     = face % 2;
+    const ShapeValues N = CellFunctions(*this, cell).at(point);
     for (unsigned int a = 0; a < N.rows(); ++a)
       for (unsigned int c = 0; c < 3; ++c)
         if (std::abs(N(a, 0)) > 1e-12 && (components >> c & 1) != 0)
@@ -421,10 +503,10 @@ namespace Debond
 
 
   void
-  BulkSpace::tie(const Cell &cell)
+  BulkSpace::tie(const Cell &cell, const std::vector<unsigned int> &nodes_of_fe)
   {
     for (unsigned int a = 0; a < scalar_fe.n_dofs_per_cell(); ++a)
-      if (const unsigned int node = cell.vertices[a];
+      if (const unsigned int node = nodes_of_fe[a];
           scalar_fe.has_support_on_face(a, contact_face()) && !tied[node])
         {
           tied[node] = true;

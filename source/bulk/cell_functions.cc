@@ -1,4 +1,4 @@
-#include <debond/bulk/cell_functions.h>
+#include <debond/bulk/bulk_space.h>
 
 namespace Debond
 {

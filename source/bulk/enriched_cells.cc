@@ -11,13 +11,35 @@
 
 namespace Debond
 {
-  // Where all cells across are equal, all but those beside the ends of the
-  // splines have the same functions.
+  namespace
+  {
+    // Where all cells across are equal, all but those beside the ends of the
+    // splines have the same functions.
+    std::array<unsigned int, 3>
+    place_of_kind(const BodyParameters  &body,
+                  const unsigned int     number,
+                  const BulkSpace::Cell &cell)
+    {
+      if (!body.has_equal_splines())
+        return {{number, 0, 0}};
+      std::array<unsigned int, 3> place{{cell.surface_element % body.cells[0],
+                                         cell.surface_element / body.cells[0],
+                                         cell.layer}};
+      for (const unsigned int d : {0, 1})
+        if (place[d] > 2 && place[d] + 2 < body.cells[d])
+          place[d] = 2;
+      return place;
+    }
+  } // namespace
+
+
+
   EnrichedCells::EnrichedCells(const BulkSpace  &mesh,
                                const NeoHookean &material)
     : mesh(mesh)
     , bulk_material(material)
-    , quadrature(2)
+    , line(mesh.degree() == 2 && !mesh.has_splines() ? 3 : 2)
+    , quadrature(line.size())
   {
     const BodyParameters    &body = mesh.parameters();
     dealii::FEValues<3>      fe_values(mesh.mapping(),
@@ -28,34 +50,21 @@ namespace Debond
     std::vector<ShapeValues> phi;
     for (const dealii::Point<3> &point : quadrature.get_points())
       phi.push_back(shape_values(mesh.element(), point));
-    auto active_cell = mesh.dof_handler().begin_active();
     std::map<std::array<unsigned int, 3>, unsigned int> kind_of_place;
     for (unsigned int cell = 0; cell < n_cells(); ++cell)
       {
-        const BulkSpace::Cell      &info = mesh.cells()[cell];
-        std::array<unsigned int, 3> place{{cell, 0, 0}};
-        if (body.has_equal_splines())
-          {
-            place = {{info.surface_element % body.cells[0],
-                      info.surface_element / body.cells[0],
-                      info.layer}};
-            for (const unsigned int d : {0, 1})
-              if (place[d] > 2 && place[d] + 2 < body.cells[d])
-                place[d] = 2;
-          }
+        const BulkSpace::Cell &info = mesh.cells()[cell];
         const auto [found, is_new] =
-          kind_of_place.emplace(place, first_gradient.size());
+          kind_of_place.emplace(place_of_kind(body, cell, info),
+                                first_gradient.size());
         if (is_new && (info.enriched || mesh.has_splines()))
           add_cell(info, phi);
         else if (is_new)
           {
-            fe_values.reinit(
-              dealii::Triangulation<3>::active_cell_iterator(active_cell));
+            fe_values.reinit(mesh.active_cell(cell));
             add_cell(fe_values);
           }
         kinds.push_back(found->second);
-        if (!mesh.has_splines())
-          ++active_cell;
       }
     if (body.modulus)
       find_factors();
@@ -64,33 +73,37 @@ namespace Debond
 
 
   // W and P are proportional to Young's modulus, so that one which varies is
-  // nothing but other weights of the Gauss points. A point stands for its
-  // eighth of the cell, which is a box.
+  // nothing but other weights of the Gauss points. A point stands for a part of
+  // the cell, which is a box, as long as its weight.
   void
   EnrichedCells::find_factors()
   {
     const BodyParameters &body = mesh.parameters();
-    factors.reserve(n_q * n_cells());
+    std::vector<double>   ends{0.};
+    for (const double weight : line.get_weights())
+      ends.push_back(ends.back() + weight);
+    factors.reserve(n_points() * n_cells());
     for (const BulkSpace::Cell &cell : mesh.cells())
       {
         const CellFunctions   functions(mesh, cell);
-        const Eigen::Vector3d lower  = functions.position({0., 0., 0.}),
-                              upper  = functions.position({1., 1., 1.}),
-                              middle = 0.5 * (lower + upper);
-        for (unsigned int q = 0; q < n_q; ++q)
+        const Eigen::Vector3d corner = functions.position({0., 0., 0.}),
+                              edges = functions.position({1., 1., 1.}) - corner;
+        const auto at = [&](const Eigen::Vector3d &t) -> Eigen::Vector3d {
+          return corner + edges.cwiseProduct(t);
+        };
+        for (unsigned int q = 0; q < n_points(); ++q)
           {
-            // the corner next to the point
-            Eigen::Vector3d corner, point;
+            const unsigned int n = n_along(), i[]{q % n, q / n % n, q / n / n};
+            Eigen::Vector3d    lower, upper, point;
             for (unsigned int d = 0; d < 3; ++d)
               {
-                const double t = quadrature.point(q)[d];
-                corner[d]      = t < 0.5 ? lower[d] : upper[d];
-                point[d]       = (1. - t) * lower[d] + t * upper[d];
+                lower[d] = ends[i[d]];
+                upper[d] = ends[i[d] + 1];
+                point[d] = line.point(i[d])[0];
               }
-            factors.push_back(body.modulus->over_box(middle.cwiseMin(corner),
-                                                     middle.cwiseMax(corner),
-                                                     point) /
-                              body.young_modulus);
+            factors.push_back(
+              body.modulus->over_box(at(lower), at(upper), at(point)) /
+              body.young_modulus);
           }
       }
   }
@@ -126,6 +139,7 @@ namespace Debond
     ControlNet          X(3, n);
     for (unsigned int a = 0; a < n; ++a)
       X.col(a) = mesh.reference_position(cell.nodes[a]);
+    const unsigned int n_q = n_points();
     for (unsigned int q = 0; q < n_q; ++q)
       {
         const ShapeValues     N = functions.at(quadrature.point(q), phi[q]);
@@ -146,19 +160,20 @@ namespace Debond
   {
     const std::size_t offset = gradient_list.size();
     first_gradient.push_back(offset);
-    gradient_list.resize(offset + 3 * n_q * n_functions);
+    gradient_list.resize(offset + 3 * n_points() * n_functions);
     return &gradient_list[offset];
   }
 
 
 
+  template <int n_q>
   void
   EnrichedCells::gradient_at_points(const unsigned int     cell,
                                     const Eigen::VectorXd &v,
-                                    PointValues (&H)[3][3]) const
+                                    PointValues<n_q> (&H)[3][3]) const
   {
     for (auto &row : H)
-      for (PointValues &entry : row)
+      for (PointValues<n_q> &entry : row)
         entry.setZero();
     const double *G = gradients(cell);
     for (unsigned int a = 0; a < n_nodes(cell); ++a, G += 3 * n_q)
@@ -166,7 +181,7 @@ namespace Debond
         const double *v_a = &v[3 * nodes(cell)[a]];
         for (unsigned int d = 0; d < 3; ++d)
           {
-            const Eigen::Map<const PointValues> G_d(G + d * n_q);
+            const Eigen::Map<const PointValues<n_q>> G_d(G + d * n_q);
             for (unsigned int i = 0; i < 3; ++i)
               H[i][d] += v_a[i] * G_d;
           }
@@ -175,50 +190,65 @@ namespace Debond
 
 
 
-  // R_a = sum_q P(H) dN_a/dX JxW, part by part in threads
+  /** What some of the cells add. */
+  struct EnrichedCells::Forces
+  {
+    Eigen::VectorXd force;
+    double          energy = 0., smallest_j = 0.;
+  };
+
+
+
+  // R_a = sum_q P(H) dN_a/dX JxW
+  template <int n_q>
+  void
+  EnrichedCells::add_forces(const unsigned int     cell,
+                            const Eigen::VectorXd &v,
+                            Forces                &sum) const
+  {
+    PointValues<n_q> H[3][3], P[3][3];
+    gradient_at_points<n_q>(cell, v, H);
+    bulk_material.stress(H, P);
+    const PointValues<n_q> weight = weights<n_q>(cell);
+    sum.energy += (bulk_material.energy(H) * weight).sum();
+    sum.smallest_j =
+      std::min(sum.smallest_j, NeoHookean::volume_change(H).minCoeff());
+    for (auto &row : P)
+      for (PointValues<n_q> &entry : row)
+        entry *= weight;
+    const double *G = gradients(cell);
+    for (unsigned int a = 0; a < n_nodes(cell); ++a, G += 3 * n_q)
+      {
+        const Eigen::Map<const PointValues<n_q>> G_0(G), G_1(G + n_q),
+          G_2(G + 2 * n_q);
+        for (unsigned int i = 0; i < 3; ++i)
+          sum.force[3 * nodes(cell)[a] + i] +=
+            (P[i][0] * G_0 + P[i][1] * G_1 + P[i][2] * G_2).sum();
+      }
+  }
+
+
+
+  // Part by part in threads.
   bool
   EnrichedCells::internal_forces(const Eigen::VectorXd &v,
                                  Eigen::VectorXd       &force,
                                  double                &energy) const
   {
-    struct Part
-    {
-      Eigen::VectorXd force;
-      double          energy = 0., smallest_j = 0.;
-    };
-    std::array<Part, n_chunks> parts;
-    const auto                 add = [&](const unsigned int cell, Part &part) {
-      PointValues H[3][3], P[3][3];
-      gradient_at_points(cell, v, H);
-      bulk_material.stress(H, P);
-      const PointValues weight = weights(cell);
-      part.energy += (bulk_material.energy(H) * weight).sum();
-      part.smallest_j =
-        std::min(part.smallest_j, NeoHookean::volume_change(H).minCoeff());
-      for (auto &row : P)
-        for (PointValues &entry : row)
-          entry *= weight;
-      const double *G = gradients(cell);
-      for (unsigned int a = 0; a < n_nodes(cell); ++a, G += 3 * n_q)
-        {
-          const Eigen::Map<const PointValues> G_0(G), G_1(G + n_q),
-            G_2(G + 2 * n_q);
-          for (unsigned int i = 0; i < 3; ++i)
-            part.force[3 * nodes(cell)[a] + i] +=
-              (P[i][0] * G_0 + P[i][1] * G_1 + P[i][2] * G_2).sum();
-        }
-    };
+    std::array<Forces, n_chunks> parts;
     for_each_chunk(n_cells(),
                    [&](const unsigned int chunk,
                        const unsigned int first,
                        const unsigned int end) {
                      parts[chunk].force.setZero(force.size());
-                     for (unsigned int cell = first; cell < end; ++cell)
-                       add(cell, parts[chunk]);
+                     with_points([&](const auto n_q) {
+                       for (unsigned int cell = first; cell < end; ++cell)
+                         add_forces<n_q()>(cell, v, parts[chunk]);
+                     });
                    });
     energy            = 0.;
     double smallest_j = 0.;
-    for (const Part &part : parts)
+    for (const Forces &part : parts)
       {
         force += part.force;
         energy += part.energy;
@@ -229,17 +259,26 @@ namespace Debond
 
 
 
-  void
-  EnrichedCells::displacement_gradients(const unsigned int     cell,
-                                        const Eigen::VectorXd &v,
-                                        double (&H)[n_q][3][3]) const
+  std::vector<Eigen::Matrix3d>
+  EnrichedCells::stress(const unsigned int     cell,
+                        const Eigen::VectorXd &v,
+                        const StressLaw        law) const
   {
-    PointValues side_by_side[3][3];
-    gradient_at_points(cell, v, side_by_side);
-    for (unsigned int q = 0; q < n_q; ++q)
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int d = 0; d < 3; ++d)
-          H[q][i][d] = side_by_side[i][d][q];
+    return with_points([&](const auto n_q) {
+      PointValues<n_q()> H[3][3];
+      gradient_at_points<n_q()>(cell, v, H);
+      const Eigen::ArrayXd         factor = stiffness_factors(cell);
+      std::vector<Eigen::Matrix3d> result;
+      for (unsigned int q = 0; q < n_q(); ++q)
+        {
+          double H_q[3][3];
+          for (unsigned int i = 0; i < 3; ++i)
+            for (unsigned int d = 0; d < 3; ++d)
+              H_q[i][d] = H[i][d][q];
+          result.push_back(factor[q] * (bulk_material.*law)(H_q));
+        }
+      return result;
+    });
   }
 
 
@@ -257,14 +296,26 @@ namespace Debond
                          const Eigen::VectorXd &v,
                          Eigen::MatrixXd       &K) const
   {
+    with_points([&](const auto n_q) { tangent_of<n_q()>(cell, v, K); });
+  }
+
+
+
+  template <int n_q>
+  void
+  EnrichedCells::tangent_of(const unsigned int     cell,
+                            const Eigen::VectorXd &v,
+                            Eigen::MatrixXd       &K) const
+  {
+    using Values         = PointValues<n_q>;
     using Gradients      = Eigen::Matrix<double, n_q, Eigen::Dynamic>;
     const unsigned int n = n_nodes(cell);
-    PointValues        H[3][3], A[3][3];
-    gradient_at_points(cell, v, H);
-    const PointValues j = NeoHookean::volume_change(H);
-    NeoHookean::inverse_transpose(H, PointValues(1. + j), A);
+    Values             H[3][3], A[3][3];
+    gradient_at_points<n_q>(cell, v, H);
+    const Values j = NeoHookean::volume_change(H);
+    NeoHookean::inverse_transpose(H, Values(1. + j), A);
     const Eigen::Map<const Gradients> g(gradients(cell), n_q, 3 * n);
-    const PointValues                 weight = weights(cell);
+    const Values                      weight = weights<n_q>(cell);
     Gradients                         h(n_q, 3 * n);
     for (unsigned int a = 0; a < n; ++a)
       for (unsigned int i = 0; i < 3; ++i)
@@ -272,17 +323,17 @@ namespace Debond
                            A[i][1] * g.col(3 * a + 1).array() +
                            A[i][2] * g.col(3 * a + 2).array();
 
-    const PointValues across =
+    const Values across =
       weight * (bulk_material.G - bulk_material.Lambda * j.log1p());
     const Eigen::MatrixXd crossed =
       h.transpose() * (across.matrix().asDiagonal() * h);
     K = h.transpose() *
         ((bulk_material.Lambda * weight).matrix().asDiagonal() * h);
-    // all 24 numbers of a node in a column
+    // all numbers of a node in a column
     const Eigen::Map<const Eigen::Matrix<double, 3 * n_q, Eigen::Dynamic>>
       g_of_node(gradients(cell), 3 * n_q, n);
     const Eigen::Array<double, 3 * n_q, 1> weights =
-      bulk_material.G * weight.replicate<3, 1>();
+      bulk_material.G * weight.template replicate<3, 1>();
     const Eigen::MatrixXd dots =
       g_of_node.transpose() * (weights.matrix().asDiagonal() * g_of_node);
     for (unsigned int b = 0; b < n; ++b)
@@ -298,8 +349,10 @@ namespace Debond
   EnrichedCells::volume() const
   {
     double result = 0.;
-    for (unsigned int cell = 0; cell < n_cells(); ++cell)
-      result += volumes(cell).sum();
+    for (const unsigned int kind : kinds)
+      result +=
+        Eigen::Map<const Eigen::ArrayXd>(&JxW[n_points() * kind], n_points())
+          .sum();
     return result;
   }
 } // namespace Debond

@@ -145,7 +145,8 @@ namespace Debond
             const Eigen::ArrayXd own   = cells.stiffness_factors(cell),
                                  other = cells.stiffness_factors(found->second);
             for (unsigned int q = 0; q < own.size(); ++q)
-              if (std::abs(own[q] - other[image_of_point(q, d, 2)]) >
+              if (std::abs(own[q] -
+                           other[image_of_point(q, d, cells.n_along())]) >
                   rounding * own[q])
                 return {};
           }

@@ -143,10 +143,12 @@ namespace Debond
           const auto  &n = body->cells;
           const double more =
                          body->contact_surface == SurfaceKind::nurbs ? 2. : 1.,
-                       on_face = (n[0] + more) * (n[1] + more);
-          sum += 3. * (body->element == ElementKind::spline ?
-                         on_face * (n[2] + 2.) :
-                         (n[0] + 1.) * (n[1] + 1.) * n[2] + on_face);
+                       on_face = (n[0] + more) * (n[1] + more),
+                       p = body->element == ElementKind::quadratic ? 2. : 1.;
+          sum +=
+            3. * (body->element == ElementKind::spline ?
+                    on_face * (n[2] + 2.) :
+                    (p * n[0] + 1.) * (p * n[1] + 1.) * p * n[2] + on_face);
         }
     return sum;
   }

@@ -1,5 +1,5 @@
 #include <debond/bulk/body.h>
-#include <debond/bulk/cell_functions.h>
+#include <debond/bulk/bulk_space.h>
 #include <debond/bulk/chuck.h>
 #include <debond/geometry/surface_geometry.h>
 #include <debond/interface/contact_interface.h>

@@ -67,7 +67,8 @@ namespace Debond
     const BodyParameters &body =
       side == Side::bone ? model.bone : model.implant;
     constexpr double per_unknown = 2500., per_spline_cell = 8000.,
-                     per_spline_unknown = 7000.;
+                     per_spline_unknown = 7000., per_quadratic_cell = 20000.,
+                     per_quadratic_unknown = 5000.;
     // K, its multigrid and the vectors of GMRES
     constexpr double of_multigrid = 4300., of_multigrid_for_splines = 12000.;
     const double     per_cell = draws ? 8000. : 3000.;
@@ -122,6 +123,11 @@ namespace Debond
       return (per_cell + per_spline_cell) * x * y * z +
              per_spline_unknown * 3. * nodes_on_face * (z + 1.) +
              2. * factor(x + more, y + more, z + 1.);
+    if (body.element == ElementKind::quadratic)
+      return (per_cell + per_quadratic_cell) * x * y * z +
+             per_quadratic_unknown * 3. * (2. * x + 1.) * (2. * y + 1.) * 2. *
+               z +
+             factor(2. * x + 1., 2. * y + 1., 2. * z);
     const double n_unknowns =
       3. * ((x + 1.) * (y + 1.) * (z - 1.) + nodes_on_face);
     return per_cell * x * y * z + per_unknown * n_unknowns +

@@ -205,7 +205,8 @@ namespace Debond
       return "for " + std::to_string(Ranks::number()) + " processes";
     if (bone.bulk_solver == BulkSolver::multigrid)
       return "as asked for";
-    if (bone.bulk_solver != BulkSolver::automatic)
+    if (bone.bulk_solver != BulkSolver::automatic ||
+        bone.element == ElementKind::quadratic)
       return "";
     double       n_condensed;
     const double sparse = bytes_of_body(
@@ -233,6 +234,13 @@ namespace Debond
     };
     if (bone.is_rigid())
       return; // nothing is dealt out
+    if (bulk_solver() == BulkSolver::multigrid &&
+        bone.element == ElementKind::quadratic)
+      throw EntryError("Bone / Element",
+                       "quadratic elements are solved by the direct solver, in "
+                       "one process: expected trilinear or spline" +
+                         std::string(n > 1 ? ", or one process" :
+                                             ", or Bulk solver = direct"));
     if (n > 1 && (bone.bulk_solver == BulkSolver::direct ||
                   bone.bulk_solver == BulkSolver::lattice))
       refuse("that solver is for one process, and here are " +

@@ -27,6 +27,7 @@ namespace Debond
   enum class ElementKind
   {
     trilinear,
+    quadratic,
     spline
   };
   enum class BulkSolver

@@ -5,10 +5,11 @@
 #include <debond/bulk/side.h>
 #include <debond/geometry/nurbs_surface.h>
 
+#include <deal.II/base/point.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_system.h>
-#include <deal.II/fe/mapping_q.h>
+#include <deal.II/fe/mapping.h>
 #include <deal.II/grid/tria.h>
 #include <deal.II/lac/affine_constraints.h>
 
@@ -59,15 +60,15 @@ namespace Debond
   /**
    * Mesh, finite elements, numbering and constraints of one body.
    *
-   * The bulk is a deal.II triangulation with FESystem(FE_Q(1), 3). Degrees of
-   * freedom are numbered node by node, three to a node: first those of the
-   * DoFHandler, then the control points of the contact surface. In cells with a
-   * face on the contact boundary that face is interpolated by the NURBS surface
-   * (Corbett & Sauer 2014, 2015): the functions of the nodes on it are replaced
-   * by N_A(xi, eta) l_0(zeta), l_0 being the function of FE_Q across. So these
-   * nodes are no unknowns: they belong to no cell and follow the control
-   * points, v = sum_A N_A v_A, which together with the supports stands in the
-   * AffineConstraints.
+   * The bulk is a deal.II triangulation with FESystem(FE_Q(p), 3), p = 1 of
+   * trilinear and 2 of quadratic elements. Degrees of freedom are numbered node
+   * by node, three to a node: first those of the DoFHandler, then the control
+   * points of the contact surface. In cells with a face on the contact boundary
+   * that face is interpolated by the NURBS surface (Corbett & Sauer 2014,
+   * 2015): the functions of the nodes on it are replaced by N_A(xi, eta)
+   * l_0(zeta), l_0 being the function of FE_Q across. So these nodes are no
+   * unknowns: they belong to no cell and follow the control points, v = sum_A
+   * N_A v_A, which together with the supports stands in the AffineConstraints.
    *
    * With the contact surface `bilinear` the surface is of degree 1, has one
    * control point at each surface vertex, and everything else stays the same.
@@ -120,8 +121,14 @@ namespace Debond
     {
       return body_parameters.element == ElementKind::spline;
     }
-    /** Triangulation and FESystem of FE_Q(1), whose dofs 3 k + component belong
-     *  to node k; of splines for pictures only. */
+    /** Of the elements. */
+    unsigned int
+    degree() const
+    {
+      return body_parameters.element == ElementKind::trilinear ? 1 : 2;
+    }
+    /** Triangulation and FESystem, whose dofs 3 k + component belong to node k.
+     *  Splines have none. */
     const dealii::DoFHandler<3> &
     dof_handler() const
     {
@@ -136,7 +143,7 @@ namespace Debond
     const dealii::Mapping<3> &
     mapping() const
     {
-      return bulk_mapping;
+      return *bulk_mapping;
     }
     /** What nodes follow, and what is held, over 3 n_nodes() degrees of
      *  freedom. */
@@ -146,7 +153,8 @@ namespace Debond
       return all_constraints;
     }
 
-    /** Corners of the cells, for pictures. */
+    /** Nodes of FE_Q, the corners of the cells among them; of splines corners
+     *  only, for pictures. */
     unsigned int
     n_vertices() const
     {
@@ -261,6 +269,12 @@ namespace Debond
       return bulk_cells;
     }
 
+    /** Not with splines. */
+    dealii::Triangulation<3>::active_cell_iterator
+    active_cell(const unsigned int cell) const
+    {
+      return {&triangulation, 0, static_cast<int>(cell)};
+    }
     /** Face of a cell that is on the contact boundary, if it is enriched. */
     unsigned int
     contact_face() const
@@ -272,7 +286,15 @@ namespace Debond
     void
     make_grid();
     void
+    set_boundary_ids();
+    Eigen::Vector3d
+    place_in_lattice(const dealii::Point<3> &point) const;
+    void
+    make_mapping();
+    void
     number_nodes();
+    std::vector<unsigned int>
+    nodes_of_fe(const dealii::DoFHandler<3>::active_cell_iterator &cell) const;
     void
     complete_cells();
     void
@@ -282,7 +304,7 @@ namespace Debond
     void
     tell_held_control_points();
     void
-    tie(const Cell &cell);
+    tie(const Cell &cell, const std::vector<unsigned int> &nodes_of_fe);
 
     /** Control points of a level of splines that the cells here have. */
     unsigned int
@@ -304,19 +326,85 @@ namespace Debond
     const NurbsSurface   contact_surface;
     const KnotVector     layer_knots;
 
-    dealii::Triangulation<3>          triangulation;
-    const dealii::MappingQ<3>         bulk_mapping;
-    const dealii::FE_Q<3>             scalar_fe;
-    const dealii::FESystem<3>         vector_fe;
-    dealii::DoFHandler<3>             dofs;
-    dealii::AffineConstraints<double> all_constraints;
+    dealii::Triangulation<3>            triangulation;
+    std::unique_ptr<dealii::Mapping<3>> bulk_mapping;
+    const dealii::FE_Q<3>               scalar_fe;
+    const dealii::FESystem<3>           vector_fe;
+    dealii::DoFHandler<3>               dofs;
+    dealii::AffineConstraints<double>   all_constraints;
 
-    /** Lattice index (i, j, layer from the contact face) of each vertex node.
-     */
+    /** Lattice index (i, j, layer from the contact face) of each node that is
+     *  a corner of a cell. */
     std::vector<std::array<unsigned int, 3>> lattice;
     std::vector<Eigen::Vector3d>             reference_positions;
     std::vector<bool>                        fixed, tied;
     std::vector<Cell>                        bulk_cells;
+  };
+
+
+
+  /** The point of [0,1]^2 in the parameters of an element with these @p bounds,
+   *  exact at both: neighbours must agree on their border. */
+  Eigen::Vector2d
+  parameters_at(const std::array<Eigen::Vector2d, 2> &bounds,
+                const dealii::Point<2>               &point);
+
+  /** Functions at a point of deal.II's unit cell, a row each: the value and the
+   *  derivatives with respect to its three coordinates. */
+  using ShapeValues = Eigen::Matrix<double, Eigen::Dynamic, 4, 0, 27, 4>;
+
+  /** Of FE_Q. */
+  ShapeValues
+  shape_values(const dealii::FE_Q<3> &element, const dealii::Point<3> &point);
+
+  /**
+   * The functions of a cell, in the order of its nodes: those of FE_Q, or in
+   * the contact layer (Corbett & Sauer 2014)
+   *
+   *   x = sum_A N_A(xi,eta) l_0(zeta) x_A + sum_a phi_a(xi,eta,zeta) x_a,
+   *
+   * N_A those of the NURBS by Bezier extraction (Eqs. 34, 35 of the paper),
+   * phi_a those of FE_Q whose nodes are not on the contact face, l_0 that of
+   * FE_Q across which is 1 there. Or, with splines M_k of the depth, in all
+   * layers
+   *
+   *   x = sum_k M_k(zeta) sum_A N_A(xi,eta) x_kA.
+   *
+   * In a cell splines are polynomials of the degree of FE_Q(2), known by their
+   * values at its support points: B_b = sum_a E_ab phi_a, and those of weight
+   * w N_b = w_b B_b / sum_c w_c B_c.
+   */
+  class CellFunctions
+  {
+  public:
+    CellFunctions(const BulkSpace &space, const BulkSpace::Cell &cell);
+
+    ShapeValues
+    at(const dealii::Point<3> &point) const;
+    /** The same with the functions of FE_Q at the point, which many cells
+     *  share. */
+    ShapeValues
+    at(const dealii::Point<3> &point, const ShapeValues &phi) const;
+
+    /** Reference position of a point [mm]. */
+    Eigen::Vector3d
+    position(const dealii::Point<3> &point) const;
+
+  private:
+    SurfaceBasis
+    functions_of_face(double xi, double eta) const;
+    ShapeValues
+    of_contact_layer(const dealii::Point<3> &point,
+                     const ShapeValues      &phi) const;
+    void
+    extract_splines();
+    ShapeValues
+    splines(const ShapeValues &phi) const;
+
+    const BulkSpace       &space;
+    const BulkSpace::Cell &cell;
+    Eigen::MatrixXd        E; ///< functions of FE_Q x splines
+    Eigen::VectorXd        w; ///< of each spline; empty: all 1
   };
 } // namespace Debond
 #endif

@@ -1,7 +1,7 @@
 #ifndef debond_bulk_enriched_cells_h
 #define debond_bulk_enriched_cells_h
 
-#include <debond/bulk/cell_functions.h>
+#include <debond/bulk/bulk_space.h>
 #include <debond/bulk/neo_hookean.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -9,20 +9,20 @@
 
 #include <Eigen/Core>
 
+#include <type_traits>
 #include <vector>
 
 namespace Debond
 {
   /**
-   * The element kernel of the bulk: 2x2x2 Gauss points, reference gradients
-   * stored once for cells that are alike, all eight points of a cell side by
-   * side so that the compiler vectorises over them.
+   * The element kernel of the bulk: Gauss points, 2 x 2 x 2 in a cell or, of
+   * quadratic elements, 3 x 3 x 3; reference gradients stored once for cells
+   * that are alike, all points of a cell side by side so that the compiler
+   * vectorises over them.
    */
   class EnrichedCells
   {
   public:
-    static constexpr unsigned int n_q = 8;
-
     /** @p mesh must outlive this object. @p material is that of the mesh's
      *  young_modulus. */
     EnrichedCells(const BulkSpace &mesh, const NeoHookean &material);
@@ -60,25 +60,34 @@ namespace Debond
             const Eigen::VectorXd &v,
             Eigen::MatrixXd       &K) const;
 
-    /** Displacement gradients H at the Gauss points of a cell. */
-    void
-    displacement_gradients(unsigned int           cell,
-                           const Eigen::VectorXd &v,
-                           double (&H)[n_q][3][3]) const;
+    /** Cauchy stress at the Gauss points of a cell [MPa]. */
+    std::vector<Eigen::Matrix3d>
+    stress(unsigned int cell, const Eigen::VectorXd &v, StressLaw law) const;
 
     /** Reference volume [mm^3]. */
     double
     volume() const;
 
+    /** Gauss points along an edge, and in a cell. */
+    unsigned int
+    n_along() const
+    {
+      return line.size();
+    }
+    unsigned int
+    n_points() const
+    {
+      return quadrature.size();
+    }
     /** Young's modulus at the Gauss points of a cell over that of material().
      */
-    Eigen::Array<double, n_q, 1>
+    Eigen::ArrayXd
     stiffness_factors(const unsigned int cell) const
     {
       if (factors.empty())
-        return Eigen::Array<double, n_q, 1>::Ones();
-      return Eigen::Map<const Eigen::Array<double, n_q, 1>>(
-        &factors[n_q * cell]);
+        return Eigen::ArrayXd::Ones(n_points());
+      return Eigen::Map<const Eigen::ArrayXd>(&factors[n_points() * cell],
+                                              n_points());
     }
     const NeoHookean &
     material() const
@@ -97,42 +106,62 @@ namespace Debond
     double *
     new_kind(unsigned int n_functions);
     /** Gradient of shape function a in direction d at point q:
-     *  gradients(cell)[(3 a + d) n_q + q]. */
+     *  gradients(cell)[(3 a + d) n_points() + q]. */
     const double *
     gradients(const unsigned int cell) const
     {
       return &gradient_list[first_gradient[kinds[cell]]];
     }
     /** One number for each Gauss point of a cell. */
+    template <int n_q>
     using PointValues = Eigen::Array<double, n_q, 1>;
+    /** Calls work(n), n a constant: the number of points in a cell. */
+    template <typename Work>
+    auto
+    with_points(const Work &work) const
+    {
+      return n_points() == 8 ? work(std::integral_constant<int, 8>()) :
+                               work(std::integral_constant<int, 27>());
+    }
+    template <int n_q>
     void
     gradient_at_points(unsigned int           cell,
                        const Eigen::VectorXd &v,
-                       PointValues (&H)[3][3]) const;
+                       PointValues<n_q> (&H)[3][3]) const;
+    struct Forces;
+    template <int n_q>
+    void
+    add_forces(unsigned int cell, const Eigen::VectorXd &v, Forces &) const;
+    template <int n_q>
+    void
+    tangent_of(unsigned int           cell,
+               const Eigen::VectorXd &v,
+               Eigen::MatrixXd       &K) const;
 
-    /** Volumes that the points stand for [mm^3]; those in the stiffness have
-     *  the factors of Young's modulus in them. */
-    Eigen::Map<const PointValues>
-    volumes(const unsigned int cell) const
-    {
-      return Eigen::Map<const PointValues>(&JxW[n_q * kinds[cell]]);
-    }
-    PointValues
+    /** Volumes that the points stand for [mm^3], with the factors of Young's
+     *  modulus in them. */
+    template <int n_q>
+    PointValues<n_q>
     weights(const unsigned int cell) const
     {
-      return volumes(cell) * stiffness_factors(cell);
+      using Values            = Eigen::Map<const PointValues<n_q>>;
+      PointValues<n_q> result = Values(&JxW[n_q * kinds[cell]]);
+      if (!factors.empty())
+        result *= Values(&factors[n_q * cell]);
+      return result;
     }
     void
     find_factors();
 
     const BulkSpace          &mesh;
     const NeoHookean          bulk_material;
+    const dealii::QGauss<1>   line;
     const dealii::QGauss<3>   quadrature;
     std::vector<unsigned int> kinds;          ///< of each cell
     std::vector<std::size_t>  first_gradient; ///< of each kind
     std::vector<double>       gradient_list;
-    std::vector<double>       JxW;     ///< n_q per kind [mm^3]
-    std::vector<double>       factors; ///< n_q per cell; empty: all 1
+    std::vector<double>       JxW;     ///< of the points of a kind [mm^3]
+    std::vector<double>       factors; ///< of those of a cell; empty: all 1
   };
 } // namespace Debond
 #endif

@@ -50,6 +50,7 @@ patch_test(const BodyParameters &parameters, const Side side)
   Eigen::VectorXd force = Eigen::VectorXd::Zero(v.size());
   double          energy;
   cells.internal_forces(v, force, energy);
+  mesh.condense(force);
 
   const NurbsSurface &surface = mesh.surface();
   const bool          coin    = parameters.shape == BodyShape::coin;
@@ -193,7 +194,14 @@ main()
   check_exact("Block, graded", block, Side::bone);
   block.element = ElementKind::spline;
   check_exact("Block, graded, splines", block, Side::bone);
+  block.cells         = {{6, 4, 3}};
+  block.element       = ElementKind::trilinear;
+  block.coarser_below = true;
+  check_exact("Block, graded, coarser below", block, Side::bone);
+  check_exact("Block, graded, coarser below, as implant", block, Side::implant);
   block.element = ElementKind::quadratic;
+  check_exact("Block, graded, coarser below, quadratic", block, Side::bone);
+  block.coarser_below = false;
   check_exact("Block, graded, quadratic", block, Side::bone);
   check_exact("Block, graded, quadratic, as implant", block, Side::implant);
   block.lateral_grading     = 1.;

@@ -1,7 +1,7 @@
 // A linear body is condensed in four classes of motions, by what two mirrors
 // make of them. What comes of it is that of the whole stiffness, condensed
-// here as a dense matrix: even and odd numbers of cells, all elements, and
-// contact on a part of the face that is not symmetric itself. Bodies whose
+// here as a dense matrix: even and odd numbers of cells, all elements,
+// hanging nodes, and contact on a part of the face that is not symmetric itself. Bodies whose
 // mesh is not its own mirror image, whatever the shape, give that of the whole
 // stiffness, too.
 
@@ -167,6 +167,13 @@ main()
       block.layer_grading = 1.5;
       check("Block as bone" + name, block, Side::bone);
       check("Block as implant" + name, block, Side::implant);
+      if (element != ElementKind::spline)
+        {
+          block.cells         = {{6, 4, 3}};
+          block.coarser_below = true;
+          check("Block, coarser below" + name, block, Side::bone);
+          block.coarser_below = false;
+        }
       BodyParameters coin;
       coin.element = element;
       coin.shape   = BodyShape::coin;

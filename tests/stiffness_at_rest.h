@@ -21,6 +21,16 @@ stiffness_at_rest(const Debond::BulkSpace &mesh)
           K(3 * cells.nodes(cell)[i / 3] + i % 3,
             3 * cells.nodes(cell)[j / 3] + j % 3) += K_cell(i, j);
     }
-  return K;
+  if (!mesh.has_hanging_nodes())
+    return K;
+  // motions of which hanging nodes are a part
+  Eigen::MatrixXd T = Eigen::MatrixXd::Identity(K.rows(), K.cols());
+  for (unsigned int dof = 0; dof < T.cols(); ++dof)
+    {
+      Eigen::VectorXd motion = T.col(dof);
+      mesh.distribute(motion);
+      T.col(dof) = motion;
+    }
+  return T.transpose() * K * T;
 }
 #endif

@@ -339,6 +339,13 @@ namespace Debond
       "contact face. 1: equal layers; more than 1: thinner layers towards the "
       "interface, where the stress changes most.");
     table.add(
+      "Coarser below",
+      coarser_below,
+      Allowed::choice("false | true"),
+      "Whether cells below the first layer, that at the contact face, "
+      "are twice as wide along x and y, with hanging nodes between. For "
+      "trilinear and quadratic elements and the direct solver.");
+    table.add(
       "Material",
       material,
       Allowed::choice("rigid | linear | neo-hookean"),
@@ -393,6 +400,19 @@ namespace Debond
              "Contact surface",
              "only trilinear cells have such faces: with another Element "
              "expected nurbs");
+
+      refuse(body.coarser_below && body.element == ElementKind::spline,
+             "Coarser below",
+             "splines have cells of one width: expected false");
+      refuse(body.coarser_below &&
+               (body.cells[0] % 2 != 0 || body.cells[1] % 2 != 0 ||
+                body.cells[2] < 2),
+             "Coarser below",
+             "two cells across become one below the first layer: expected even "
+             "numbers of Cells across, and two layers or more");
+      refuse(body.coarser_below && body.bulk_solver == BulkSolver::multigrid,
+             "Coarser below",
+             "hanging nodes are for the direct solver: expected false");
 
       constexpr double  thinnest = 1e-6;
       const std::string thinner  = "thinner than a millionth of the body";

@@ -12,7 +12,9 @@ namespace Debond
                                Eigen::VectorXd       &force,
                                double                &energy) const
   {
-    return cells.internal_forces(v, force, energy);
+    const bool is_valid = cells.internal_forces(v, force, energy);
+    mesh.condense(force);
+    return is_valid;
   }
 
 
@@ -24,10 +26,16 @@ namespace Debond
   // matrix with the rows of the supports would have to be kept for six
   // products.
   Eigen::MatrixXd
-  BulkOfCells::product_at_rest(const Eigen::MatrixXd &x) const
+  BulkOfCells::product_at_rest(Eigen::MatrixXd x) const
   {
     const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(x.rows());
     Eigen::MatrixXd       y = Eigen::MatrixXd::Zero(x.rows(), x.cols()), K;
+    for (unsigned int j = 0; j < x.cols(); ++j)
+      {
+        Eigen::VectorXd column = x.col(j);
+        mesh.distribute(column);
+        x.col(j) = column;
+      }
     for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
       {
         // Gather, multiply, scatter, as in a matrix-free operator.
@@ -43,6 +51,12 @@ namespace Debond
         for (unsigned int a = 0; a < n; ++a)
           y.middleRows<3>(3 * cells.nodes(cell)[a]) +=
             y_cell.middleRows<3>(3 * a);
+      }
+    for (unsigned int j = 0; j < y.cols(); ++j)
+      {
+        Eigen::VectorXd column = y.col(j);
+        mesh.condense(column);
+        y.col(j) = column;
       }
     return y;
   }

@@ -7,6 +7,7 @@
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -88,22 +89,50 @@ namespace Debond
 
 
   // The cells form a lattice. The triangulation is first made with lattice
-  // indices as coordinates; then each vertex moves to its place.
+  // indices as coordinates; then each vertex moves to its place. Where cells
+  // are coarser below, the contact layer is refined, across only.
   void
   BulkSpace::make_grid()
   {
-    const auto &n            = body_parameters.cells;
-    const auto &[begin, end] = columns;
+    const auto &n             = body_parameters.cells;
+    const auto &[begin, end]  = columns;
+    const unsigned int n_wide = body_parameters.coarser_below ? 2 : 1;
     dealii::GridGenerator::subdivided_hyper_rectangle(
       triangulation,
-      {end[0] - begin[0], end[1] - begin[1], n[2]},
+      {(end[0] - begin[0]) / n_wide, (end[1] - begin[1]) / n_wide, n[2]},
       dealii::Point<3>(begin[0], begin[1], 0),
       dealii::Point<3>(end[0], end[1], n[2]));
     set_boundary_ids();
-    dofs.distribute_dofs(vector_fe);
-    lattice.resize(dofs.n_dofs() / 3);
-    for (const auto &cell : dofs.active_cell_iterators())
+    if (body_parameters.coarser_below)
       {
+        for (const auto &cell : triangulation.active_cell_iterators())
+          if (cell->face(contact_face())->boundary_id() == Boundary::contact)
+            cell->set_refine_flag(dealii::RefinementCase<3>::cut_xy);
+        triangulation.execute_coarsening_and_refinement();
+      }
+    dofs.distribute_dofs(vector_fe);
+    find_places_in_lattice();
+    dealii::GridTools::transform(
+      [&](const dealii::Point<3> &p) {
+        const Eigen::Vector3d X = place_in_lattice(p);
+        return dealii::Point<3>(X[0], X[1], X[2]);
+      },
+      triangulation);
+  }
+
+
+
+  void
+  BulkSpace::find_places_in_lattice()
+  {
+    lattice.resize(dofs.n_dofs() / 3);
+    boxes.resize(triangulation.n_levels());
+    for (const auto &cell : dofs.cell_iterators())
+      {
+        if (degree() == 2 && !has_splines())
+          boxes[cell->level()].push_back({{cell->vertex(0), cell->vertex(7)}});
+        if (!cell->is_active())
+          continue;
         Cell &info = bulk_cells.emplace_back();
         for (const unsigned int v : cell->vertex_indices())
           {
@@ -114,15 +143,11 @@ namespace Debond
               index[d] = std::lround(p[d]);
             // layers are counted from the contact face, the bone's top
             if (body_side == Side::bone)
-              index[2] = n[2] - index[2];
+              index[2] = body_parameters.cells[2] - index[2];
           }
+        if (!has_splines())
+          active_cells.emplace_back(cell);
       }
-    dealii::GridTools::transform(
-      [&](const dealii::Point<3> &p) {
-        const Eigen::Vector3d X = place_in_lattice(p);
-        return dealii::Point<3>(X[0], X[1], X[2]);
-      },
-      triangulation);
   }
 
 
@@ -188,17 +213,13 @@ namespace Debond
     auto mapping = std::make_unique<dealii::MappingQCache<3>>(degree());
     mapping->initialize(
       triangulation, [&](const dealii::Triangulation<3>::cell_iterator &cell) {
-        const auto &first = lattice[bulk_cells[cell->index()].vertices[0]];
-        const dealii::Point<3>        corner(first[0],
-                                      first[1],
-                                      body_side == Side::bone ?
-                                               body_parameters.cells[2] - first[2] :
-                                               first[2]);
+        const auto &[corner, opposite] = boxes[cell->level()][cell->index()];
         std::vector<dealii::Point<3>> places;
-        for (const dealii::Point<3> &p : scalar_fe.get_unit_support_points())
+        for (dealii::Point<3> p : scalar_fe.get_unit_support_points())
           {
-            const Eigen::Vector3d X =
-              place_in_lattice(dealii::Point<3>(corner + p));
+            for (unsigned int d = 0; d < 3; ++d)
+              p[d] = (1. - p[d]) * corner[d] + p[d] * opposite[d];
+            const Eigen::Vector3d X = place_in_lattice(p);
             places.emplace_back(X[0], X[1], X[2]);
           }
         return places;
@@ -397,6 +418,8 @@ namespace Debond
   unsigned int
   BulkSpace::n_unknowns() const
   {
+    if (body_parameters.bulk_solver != BulkSolver::multigrid)
+      return 3 * (n_nodes() - std::count(tied.begin(), tied.end(), true));
     return 3 * (n_nodes_of_whole() -
                 (has_splines() ? 0 : n_across(*this, 0) * n_across(*this, 1)));
   }
@@ -461,16 +484,48 @@ namespace Debond
           tie(info, nodes_of_fe(cell));
       }
     tell_held_control_points();
+    tie_hanging_nodes();
+    follow.close();
     for (unsigned int dof = 0; dof < fixed.size(); ++dof)
       if (fixed[dof])
         all_constraints.add_line(dof);
+    all_constraints.merge(follow);
     all_constraints.close();
   }
 
 
 
-  // Functions that do not vanish on a face have no zero at a point of it that is
-  // nothing special to them.
+  void
+  BulkSpace::tie_hanging_nodes()
+  {
+    if (!has_hanging_nodes())
+      return;
+    dealii::AffineConstraints<double> hanging;
+    dealii::DoFTools::make_hanging_node_constraints(dofs, hanging);
+    hanging.close();
+    for (const auto &line : hanging.get_lines())
+      {
+        // where it is, it follows them, too: cells fit together
+        const unsigned int node = line.index / 3;
+        if (!tied[node])
+          {
+            tied[node]                = true;
+            reference_positions[node] = Eigen::Vector3d::Zero();
+            for (const auto &[other, weight] : line.entries)
+              reference_positions[node] +=
+                weight * reference_positions[other / 3];
+          }
+        if (fixed[line.index])
+          continue; // and so are those that it would follow
+        follow.add_line(line.index);
+        follow.add_entries(line.index, line.entries);
+      }
+  }
+
+
+
+  // Functions that do not vanish on a face have no zero at a point of it that
+  // is nothing special to them.
   void
   BulkSpace::hold(const Cell        &cell,
                   const unsigned int face,
@@ -514,12 +569,12 @@ namespace Debond
             CellFunctions(*this, cell).at(scalar_fe.unit_support_point(a));
           for (unsigned int c = 0; c < 3; ++c)
             {
-              all_constraints.add_line(3 * node + c);
+              follow.add_line(3 * node + c);
               for (unsigned int b = 0; b < N.rows(); ++b)
                 if (N(b, 0) != 0.)
-                  all_constraints.add_entry(3 * node + c,
-                                            3 * cell.nodes[b] + c,
-                                            N(b, 0));
+                  follow.add_entry(3 * node + c,
+                                   3 * cell.nodes[b] + c,
+                                   N(b, 0));
             }
         }
   }
@@ -529,13 +584,26 @@ namespace Debond
   void
   BulkSpace::distribute(Eigen::VectorXd &v) const
   {
-    for (unsigned int node = 0; node < n_nodes(); ++node)
-      for (unsigned int dof = 3 * node; tied[node] && dof < 3 * node + 3; ++dof)
-        {
-          v[dof] = 0.;
-          for (const auto &[other, weight] :
-               *all_constraints.get_constraint_entries(dof))
-            v[dof] += weight * v[other];
-        }
+    for (const auto &line : follow.get_lines())
+      {
+        v[line.index] = 0.;
+        for (const auto &[other, weight] : line.entries)
+          v[line.index] += weight * v[other];
+      }
+  }
+
+
+
+  void
+  BulkSpace::condense(Eigen::VectorXd &force) const
+  {
+    if (!has_hanging_nodes())
+      return; // cells have no other nodes that follow
+    for (const auto &line : follow.get_lines())
+      {
+        for (const auto &[other, weight] : line.entries)
+          force[other] += weight * force[line.index];
+        force[line.index] = 0.;
+      }
   }
 } // namespace Debond

@@ -215,6 +215,8 @@ namespace Debond
             first += n;
           }
         dv(unknowns) = dv_c; // to the last bit
+        if (mesh.has_hanging_nodes())
+          mesh.distribute(dv);
         return dv;
       }
 

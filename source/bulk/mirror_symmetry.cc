@@ -48,18 +48,17 @@ namespace Debond
 
 
 
-    /** Images in mirror @p d of the nodes from @p first to before @p end, put
-     *  into @p images. False if one of them has none. */
+    /** Images in mirror @p d of some nodes, of which no two are at the same
+     *  place, put into @p images. False if one of them has none. */
     bool
-    find_images(const BulkSpace           &space,
-                const unsigned int         d,
-                const unsigned int         first,
-                const unsigned int         end,
-                std::vector<unsigned int> &images)
+    find_images(const BulkSpace                 &space,
+                const unsigned int               d,
+                const std::vector<unsigned int> &nodes,
+                std::vector<unsigned int>       &images)
     {
       std::vector<dealii::Point<3>> places;
       double                        extent = 0.;
-      for (unsigned int node = first; node < end; ++node)
+      for (const unsigned int node : nodes)
         {
           const Eigen::Vector3d &X = space.reference_position(node);
           places.emplace_back(X[0], X[1], X[2]);
@@ -67,18 +66,18 @@ namespace Debond
         }
       const auto                tree = dealii::pack_rtree_of_indices(places);
       std::vector<unsigned int> nearest;
-      for (unsigned int node = first; node < end; ++node)
+      for (unsigned int k = 0; k < nodes.size(); ++k)
         {
+          const unsigned int node = nodes[k];
           if (images[node] != dealii::numbers::invalid_unsigned_int)
             continue; // it is an image itself
-          dealii::Point<3> mirrored = places[node - first];
+          dealii::Point<3> mirrored = places[k];
           mirrored[d]               = -mirrored[d];
           nearest.clear();
           tree.query(boost::geometry::index::nearest(mirrored, 1),
                      std::back_inserter(nearest));
-          const unsigned int image = first + nearest.front();
-          if (places[nearest.front()].distance(mirrored) > rounding * extent ||
-              space.is_tied(node) != space.is_tied(image))
+          const unsigned int image = nodes[nearest.front()];
+          if (places[nearest.front()].distance(mirrored) > rounding * extent)
             return false;
           for (unsigned int c = 0; c < 3; ++c)
             if (space.is_fixed(node, c) != space.is_fixed(image, c))
@@ -113,9 +112,14 @@ namespace Debond
   std::optional<MirrorSymmetry>
   MirrorSymmetry::of(const BulkSpace &space, const EnrichedCells &cells)
   {
-    MirrorSymmetry     result;
-    const unsigned int n_inner = space.n_inner_nodes(),
-                       n_nodes = space.n_nodes();
+    MirrorSymmetry result;
+    // a node that follows others may be where one of them is
+    std::array<std::vector<unsigned int>, 3> kinds;
+    for (unsigned int node = 0; node < space.n_nodes(); ++node)
+      kinds[node >= space.n_inner_nodes() ? 2 :
+            space.is_tied(node)           ? 1 :
+                                            0]
+        .push_back(node);
     CellsByNodes cell_of;
     const auto   sorted = [](std::vector<unsigned int> nodes) {
       std::sort(nodes.begin(), nodes.end());
@@ -128,11 +132,12 @@ namespace Debond
     for (const unsigned int d : {0, 1})
       {
         std::vector<unsigned int> &image = result.image[d];
-        image.assign(n_nodes, dealii::numbers::invalid_unsigned_int);
-        if (!has_mirrored_functions(space.surface(), d) ||
-            !find_images(space, d, 0, n_inner, image) ||
-            !find_images(space, d, n_inner, n_nodes, image))
+        image.assign(space.n_nodes(), dealii::numbers::invalid_unsigned_int);
+        if (!has_mirrored_functions(space.surface(), d))
           return {};
+        for (const auto &kind : kinds)
+          if (!find_images(space, d, kind, image))
+            return {};
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
           {
             std::vector<unsigned int> nodes = space.cells()[cell].nodes;

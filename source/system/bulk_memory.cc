@@ -123,15 +123,18 @@ namespace Debond
       return (per_cell + per_spline_cell) * x * y * z +
              per_spline_unknown * 3. * nodes_on_face * (z + 1.) +
              2. * factor(x + more, y + more, z + 1.);
+    // cells that are coarser below stand for a quarter of those above
+    const double wide           = body.coarser_below ? 0.5 : 1.,
+                 share_of_cells = (1. + (z - 1.) * wide * wide) / z;
     if (body.element == ElementKind::quadratic)
-      return (per_cell + per_quadratic_cell) * x * y * z +
-             per_quadratic_unknown * 3. * (2. * x + 1.) * (2. * y + 1.) * 2. *
-               z +
-             factor(2. * x + 1., 2. * y + 1., 2. * z);
+      return share_of_cells * ((per_cell + per_quadratic_cell) * x * y * z +
+                               per_quadratic_unknown * 3. * (2. * x + 1.) *
+                                 (2. * y + 1.) * 2. * z) +
+             factor(2. * wide * x + 1., 2. * wide * y + 1., 2. * z);
     const double n_unknowns =
       3. * ((x + 1.) * (y + 1.) * (z - 1.) + nodes_on_face);
-    return per_cell * x * y * z + per_unknown * n_unknowns +
-           factor(x + 1., y + 1., z);
+    return share_of_cells * (per_cell * x * y * z + per_unknown * n_unknowns) +
+           factor(wide * x + 1., wide * y + 1., z);
   }
 
 

@@ -196,6 +196,17 @@ namespace Debond
 
 
 
+  namespace
+  {
+    bool
+    is_for_direct_solver(const BodyParameters &bone)
+    {
+      return bone.element == ElementKind::quadratic || bone.coarser_below;
+    }
+  } // namespace
+
+
+
   // Where memory is enough factors mostly win: they are made once, and an
   // iteration with them costs next to nothing.
   std::string
@@ -205,8 +216,7 @@ namespace Debond
       return "for " + std::to_string(Ranks::number()) + " processes";
     if (bone.bulk_solver == BulkSolver::multigrid)
       return "as asked for";
-    if (bone.bulk_solver != BulkSolver::automatic ||
-        bone.element == ElementKind::quadratic)
+    if (bone.bulk_solver != BulkSolver::automatic || is_for_direct_solver(bone))
       return "";
     double       n_condensed;
     const double sparse = bytes_of_body(
@@ -234,13 +244,12 @@ namespace Debond
     };
     if (bone.is_rigid())
       return; // nothing is dealt out
-    if (bulk_solver() == BulkSolver::multigrid &&
-        bone.element == ElementKind::quadratic)
-      throw EntryError("Bone / Element",
-                       "quadratic elements are solved by the direct solver, in "
-                       "one process: expected trilinear or spline" +
-                         std::string(n > 1 ? ", or one process" :
-                                             ", or Bulk solver = direct"));
+    if (bulk_solver() == BulkSolver::multigrid && is_for_direct_solver(bone))
+      throw EntryError(
+        bone.coarser_below ? "Bone / Coarser below" : "Bone / Element",
+        "it is for the direct solver and one process: expected " +
+          std::string(bone.coarser_below ? "false" : "trilinear or spline") +
+          (n > 1 ? ", or one process" : ", or Bulk solver = direct"));
     if (n > 1 && (bone.bulk_solver == BulkSolver::direct ||
                   bone.bulk_solver == BulkSolver::lattice))
       refuse("that solver is for one process, and here are " +

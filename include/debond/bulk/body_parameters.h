@@ -63,6 +63,7 @@ namespace Debond
      */
     std::array<double, 2> rim{{0, 0}};
     double                layer_grading = 1;
+    bool                  coarser_below = false; ///< than the first layer
     Material              material      = Material::neo_hookean;
     /** Where there is a modulus_expression, the mean [MPa]. */
     double young_modulus = 18000;

@@ -60,7 +60,7 @@ namespace Debond
     /** K x for a few columns x, K the tangent at rest over all degrees of
      *  freedom, fixed ones included. */
     virtual Eigen::MatrixXd
-    product_at_rest(const Eigen::MatrixXd &x) const = 0;
+    product_at_rest(Eigen::MatrixXd x) const = 0;
 
     /**
      * Cauchy stress at the mesh vertices [MPa], in the body's frame and in the

@@ -16,7 +16,7 @@ namespace Debond
                     Eigen::VectorXd       &force,
                     double                &energy) const override;
     Eigen::MatrixXd
-    product_at_rest(const Eigen::MatrixXd &x) const override;
+    product_at_rest(Eigen::MatrixXd x) const override;
     std::vector<Eigen::Matrix3d>
     vertex_stress(const Eigen::VectorXd &v, StressLaw law) const override;
     double

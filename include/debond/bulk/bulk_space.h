@@ -224,8 +224,8 @@ namespace Debond
     {
       return fixed[3 * node + component];
     }
-    /** True for nodes of FE_Q on the contact surface, which follow its control
-     *  points. */
+    /** True for nodes of FE_Q that follow others: those on the contact surface
+     *  its control points, hanging nodes those beside. */
     bool
     is_tied(unsigned int node) const
     {
@@ -247,9 +247,17 @@ namespace Debond
     gathered(const Eigen::VectorXd &v) const;
     Eigen::VectorXd
     own_part(const Eigen::VectorXd &whole) const;
+    bool
+    has_hanging_nodes() const
+    {
+      return body_parameters.coarser_below;
+    }
     /** Fills in the tied nodes of a displacement vector (3 n_nodes). */
     void
     distribute(Eigen::VectorXd &v) const;
+    /** Hands the forces of hanging nodes on to those that they follow. */
+    void
+    condense(Eigen::VectorXd &force) const;
 
     /** A cell of the bulk, active cell of the same number: the nodes of FE_Q in
      *  deal.II's order, or, in the contact layer, the control points of its
@@ -270,10 +278,10 @@ namespace Debond
     }
 
     /** Not with splines. */
-    dealii::Triangulation<3>::active_cell_iterator
+    const dealii::Triangulation<3>::active_cell_iterator &
     active_cell(const unsigned int cell) const
     {
-      return {&triangulation, 0, static_cast<int>(cell)};
+      return active_cells[cell];
     }
     /** Face of a cell that is on the contact boundary, if it is enriched. */
     unsigned int
@@ -285,6 +293,8 @@ namespace Debond
   private:
     void
     make_grid();
+    void
+    find_places_in_lattice();
     void
     set_boundary_ids();
     Eigen::Vector3d
@@ -303,6 +313,8 @@ namespace Debond
     hold(const Cell &cell, unsigned int face, unsigned int components);
     void
     tell_held_control_points();
+    void
+    tie_hanging_nodes();
     void
     tie(const Cell &cell, const std::vector<unsigned int> &nodes_of_fe);
 
@@ -331,7 +343,12 @@ namespace Debond
     const dealii::FE_Q<3>               scalar_fe;
     const dealii::FESystem<3>           vector_fe;
     dealii::DoFHandler<3>               dofs;
-    dealii::AffineConstraints<double>   all_constraints;
+    dealii::AffineConstraints<double>   follow, all_constraints;
+    std::vector<dealii::Triangulation<3>::active_cell_iterator> active_cells;
+    /** Of each cell of each level, of quadratic elements: two opposite corners
+     *  in the lattice. */
+    std::vector<std::vector<std::array<dealii::Point<3>, 2>>> boxes;
+
 
     /** Lattice index (i, j, layer from the contact face) of each node that is
      *  a corner of a cell. */

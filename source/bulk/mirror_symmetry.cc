@@ -190,7 +190,7 @@ namespace Debond
                               const std::array<double, 2> &parity) const
   {
     dealii::AffineConstraints<double> result;
-    result.copy_from(space.constraints());
+    result.merge(space.constraints()); // and stays open for more
     for (unsigned int node = 0; node < space.n_nodes(); ++node)
       {
         const unsigned int x = image[0][node], y = image[1][node],

@@ -201,16 +201,46 @@ namespace Debond
 
 
 
+  namespace
+  {
+    /** Each cell by itself. With one thread FEValues takes what it can from the
+     *  cell before if that is the same but for its place: other digits than
+     * with several. */
+    template <typename MappingType>
+    class CellByCell : public MappingType
+    {
+    public:
+      using MappingType::MappingType;
+
+    protected:
+      dealii::CellSimilarity::Similarity
+      fill_fe_values(
+        const dealii::Triangulation<3>::cell_iterator &cell,
+        const dealii::CellSimilarity::Similarity,
+        const dealii::Quadrature<3>                                     &points,
+        const dealii::Mapping<3>::InternalDataBase                      &data,
+        dealii::internal::FEValuesImplementation::MappingRelatedData<3> &output)
+        const override
+      {
+        return MappingType::fill_fe_values(
+          cell, dealii::CellSimilarity::none, points, data, output);
+      }
+    };
+  } // namespace
+
+
+
   // Quadratic cells are curved as the body is.
   void
   BulkSpace::make_mapping()
   {
     if (degree() == 1 || has_splines())
       {
-        bulk_mapping = std::make_unique<dealii::MappingQ<3>>(1);
+        bulk_mapping = std::make_unique<CellByCell<dealii::MappingQ<3>>>(1);
         return;
       }
-    auto mapping = std::make_unique<dealii::MappingQCache<3>>(degree());
+    auto mapping =
+      std::make_unique<CellByCell<dealii::MappingQCache<3>>>(degree());
     mapping->initialize(
       triangulation, [&](const dealii::Triangulation<3>::cell_iterator &cell) {
         const auto &[corner, opposite] = boxes[cell->level()][cell->index()];

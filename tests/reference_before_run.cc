@@ -116,4 +116,15 @@ main()
       calibration);
   std::cout << "a right one and an opposite one, of calibrations\n";
   print_warnings(calibration);
+  // of two tests one has not been done
+  std::ostringstream candidate;
+  check_calibration(
+    entries({"Output/Reference curve={{results/opposite.csv||}}",
+             "Task=calibrate",
+             "Interface/Friction coefficient broken=<<0.4 in 0.1..1>>",
+             "Output/Directory=results/fit"}),
+    "scene.prm",
+    candidate);
+  std::cout << "an opposite one and a candidate\n";
+  print_warnings(candidate);
 }

@@ -677,17 +677,19 @@ namespace Debond
       {
         const Measurement &measured = experiment->measured;
         if (measured.file.empty())
-          out << "A candidate without a measured curve\n";
-        else
-          out << measured.file << ": " << measured.over.size() << " rows, "
-              << experiment->over.name << " from "
-              << to_text(measured.over.minCoeff(), 6) << " to "
-              << to_text(measured.over.maxCoeff(), 6) << ' '
-              << experiment->over.unit() << "; " << ranges_of(*experiment)
-              << (experiment->why_no_closed_form.empty() ?
-                    "searched with the closed form first" :
-                    "no closed form: " + experiment->why_no_closed_form)
-              << '\n';
+          {
+            out << "A candidate without a measured curve\n";
+            continue;
+          }
+        out << measured.file << ": " << measured.over.size() << " rows, "
+            << experiment->over.name << " from "
+            << to_text(measured.over.minCoeff(), 6) << " to "
+            << to_text(measured.over.maxCoeff(), 6) << ' '
+            << experiment->over.unit() << "; " << ranges_of(*experiment)
+            << (experiment->why_no_closed_form.empty() ?
+                  "searched with the closed form first" :
+                  "no closed form: " + experiment->why_no_closed_form)
+            << '\n';
         if (turns_against_its_load(*experiment))
           out << "warning: " << measured.file << ": "
               << CurveComparison::opposite_sign << '\n';

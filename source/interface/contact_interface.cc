@@ -2,9 +2,8 @@
 #include <debond/bulk/chuck.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/interface/rigid_motion.h>
+#include <debond/interface/slip_problem.h>
 #include <debond/support/number_text.h>
-
-#include <boost/math/quadrature/gauss.hpp>
 
 #include <Eigen/Geometry>
 
@@ -454,6 +453,26 @@ namespace Debond
 
 
 
+  // How a point has let go: where it was, its slave was at @p before.
+  OpeningMotion
+  ContactInterface::opening_motion(const SlavePoint             &point,
+                                   const InterfaceConfiguration &configuration,
+                                   const RigidMotion            &chuck,
+                                   const ControlNet             &before) const
+  {
+    const MasterSurface surface = master(configuration);
+    SurfaceBasis        basis;
+    SurfaceGeometry     geometry;
+    surface.surface->evaluate(point.accepted.xi, basis, false);
+    contract(basis, *surface.positions, false, geometry);
+    return {MasterNormal(geometry, surface.outward_sign).n,
+            interpolate(point.basis, configuration.side[slave].positions) -
+              geometry.y,
+            chuck.over_master(interpolate(point.basis, before), slave)};
+  }
+
+
+
   // The trial state becomes the accepted one. Tractions are kept in the frame
   // of the master, so that a rotation of the whole changes nothing; the works
   // need both ends of the step, and so come first.
@@ -465,8 +484,11 @@ namespace Debond
   {
     tangent_is_gathered = false;
     // how far things have moved must be known before the positions are replaced
-    const Eigen::Matrix3d &Q     = configuration.side[master_side()].frame;
-    const double           moved = motion(configuration);
+    const Eigen::Matrix3d &Q      = configuration.side[master_side()].frame;
+    const double           moved  = motion(configuration);
+    const ControlNet       before = accepted_positions[slave];
+    const RigidMotion      chuck({accepted_frame, accepted_centre},
+                            Place::of_implant(configuration));
     for (const Side side : both_sides)
       accepted_positions[side] = configuration.side[side].positions;
     accepted_frame         = configuration.side[Side::implant].frame;
@@ -483,7 +505,15 @@ namespace Debond
             point.clearance -= moved;
             continue;
           }
-        works.add(point, law, mode_now, Q);
+        if (point.trial.state.status != PointStatus::open)
+          works.add(point, *law.friction, mode_now, Q);
+        else if (point.accepted.status != PointStatus::open)
+          works.add_opening(
+            point,
+            law,
+            mode_now,
+            Q,
+            opening_motion(point, configuration, chuck, before));
         // g_s^n and xi_hat^n of the next step, and what its trapezoids begin
         // with: tangential traction and pressure [MPa], stored energy [N/mm].
         const ContactPointResult &trial = point.trial;
@@ -704,44 +734,61 @@ namespace Debond
 
   namespace
   {
-    // The pressure of a point that is lifted falls evenly to zero, and with it
-    // the length that friction can hold its tangential gap at, from @p limit.
-    // The point sticks, and its gap follows the motion, until the two are
-    // equal; from there on it slides, and the gap turns towards the motion.
-    // What is dissipated until it opens, over eps_t [mm^2]: doc/theory.md,
+    /** A point that is lifted, until it opens. */
+    struct Lifting
+    {
+      Eigen::Vector3d gap;       ///< of its tangential spring [mm]
+      Eigen::Vector3d motion;    ///< of what holds that spring [mm]
+      double          pressure;  ///< at the beginning; falls evenly to 0 [MPa]
+      double          stiffness; ///< of the spring [MPa/mm]
+      double          viscosity; ///< [MPa per speed]
+    };
+
+
+
+    // The law of the interface in small parts of the way: the spring follows
+    // the motion, and slides by what friction does not hold any more. What is
+    // dissipated is a trapezoid as that of a step [N/mm]: doc/theory.md,
     // Energies.
     double
-    friction_until_open(const Eigen::Vector3d &gap,
-                        const Eigen::Vector3d &motion,
-                        const double           limit)
+    friction_until_open(const Lifting     &lifting,
+                        const FrictionLaw &law,
+                        FrictionState      state)
     {
-      // |gap + s motion| = (1 - s) limit
-      const double a       = motion.squaredNorm() - limit * limit,
-                   b       = gap.dot(motion) + limit * limit,
-                   c       = std::min(0., gap.squaredNorm() - limit * limit),
-                   root    = std::sqrt(std::max(0., b * b - a * c)),
-                   slides  = b > 0. ? -c / (b + root) :
-                             a > 0. ? (root - b) / a :
-                                      1.,
-                   length  = (1. - slides) * limit;
-      const double product = length * motion.norm();
-      if (length <= 0.)
-        return 0.;
-      const double cosine =
-        product > 0. ?
-          std::clamp((gap + slides * motion).dot(motion) / product, -1., 1.) :
-          1.;
-      const double ratio = motion.norm() / limit;
-      // of the angle between gap and motion, over the square of the pressure
-      const double mean_cosine =
-        boost::math::quadrature::gauss<double, 15>::integrate(
-          [&](const double square) {
-            const double behind = (1. - cosine) * std::pow(square, ratio);
-            return (1. + cosine - behind) / (1. + cosine + behind);
-          },
-          0.,
-          1.);
-      return 0.5 * length * length * (1. + ratio * mean_cosine);
+      constexpr unsigned int n = 200;
+      state.duration /= n;
+      // each distance is held back by this much of itself
+      const double viscous =
+        state.duration > 0. ?
+          lifting.viscosity / state.duration / lifting.stiffness :
+          0.;
+      Eigen::Vector3d gap = lifting.gap;
+      double          mu = law.coefficient(state, 0.).mu, lost = 0.;
+      for (unsigned int i = 1; i <= n; ++i)
+        {
+          const Eigen::Vector3d trial  = gap + lifting.motion / n;
+          const double          length = trial.norm();
+          const auto            slides = [&] {
+            const double pressure = lifting.pressure * (n - i) / n;
+            return std::max(0., length - mu * pressure / lifting.stiffness) /
+                   (1. + viscous);
+          };
+          mu               = std::max(0., law.coefficient(state, slides()).mu);
+          const double way = slides();
+          if (way > 0.)
+            {
+              const Eigen::Vector3d next = (1. - way / length) * trial;
+              lost += 0.5 * lifting.stiffness * way / length *
+                      (gap + next).dot(trial);
+              gap = next;
+            }
+          else
+            gap = trial;
+          state.internal = law.advance(state, way);
+          state.slip += way;
+        }
+      // what viscosity holds until it opens
+      return lost + 0.5 * lifting.stiffness * gap.squaredNorm();
     }
   } // namespace
 
@@ -756,19 +803,13 @@ namespace Debond
   // state jumps cannot dissipate more.
   void
   InterfaceWork::add(const SlavePoint       &point,
-                     const ContactPointLaw  &law,
+                     const FrictionLaw      &law,
                      const ContactPointMode &mode,
                      const Eigen::Matrix3d  &frame)
   {
     const ContactPointResult &trial        = point.trial;
+    const Eigen::Vector3d     slip         = point.JxW * trial.slip_increment;
     const Eigen::Vector3d     old_traction = frame * point.accepted_traction;
-    if (trial.state.status == PointStatus::open)
-      {
-        if (point.accepted.status != PointStatus::open)
-          add_opening(point, law, mode, old_traction);
-        return;
-      }
-    const Eigen::Vector3d slip = point.JxW * trial.slip_increment;
     // Both are in space. xi_hat follows the slave point, and t_t, of the sign
     // of the gap x - y(xi_hat), points from it to the point: the product is
     // positive where sliding costs energy [N mm]. With the tractions at the end
@@ -796,16 +837,14 @@ namespace Debond
     const double p        = point.accepted.pressure,
                  mean     = 0.5 * (p + trial.state.pressure);
     const double per_pressure =
-      point.JxW * law.friction->friction_strength(start, distance);
-    adhesive +=
-      point.JxW * mean * law.friction->adhesive_strength(start, distance);
+      point.JxW * law.friction_strength(start, distance);
+    adhesive += point.JxW * mean * law.adhesive_strength(start, distance);
     friction += mean * per_pressure;
     // What the mean pressure can be wrong by, and a speed that changes within
     // the step. The bound keeps a fast but stable fall from being reported as a
     // jump.
-    friction_bound +=
-      0.5 * std::abs(p - trial.state.pressure) * per_pressure +
-      mean * point.JxW * law.friction->strength_bound(start, distance);
+    friction_bound += 0.5 * std::abs(p - trial.state.pressure) * per_pressure +
+                      mean * point.JxW * law.strength_bound(start, distance);
   }
 
 
@@ -818,15 +857,26 @@ namespace Debond
   InterfaceWork::add_opening(const SlavePoint       &point,
                              const ContactPointLaw  &law,
                              const ContactPointMode &mode,
-                             const Eigen::Vector3d  &old_traction)
+                             const Eigen::Matrix3d  &frame,
+                             const OpeningMotion    &motion)
   {
     const ContactPointResult &trial = point.trial;
-    const double        p = point.accepted.pressure, g_n = trial.normal_gap;
-    const FrictionState start =
+    const double  p = point.accepted.pressure, g_n = trial.normal_gap;
+    FrictionState start =
       friction_state(point.accepted, point.phi_0, mode.duration);
-    const Eigen::Vector3d gap       = old_traction / law.tangential_penalty;
-    const bool            over_edge = g_n < -mode.touch_tolerance;
-    double                lost = 0., of_springs = 0.; // per area [N/mm]
+    const Eigen::Vector3d &n          = motion.normal;
+    const auto             tangential = [&n](const Eigen::Vector3d &v) {
+      return Eigen::Vector3d(v - n.dot(v) * n);
+    };
+    const double          eps_t        = law.tangential_penalty;
+    const Eigen::Vector3d old_traction = frame * point.accepted_traction,
+                          gap          = old_traction / eps_t;
+    const double penetration           = p / law.normal->initial_stiffness();
+    // Unloaded, the bodies move as well: while the point is closed.
+    const Eigen::Vector3d by_bodies =
+      motion.gap - (gap - penetration * n) - motion.by_chuck;
+    const bool over_edge = g_n < -mode.touch_tolerance;
+    double     lost = 0., of_springs = 0.; // per area [N/mm]
     if (over_edge)
       {
         // rubbed on the way there, at a pressure that is known at the beginning
@@ -834,28 +884,37 @@ namespace Debond
         if (!mode.frictionless)
           lost = p * law.friction->friction_strength(start, trial.path_to_edge);
         friction_bound += 0.5 * point.JxW * lost;
-        lost += 0.5 * old_traction.dot(gap);
+        lost += std::max(0., 0.5 * old_traction.dot(gap + by_bodies));
         of_springs = -0.5 * p * g_n;
       }
     else if (!mode.frictionless && p > 0.)
       {
-        // it is closed until the motion has used up the penetration
-        const double          penetration = p / law.normal->initial_stiffness();
-        const Eigen::Vector3d motion      = (trial.slip_increment - gap) *
-                                       penetration /
-                                       (penetration + std::max(0., g_n));
-        const double distance = (gap + motion).norm(); // it slides no further
-        const double mu =
-          distance > 0. ?
-            law.friction->friction_strength(start, distance) / distance :
-            law.friction->coefficient(start, 0.).mu;
-        const double limit =
-          std::max(gap.norm(), mu * p / law.tangential_penalty);
-        lost = law.tangential_penalty * friction_until_open(gap, motion, limit);
+        // How compliant the bodies are, over the springs: along the pressure,
+        // and along the traction where there is one worth asking.
+        const double rises = std::max(0., -n.dot(by_bodies)),
+                     limit =
+                       law.friction->coefficient(start, 0.).mu * p / eps_t,
+                     little     = 1e-4 * limit * limit,
+                     compliance = std::max(0.,
+                                           (by_bodies.dot(gap) +
+                                            little * rises / penetration) /
+                                             (gap.squaredNorm() + little));
+        // it is closed until the chuck has used up the penetration of both
+        const double closed =
+          (penetration + rises) / (penetration + rises + std::max(0., g_n));
+        start.duration *= closed;
+        lost = friction_until_open({(1. + compliance) * gap,
+                                    closed * tangential(motion.by_chuck) +
+                                      tangential(by_bodies) - compliance * gap,
+                                    p,
+                                    eps_t / (1. + compliance),
+                                    law.viscosity},
+                                   *law.friction,
+                                   start);
       }
     // as the trapezoid of the chuck's work has it, with a traction that falls
     // evenly to zero over the whole step
-    const double as_trapezoid = 0.5 * old_traction.dot(trial.slip_increment);
+    const double as_trapezoid = 0.5 * old_traction.dot(motion.gap);
     const double bound        = point.JxW * std::abs(lost - as_trapezoid);
     dissipation += point.JxW * (lost + of_springs);
     friction += point.JxW * (lost + of_springs);

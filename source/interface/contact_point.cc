@@ -288,8 +288,7 @@ namespace Debond
         // iteration is given up and the step made smaller.
         const bool failed = outcome == SlipOutcome::not_found;
         open(failed ? 0. : g_n);
-        result.failed         = failed;
-        result.slip_increment = tangential_gap; // where it lets go
+        result.failed = failed;
         if (outcome == SlipOutcome::left_patch)
           result.path_to_edge = problem.at_end().distance;
       }

@@ -51,6 +51,16 @@ namespace Debond
     Eigen::Matrix<double, 6, 1> by_chuck = Eigen::Matrix<double, 6, 1>::Zero();
   };
 
+  /** How a point has moved in the step in which it opens. */
+  struct OpeningMotion
+  {
+    Eigen::Vector3d normal;   ///< of the master at the old interacting point
+    Eigen::Vector3d gap;      ///< to that point at the end [mm]
+    Eigen::Vector3d by_chuck; ///< over the master, were the bodies rigid [mm]
+  };
+
+
+
   /** The works of the interface up to the accepted state [N mm]. */
   struct InterfaceWork
   {
@@ -83,9 +93,16 @@ namespace Debond
      *  @p mode: of the step; @p frame: Q of the master. */
     void
     add(const SlavePoint       &point,
-        const ContactPointLaw  &law,
+        const FrictionLaw      &law,
         const ContactPointMode &mode,
         const Eigen::Matrix3d  &frame);
+    /** The same of a point that opens. */
+    void
+    add_opening(const SlavePoint       &point,
+                const ContactPointLaw  &law,
+                const ContactPointMode &mode,
+                const Eigen::Matrix3d  &frame,
+                const OpeningMotion    &motion);
 
     /** See serialization.h. */
     template <class Archive>
@@ -95,18 +112,12 @@ namespace Debond
       archive &dissipation &dissipation_bound &adhesive &viscous &friction
         &friction_bound &step_dissipation;
     }
-
-  private:
-    void
-    add_opening(const SlavePoint       &point,
-                const ContactPointLaw  &law,
-                const ContactPointMode &mode,
-                const Eigen::Vector3d  &old_traction);
   };
 
 
 
   class BulkSpace;
+  struct RigidMotion;
 
   /**
    * The interface: the slave quadrature points, their history, the forces they
@@ -305,6 +316,11 @@ namespace Debond
     }
     MasterSurface
     master(const InterfaceConfiguration &configuration) const;
+    OpeningMotion
+    opening_motion(const SlavePoint             &point,
+                   const InterfaceConfiguration &configuration,
+                   const RigidMotion            &chuck,
+                   const ControlNet             &before) const;
     void
     find_side(InterfaceSummary &summary) const;
     void

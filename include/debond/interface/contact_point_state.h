@@ -106,8 +106,7 @@ namespace Debond
     Eigen::Vector3d tangential_traction = Eigen::Vector3d::Zero();
     /** Part of the tangential traction that the viscosity makes up [MPa]. */
     Eigen::Vector3d viscous_traction = Eigen::Vector3d::Zero();
-    /** y(xi_hat) - y(xi_hat^n) on the current surface [mm]; of a point that
-     *  opens in the step, what its tangential gap at xi_hat^n would be. */
+    /** y(xi_hat) - y(xi_hat^n) on the current surface [mm]. */
     Eigen::Vector3d slip_increment = Eigen::Vector3d::Zero();
     double          normal_gap     = 0; ///< g_n [mm]
     double          energy         = 0; ///< stored per area [N/mm]

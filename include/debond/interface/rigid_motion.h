@@ -21,6 +21,15 @@ namespace Debond
   {
     RigidMotion(const Place &old_place, const Place &place);
 
+    /** How far it moves a point of the slave that was at @p x, as the master
+     *  sees it, in space at the end [mm]. */
+    Eigen::Vector3d
+    over_master(const Eigen::Vector3d &x, const Side slave) const
+    {
+      const Eigen::Vector3d motion = centre + turn * (x - old_centre) - x;
+      return slave == Side::implant ? motion : Eigen::Vector3d(-motion);
+    }
+
     /** The angle by which it turns the way of a point of the slave that was at
      *  @p x over the master, about the master's axis towards the slave at the
      *  end [rad]. */

@@ -105,7 +105,7 @@ class RateAndState:
 
     def _log_theta(self, start, way):
         """ln theta at the end of the step, complex; the way has a small imaginary part and is thereby not zero."""
-        if not start.duration:
+        if not np.any(start.duration):
             return np.log(start.theta + 0j)
         q = way / self.distance
         gone = -np.expm1(-q)
@@ -117,7 +117,7 @@ class RateAndState:
         """mu and its derivative with respect to the way [1/mm], by a complex step."""
         small = 1e-30
         way = way + small * 1j
-        speed = way / start.duration if start.duration else 0.
+        speed = way / start.duration if np.any(start.duration) else 0.
         mu = (self.reference + self.direct * np.log1p(speed / self.speed)
               + self.evolution * (self._log_theta(start, way) + np.log(self.speed / self.distance)))
         return mu.real, mu.imag / small

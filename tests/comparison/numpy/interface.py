@@ -6,7 +6,6 @@ from types import SimpleNamespace
 
 import numpy as np
 import scipy.sparse as sparse
-from scipy.integrate import solve_ivp
 
 import towing
 
@@ -350,10 +349,11 @@ class Interface:
         by_gap[state.sliding] = (place.normal - slope(deeper=step))[:, :, None] * place.normal[:, None, :]
         return by_gap, by_trial
 
-    def accept(self, state, slave_points, master_points, turn):
+    def accept(self, state, slave_points, master_points, turn, carried):
         """Make the state the history; open points face the closest point of the master anew.
 
-        turn (3, 3) is the rotation of the master's frame since the last state was accepted. Adds to the dissipation,
+        turn (3, 3) is the rotation of the master's frame since the last state was accepted; carried (m, 3) by how much the
+        chuck has moved the slave points over the master, were the solids rigid. Adds to the dissipation,
         traction times way on the master, to its viscous part, and to its adhesive part, pressure times the integral of
         mu - mu_b over the sliding distance; tractions and pressures are the means of those at both ends of the step.
         """
@@ -380,7 +380,9 @@ class Interface:
             place = self._place(master_points, self.xi)
             height = _dot(place.normal, self.positions(slave_points) - place.point)
             height[state.beyond | self.beyond] = state.normal_gap[state.beyond | self.beyond]
-            lost = self._lost(before[opens], shear[opens], height[opens], state, _some(begin, opens))
+            rubbed = np.linalg.norm(state.point - begin.point, axis=1)[opens]
+            lost = self._lost(before[opens], shear[opens], height[opens], _some(state.start, opens), _some(begin, opens),
+                              rubbed, carried[opens])
             self.dissipation += (self.area[opens] * lost).sum()
 
     def _mean_coefficient(self, begin, way):
@@ -392,51 +394,46 @@ class Interface:
             mean += weight * self.law.coefficient(there, part * way)[0]
         return mean
 
-    def _lost(self, pressure, shear, height, state, begin):
+    def _lost(self, pressure, shear, height, place, begin, rubbed, carried):
         """Dissipated per area (k,) [N/mm] by points that open, whose pressure and tangential traction (k, 3) before are given.
 
         While a point is lifted its pressure falls evenly to zero, in that part of the step in which it is closed; `height`
-        is its normal gap at the end. Its tangential gap moves with it as long as it is shorter than the string mu p / eps_t,
-        which gets shorter. From there on it is as long as that, and turns towards the motion m: with its direction e,
-        d((1 - s) L e) = m ds - e dlambda. The work eps_t (1 - s) L dlambda is integrated numerically, over -ln(1 - s).
+        is its normal gap at the end. `carried` is by how much the chuck moves it over the master, and the rest of its motion
+        that of the solids, which are springs in series with the interface. Its tangential gap moves as long as it is shorter
+        than the string mu p / eps_t, which gets shorter, and slides by what is longer, against the viscosity.
 
         What goes over the edge while it is pressed loses all that it has stored, and is rubbed from where it was to the
         place of the edge where it is in the end.
         """
+        def along(vectors):
+            return vectors - _dot(vectors, place.normal)[:, None] * place.normal
+
         gap = shear / self.tangential_stiffness
         depth = pressure / self.normal_stiffness
-        normal = state.start.normal[state.opens]
-        motion = begin.trial - _dot(begin.trial, normal)[:, None] * normal - gap
-        motion *= (depth / (depth + np.maximum(height, 0)))[:, None]
+        of_solids = begin.trial - (gap - depth[:, None] * place.normal) - carried
+        beyond = pressure * self._mean_coefficient(begin, rubbed) * rubbed - pressure * height / 2
+        beyond += np.maximum(0, _dot(shear, gap + of_solids) / 2)
 
-        mu = self._mean_coefficient(begin, np.linalg.norm(gap + motion, axis=1))
-        length = np.linalg.norm(gap, axis=1)
-        string = np.maximum(np.maximum(length, mu * pressure / self.tangential_stiffness), 1e-300)
-        speed = np.linalg.norm(motion, axis=1)
-        # the smallest s from 0 to 1 at which |gap + s motion| = (1 - s) string, by bisection
-        low, high = np.zeros(len(speed)), np.ones(len(speed))
-        low_is_on = length >= string * (1 - 1e-14)
-        for _ in range(60):
-            middle = (low + high) / 2
-            within = np.linalg.norm(gap + middle[:, None] * motion, axis=1) < (1 - middle) * string
-            low, high = np.where(within, middle, low), np.where(within, high, middle)
-        first = np.where(low_is_on & (_dot(gap, motion) >= -string * string), 0., high)
-        at_first = gap + first[:, None] * motion
-        cosine = _dot(at_first, motion) / np.maximum(np.linalg.norm(at_first, axis=1) * speed, 1e-300)
-        angle = np.where(speed > 0, np.arccos(np.clip(np.where(np.linalg.norm(at_first, axis=1) > 0, cosine, 1.), -1, 1)), 0.)
-        count = len(speed)
-
-        def rates(x, values):
-            """Of the angle from the motion to the gap and of the work, by x = -ln((1 - s) / (1 - first))."""
-            left = (1 - first) * np.exp(-x)
-            turned = values[:count]
-            return np.concatenate([-speed / string * np.sin(turned),
-                                   left ** 2 * string * (string + speed * np.cos(turned))])
-
-        result = solve_ivp(rates, (0, 20), np.concatenate([angle, 0 * angle]), method='DOP853', rtol=1e-12, atol=1e-18)
-        lost = self.tangential_stiffness * result.y[count:, -1]
-        rubbed = np.linalg.norm(state.point[state.opens] - begin.point, axis=1)
-        beyond = pressure * self._mean_coefficient(begin, rubbed) * rubbed + (_dot(shear, gap) - pressure * height) / 2
+        risen = np.maximum(0, -_dot(of_solids, place.normal))
+        little = 1e-4 * (self.law.coefficient(begin, 0 * depth)[0] * pressure / self.tangential_stiffness) ** 2
+        softer = np.maximum(0, (_dot(of_solids, gap) + little * risen / depth) / (_dot(gap, gap) + little))[:, None]
+        closed = (depth + risen) / (depth + risen + np.maximum(height, 0))
+        motion = closed[:, None] * along(carried) + along(of_solids) - softer * gap
+        gap, stiffness = (1 + softer) * gap, self.tangential_stiffness / (1 + softer[:, 0])
+        parts, lost = 4000, np.zeros(len(depth))
+        now = SimpleNamespace(**{**vars(begin), 'duration': closed * begin.duration / parts})
+        viscous = self.viscosity / now.duration / stiffness if begin.duration else 0.
+        way = 0 * depth
+        for part in range(parts):
+            trial = gap + motion / parts
+            length = np.linalg.norm(trial, axis=1)
+            mu = self.law.coefficient(now, way)[0]  # at the speed of the part before
+            way = np.maximum(0, length - mu * pressure * (1 - (part + 1) / parts) / stiffness) / (1 + viscous)
+            slip = (way / np.maximum(length, 1e-300))[:, None] * trial
+            lost += stiffness * _dot(gap + trial - slip, slip) / 2
+            gap = trial - slip
+            now.theta, now.slid = self.law.theta(now, way), now.slid + way
+        lost += stiffness * _dot(gap, gap) / 2  # viscosity has held it
         return np.where(height < 0, beyond, lost)
 
     def energy(self, state):

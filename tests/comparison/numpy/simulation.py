@@ -138,7 +138,11 @@ class Simulation:
 
     def _accept(self):
         turn = self.rotation @ self.accepted_rotation.T if self.interface.master is self.implant else np.eye(3)
-        self.interface.accept(self.state, *self._control_points(), turn)
+        before, turned = self.interface.accepted_positions(), self.rotation @ self.accepted_rotation.T
+        arms = before - self.centre - self.accepted_translation
+        carried = arms @ turned.T + self.centre + self.translation - before
+        self.interface.accept(self.state, *self._control_points(), turn,
+                              carried if self.interface.slave is self.implant else -carried)
         self.accepted_translation, self.accepted_rotation = self.translation, self.rotation
 
     # ---- results

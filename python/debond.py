@@ -175,7 +175,7 @@ class Scene:
             raise SceneError("Model = auto writes into a directory: write() does it")
         if scene.has_closed_form:
             rows, summary = _debond.closed_form(scene, team)
-            return Result(rows, _known(summary), {}, scene.warnings)
+            return Result(rows, _known(summary), scene.warnings)
         simulation = Simulation(self, comm=comm)
         simulation.run(on_row)
         return simulation.result()

@@ -161,7 +161,7 @@ def check_more():
     except debond.RunError as error:
         check("a moment that friction cannot hold ends the run", "Path following" in str(error))
     held = simulation.result().rows["torque_Nmm"]
-    check("the rows before stay", 0.9 * base["torque_Nmm"].max() < held[-1] < 1.02 * base["torque_Nmm"].max())
+    check("the rows before stay", 0.9 * result.rows["torque_Nmm"].max() < held[-1] < 1.02 * result.rows["torque_Nmm"].max())
 
     class Enough(Exception):
         pass

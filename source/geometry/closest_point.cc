@@ -54,7 +54,8 @@ namespace Debond
       DistanceState(const DistanceProblem &problem,
                     const unsigned int     element,
                     const Vector2d        &xi)
-        : xi(xi)
+        : element(element)
+        , xi(xi)
       {
         SurfaceBasis basis;
         problem.surface.evaluate_in_element(element, xi, basis, true);
@@ -82,10 +83,12 @@ namespace Debond
       is_negligible(const Vector2d &step) const
       {
         const Vector2d noise = 4. * eps * magnitude * lengths;
-        return step.lpNorm<Eigen::Infinity>() <= negligible_step ||
+        return step.lpNorm<Eigen::Infinity>() <=
+                 negligible_step * std::max(1., xi.maxCoeff()) ||
                (gradient.cwiseAbs() - noise).maxCoeff() <= 0.;
       }
 
+      unsigned int    element;
       Vector2d        xi;
       SurfaceGeometry y;
       Vector3d        r;         ///< x - y
@@ -121,9 +124,9 @@ namespace Debond
 
 
     /** True if f is stationary at @p s but can be reduced along a direction
-     *  of negative curvature that does not leave the patch. */
+     *  of negative curvature that does not leave the surface. */
     bool
-    is_saddle_or_maximum(const DistanceState &s)
+    is_saddle_or_maximum(const NurbsSurface &surface, const DistanceState &s)
     {
       const Vector2d g = s.lengths.cwiseAbs2();
       const Matrix2d H = s.hessian();
@@ -138,10 +141,9 @@ namespace Debond
             return true;
         }
 
-      // From a corner only directions between the two edges stay in the patch.
-      const bool in_corner =
-        (s.xi[0] == 0. || s.xi[0] == 1.) && (s.xi[1] == 0. || s.xi[1] == 1.);
-      if (in_corner && (s.xi[0] == s.xi[1]) == (H(0, 1) > 0.))
+      // From a corner only directions between the two edges stay in it.
+      const auto end = surface.end_of_surface(s.element, s.xi);
+      if (end[0] != 0 && end[1] != 0 && (end[0] == end[1]) == (H(0, 1) > 0.))
         return false;
       return is_free[0] && is_free[1] && H.determinant() < -1e-8 * g.prod();
     }
@@ -202,8 +204,9 @@ namespace Debond
       on_bounds(Vector2d xi) const
       {
         for (const Vector2d &bound : box)
-          xi =
-            ((xi - bound).array().abs() <= negligible_step).select(bound, xi);
+          xi = ((xi - bound).array().abs() <=
+                negligible_step * std::max(1., xi.maxCoeff()))
+                 .select(bound, xi);
         return xi;
       }
 
@@ -212,10 +215,10 @@ namespace Debond
       bool
       minimise()
       {
-        const auto n = problem->surface.n_elements_per_direction();
         // Every passage leads down, so none is needed twice; the cap is for
         // what round-off may do.
-        for (unsigned int k = 0; k < 10 + 4 * (n[0] + n[1]); ++k)
+        const double n_across = std::sqrt(problem->surface.n_elements());
+        for (unsigned int k = 0; k < 50 + 16. * n_across; ++k)
           {
             if (!minimise_in_element())
               return false;
@@ -292,35 +295,31 @@ namespace Debond
               return false;
             const Vector2d step = bounded_step();
             if (s.is_negligible(step))
-              return !is_saddle_or_maximum(s);
+              return !is_saddle_or_maximum(problem->surface, s);
             if (!descend(step))
               return false;
           }
         return false;
       }
 
-      /** Goes on in an element beyond a side that the point lies on, if it
-       *  leads further down. The one across a vertex need not be asked: if f
-       *  grows along its two sides there, which the others share, it grows in
-       *  between. */
+      /** Goes on in an element beside, if the point lies on a side and that
+       *  leads further down. The one across a vertex of a patch need not be
+       *  asked: if f grows along its two sides there, which the others share,
+       *  it grows in between. */
       bool
       pass_on()
       {
-        const auto         n = problem->surface.n_elements_per_direction();
-        const unsigned int index[2]  = {element % n[0], element / n[0]};
-        const unsigned int stride[2] = {1, n[0]};
-        for (unsigned int c = 0; c < 2; ++c)
+        if ((s.xi.array() != box[0].array()).all() &&
+            (s.xi.array() != box[1].array()).all())
+          return false;
+        for (const auto &[beside, xi] :
+             problem->surface.places_beside(element, s.xi))
           {
-            const bool back = s.xi[c] == box[0][c] && index[c] > 0;
-            if (!back && !(s.xi[c] == box[1][c] && index[c] + 1 < n[c]))
-              continue;
-            Descent        there(*problem,
-                          back ? element - stride[c] : element + stride[c],
-                          s.xi);
+            Descent        there(*problem, beside, xi);
             const Vector2d step = there.bounded_step();
             if (step.lpNorm<Eigen::Infinity>() > 1e-13 &&
                 !there.s.is_negligible(step) && there.descend(step) &&
-                there.s.xi != s.xi)
+                there.s.xi != xi)
               {
                 *this = there;
                 return true;
@@ -344,15 +343,17 @@ namespace Debond
      * normal at all.
      */
     Vector3d
-    unit_normal(const DistanceState &s)
+    unit_normal(const NurbsSurface &surface, const DistanceState &s)
     {
       const SurfaceGeometry &y      = s.y;
       Vector3d               normal = y.a1.cross(y.a2);
       if (!(normal.norm() > 1e-8 * s.lengths.prod()))
         {
-          const double in_1 = (s.xi[0] < 0.5 ? 1. : -1.);
-          const double in_2 = (s.xi[1] < 0.5 ? 1. : -1.);
-          normal            = (in_1 * y.a11 + in_2 * y.a12).cross(y.a2) +
+          const auto     box    = surface.element_bounds(s.element);
+          const Vector2d middle = 0.5 * (box[0] + box[1]);
+          const double   in_1   = (s.xi[0] < middle[0] ? 1. : -1.);
+          const double   in_2   = (s.xi[1] < middle[1] ? 1. : -1.);
+          normal                = (in_1 * y.a11 + in_2 * y.a12).cross(y.a2) +
                    y.a1.cross(in_1 * y.a12 + in_2 * y.a22);
         }
       return normal.normalized();
@@ -360,14 +361,14 @@ namespace Debond
 
 
 
-    /** Whether x - y is normal to the surface; on a border of the patch only
-     *  the direction across it is asked, the other one having been minimised
-     *  (and being undefined on a ridge). */
+    /** Whether x - y is normal to the surface; on its border only the direction
+     *  across it is asked, the other one having been minimised (and being
+     *  undefined on a ridge). */
     bool
-    is_orthogonal(const DistanceState &s)
+    is_orthogonal(const NurbsSurface &surface, const DistanceState &s)
     {
-      const bool on_1 = (s.xi[0] <= 0. || s.xi[0] >= 1.);
-      const bool on_2 = (s.xi[1] <= 0. || s.xi[1] >= 1.);
+      const auto end  = surface.end_of_surface(s.element, s.xi);
+      const bool on_1 = end[0] != 0, on_2 = end[1] != 0;
       // Closer to a singular corner than this, the minimum is so flat that
       // round-off decides whether it is on the border, and the normal has
       // fewer digits.
@@ -381,7 +382,7 @@ namespace Debond
         (is_singular ? 1e-9 : 1e-13) * s.lengths.maxCoeff();
 
       // zero where there is no normal: then nothing but y itself is
-      const Vector3d normal = unit_normal(s);
+      const Vector3d normal = unit_normal(surface, s);
       if (on_1 == on_2 || normal.isZero(0.))
         return (s.r - s.r.dot(normal) * normal).norm() <= tolerance;
 
@@ -399,7 +400,10 @@ namespace Debond
       Descent              descent(problem, element, xi);
       const bool           converged = descent.minimise();
       const DistanceState &s         = descent.s;
-      return {s.xi, s.r.norm(), converged && is_orthogonal(s), converged};
+      return {s.xi,
+              s.r.norm(),
+              converged && is_orthogonal(problem.surface, s),
+              converged};
     }
 
 
@@ -539,7 +543,7 @@ namespace Debond
     const DistanceProblem problem{surface, control_points, x};
     if (guess != nullptr && guess->allFinite())
       {
-        const Vector2d     xi = guess->cwiseMax(0.).cwiseMin(1.);
+        const Vector2d     xi = surface.clamped(*guess);
         const ClosestPoint result =
           minimise_from(problem, surface.element_of(xi), xi);
         // A minimum on the border may be a local one: the search from the

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <stdexcept>
+#include <utility>
 
 namespace Debond
 {
@@ -114,8 +117,9 @@ namespace Debond
         knots_1.degree() != knots_2.degree())
       throw std::invalid_argument(
         "A surface needs two knot vectors of the same degree.");
-    if (points.cols() != n_control_points() ||
-        weight.size() != n_control_points())
+    const unsigned int n_functions =
+      knots_1.n_basis_functions() * knots_2.n_basis_functions();
+    if (points.cols() != n_functions || weight.size() != n_functions)
       throw std::invalid_argument(
         "A surface needs one control point and one weight per basis function.");
     const Eigen::Map<const Eigen::ArrayXd> w(weight.data(), weight.size());
@@ -127,12 +131,102 @@ namespace Debond
 
 
 
+  NurbsSurface::NurbsSurface(
+    const unsigned int                            degree,
+    const std::vector<std::vector<unsigned int>> &control_points_of_faces,
+    const ControlNet                             &control_points)
+    : knot_vectors{{KnotVector::graded(degree, 1),
+                    KnotVector::graded(degree, 1)}}
+    , points(control_points)
+    , weight(control_points.cols(), 1.)
+    , is_rational(false)
+    , n_in_row(std::ceil(std::sqrt(double(control_points_of_faces.size()))))
+  {
+    for (const auto &each : control_points_of_faces)
+      {
+        if (each.size() != (degree + 1) * (degree + 1))
+          throw std::invalid_argument(
+            "A face has (p+1)^2 control points, p its degree.");
+        faces.push_back({each, {}});
+      }
+    if (faces.empty() || !points.allFinite())
+      throw std::invalid_argument(
+        "A surface has one face at least, and finite control points.");
+    find_neighbours();
+  }
+
+
+
+  unsigned int
+  NurbsSurface::corner_of(const Face &face, const unsigned int corner) const
+  {
+    const unsigned int p = degree();
+    return face.control_points[(corner % 2) * p + (corner / 2) * p * (p + 1)];
+  }
+
+
+
+  namespace
+  {
+    /** First and last corner of a side of a face. */
+    constexpr unsigned int ends_of_side[4][2] = {{0, 2},
+                                                 {1, 3},
+                                                 {0, 1},
+                                                 {2, 3}};
+  } // namespace
+
+
+
+  void
+  NurbsSurface::find_neighbours()
+  {
+    struct FoundSide
+    {
+      int          face, side;
+      unsigned int first;
+      bool         has_partner;
+    };
+    std::map<std::pair<unsigned int, unsigned int>, FoundSide> sides;
+    faces_at.resize(n_control_points());
+    for (int f = 0; f < int(faces.size()); ++f)
+      {
+        for (const unsigned int corner : {0, 1, 2, 3})
+          faces_at[corner_of(faces[f], corner)].push_back(f);
+        for (int s = 0; s < 4; ++s)
+          {
+            const unsigned int first = corner_of(faces[f], ends_of_side[s][0]),
+                               last  = corner_of(faces[f], ends_of_side[s][1]);
+            const auto [found, is_new] =
+              sides.emplace(std::minmax(first, last),
+                            FoundSide{f, s, first, false});
+            if (is_new)
+              continue;
+            FoundSide &other = found->second;
+            if (other.has_partner || other.face == f)
+              throw std::invalid_argument(
+                "More than two faces, or one with itself, meet at a side.");
+            other.has_partner   = true;
+            const bool reversed = other.first != first;
+            faces[f].across[s]  = {other.face, other.side, reversed};
+            faces[other.face].across[other.side] = {f, s, reversed};
+          }
+      }
+  }
+
+
+
   unsigned int
   NurbsSurface::element_of(const Eigen::Vector2d &xi) const
   {
     // span_of() returns the first or last span beyond the ends: clamped.
-    return knot_vectors[1].span_of(xi[1]) * knot_vectors[0].n_spans() +
-           knot_vectors[0].span_of(xi[0]);
+    if (is_one_patch())
+      return knot_vectors[1].span_of(xi[1]) * knot_vectors[0].n_spans() +
+             knot_vectors[0].span_of(xi[0]);
+    const auto index = [&](const unsigned int d) -> unsigned int {
+      return std::clamp(std::floor(0.5 * (xi[d] + 0.5)), 0., n_in_row - 1.);
+    };
+    return std::min<unsigned int>(index(0) + n_in_row * index(1),
+                                  faces.size() - 1);
   }
 
 
@@ -141,10 +235,181 @@ namespace Debond
   NurbsSurface::element_bounds(const unsigned int element) const
   {
     assert(element < n_elements());
+    if (!is_one_patch())
+      {
+        const Eigen::Vector2d lowest = lowest_of_face(element);
+        return {{lowest, lowest + Eigen::Vector2d::Ones()}};
+      }
     const unsigned int n = knot_vectors[0].n_spans();
     const double      *u = knot_vectors[0].breakpoints().data() + element % n;
     const double      *v = knot_vectors[1].breakpoints().data() + element / n;
     return {{Eigen::Vector2d(u[0], v[0]), Eigen::Vector2d(u[1], v[1])}};
+  }
+
+
+
+  Eigen::Vector2d
+  NurbsSurface::clamped(const Eigen::Vector2d &xi) const
+  {
+    const Eigen::Vector2d lowest = is_one_patch() ?
+                                     Eigen::Vector2d::Zero().eval() :
+                                     lowest_of_face(element_of(xi));
+    return xi.cwiseMax(lowest).cwiseMin(lowest + Eigen::Vector2d::Ones());
+  }
+
+
+
+  // A point of a side of a face, where it is in the face beyond.
+  NurbsSurface::Place
+  NurbsSurface::across(const unsigned int face,
+                       const unsigned int side,
+                       const double       along) const
+  {
+    const Face::Neighbour &next = faces[face].across[side];
+    Eigen::Vector2d        local;
+    local[next.side / 2]     = next.side % 2;
+    local[1 - next.side / 2] = next.reversed ? 1. - along : along;
+    return {static_cast<unsigned int>(next.face),
+            lowest_of_face(next.face) + local};
+  }
+
+
+
+  std::vector<NurbsSurface::Place>
+  NurbsSurface::places_beside(const unsigned int     element,
+                              const Eigen::Vector2d &xi) const
+  {
+    const auto         box = element_bounds(element);
+    std::vector<Place> result;
+    if (is_one_patch())
+      {
+        const unsigned int n         = knot_vectors[0].n_spans();
+        const unsigned int index[2]  = {element % n, element / n};
+        const unsigned int stride[2] = {1, n};
+        for (unsigned int c = 0; c < 2; ++c)
+          if (xi[c] == box[0][c] && index[c] > 0)
+            result.push_back({element - stride[c], xi});
+          else if (xi[c] == box[1][c] &&
+                   index[c] + 1 < knot_vectors[c].n_spans())
+            result.push_back({element + stride[c], xi});
+        return result;
+      }
+    const Eigen::Vector2d local = xi - box[0];
+    for (unsigned int side = 0; side < 4; ++side)
+      if (local[side / 2] == side % 2 && faces[element].across[side].face >= 0)
+        result.push_back(across(element, side, local[1 - side / 2]));
+    const bool is_corner =
+      (local[0] == 0. || local[0] == 1.) && (local[1] == 0. || local[1] == 1.);
+    if (!is_corner)
+      return result;
+    const unsigned int corner =
+      corner_of(faces[element], local[0] + 2 * local[1]);
+    for (const unsigned int f : faces_at[corner])
+      for (const unsigned int k : {0, 1, 2, 3})
+        if (f != element && corner_of(faces[f], k) == corner &&
+            std::none_of(result.begin(), result.end(), [&](const Place &place) {
+              return place.element == f;
+            }))
+          result.push_back(
+            {f, lowest_of_face(f) + Eigen::Vector2d(k % 2, k / 2)});
+    return result;
+  }
+
+
+
+  std::array<int, 2>
+  NurbsSurface::end_of_surface(const unsigned int     element,
+                               const Eigen::Vector2d &xi) const
+  {
+    const Eigen::Vector2d local =
+      is_one_patch() ? xi : (xi - lowest_of_face(element)).eval();
+    std::array<int, 2> result{{0, 0}};
+    for (unsigned int d = 0; d < 2; ++d)
+      {
+        const auto is_end = [&](const unsigned int side) {
+          return is_one_patch() || faces[element].across[2 * d + side].face < 0;
+        };
+        result[d] = local[d] <= 0. && is_end(0) ? -1 :
+                    local[d] >= 1. && is_end(1) ? 1 :
+                                                  0;
+      }
+    return result;
+  }
+
+
+
+  Eigen::Vector2d
+  NurbsSurface::bounded_step(const Eigen::Vector2d &xi,
+                             const Eigen::Vector2d &step) const
+  {
+    const Eigen::Vector2d target  = xi + step;
+    Eigen::Vector2d       bounded = clamped(target);
+    if (!is_one_patch())
+      {
+        const unsigned int    face   = element_of(xi);
+        const Eigen::Vector2d lowest = lowest_of_face(face);
+        for (unsigned int d = 0; d < 2; ++d)
+          {
+            const double local = target[d] - lowest[d];
+            const auto  &sides = faces[face].across;
+            bounded[d] =
+              (local < 0. && sides[2 * d].face < 0)     ? lowest[d] :
+              (local > 1. && sides[2 * d + 1].face < 0) ? lowest[d] + 1. :
+                                                          target[d];
+          }
+      }
+    return bounded == target ? step : (bounded - xi).eval();
+  }
+
+
+
+  Eigen::Vector2d
+  NurbsSurface::moved(const Eigen::Vector2d &xi,
+                      const Eigen::Vector2d &step) const
+  {
+    if (is_one_patch() || !step.allFinite())
+      return clamped(xi + step);
+    Place           now{element_of(xi), clamped(xi)};
+    Eigen::Vector2d rest = step;
+    // a step over all faces crosses some rows of them
+    for (unsigned int k = 0; k < 10 + 4 * n_in_row; ++k)
+      {
+        const auto            box    = element_bounds(now.element);
+        const Eigen::Vector2d target = now.xi + rest;
+        if (target == target.cwiseMax(box[0]).cwiseMin(box[1]))
+          return target;
+        // the side that is met first, after a share of the rest
+        unsigned int first = 0;
+        double       share = std::numeric_limits<double>::infinity();
+        for (unsigned int d = 0; d < 2; ++d)
+          for (const unsigned int end : {0, 1})
+            if ((end == 0 && target[d] < box[0][d]) ||
+                (end == 1 && target[d] > box[1][d]))
+              if (const double s = (box[end][d] - now.xi[d]) / rest[d];
+                  s < share)
+                {
+                  share = s;
+                  first = 2 * d + end;
+                }
+        const unsigned int d = first / 2;
+        now.xi += share * rest;
+        now.xi[d] = box[first % 2][d];
+        now.xi    = now.xi.cwiseMax(box[0]).cwiseMin(box[1]);
+        rest *= 1. - share;
+        const Face::Neighbour &next = faces[now.element].across[first];
+        if (next.face < 0)
+          {
+            rest[d] = 0.;
+            continue;
+          }
+        const double along      = now.xi[1 - d] - box[0][1 - d];
+        const double inwards    = std::abs(rest[d]),
+                     beside     = next.reversed ? -rest[1 - d] : rest[1 - d];
+        now                     = across(now.element, first, along);
+        rest[next.side / 2]     = next.side % 2 == 0 ? inwards : -inwards;
+        rest[1 - next.side / 2] = beside;
+      }
+    return now.xi;
   }
 
 
@@ -154,12 +419,8 @@ namespace Debond
                          SurfaceBasis          &basis,
                          const bool             second_derivatives) const
   {
-    const Eigen::Vector2d clamped(std::clamp(xi[0], 0., 1.),
-                                  std::clamp(xi[1], 0., 1.));
-    evaluate_in_element(element_of(clamped),
-                        clamped,
-                        basis,
-                        second_derivatives);
+    const Eigen::Vector2d inside = clamped(xi);
+    evaluate_in_element(element_of(inside), inside, basis, second_derivatives);
   }
 
 
@@ -171,11 +432,13 @@ namespace Debond
                                     const bool second_derivatives) const
   {
     assert(element < n_elements());
-    const unsigned int    n        = knot_vectors[0].n_spans();
-    const unsigned int    span_1   = element % n;
-    const unsigned int    span_2   = element / n;
-    const BernsteinValues splines1 = knot_vectors[0].evaluate(span_1, xi[0]);
-    const BernsteinValues splines2 = knot_vectors[1].evaluate(span_2, xi[1]);
+    const unsigned int    n      = knot_vectors[0].n_spans();
+    const unsigned int    span_1 = is_one_patch() ? element % n : 0;
+    const unsigned int    span_2 = is_one_patch() ? element / n : 0;
+    const Eigen::Vector2d local =
+      is_one_patch() ? xi : (xi - lowest_of_face(element)).eval();
+    const BernsteinValues splines1 = knot_vectors[0].evaluate(span_1, local[0]);
+    const BernsteinValues splines2 = knot_vectors[1].evaluate(span_2, local[1]);
 
     basis.element             = element;
     basis.control_point       = element_control_points(element);
@@ -195,6 +458,14 @@ namespace Debond
   NurbsSurface::element_control_points(const unsigned int element) const
   {
     assert(element < n_elements());
+    std::array<unsigned int, SurfaceBasis::max_size> result{};
+    if (!is_one_patch())
+      {
+        std::copy(faces[element].control_points.begin(),
+                  faces[element].control_points.end(),
+                  result.begin());
+        return result;
+      }
     const unsigned int n = knot_vectors[0].n_spans();
     const unsigned int first_1 =
       knot_vectors[0].first_basis_function(element % n);
@@ -203,8 +474,7 @@ namespace Debond
     const unsigned int stride = knot_vectors[0].n_basis_functions();
     const unsigned int p      = degree();
 
-    std::array<unsigned int, SurfaceBasis::max_size> result{};
-    unsigned int                                     k = 0;
+    unsigned int k = 0;
     for (unsigned int j = 0; j <= p; ++j)
       for (unsigned int i = 0; i <= p; ++i)
         result[k++] = (first_2 + j) * stride + first_1 + i;

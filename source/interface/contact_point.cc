@@ -253,8 +253,11 @@ namespace Debond
         const double elastic = limit / law.tangential_penalty,
                      length  = tangential_gap.norm();
         const double slip    = length > 0. ? 1. - elastic / length : 0.;
-        SlipOutcome  outcome = problem.solve(
-          start.xi + slip * parts_along(old.geometry, tangential_gap), result);
+        SlipOutcome  outcome =
+          problem.solve(master.surface->moved(
+                          start.xi,
+                          slip * parts_along(old.geometry, tangential_gap)),
+                        result);
         // The projection is near the solution wherever the tangential gap is
         // small, however far xi_hat^n is, and starting there costs one more
         // search. A point whose projection is beyond the edge has left the

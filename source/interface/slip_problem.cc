@@ -261,7 +261,7 @@ namespace Debond
 
   // Newton's method for the two parameters, with a line search on |h|. As long
   // as a step does not slide over kinks of the law or of the surface it takes
-  // two or three iterations. The parameters stay in the patch [0, 1]^2: an
+  // two or three iterations. The parameters stay in the surface: an
   // iteration that keeps pushing against its border has left the master, and
   // the point opens. What is not found is said, never guessed: the caller tries
   // another start, and then the step fails and is made smaller.
@@ -269,7 +269,7 @@ namespace Debond
   SlipProblem::solve(const Vector2d &start, ContactPointResult &result)
   {
     constexpr unsigned int max_iterations = 30;
-    Vector2d               xi             = start.cwiseMax(0.).cwiseMin(1.);
+    Vector2d               xi             = start;
     evaluate(xi, result.basis);
     // |h|/|a| is a distance: it cannot be smaller than the rounding of
     // positions, which are of the size of the surface, and of the sliding
@@ -290,12 +290,12 @@ namespace Debond
           return SlipOutcome::not_found;
         if (step.cwiseAbs().maxCoeff() < 1e-15 || error <= round_off())
           break;
-        const Vector2d target = (xi + step).cwiseMax(0.).cwiseMin(1.);
-        if (target != xi + step && ++pushes > 5)
+        const Vector2d bounded = master.surface->bounded_step(xi, step);
+        if (bounded != step && ++pushes > 5)
           return SlipOutcome::left_patch;
         // no descent: at the level of rounding there is none to be had, and
         // the test below says whether this is it
-        if (!search_along(target - xi, error, xi, result.basis))
+        if (!search_along(bounded, error, xi, result.basis))
           break;
       }
     if (distance_error() > 100. * round_off())
@@ -318,7 +318,7 @@ namespace Debond
     const Vector2d old = xi;
     for (double fraction = 1.; fraction > 0.01; fraction *= 0.5)
       {
-        xi = old + fraction * step;
+        xi = master.surface->moved(old, fraction * step);
         evaluate(xi, basis);
         if (distance_error() < error)
           return true;

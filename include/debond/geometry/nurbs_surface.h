@@ -14,8 +14,8 @@ namespace Debond
   /**
    * The basis functions of one surface element, evaluated at one parametric
    * point xi = (xi^1, xi^2). Derivatives are with respect to the parameters
-   * of the patch (which run over [0,1] in both directions), not of the
-   * element. Only the first @p size entries of each array are valid.
+   * of the patch (which run over one in both directions), not of the element.
+   Only the first @p size entries of each array are valid.
    */
   struct SurfaceBasis
   {
@@ -46,11 +46,16 @@ namespace Debond
   height_on_sphere(double r, double sphere_radius);
 
   /**
-   * One NURBS patch with equal degree (1 or 2) in both directions: knots,
-   * weights and the *reference* control points. Eqs. (34) and (35) of the
-   * paper: Bezier extraction of each knot span times Bernstein polynomials,
-   * made rational by the weights. The basis does not depend on positions, so
-   * the deformed surface is the same basis over another ControlNet.
+   * A NURBS patch with equal degree (1 or 2) in both directions, or several
+   * that meet: knots, weights and the *reference* control points. Eqs. (34) and
+   * (35) of the paper: Bezier extraction of each knot span times Bernstein
+   * polynomials, made rational by the weights. The basis does not depend on
+   * positions, so the deformed surface is the same basis over another
+   * ControlNet.
+   *
+   * Parameters xi = (xi^1, xi^2) of one patch run over [0,1]^2. Those of
+   * several lie side by side with gaps between, [2 i, 2 i + 1] x [2 j, 2 j +
+   * 1], so that they say in which patch a point is.
    */
   class NurbsSurface
   {
@@ -62,29 +67,46 @@ namespace Debond
                  const ControlNet          &control_points,
                  const std::vector<double> &weights);
 
+    /** Patches of one element each, such as the faces of a mesh, with weights
+     *  1: of each its (p+1)^2 control points, first index fastest. Patches meet
+     *  where the control points at both ends of their sides are the same.
+     *  Throws std::invalid_argument if more than two meet at a side. */
+    NurbsSurface(unsigned int                                  degree,
+                 const std::vector<std::vector<unsigned int>> &faces,
+                 const ControlNet                             &control_points);
+
     unsigned int
     degree() const
     {
       return knot_vectors[0].degree();
     }
-    /** Number of elements (knot spans of positive length) per direction. */
+    bool
+    is_one_patch() const
+    {
+      return faces.empty();
+    }
+    /** Number of elements (knot spans of positive length) per direction, of one
+     *  patch. */
     std::array<unsigned int, 2>
     n_elements_per_direction() const
     {
+      assert(is_one_patch());
       return {{knot_vectors[0].n_spans(), knot_vectors[1].n_spans()}};
     }
     unsigned int
     n_elements() const
     {
-      return knot_vectors[0].n_spans() * knot_vectors[1].n_spans();
+      return is_one_patch() ?
+               knot_vectors[0].n_spans() * knot_vectors[1].n_spans() :
+               faces.size();
     }
     unsigned int
     n_control_points() const
     {
-      return knot_vectors[0].n_basis_functions() *
-             knot_vectors[1].n_basis_functions();
+      return points.cols();
     }
 
+    /** Of one patch; of several that of each. */
     const KnotVector &
     knots(const unsigned int direction) const
     {
@@ -103,16 +125,44 @@ namespace Debond
     }
 
     /** Element that contains @p xi; points on an inner knot belong to the
-     *  element on the right, xi = 1 to the last one. xi is clamped to [0,1]^2.
-     */
+     *  element on the right, xi = 1 to the last one. xi is clamped to its
+     *  patch. */
     unsigned int
     element_of(const Eigen::Vector2d &xi) const;
     /** Lower left and upper right parameters of an element. */
     std::array<Eigen::Vector2d, 2>
     element_bounds(unsigned int element) const;
+    /** The point of its patch that is nearest to @p xi. */
+    Eigen::Vector2d
+    clamped(const Eigen::Vector2d &xi) const;
+
+    /** An element and a point of it. */
+    struct Place
+    {
+      unsigned int    element;
+      Eigen::Vector2d xi;
+    };
+    /** The same point in the other elements that it belongs to, if it is on
+     *  the border of this one: across sides, first parameter first, and, where
+     *  patches meet, those that have but a corner in common. Of one patch the
+     *  first only. */
+    std::vector<Place>
+    places_beside(unsigned int element, const Eigen::Vector2d &xi) const;
+    /** -1 and 1 for a parameter at the lower and the upper end of the surface,
+     *  beyond which there is nothing; else 0. */
+    std::array<int, 2>
+    end_of_surface(unsigned int element, const Eigen::Vector2d &xi) const;
+    /** The part of a step from @p xi along the parameters that does not leave
+     *  the surface where its patch is at an end of it. */
+    Eigen::Vector2d
+    bounded_step(const Eigen::Vector2d &xi, const Eigen::Vector2d &step) const;
+    /** Where a step leads: straight on, in the parameters of the next patch, or
+     *  along the border of the surface. */
+    Eigen::Vector2d
+    moved(const Eigen::Vector2d &xi, const Eigen::Vector2d &step) const;
 
     /** Basis with first and, if asked, second derivatives at @p xi (clamped to
-     *  [0,1]^2), in the element that contains it. No allocation. */
+     *  its patch), in the element that contains it. No allocation. */
     void
     evaluate(const Eigen::Vector2d &xi,
              SurfaceBasis          &basis,
@@ -181,10 +231,40 @@ namespace Debond
     bilinear_interpolant() const;
 
   private:
-    std::array<KnotVector, 2> knot_vectors;
-    ControlNet                points;
-    std::vector<double>       weight;
-    bool                      is_rational; ///< any weight differs from 1
+    /** Where parameters are [2 i, 2 i + 1] x [2 j, 2 j + 1]. */
+    Eigen::Vector2d
+    lowest_of_face(const unsigned int face) const
+    {
+      return {2. * (face % n_in_row), 2. * (face / n_in_row)};
+    }
+    void
+    find_neighbours();
+
+    /** A patch of several. Sides are xi^1 = 0, 1, xi^2 = 0, 1, corners as in
+     *  the control points. */
+    struct Face
+    {
+      std::vector<unsigned int> control_points;
+      struct Neighbour
+      {
+        int  face     = -1; ///< none
+        int  side     = 0;
+        bool reversed = false; ///< it runs the other way along the side
+      };
+      std::array<Neighbour, 4> across;
+    };
+    unsigned int
+    corner_of(const Face &face, unsigned int corner) const;
+    Place
+    across(unsigned int face, unsigned int side, double along) const;
+
+    std::array<KnotVector, 2>              knot_vectors;
+    ControlNet                             points;
+    std::vector<double>                    weight;
+    bool                                   is_rational; ///< a weight is not 1
+    std::vector<Face>                      faces;       ///< empty: one patch
+    unsigned int                           n_in_row = 1;
+    std::vector<std::vector<unsigned int>> faces_at; ///< corner control points
   };
 } // namespace Debond
 #endif

@@ -2,8 +2,8 @@
 // and by quadrature point, bonds what is nearest to the centre, keeps the
 // symmetry of the mesh, and says the same at quadrature points and between.
 
-#include <debond/bulk/body_parameters.h>
 #include <debond/interface/bonding_pattern.h>
+#include <debond/shapes/body_parameters.h>
 
 #include <algorithm>
 #include <map>

@@ -4,8 +4,8 @@
 // is partly, differ from seed to seed, favour no element, and form larger
 // patches the longer their correlation.
 
-#include <debond/bulk/body_parameters.h>
 #include <debond/interface/bonding_pattern.h>
+#include <debond/shapes/body_parameters.h>
 
 #include <algorithm>
 #include <string>

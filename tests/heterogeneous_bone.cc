@@ -11,8 +11,8 @@
 #include <debond/bulk/body.h>
 #include <debond/bulk/bulk_space.h>
 #include <debond/bulk/enriched_cells.h>
-#include <debond/bulk/modulus_field.h>
 #include <debond/models/simulation.h>
+#include <debond/shapes/modulus_field.h>
 #include <debond/support/number_text.h>
 
 #include <deal.II/base/quadrature_lib.h>

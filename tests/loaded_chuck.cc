@@ -1,7 +1,7 @@
 // A chuck that is loaded instead of moved, a compliant machine, and the balance
 // of all six reactions.
 
-#include <debond/bulk/side.h>
+#include <debond/shapes/side.h>
 
 #include <Eigen/Geometry>
 

@@ -21,7 +21,7 @@ stiffness_at_rest(const Debond::BulkSpace &mesh)
           K(3 * cells.nodes(cell)[i / 3] + i % 3,
             3 * cells.nodes(cell)[j / 3] + j % 3) += K_cell(i, j);
     }
-  if (!mesh.has_hanging_nodes())
+  if (!mesh.cells_have_followers())
     return K;
   // motions of which hanging nodes are a part
   Eigen::MatrixXd T = Eigen::MatrixXd::Identity(K.rows(), K.cols());

@@ -3,8 +3,8 @@
 // many ways: each must give that function again. All other files are refused,
 // with a message that says why.
 
-#include <debond/bulk/body_parameters.h>
 #include <debond/input/voxel_image.h>
+#include <debond/shapes/body_parameters.h>
 #include <debond/support/input_error.h>
 
 #include <boost/iostreams/copy.hpp>

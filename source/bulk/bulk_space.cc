@@ -13,28 +13,6 @@
 
 namespace Debond
 {
-  NurbsSurface
-  make_contact_surface(const BodyParameters &parameters)
-  {
-    const NurbsSurface exact =
-      parameters.shape == BodyShape::coin ?
-        NurbsSurface::disk(parameters.radius, parameters.cells[0]) :
-      parameters.shape == BodyShape::cap ?
-        NurbsSurface::cap(parameters.radius,
-                          parameters.cap_radius,
-                          parameters.cells[0]) :
-        NurbsSurface::rectangle(
-          parameters.size[0],
-          parameters.size[1],
-          KnotVector::from_breakpoints(2, parameters.lateral_fractions(0)),
-          KnotVector::from_breakpoints(2, parameters.lateral_fractions(1)));
-    return parameters.contact_surface == SurfaceKind::nurbs ?
-             exact :
-             exact.bilinear_interpolant();
-  }
-
-
-
   namespace
   {
     /** Layer k of n ends at the fraction (k/n)^g of the depth. */
@@ -54,7 +32,7 @@ namespace Debond
 
 
   BulkSpace::BulkSpace(const BodyParameters &parameters, const Side side)
-    : BulkSpace(parameters, side, make_contact_surface(parameters))
+    : BulkSpace(parameters, side, make_contact_surface(parameters, side))
   {}
 
 
@@ -74,10 +52,17 @@ namespace Debond
     , vector_fe(dealii::FE_Q<3>(has_splines() ? 1 : degree()), 3)
     , dofs(triangulation)
   {
-    make_grid();
+    if (has_lattice())
+      make_grid();
+    else
+      take_mesh();
+    n_nodes_of_fe = dofs.n_dofs() / 3;
     make_mapping();
     number_nodes();
-    complete_cells();
+    if (has_lattice())
+      complete_cells();
+    if (!has_splines())
+      add_nodes_of_fe();
     make_constraints();
     if (has_splines()) // of which nothing but the corners is asked for
       {
@@ -106,7 +91,8 @@ namespace Debond
     if (body_parameters.coarser_below)
       {
         for (const auto &cell : triangulation.active_cell_iterators())
-          if (cell->face(contact_face())->boundary_id() == Boundary::contact)
+          if (cell->face(body_side == Side::bone ? 5 : 4)->boundary_id() ==
+              Boundary::contact)
             cell->set_refine_flag(dealii::RefinementCase<3>::cut_xy);
         triangulation.execute_coarsening_and_refinement();
       }
@@ -118,6 +104,30 @@ namespace Debond
         return dealii::Point<3>(X[0], X[1], X[2]);
       },
       triangulation);
+  }
+
+
+
+  void
+  BulkSpace::take_mesh()
+  {
+    triangulation.copy_triangulation(body_parameters.mesh->triangulation);
+    dofs.distribute_dofs(vector_fe);
+    for (const auto &cell : dofs.active_cell_iterators())
+      {
+        Cell &info = bulk_cells.emplace_back();
+        for (const unsigned int v : cell->vertex_indices())
+          info.vertices[v] = cell->vertex_dof_index(v, 0) / 3;
+        active_cells.emplace_back(cell);
+      }
+    unsigned int element = 0;
+    for (const auto &cell : cells_at_contact_face(triangulation))
+      {
+        Cell &info           = bulk_cells[cell->active_cell_index()];
+        info.enriched        = true;
+        info.face            = contact_face_of(cell, body_side);
+        info.surface_element = element++;
+      }
   }
 
 
@@ -243,6 +253,8 @@ namespace Debond
       std::make_unique<CellByCell<dealii::MappingQCache<3>>>(degree());
     mapping->initialize(
       triangulation, [&](const dealii::Triangulation<3>::cell_iterator &cell) {
+        if (!has_lattice())
+          return body_parameters.mesh->points_of_second_order(cell);
         const auto &[corner, opposite] = boxes[cell->level()][cell->index()];
         std::vector<dealii::Point<3>> places;
         for (dealii::Point<3> p : scalar_fe.get_unit_support_points())
@@ -303,50 +315,54 @@ namespace Debond
       (contact_surface.degree() + 1) * (contact_surface.degree() + 1);
     for (Cell &info : bulk_cells)
       {
-        const auto &first    = lattice[info.vertices.front()],
-                   &last     = lattice[info.vertices.back()];
-        info.layer           = std::min(first[2], last[2]);
-        info.enriched        = info.layer == 0;
+        const auto &first = lattice[info.vertices.front()],
+                   &last  = lattice[info.vertices.back()];
+        info.layer        = std::min(first[2], last[2]);
+        info.enriched     = info.layer == 0;
+        info.face = ContactFace::of(body_side == Side::bone ? 5 : 4, body_side);
         info.surface_element = first[0] + body_parameters.cells[0] * first[1];
+        if (!has_splines())
+          continue;
         const auto control_points =
           contact_surface.element_control_points(info.surface_element);
-        const auto add_face = [&] {
-          for (unsigned int a = 0; a < n_functions; ++a)
-            info.nodes.push_back(control_point_node(control_points[a]));
-        };
         // functions begin with the number of their first cell
         const auto add_level = [&](const unsigned int level) {
           const auto        &begin = columns.begin, &end = columns.end;
           const unsigned int n_1 = end[0] - begin[0] + 2;
           for (unsigned int a = 0; a < n_functions; ++a)
-            info.nodes.push_back((level - 1) * n_in_level() + first[0] -
-                                 begin[0] + a % 3 +
-                                 n_1 * (first[1] - begin[1] + a / 3));
+            info.nodes.push_back(
+              level == 0 ? control_point_node(control_points[a]) :
+                           (level - 1) * n_in_level() + first[0] - begin[0] +
+                             a % 3 + n_1 * (first[1] - begin[1] + a / 3));
         };
-        if (has_splines())
-          {
-            const unsigned int level =
-              layer_knots.first_basis_function(info.layer);
-            for (unsigned int k = level; k <= level + layer_knots.degree(); ++k)
-              if (k == 0)
-                add_face();
-              else
-                add_level(k);
-            continue;
-          }
-        if (info.enriched)
-          add_face();
+        const unsigned int level = layer_knots.first_basis_function(info.layer);
+        for (unsigned int k = level; k <= level + layer_knots.degree(); ++k)
+          add_level(k);
       }
-    if (!has_splines())
-      for (const auto &cell : dofs.active_cell_iterators())
-        {
-          Cell      &info  = bulk_cells[cell->active_cell_index()];
-          const auto nodes = nodes_of_fe(cell);
-          for (unsigned int a = 0; a < nodes.size(); ++a)
-            if (!info.enriched ||
-                !scalar_fe.has_support_on_face(a, contact_face()))
-              info.nodes.push_back(nodes[a]);
-        }
+  }
+
+
+
+  void
+  BulkSpace::add_nodes_of_fe()
+  {
+    for (const auto &cell : dofs.active_cell_iterators())
+      {
+        Cell &info = bulk_cells[cell->active_cell_index()];
+        if (info.enriched)
+          {
+            const auto control_points =
+              contact_surface.element_control_points(info.surface_element);
+            const unsigned int n = contact_surface.degree() + 1;
+            for (unsigned int a = 0; a < n * n; ++a)
+              info.nodes.push_back(control_point_node(control_points[a]));
+          }
+        const auto nodes = nodes_of_fe(cell);
+        for (unsigned int a = 0; a < nodes.size(); ++a)
+          if (!info.enriched ||
+              !scalar_fe.has_support_on_face(a, info.face.number))
+            info.nodes.push_back(nodes[a]);
+      }
   }
 
 
@@ -437,7 +453,7 @@ namespace Debond
   unsigned int
   BulkSpace::n_dofs_as_published() const
   {
-    return 3 * (n_nodes_of_whole() -
+    return 3 * ((has_lattice() ? n_nodes_of_whole() : n_nodes()) -
                 (body_parameters.contact_surface == SurfaceKind::nurbs ?
                    0 :
                    contact_surface.n_control_points()));
@@ -516,6 +532,13 @@ namespace Debond
     tell_held_control_points();
     tie_hanging_nodes();
     follow.close();
+    hold_followed_nodes();
+    for (const Cell &cell : bulk_cells)
+      followers_in_cells =
+        followers_in_cells ||
+        std::any_of(cell.nodes.begin(),
+                    cell.nodes.end(),
+                    [&](const unsigned int node) { return tied[node]; });
     for (unsigned int dof = 0; dof < fixed.size(); ++dof)
       if (fixed[dof])
         all_constraints.add_line(dof);
@@ -525,10 +548,26 @@ namespace Debond
 
 
 
+  // A node on the contact face that is held by a cell beside: what it follows
+  // is. It has been found by its own cell, and functions are not negative.
+  void
+  BulkSpace::hold_followed_nodes()
+  {
+    for (const auto &line : follow.get_lines())
+      if (fixed[line.index])
+        {
+          fixed[line.index] = false;
+          for (const auto &[other, weight] : line.entries)
+            fixed[other] = true;
+        }
+  }
+
+
+
   void
   BulkSpace::tie_hanging_nodes()
   {
-    if (!has_hanging_nodes())
+    if (!body_parameters.coarser_below)
       return;
     dealii::AffineConstraints<double> hanging;
     dealii::DoFTools::make_hanging_node_constraints(dofs, hanging);
@@ -592,7 +631,7 @@ namespace Debond
   {
     for (unsigned int a = 0; a < scalar_fe.n_dofs_per_cell(); ++a)
       if (const unsigned int node = nodes_of_fe[a];
-          scalar_fe.has_support_on_face(a, contact_face()) && !tied[node])
+          scalar_fe.has_support_on_face(a, cell.face.number) && !tied[node])
         {
           tied[node] = true;
           const ShapeValues N =
@@ -627,8 +666,8 @@ namespace Debond
   void
   BulkSpace::condense(Eigen::VectorXd &force) const
   {
-    if (!has_hanging_nodes())
-      return; // cells have no other nodes that follow
+    if (!cells_have_followers())
+      return;
     for (const auto &line : follow.get_lines())
       {
         for (const auto &[other, weight] : line.entries)

@@ -90,22 +90,29 @@ namespace Debond
                                   const ShapeValues      &phi) const
   {
     const auto is_on_face = [&](const unsigned int a) {
-      return space.element().has_support_on_face(a, space.contact_face());
+      return space.element().has_support_on_face(a, cell.face.number);
     };
-    double l = 0., dl = 0.;
+    const auto        &axes   = cell.face.axes;
+    const unsigned int across = cell.face.across();
+    double             l = 0., dl = 0.;
     for (unsigned int a = 0; a < phi.rows(); ++a)
       if (is_on_face(a))
         {
           l += phi(a, 0);
-          dl += phi(a, 3);
+          dl += phi(a, 1 + across);
         }
     const auto bounds = space.surface().element_bounds(cell.surface_element);
-    const Eigen::Vector2d size  = bounds[1] - bounds[0];
-    const SurfaceBasis    basis = functions_of_face(point[0], point[1]);
-    ShapeValues           N(cell.nodes.size(), 4);
+    const Eigen::Vector2d size = bounds[1] - bounds[0];
+    const SurfaceBasis    basis =
+      functions_of_face(point[axes[0]], point[axes[1]]);
+    ShapeValues N(cell.nodes.size(), 4);
     for (unsigned int b = 0; b < basis.size; ++b)
-      N.row(b) << basis.N[b] * l, basis.N_1[b] * size[0] * l,
-        basis.N_2[b] * size[1] * l, basis.N[b] * dl;
+      {
+        N(b, 0)           = basis.N[b] * l;
+        N(b, 1 + axes[0]) = basis.N_1[b] * size[0] * l;
+        N(b, 1 + axes[1]) = basis.N_2[b] * size[1] * l;
+        N(b, 1 + across)  = basis.N[b] * dl;
+      }
     for (unsigned int a = 0, row = basis.size; a < phi.rows(); ++a)
       if (!is_on_face(a))
         N.row(row++) = phi.row(a);
@@ -142,7 +149,7 @@ namespace Debond
           Eigen::Map<const Eigen::ArrayXd>(N.N.data(), n_face) /
           weights.array();
         // zeta runs upwards, the depth from the contact face
-        const double inwards = space.contact_face() == 5 ? 1. - p[2] : p[2];
+        const double inwards = space.side() == Side::bone ? 1. - p[2] : p[2];
         const auto   M =
           depth.evaluate(cell.layer, (1. - inwards) * begin + inwards * end);
         for (unsigned int k = 0; k < n_levels; ++k)

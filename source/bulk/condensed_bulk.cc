@@ -215,7 +215,7 @@ namespace Debond
             first += n;
           }
         dv(unknowns) = dv_c; // to the last bit
-        if (mesh.has_hanging_nodes())
+        if (mesh.cells_have_followers())
           mesh.distribute(dv);
         return dv;
       }

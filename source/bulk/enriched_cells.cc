@@ -1,5 +1,5 @@
 #include <debond/bulk/enriched_cells.h>
-#include <debond/bulk/modulus_field.h>
+#include <debond/shapes/modulus_field.h>
 #include <debond/support/runtime.h>
 
 #include <Eigen/LU>
@@ -74,7 +74,7 @@ namespace Debond
 
   // W and P are proportional to Young's modulus, so that one which varies is
   // nothing but other weights of the Gauss points. A point stands for a part of
-  // the cell, which is a box, as long as its weight.
+  // the cell as long as its weight: a box, or what is in the box around it.
   void
   EnrichedCells::find_factors()
   {
@@ -89,7 +89,8 @@ namespace Debond
         const Eigen::Vector3d corner = functions.position({0., 0., 0.}),
                               edges = functions.position({1., 1., 1.}) - corner;
         const auto at = [&](const Eigen::Vector3d &t) -> Eigen::Vector3d {
-          return corner + edges.cwiseProduct(t);
+          return mesh.has_lattice() ? corner + edges.cwiseProduct(t) :
+                                      functions.position({t[0], t[1], t[2]});
         };
         for (unsigned int q = 0; q < n_points(); ++q)
           {
@@ -101,9 +102,18 @@ namespace Debond
                 upper[d] = ends[i[d] + 1];
                 point[d] = line.point(i[d])[0];
               }
-            factors.push_back(
-              body.modulus->over_box(at(lower), at(upper), at(point)) /
-              body.young_modulus);
+            Eigen::Vector3d least = at(lower), most = at(upper);
+            for (unsigned int v = 1; v < 7 && !mesh.has_lattice(); ++v)
+              {
+                Eigen::Vector3d t = lower;
+                for (unsigned int d = 0; d < 3; ++d)
+                  if ((v >> d & 1) != 0)
+                    t[d] = upper[d];
+                least = least.cwiseMin(at(t));
+                most  = most.cwiseMax(at(t));
+              }
+            factors.push_back(body.modulus->over_box(least, most, at(point)) /
+                              body.young_modulus);
           }
       }
   }

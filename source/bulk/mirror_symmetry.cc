@@ -112,6 +112,8 @@ namespace Debond
   std::optional<MirrorSymmetry>
   MirrorSymmetry::of(const BulkSpace &space, const EnrichedCells &cells)
   {
+    if (!space.surface().is_one_patch())
+      return {};
     MirrorSymmetry result;
     // a node that follows others may be where one of them is
     std::array<std::vector<unsigned int>, 3> kinds;

@@ -1,10 +1,10 @@
-#include <debond/bulk/modulus_field.h>
 #include <debond/campaigns/run_scene.h>
 #include <debond/campaigns/variant_queue.h>
 #include <debond/models/debonding_problem.h>
 #include <debond/models/memory_estimate.h>
 #include <debond/models/resumed_run.h>
 #include <debond/scene/scene.h>
+#include <debond/shapes/modulus_field.h>
 #include <debond/support/interruption.h>
 #include <debond/support/number_text.h>
 #include <debond/support/ranks.h>

@@ -216,6 +216,16 @@ namespace Debond
 
 
   unsigned int
+  NurbsSurface::n_elements_across() const
+  {
+    return is_one_patch() ?
+             std::min(knot_vectors[0].n_spans(), knot_vectors[1].n_spans()) :
+             n_in_row;
+  }
+
+
+
+  unsigned int
   NurbsSurface::element_of(const Eigen::Vector2d &xi) const
   {
     // span_of() returns the first or last span beyond the ends: clamped.

@@ -1,6 +1,7 @@
-#include <debond/bulk/body_parameters.h>
 #include <debond/input/entry_table.h>
 #include <debond/interface/bonding_parameters.h>
+#include <debond/shapes/body_geometry.h>
+#include <debond/shapes/body_parameters.h>
 #include <debond/support/input_error.h>
 
 #include <limits>
@@ -150,8 +151,9 @@ namespace Debond
       throw EntryError(bonding_section + "Pattern",
                        "it needs the name of a file: " + bonding_section +
                          "File");
-    if (is_disk && !implant.is_round())
+    if (is_disk && !implant.geometry().is_round() && !implant.mesh)
       throw EntryError(bonding_section + "Pattern",
-                       "it is defined for Implant / Shape = coin and cap only");
+                       "it is for round implants: Implant / Shape = coin, cap "
+                       "or file");
   }
 } // namespace Debond

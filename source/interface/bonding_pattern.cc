@@ -1,7 +1,7 @@
 #include <debond/bulk/bulk_space.h>
-#include <debond/bulk/body_parameters.h>
 #include <debond/interface/bonding_pattern.h>
 #include <debond/interface/bonding_source.h>
+#include <debond/shapes/body_parameters.h>
 #include <debond/support/number_text.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -38,11 +38,11 @@ namespace Debond
         summary.bonded_area += part.phi_0 * part.area;
       }
     summary.mean = summary.bonded_area / summary.area;
-    count_patches();
 
     const dealii::QGauss<1> gauss(n);
     for (unsigned int q = 0; q < n; ++q)
       shares.push_back((q == 0 ? 0. : shares.back()) + gauss.weight(q));
+    count_patches();
   }
 
 
@@ -142,41 +142,25 @@ namespace Debond
     double best = 0.;
     for (const Part &part : all_parts)
       best = std::max(best, part.phi_0);
-    // the parts as they lie side by side, row by row
-    const unsigned int m = by_element ? 1 : n; // parts along an element
-    const unsigned int n_elements = surface.n_elements_per_direction()[0];
-    const unsigned int columns    = n_elements * m;
-    std::vector<const Part *> grid(all_parts.size());
-    std::vector<bool>         to_visit(grid.size());
-    for (unsigned int p = 0; p < grid.size(); ++p)
-      {
-        const unsigned int element = p / (m * m), local = p % (m * m);
-        const unsigned int cell =
-          (element / n_elements * m + local / m) * columns +
-          element % n_elements * m + local % m;
-        grid[cell]     = &all_parts[p];
-        to_visit[cell] = best > 0. && grid[cell]->phi_0 >= 0.5 * best;
-      }
-
-    for (unsigned int seed = 0; seed < grid.size(); ++seed)
+    std::vector<bool> to_visit(all_parts.size());
+    for (unsigned int p = 0; p < all_parts.size(); ++p)
+      to_visit[p] = best > 0. && all_parts[p].phi_0 >= 0.5 * best;
+    for (unsigned int seed = 0; seed < all_parts.size(); ++seed)
       {
         std::vector<unsigned int> patch;
-        const auto visit = [&](const bool exists, const unsigned int cell) {
-          if (!exists || !to_visit[cell])
+        const auto                visit = [&](const unsigned int part) {
+          if (!to_visit[part])
             return;
-          to_visit[cell] = false;
-          patch.push_back(cell);
+          to_visit[part] = false;
+          patch.push_back(part);
         };
-        visit(true, seed);
+        visit(seed);
         double area = 0.;
         for (unsigned int k = 0; k < patch.size(); ++k)
           {
-            const unsigned int cell = patch[k];
-            area += grid[cell]->area;
-            visit(cell % columns > 0, cell - 1);
-            visit((cell + 1) % columns > 0, cell + 1);
-            visit(cell >= columns, cell - columns);
-            visit(cell + columns < grid.size(), cell + columns);
+            area += all_parts[patch[k]].area;
+            for (const unsigned int beside : parts_beside(patch[k]))
+              visit(beside);
           }
         summary.patches += patch.empty() ? 0 : 1;
         summary.largest_patch = std::max(summary.largest_patch, area);
@@ -185,19 +169,58 @@ namespace Debond
 
 
 
-  double
-  BondingPattern::at(const Eigen::Vector2d &xi) const
+  // Across the sides of its element a part has that neighbour that its middle
+  // touches.
+  std::vector<unsigned int>
+  BondingPattern::parts_beside(const unsigned int part) const
   {
-    const unsigned int element = surface.element_of(xi);
-    const auto         bounds  = surface.element_bounds(element);
-    const auto         index   = [&](const unsigned int d) -> unsigned int {
+    const unsigned int m       = by_element ? 1 : n; // parts along an element
+    const unsigned int element = part / (m * m), local = part % (m * m);
+    const std::array<unsigned int, 2> index{{local % m, local / m}};
+    const auto                        box = surface.element_bounds(element);
+    const dealii::QGauss<1>           gauss(m);
+    std::vector<unsigned int>         result;
+    for (unsigned int d = 0; d < 2; ++d)
+      for (const bool upwards : {false, true})
+        {
+          if (upwards ? index[d] + 1 < m : index[d] > 0)
+            {
+              const unsigned int stride = d == 0 ? 1 : m;
+              result.push_back(upwards ? part + stride : part - stride);
+              continue;
+            }
+          const double    middle = gauss.point(index[1 - d])[0];
+          Eigen::Vector2d xi     = box[upwards];
+          xi[1 - d] = (1. - middle) * box[0][1 - d] + middle * box[1][1 - d];
+          for (const auto &place : surface.places_beside(element, xi))
+            result.push_back(part_of(point_at(place.element, place.xi)));
+        }
+    return result;
+  }
+
+
+
+  unsigned int
+  BondingPattern::point_at(const unsigned int     element,
+                           const Eigen::Vector2d &xi) const
+  {
+    const auto bounds = surface.element_bounds(element);
+    const auto index  = [&](const unsigned int d) -> unsigned int {
       const double local =
         (xi[d] - bounds[0][d]) / (bounds[1][d] - bounds[0][d]);
       // the last share is what the others leave
       return std::lower_bound(shares.begin(), shares.end() - 1, local) -
              shares.begin();
     };
-    return at(element * n * n + index(1) * n + index(0));
+    return element * n * n + index(1) * n + index(0);
+  }
+
+
+
+  double
+  BondingPattern::at(const Eigen::Vector2d &xi) const
+  {
+    return at(point_at(surface.element_of(xi), xi));
   }
 
 

@@ -1,9 +1,9 @@
-#include <debond/bulk/body_parameters.h>
 #include <debond/geometry/surface_geometry.h>
 #include <debond/input/csv_table.h>
 #include <debond/input/expression_parser.h>
 #include <debond/input/input_file.h>
 #include <debond/interface/bonding_source.h>
+#include <debond/shapes/body_parameters.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 
@@ -70,9 +70,8 @@ namespace Debond
               const unsigned int   n,
               const unsigned int   n_across)
     {
-      const auto         n_elements = surface.n_elements_per_direction();
       const unsigned int across =
-        n * std::min(n_elements[0], n_elements[1]); // points of one copy
+        n * surface.n_elements_across(); // points of one copy
       const dealii::QIterated<2> quadrature(dealii::QGauss<1>(n),
                                             by_element ?
                                               (n_across + across - 1) / across :

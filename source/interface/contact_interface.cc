@@ -29,8 +29,8 @@ namespace Debond
   // with the bone as slave the rim of the implant cuts through elements of the
   // bone, and part of the points face nothing.
   ContactInterface::ContactInterface(const InterfaceParameters &parameters,
-                                     const BulkSpace            &bone,
-                                     const BulkSpace            &implant)
+                                     const BulkSpace           &bone,
+                                     const BulkSpace           &implant)
     : parameters(parameters)
     , law(parameters.law())
     , slave(parameters.slave)
@@ -566,7 +566,10 @@ namespace Debond
   unsigned int
   ContactInterface::n_enclosed() const
   {
-    const auto elements = mesh[slave]->surface().n_elements_per_direction();
+    const NurbsSurface &surface = mesh[slave]->surface();
+    if (!surface.is_one_patch())
+      return 0; // there are no rows
+    const auto elements = surface.n_elements_per_direction();
     // element by element, and in each of them, the first parameter fastest
     const auto number = [&](const unsigned int i, const unsigned int j) {
       return ((j / n * elements[0] + i / n) * n + j % n) * n + i % n;

@@ -1,3 +1,4 @@
+#include <debond/bulk/bulk_space.h>
 #include <debond/bulk/chuck.h>
 #include <debond/interface/interface_configuration.h>
 
@@ -126,18 +127,23 @@ namespace Debond
   {
     std::vector<bool> under(bone.n_elements(), false);
     // dense enough to meet every element of the bone that the edge crosses
-    unsigned int samples = 0;
-    for (const NurbsSurface *surface : {&bone, &implant})
-      for (const unsigned int n : surface->n_elements_per_direction())
-        samples = std::max(samples, 4 * n);
+    const unsigned int samples =
+      std::max(4u,
+               4 *
+                 ((bone.n_elements_across() + implant.n_elements_across() - 1) /
+                  implant.n_elements_across()));
     SurfaceBasis    basis;
     Eigen::Vector2d guess(0.5, 0.5);
-    for (unsigned int j = 0; j <= samples; ++j)
-      for (unsigned int i = 0; i <= samples; ++i)
+    for (unsigned int element = 0; element < implant.n_elements(); ++element)
+      for (unsigned int k = 0; k < (samples + 1) * (samples + 1); ++k)
         {
-          implant.evaluate({double(i) / samples, double(j) / samples},
-                           basis,
-                           false);
+          implant.evaluate_in_element(
+            element,
+            parameters_at(implant.element_bounds(element),
+                          {k % (samples + 1) / double(samples),
+                           k / (samples + 1) / double(samples)}),
+            basis,
+            false);
           const ClosestPoint closest = closest_point(
             bone,
             configuration.side[Side::bone].positions,
@@ -146,7 +152,8 @@ namespace Debond
           guess                              = closest.xi;
           under[bone.element_of(closest.xi)] = true;
         }
-    fill_gaps(under, bone.n_elements_per_direction());
+    if (bone.is_one_patch())
+      fill_gaps(under, bone.n_elements_per_direction());
     return control_points_of(bone, under);
   }
 

@@ -1,6 +1,6 @@
-#include <debond/bulk/body_parameters.h>
 #include <debond/input/entry_table.h>
 #include <debond/interface/interface_parameters.h>
+#include <debond/shapes/body_parameters.h>
 #include <debond/support/input_error.h>
 
 #include <algorithm>

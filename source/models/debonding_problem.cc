@@ -6,6 +6,7 @@
 #include <debond/models/simulation.h>
 #include <debond/output/checkpoint.h>
 #include <debond/output/field_output.h>
+#include <debond/shapes/body_geometry.h>
 #include <debond/support/interruption.h>
 #include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
@@ -318,8 +319,8 @@ namespace Debond
       finish(const bool converged, const std::string &reason)
       {
         const CoupledSystem &system     = simulation.system();
-        const BulkSpace      &bone       = system.bone.mesh(),
-                       &implant         = system.implant.mesh();
+        const BulkSpace     &bone       = system.bone.mesh(),
+                        &implant        = system.implant.mesh();
         const auto            &bonding  = system.interface.bonding().report();
         const auto            &released = simulation.checks().released();
         const auto            &effort   = simulation.effort();
@@ -464,7 +465,7 @@ namespace Debond
         << times.front() << " to " << times.back() << '\n';
     for (const Warning &warning : simulation.warnings())
       out << "warning: " << warning.text << '\n';
-    if (scene.implant.shape == BodyShape::coin)
+    if (scene.implant.geometry().has_closed_forms())
       print_forecast(scene, system, out);
   }
 } // namespace Debond

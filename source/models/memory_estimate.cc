@@ -1,7 +1,7 @@
-#include <debond/bulk/modulus_field.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/models/memory_estimate.h>
 #include <debond/scene/scene.h>
+#include <debond/shapes/modulus_field.h>
 #include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
 #include <debond/support/runtime.h>
@@ -40,8 +40,9 @@ namespace Debond
         implant += matrices[1];
 
         // those of the bonding pattern are similar, and smaller
-        const bool  on_implant = scene.interface.slave == Side::implant;
-        const auto &cells = (on_implant ? scene.implant : scene.bone).cells;
+        const bool on_implant = scene.interface.slave == Side::implant;
+        const auto cells =
+          (on_implant ? scene.implant : scene.bone).lattice_of_cells();
         points = 2. * sizeof(SlavePoint) * double(cells[0]) * cells[1] *
                  std::pow(scene.interface.points_per_element(scene.bone,
                                                              scene.implant),

@@ -1,5 +1,6 @@
 #include <debond/models/memory_estimate.h>
 #include <debond/models/simulation.h>
+#include <debond/shapes/body_geometry.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
@@ -242,11 +243,8 @@ namespace Debond
     CurveSettings           settings;
     settings.mean_phi_0       = interface.bonding().report().mean;
     settings.is_bonded        = settings.mean_phi_0 > 0.;
-    settings.contact_area_mm2 = shape.shape == BodyShape::coin ?
-                                  M_PI * shape.radius * shape.radius :
-                                shape.shape == BodyShape::cap ?
-                                  2. * M_PI * shape.cap_radius * shape.rise() :
-                                  interface.implant_area();
+    const double area         = shape.geometry().area(shape);
+    settings.contact_area_mm2 = area > 0. ? area : interface.implant_area();
     settings.phase_times      = scene.load_steps.times;
     return settings;
   }

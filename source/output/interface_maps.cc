@@ -2,6 +2,7 @@
 #include <debond/output/interface_maps.h>
 #include <debond/output/result_files.h>
 #include <debond/scene/scene.h>
+#include <debond/shapes/body_geometry.h>
 #include <debond/support/number_text.h>
 
 #include <deal.II/base/point.h>
@@ -37,7 +38,8 @@ namespace Debond
   InterfaceMaps::InterfaceMaps(const Scene &scene)
     : wanted(scene.output.report && scene.model == ModelKind::finite_elements)
     , radius(scene.implant.characteristic_radius())
-    , is_round(scene.implant.is_round())
+    , is_round(scene.implant.geometry().is_round())
+    , is_mesh(scene.implant.mesh != nullptr)
     , half_x(0.5 * scene.implant.width(0))
     , half_y(0.5 * scene.implant.width(1))
   {}
@@ -102,16 +104,19 @@ namespace Debond
 
 
 
-    /** The point closest to a place; null if there are none. */
+    /** The point closest to a place; null if there is none within reach. */
     const InterfacePoint *
     closest(const std::vector<InterfacePoint> &points,
             const dealii::RTree<Entry>        &tree,
-            const dealii::Point<2>            &place)
+            const dealii::Point<2>            &place,
+            const double                       reach)
     {
       std::vector<Entry> nearest;
       tree.query(boost::geometry::index::nearest(place, 1),
                  std::back_inserter(nearest));
-      return nearest.empty() ? nullptr : &points[nearest[0].second];
+      return nearest.empty() || nearest[0].first.distance(place) > reach ?
+               nullptr :
+               &points[nearest[0].second];
     }
   } // namespace
 
@@ -159,10 +164,17 @@ namespace Debond
           std::string line = to_text(place[0], 6) + "," + to_text(place[1], 6);
           for (unsigned int k = 0; k < all.size(); ++k)
             {
+              const double reach =
+                is_mesh ?
+                  std::max(
+                    {dx,
+                     dy,
+                     std::sqrt(4. * half_x * half_y / all[k].points.size())}) :
+                  std::numeric_limits<double>::infinity();
               const auto *const point =
                 is_round && place.norm() > half_x ?
                   nullptr :
-                  closest(all[k].points, trees[k], place);
+                  closest(all[k].points, trees[k], place, reach);
               for (const unsigned int q : {of_pressure, of_slip, of_mu})
                 line += "," + (point ? to_text((*point)[q], 4) : "nan");
             }

@@ -13,7 +13,6 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
-#include <optional>
 #include <sstream>
 #include <tuple>
 #include <utility>
@@ -153,8 +152,7 @@ namespace Debond
              const unsigned int  least,
              const unsigned int  most)
     {
-      const auto         n      = surface.n_elements_per_direction();
-      const unsigned int fewest = std::min(n[0], n[1]);
+      const unsigned int fewest = surface.n_elements_across();
       return std::clamp((pieces + fewest - 1) / fewest, least, most);
     }
 
@@ -314,7 +312,8 @@ namespace Debond
 
   namespace
   {
-    /** The quadrature points of a surface as one tensor grid over the patch. */
+    /** The quadrature points of a surface as one tensor grid over the patch, or
+     *  one in each of several patches. */
     class QuadratureGrid
     {
     public:
@@ -322,14 +321,14 @@ namespace Debond
                      const NurbsSurface     &surface)
         : points(interface.get_points())
         , n(interface.points_per_element())
-        , n_elements_1(surface.n_elements_per_direction()[0])
+        , is_one_patch(surface.is_one_patch())
+        , n_elements(is_one_patch ? surface.n_elements_per_direction() :
+                                    std::array<unsigned int, 2>{{1, 1}})
       {
         for (unsigned int d = 0; d < 2; ++d)
-          for (unsigned int i = 0;
-               i < n * surface.n_elements_per_direction()[d];
-               ++i)
+          for (unsigned int i = 0; i < n * n_elements[d]; ++i)
             coordinates[d].push_back(
-              points[d == 0 ? index(i, 0) : index(0, i)].xi[d]);
+              points[d == 0 ? index(0, i, 0) : index(0, 0, i)].xi[d]);
       }
 
       /** Four points and their weights, and the nearest point. */
@@ -340,23 +339,29 @@ namespace Debond
         const SlavePoint                 *nearest;
       };
 
-      /** Between all points, for fields that are continuous over the whole
-       *  patch, or those of @p element only, for fields that may jump at its
-       *  borders; constant beyond these. */
+      /** At a point of @p element, between all points, for fields that are
+       *  continuous over the whole patch, or those of the element only, for
+       *  fields that may jump at its borders; constant beyond these. */
       Stencil
-      stencil(const Eigen::Vector2d            &xi,
-              const std::optional<unsigned int> element = {}) const
+      stencil(const unsigned int     element,
+              const Eigen::Vector2d &place,
+              const bool             in_element) const
       {
+        // patches have coordinates alike
+        const unsigned int patch = is_one_patch ? 0 : element;
+        Eigen::Vector2d    xi    = place;
+        if (!is_one_patch)
+          xi += points[0].xi - points[n * n * patch].xi;
         std::array<unsigned int, 2> first, second;
         std::array<double, 2>       share; // of the second
         for (unsigned int d = 0; d < 2; ++d)
           {
             const auto &x     = coordinates[d];
             std::size_t begin = 0, end = x.size();
-            if (element)
+            if (in_element && is_one_patch)
               {
-                begin = n * (d == 0 ? *element % n_elements_1 :
-                                      *element / n_elements_1);
+                begin = n * (d == 0 ? element % n_elements[0] :
+                                      element / n_elements[0]);
                 end   = begin + n;
               }
             const std::size_t upper =
@@ -373,10 +378,12 @@ namespace Debond
           {
             result.weight[a] = dealii::GeometryInfo<2>::d_linear_shape_function(
               dealii::Point<2>(share[0], share[1]), a);
-            result.point[a] = &points[index(a % 2 == 0 ? first[0] : second[0],
+            result.point[a] = &points[index(patch,
+                                            a % 2 == 0 ? first[0] : second[0],
                                             a / 2 == 0 ? first[1] : second[1])];
           }
-        result.nearest = &points[index(share[0] < 0.5 ? first[0] : second[0],
+        result.nearest = &points[index(patch,
+                                       share[0] < 0.5 ? first[0] : second[0],
                                        share[1] < 0.5 ? first[1] : second[1])];
         return result;
       }
@@ -385,14 +392,18 @@ namespace Debond
       /** Points are numbered element by element, the first parameter fastest in
        *  both; @p i and @p j count over the whole patch. */
       unsigned int
-      index(const unsigned int i, const unsigned int j) const
+      index(const unsigned int patch,
+            const unsigned int i,
+            const unsigned int j) const
       {
-        const unsigned int element = i / n + n_elements_1 * (j / n);
+        const unsigned int element = patch + i / n + n_elements[0] * (j / n);
         return n * n * element + i % n + n * (j % n);
       }
 
       const std::vector<SlavePoint>     &points;
-      const unsigned int                 n, n_elements_1;
+      const unsigned int                 n;
+      const bool                         is_one_patch;
+      const std::array<unsigned int, 2>  n_elements; ///< of a patch
       std::array<std::vector<double>, 2> coordinates;
     };
 
@@ -516,7 +527,7 @@ namespace Debond
           contract(basis, surface.control_points(), false, position);
           contract(basis, u, false, displacement);
 
-          const auto                  stencil = grid.stencil(xi);
+          const auto stencil = grid.stencil(element, xi, false);
           Eigen::Matrix<double, 6, 1> continuous =
             Eigen::Matrix<double, 6, 1>::Zero();
           for (unsigned int a = 0; a < 4; ++a)
@@ -524,7 +535,7 @@ namespace Debond
               stencil.weight[a] * continuous_values(*stencil.point[a]);
           append_values(values, continuous);
           for (const double value :
-               bonding_values(law, stencil, grid.stencil(xi, element)))
+               bonding_values(law, stencil, grid.stencil(element, xi, true)))
             values.push_back(value);
           values.push_back(
             static_cast<double>(stencil.nearest->trial.state.status));

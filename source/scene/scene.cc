@@ -1,8 +1,8 @@
-#include <debond/bulk/modulus_field.h>
 #include <debond/input/entry_table.h>
 #include <debond/input/input_file.h>
 #include <debond/input/scene_file.h>
 #include <debond/scene/scene.h>
+#include <debond/shapes/modulus_field.h>
 #include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
 
@@ -24,6 +24,8 @@ namespace Debond
                                      scene.interface.friction->file()};
       for (const ChuckComponentParameters &component : scene.chuck.component)
         files.push_back(component.file);
+      for (const BodyParameters *const body : {&scene.bone, &scene.implant})
+        files.push_back(body->mesh_file);
       files.push_back(scene.bone.voxel_file);
       if (scene.bone.modulus && scene.bone.modulus->voxels())
         files.push_back(scene.bone.modulus->voxels()->data_file);
@@ -40,6 +42,9 @@ namespace Debond
                          identity_of(scene.interface.friction->file());
       for (const ChuckComponentParameters &component : scene.chuck.component)
         text += identity_of(component.file);
+      for (const BodyParameters *const body : {&scene.bone, &scene.implant})
+        if (body->mesh)
+          text += body->identity_of_mesh;
       if (scene.bone.modulus && scene.bone.modulus->voxels())
         text += scene.bone.modulus->voxels()->identity;
       return text;
@@ -91,6 +96,8 @@ namespace Debond
   {
     interface.bonding.identity = identity_of(interface.bonding.file);
     interface.friction         = create_friction_law(interface.friction_choice);
+    bone.read_mesh("Bone");
+    implant.read_mesh("Implant");
     bone.rim = {{0.5 * implant.width(0), 0.5 * implant.width(1)}};
     bone.read_modulus(implant.characteristic_radius());
   }

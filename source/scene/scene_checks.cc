@@ -3,6 +3,7 @@
 #include <debond/interface/bonding_pattern.h>
 #include <debond/scene/reference_data.h>
 #include <debond/scene/scene.h>
+#include <debond/shapes/body_geometry.h>
 #include <debond/support/number_text.h>
 
 #include <cmath>
@@ -17,13 +18,13 @@ namespace Debond
     check_faces(const BodyParameters &bone, const BodyParameters &implant)
     {
       for (unsigned int d = 0; d < 2; ++d)
-        if (implant.width(d) > bone.size[d])
-          throw EntryError(std::string("Implant / ") +
-                             (implant.is_round() ? "Radius" : "Size"),
+        if (implant.width(d) > bone.width(d))
+          throw EntryError("Implant / " + implant.geometry().entries().front(),
                            "the implant is " + to_text(implant.width(d)) +
                              " mm wide in " + "xy"[d] +
-                             ", wider than the bone below it (Bone / Size: " +
-                             to_text(bone.size[d]) + " mm)");
+                             ", wider than the bone below it (Bone / " +
+                             bone.geometry().entries().front() + ": " +
+                             to_text(bone.width(d)) + " mm)");
     }
 
 
@@ -255,6 +256,12 @@ namespace Debond
     bone.check("Bone");
     implant.check("Implant");
     check_faces(bone, implant);
+    for (const auto &[body, section] :
+         {std::pair(&bone, "Bone"), std::pair(&implant, "Implant")})
+      if (model == ModelKind::automatic && body->mesh)
+        throw EntryError(std::string(section) + " / Shape",
+                         "Model = auto makes its own meshes: expected Model = "
+                         "finite elements, or another shape");
     interface.check(implant);
     check_bonding_pattern(interface.bonding, implant);
     if (model == ModelKind::automatic)
@@ -272,6 +279,11 @@ namespace Debond
     for (unsigned int c = 0; c < ChuckParameters::n_components; ++c)
       check_input_file(chuck.component[c].file,
                        ChuckParameters::entry_name(c, "File"),
+                       output.directory);
+    for (const auto &[body, section] :
+         {std::pair(&bone, "Bone"), std::pair(&implant, "Implant")})
+      check_input_file(body->mesh_file,
+                       std::string(section) + " / Mesh file",
                        output.directory);
     check_input_file(bone.voxel_file, "Bone / Voxel file", output.directory);
     if (bone.modulus && model != ModelKind::finite_elements)

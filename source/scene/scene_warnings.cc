@@ -1,6 +1,7 @@
-#include <debond/bulk/modulus_field.h>
 #include <debond/input/entry_table.h>
 #include <debond/scene/scene.h>
+#include <debond/shapes/body_geometry.h>
+#include <debond/shapes/modulus_field.h>
 #include <debond/support/number_text.h>
 
 #include <algorithm>
@@ -77,10 +78,10 @@ namespace Debond
       if (scene.bone.modulus && scene.bone.modulus->voxels() != nullptr)
         judge_voxels(scene, *scene.bone.modulus->voxels(), note);
       for (const unsigned int d : {0, 1})
-        note(scene.implant.width(d) == scene.bone.size[d],
+        note(scene.implant.width(d) == scene.bone.width(d),
              "width",
              "the implant is as wide as the bone, " +
-               to_text(scene.bone.size[d]) + " mm in " + "xy"[d] +
+               to_text(scene.bone.width(d)) + " mm in " + "xy"[d] +
                ": its rim leaves the bone as soon as it moves. If there is "
                "bone around it, enlarge Bone / Size");
     }
@@ -135,7 +136,8 @@ namespace Debond
                 std::to_string(fewest) + " or more, or " :
                 "") +
              "larger Cells there");
-      const unsigned int n = scene.implant.cells[0] * scene.implant.cells[1];
+      const auto         cells = scene.implant.lattice_of_cells();
+      const unsigned int n     = cells[0] * cells[1];
       note(bonding.pattern == BondingPatternKind::random &&
              bonding.resolution == BondingResolution::element && n < 50,
            "elements of the pattern",
@@ -222,7 +224,7 @@ namespace Debond
              " mm: lengths are mm, stiffnesses MPa/mm");
       // Soft bodies may be meant to be pressed by little.
       const double p = push / (implant.width(0) * implant.width(1) *
-                               (implant.is_round() ? 0.25 * M_PI : 1.));
+                               implant.geometry().share_of_rectangle());
       note(z.loaded && push > 0. &&
              p < std::min({1e-3,
                            1e-6 * bone.young_modulus,
@@ -255,7 +257,7 @@ namespace Debond
                                bone.softest_modulus(),
                    share = h * bone.cell_width(1 - d) /
                            (implant.width(0) * implant.width(1) *
-                            (implant.is_round() ? 0.25 * M_PI : 1.)),
+                            implant.geometry().share_of_rectangle()),
                    ripple = share * stiffness / (1. + stiffness);
       note(!bone.is_rigid() && way > 0.5 * h && ripple > 0.02,
            "cells under the rim",
@@ -267,7 +269,7 @@ namespace Debond
              " % from cell to cell. Finer Bone / Cells, or a smaller Penalty "
              "stiffness");
       const bool over_edge = std::max(*most, -*least) + 0.5 * implant.width(d) >
-                             0.5 * bone.size[d] * (1. + 1e-9);
+                             0.5 * bone.width(d) * (1. + 1e-9);
       // the largest Gauss weight of n points tends to pi / n of 2
       const double row =
         0.5 * M_PI *

@@ -1,4 +1,5 @@
-#include <debond/bulk/modulus_field.h>
+#include <debond/shapes/body_geometry.h>
+#include <debond/shapes/modulus_field.h>
 #include <debond/support/ranks.h>
 #include <debond/system/bulk_memory.h>
 
@@ -72,7 +73,8 @@ namespace Debond
     // K, its multigrid and the vectors of GMRES
     constexpr double of_multigrid = 4300., of_multigrid_for_splines = 12000.;
     const double     per_cell = draws ? 8000. : 3000.;
-    const double     x = body.cells[0], y = body.cells[1], z = body.cells[2];
+    const auto       cells    = body.lattice_of_cells();
+    const double     x = cells[0], y = cells[1], z = cells[2];
     n_condensed = 0.;
     if (body.is_rigid())
       return per_cell * x * y * z;
@@ -84,9 +86,9 @@ namespace Debond
       {
         // whole elements under the implant, and the control points around
         const auto across = [&](const unsigned int d) {
-          const double n = body.cells[d];
+          const double n = cells[d];
           const double width =
-            std::min(1., model.implant.width(d) / body.size[d]);
+            std::min(1., model.implant.width(d) / body.width(d));
           const double n_under =
             body.cells_under_implant > 0 ?
               body.cells_under_implant :
@@ -94,7 +96,7 @@ namespace Debond
           return (std::min(n, n_under + 2.) + more) / (n + more);
         };
         share =
-          across(0) * across(1) * (model.implant.is_round() ? M_PI / 4. : 1.);
+          across(0) * across(1) * model.implant.geometry().share_of_rectangle();
       }
     n_condensed = 3. * nodes_on_face * share;
     // small strains: four blocks, each of a quarter of the body

@@ -1,5 +1,6 @@
 #include <debond/bulk/bulk_space.h>
-#include <debond/bulk/modulus_field.h>
+#include <debond/shapes/body_geometry.h>
+#include <debond/shapes/modulus_field.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
@@ -69,10 +70,7 @@ namespace Debond
       // a block may turn
       return largest_way(model, ChuckComponent::translation_x + direction, 0.) +
              largest_way(model, tilt, model.implant.thickness()) +
-             (model.implant.is_round() ?
-                model.implant.radius :
-                std::hypot(0.5 * model.implant.size[0],
-                           0.5 * model.implant.size[1]));
+             model.implant.geometry().reach(model.implant);
     }
 
 
@@ -201,7 +199,8 @@ namespace Debond
     bool
     is_for_direct_solver(const BodyParameters &bone)
     {
-      return bone.element == ElementKind::quadratic || bone.coarser_below;
+      return bone.element == ElementKind::quadratic || bone.coarser_below ||
+             bone.mesh != nullptr;
     }
   } // namespace
 
@@ -246,9 +245,13 @@ namespace Debond
       return; // nothing is dealt out
     if (bulk_solver() == BulkSolver::multigrid && is_for_direct_solver(bone))
       throw EntryError(
-        bone.coarser_below ? "Bone / Coarser below" : "Bone / Element",
+        bone.mesh          ? "Bone / Shape" :
+        bone.coarser_below ? "Bone / Coarser below" :
+                             "Bone / Element",
         "it is for the direct solver and one process: expected " +
-          std::string(bone.coarser_below ? "false" : "trilinear or spline") +
+          std::string(bone.mesh          ? "block" :
+                      bone.coarser_below ? "false" :
+                                           "trilinear or spline") +
           (n > 1 ? ", or one process" : ", or Bulk solver = direct"));
     if (n > 1 && (bone.bulk_solver == BulkSolver::direct ||
                   bone.bulk_solver == BulkSolver::lattice))

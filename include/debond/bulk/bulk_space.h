@@ -1,9 +1,11 @@
 #ifndef debond_bulk_bulk_space_h
 #define debond_bulk_bulk_space_h
 
-#include <debond/bulk/body_parameters.h>
-#include <debond/bulk/side.h>
 #include <debond/geometry/nurbs_surface.h>
+#include <debond/shapes/body_parameters.h>
+#include <debond/shapes/boundary.h>
+#include <debond/shapes/faces_of_mesh.h>
+#include <debond/shapes/side.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/dofs/dof_handler.h>
@@ -19,12 +21,6 @@
 
 namespace Debond
 {
-  /** The contact face of a body in its reference configuration. */
-  NurbsSurface
-  make_contact_surface(const BodyParameters &parameters);
-
-
-
   /** Columns of cells: those whose places along x and y are in [begin, end).
    */
   struct CellColumns
@@ -42,18 +38,6 @@ namespace Debond
   columns_of_rank(const std::array<unsigned int, 3> &cells,
                   unsigned int                       rank,
                   unsigned int                       n_ranks);
-
-
-
-  /** Parts of the boundary of a body: its boundary ids in the triangulation.
-   */
-  namespace Boundary
-  {
-    constexpr dealii::types::boundary_id free = 0, contact = 1,
-                                         held = 2, ///< does not move
-      slides_x                                = 3, ///< held along x only
-      slides_y                                = 4; ///< held along y only
-  }                                                // namespace Boundary
 
 
 
@@ -121,6 +105,12 @@ namespace Debond
     {
       return body_parameters.element == ElementKind::spline;
     }
+    /** Whether its cells form a lattice, in columns from the contact face. */
+    bool
+    has_lattice() const
+    {
+      return body_parameters.mesh == nullptr;
+    }
     /** Of the elements. */
     unsigned int
     degree() const
@@ -158,7 +148,7 @@ namespace Debond
     unsigned int
     n_vertices() const
     {
-      return lattice.size();
+      return n_nodes_of_fe;
     }
     /** Number of a vertex among those of the whole body, and of all these. */
     unsigned int
@@ -247,10 +237,12 @@ namespace Debond
     gathered(const Eigen::VectorXd &v) const;
     Eigen::VectorXd
     own_part(const Eigen::VectorXd &whole) const;
+    /** Whether cells have nodes that follow others: hanging nodes, or those of
+     *  a cell that touches the contact face at an edge or a corner only. */
     bool
-    has_hanging_nodes() const
+    cells_have_followers() const
     {
-      return body_parameters.coarser_below;
+      return followers_in_cells;
     }
     /** Fills in the tied nodes of a displacement vector (3 n_nodes). */
     void
@@ -266,8 +258,9 @@ namespace Debond
     struct Cell
     {
       bool         enriched = false;    ///< it is bounded by the contact face
+      ContactFace  face;                ///< of an enriched one
       unsigned int surface_element = 0; ///< above or below it
-      unsigned int layer           = 0; ///< from the contact face
+      unsigned int layer           = 0; ///< from the contact face, in a lattice
       std::vector<unsigned int>   nodes;
       std::array<unsigned int, 8> vertices; ///< all vertices, deal.II's order
     };
@@ -283,16 +276,12 @@ namespace Debond
     {
       return active_cells[cell];
     }
-    /** Face of a cell that is on the contact boundary, if it is enriched. */
-    unsigned int
-    contact_face() const
-    {
-      return body_side == Side::bone ? 5 : 4;
-    }
 
   private:
     void
     make_grid();
+    void
+    take_mesh();
     void
     find_places_in_lattice();
     void
@@ -308,7 +297,11 @@ namespace Debond
     void
     complete_cells();
     void
+    add_nodes_of_fe();
+    void
     make_constraints();
+    void
+    hold_followed_nodes();
     void
     hold(const Cell &cell, unsigned int face, unsigned int components);
     void
@@ -351,11 +344,13 @@ namespace Debond
 
 
     /** Lattice index (i, j, layer from the contact face) of each node that is
-     *  a corner of a cell. */
+     *  a corner of a cell, if there is a lattice. */
     std::vector<std::array<unsigned int, 3>> lattice;
     std::vector<Eigen::Vector3d>             reference_positions;
     std::vector<bool>                        fixed, tied;
     std::vector<Cell>                        bulk_cells;
+    unsigned int                             n_nodes_of_fe      = 0;
+    bool                                     followers_in_cells = false;
   };
 
 

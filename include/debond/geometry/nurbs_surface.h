@@ -100,6 +100,9 @@ namespace Debond
                knot_vectors[0].n_spans() * knot_vectors[1].n_spans() :
                faces.size();
     }
+    /** The fewest elements across one patch; of several about as many. */
+    unsigned int
+    n_elements_across() const;
     unsigned int
     n_control_points() const
     {

@@ -89,6 +89,11 @@ namespace Debond
     fill(const BondingParameters &parameters, const BodyParameters &implant);
     void
     count_patches();
+    std::vector<unsigned int>
+    parts_beside(unsigned int part) const;
+    /** The quadrature point whose share of the element contains xi. */
+    unsigned int
+    point_at(unsigned int element, const Eigen::Vector2d &xi) const;
 
     const NurbsSurface &surface;
     const unsigned int  n;

@@ -1,8 +1,8 @@
 #ifndef debond_interface_interface_configuration_h
 #define debond_interface_interface_configuration_h
 
-#include <debond/bulk/side.h>
 #include <debond/interface/contact_point.h>
+#include <debond/shapes/side.h>
 #include <debond/support/runtime.h>
 
 #include <array>

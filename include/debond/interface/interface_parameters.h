@@ -1,9 +1,9 @@
 #ifndef debond_interface_interface_parameters_h
 #define debond_interface_interface_parameters_h
 
-#include <debond/bulk/side.h>
 #include <debond/interface/bonding_parameters.h>
 #include <debond/interface/contact_law.h>
+#include <debond/shapes/side.h>
 
 namespace Debond
 {

@@ -68,7 +68,7 @@ namespace Debond
 
     const bool   wanted;
     const double radius; ///< R [mm], of a torque's force
-    const bool   is_round;
+    const bool   is_round, is_mesh;
     const double half_x, half_y; ///< of the grid [mm]
     unsigned int n_rows    = 0;
     double       first_phi = 0.,

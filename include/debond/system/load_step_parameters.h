@@ -1,9 +1,9 @@
 #ifndef debond_system_load_step_parameters_h
 #define debond_system_load_step_parameters_h
 
-#include <debond/bulk/body_parameters.h>
 #include <debond/bulk/chuck.h>
 #include <debond/interface/interface_parameters.h>
+#include <debond/shapes/body_parameters.h>
 
 #include <vector>
 

@@ -1,22 +1,102 @@
-#include <debond/bulk/body_parameters.h>
-#include <debond/bulk/modulus_field.h>
-#include <debond/geometry/nurbs_surface.h>
 #include <debond/input/entry_table.h>
+#include <debond/input/input_file.h>
+#include <debond/shapes/body_geometry.h>
+#include <debond/shapes/body_parameters.h>
+#include <debond/shapes/faces_of_mesh.h>
+#include <debond/shapes/modulus_field.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
+
+#include <boost/algorithm/string/join.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <regex>
+#include <utility>
 
 namespace Debond
 {
-  double
-  BodyParameters::rise() const
+  const BodyGeometry &
+  BodyParameters::geometry() const
   {
-    return shape == BodyShape::cap ? height_on_sphere(radius, cap_radius) : 0.;
+    return *body_geometries()[static_cast<unsigned int>(shape)];
+  }
+
+  double
+  BodyParameters::thickness() const
+  {
+    return geometry().thickness(*this);
+  }
+
+  double
+  BodyParameters::width(const unsigned int direction) const
+  {
+    return geometry().width(*this, direction);
+  }
+
+
+
+  std::array<unsigned int, 3>
+  BodyParameters::lattice_of_cells() const
+  {
+    if (!mesh)
+      return cells;
+    const double n      = mesh->triangulation.n_active_cells(),
+                 n_face = cells_at_contact_face(mesh->triangulation).size();
+    const auto rounded  = [](const double x) -> unsigned int {
+      return std::lround(std::max(1., x));
+    };
+    return {{rounded(std::sqrt(n_face)),
+             rounded(std::sqrt(n_face)),
+             rounded(n / n_face)}};
+  }
+
+
+
+  unsigned int
+  BodyParameters::degree_of_faces() const
+  {
+    return contact_surface == SurfaceKind::bilinear ? 1 :
+           element == ElementKind::quadratic        ? 2 :
+                                                      mesh->order;
+  }
+
+
+
+  void
+  BodyParameters::read_mesh(const std::string &section)
+  {
+    mesh.reset();
+    if (shape != BodyShape::file)
+      return;
+    if (mesh_file.empty())
+      throw EntryError(section + " / Shape",
+                       "it needs the name of a file: " + section +
+                         " / Mesh file");
+    mesh              = read_mesh_file(mesh_file, section + " / Mesh file");
+    identity_of_mesh  = identity_of(mesh_file);
+    const auto box_of = [](const auto &points) {
+      std::array<std::array<double, 3>, 2> box{
+        {{{1e300, 1e300, 1e300}}, {{-1e300, -1e300, -1e300}}}};
+      for (const dealii::Point<3> &p : points)
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            box[0][d] = std::min(box[0][d], p[d]);
+            box[1][d] = std::max(box[1][d], p[d]);
+          }
+      return box;
+    };
+    box_of_mesh = box_of(mesh->triangulation.get_vertices());
+    std::vector<dealii::Point<3>> on_face;
+    for (const auto &cell : cells_at_contact_face(mesh->triangulation))
+      {
+        const auto face = cell->face(contact_face_of(cell, Side::bone).number);
+        for (const unsigned int v : face->vertex_indices())
+          on_face.push_back(face->vertex(v));
+      }
+    box_of_face = box_of(on_face);
   }
 
 
@@ -72,9 +152,7 @@ namespace Debond
     const AllowedValues allowed_cells   = Allowed::whole_number(1, 1000000000);
     const AllowedValues allowed_grading = Allowed::number_above(0, "");
 
-    /** Throws if an entry has a mistake, with a message. */
-    using EntryCheck = std::function<
-      void(bool, const std::string &entry, const std::string &message)>;
+    using EntryCheck = BodyGeometry::EntryCheck;
   } // namespace
 
 
@@ -83,6 +161,7 @@ namespace Debond
   BodyParameters::declare_bone(EntryTable &table)
   {
     table.enter_subsection("Bone");
+    declare_shape(table, true);
     table.add("Size",
               size,
               Allowed::list(allowed_length, 3, 3),
@@ -145,14 +224,7 @@ namespace Debond
   BodyParameters::declare_implant(EntryTable &table)
   {
     table.enter_subsection("Implant");
-    table.add("Shape",
-              shape,
-              Allowed::choice("coin | cap | block"),
-              "Shape of the implant. Its contact face touches z = 0 with its "
-              "centre at the origin; its flat top face is held by the rigid "
-              "chuck. `coin': a cylinder given by Radius and Height. `cap': "
-              "the same with a spherical contact face of radius Cap radius. "
-              "`block': a box given by Size.");
+    declare_shape(table, false);
     table.add("Radius",
               radius,
               allowed_length,
@@ -187,6 +259,46 @@ namespace Debond
               "of a coin and a cap across the disk and along the axis.");
     declare_material(table, false);
     table.leave_subsection();
+  }
+
+
+
+  void
+  BodyParameters::declare_shape(EntryTable &table, const bool is_bone)
+  {
+    std::string names,
+      text = is_bone ? "Shape of the bone. " :
+                       "Shape of the implant. Its contact face touches z = 0 "
+                       "with its centre at the origin; its flat top face is "
+                       "held by the rigid chuck. ";
+    for (const BodyGeometry *const each : body_geometries())
+      if (each->is_for_bone() || !is_bone)
+        {
+          names += (names.empty() ? "" : " | ") + each->name();
+          text += "`" + each->name() + "': " + each->description() + ". ";
+        }
+    text.pop_back();
+    table.add(
+      "Shape",
+      geometry().name(),
+      [this](const std::string &name) {
+        for (unsigned int k = 0; k < body_geometries().size(); ++k)
+          if (body_geometries()[k]->name() == name)
+            shape = static_cast<BodyShape>(k);
+      },
+      Allowed::choice(names),
+      text);
+    table.add("Mesh file",
+              mesh_file,
+              Allowed::text("the name of a file of hexahedra"),
+              "File with the cells of the body, for Shape = file, relative to "
+              "the working directory: Gmsh (.msh), Abaqus (.inp) or VTK "
+              "(.vtk); lengths in mm, the contact face near z = 0, the chuck "
+              "on the z axis. Names of groups of faces say what they are: "
+              "contact, held, and slides x or slides y for what is held along "
+              "x or y only; the others are free. The contact face is bilinear, "
+              "or of degree two where the file is of the second order or "
+              "Element = quadratic.");
   }
 
 
@@ -374,20 +486,30 @@ namespace Debond
   namespace
   {
     void
-    check_cells(const BodyParameters &body, const EntryCheck &refuse)
+    check_number_of_cells(const BodyParameters &body, const EntryCheck &refuse)
     {
       const double largest_number = 2e6 * Ranks::number();
+      const auto   lattice        = body.lattice_of_cells();
       const double n_cells =
-        static_cast<double>(body.cells[0]) * body.cells[1] * body.cells[2];
+        static_cast<double>(lattice[0]) * lattice[1] * lattice[2];
       refuse(n_cells > largest_number,
-             "Cells",
+             body.mesh ? "Mesh file" : "Cells",
              to_text(n_cells) +
                " cells are more than this program can solve for, " +
                to_text(largest_number));
-      refuse(body.is_round() && body.cells[0] != body.cells[1],
-             "Cells",
-             "a coin and a cap take two numbers, cells across the disk and "
-             "along the axis");
+      refuse(body.element != ElementKind::trilinear &&
+               body.contact_surface == SurfaceKind::bilinear,
+             "Contact surface",
+             "only trilinear cells have such faces: with another Element "
+             "expected nurbs");
+    }
+
+
+
+    void
+    check_cells(const BodyParameters &body, const EntryCheck &refuse)
+    {
+      check_number_of_cells(body, refuse);
       // nine control points over one face: 2 x 2 Gauss points do not see all
       // their motions, and the stiffness is singular
       refuse(!body.is_rigid() && body.contact_surface == SurfaceKind::nurbs &&
@@ -395,11 +517,6 @@ namespace Debond
              "Cells",
              "one cell across is too few for Contact surface = nurbs: expected "
              "at least 2");
-      refuse(body.element != ElementKind::trilinear &&
-               body.contact_surface == SurfaceKind::bilinear,
-             "Contact surface",
-             "only trilinear cells have such faces: with another Element "
-             "expected nurbs");
 
       refuse(body.coarser_below && body.element == ElementKind::spline,
              "Coarser below",
@@ -452,31 +569,23 @@ namespace Debond
     /** An entry of another shape that was changed was meant to do something:
      *  refuse it rather than ignore it. */
     void
-    check_shape(const BodyParameters &body, const EntryCheck &refuse)
+    check_shape(const BodyParameters &body,
+                const BodyParameters &usual,
+                const EntryCheck     &refuse)
     {
-      const BodyParameters usual      = BodyParameters::default_implant();
-      const bool           is_cap     = body.shape == BodyShape::cap;
-      const std::string    no_meaning = "it has no meaning for this Shape";
-      refuse(body.is_round() && body.size != usual.size,
-             "Size",
-             no_meaning + ": give Radius and Height");
-      refuse(!body.is_round() && body.radius != usual.radius,
-             "Radius",
-             no_meaning + ": give Size");
-      refuse(!body.is_round() && body.height != usual.height,
-             "Height",
-             no_meaning + ": give Size");
-      refuse(!is_cap && body.cap_radius != usual.cap_radius,
-             "Cap radius",
-             no_meaning + ", whose contact face is flat");
-      refuse(is_cap && body.cap_radius <= body.radius,
-             "Cap radius",
-             "a cap is flatter than a hemisphere: expected more than Radius, " +
-               to_text(body.radius) + " mm");
-      refuse(body.rise() >= body.height,
-             "Height",
-             "the rim of the cap is " + to_text(body.rise()) +
-               " mm above its centre: expected more than that");
+      const BodyGeometry            &geometry = body.geometry();
+      const std::vector<std::string> own      = geometry.entries();
+      for (const auto &[entry, is_set] :
+           {std::pair("Size", body.size != usual.size),
+            std::pair("Radius", body.radius != usual.radius),
+            std::pair("Height", body.height != usual.height),
+            std::pair("Cap radius", body.cap_radius != usual.cap_radius),
+            std::pair("Mesh file", body.mesh_file != usual.mesh_file)})
+        refuse(is_set && std::find(own.begin(), own.end(), entry) == own.end(),
+               entry,
+               "it has no meaning for this Shape, " + geometry.name() +
+                 ": give " + boost::join(own, " and "));
+      geometry.check(body, refuse);
     }
   } // namespace
 
@@ -491,7 +600,23 @@ namespace Debond
       if (is_mistake)
         throw EntryError(section + " / " + entry, message);
     };
-    check_cells(*this, refuse);
-    check_shape(*this, refuse);
+    check_shape(*this,
+                section == "Bone" ? BodyParameters() : default_implant(),
+                refuse);
+    if (mesh)
+      check_number_of_cells(*this, refuse);
+    else
+      check_cells(*this, refuse);
+  }
+
+
+
+  NurbsSurface
+  make_contact_surface(const BodyParameters &body, const Side side)
+  {
+    const NurbsSurface face = body.geometry().contact_face(body, side);
+    return body.contact_surface == SurfaceKind::bilinear && face.degree() > 1 ?
+             face.bilinear_interpolant() :
+             face;
   }
 } // namespace Debond

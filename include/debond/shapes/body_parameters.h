@@ -1,5 +1,7 @@
-#ifndef debond_bulk_body_parameters_h
-#define debond_bulk_body_parameters_h
+#ifndef debond_shapes_body_parameters_h
+#define debond_shapes_body_parameters_h
+
+#include <debond/shapes/side.h>
 
 #include <algorithm>
 #include <array>
@@ -9,14 +11,19 @@
 
 namespace Debond
 {
+  class BodyGeometry;
   class EntryTable;
+  struct FileMesh;
   class ModulusField;
+  class NurbsSurface;
 
+  /** Each is a BodyGeometry. */
   enum class BodyShape
   {
     coin,
     cap,
-    block
+    block,
+    file
   };
   enum class Material
   {
@@ -52,6 +59,13 @@ namespace Debond
     double                radius     = 2.5;      ///< coin, cap [mm]
     double                height     = 3;        ///< coin, cap: axis [mm]
     double                cap_radius = 50;       ///< of the sphere [mm]
+    /** `Mesh file`, and what is in it if the shape is that of a file; see
+     *  read_mesh(). */
+    std::string                     mesh_file, identity_of_mesh;
+    std::shared_ptr<const FileMesh> mesh;
+    /** Lowest and highest corner of the box around it and of that around its
+     *  contact face [mm]. */
+    std::array<std::array<double, 3>, 2> box_of_mesh{}, box_of_face{};
     /** Number of cells in x, y, z; z along the axis (`Cells = n, m` becomes
      *  n, n, m). */
     std::array<unsigned int, 3> cells{{15, 15, 2}};
@@ -88,12 +102,9 @@ namespace Debond
     {
       return material == Material::neo_hookean;
     }
-    /** Whether the body is a disk seen from above: a coin or a cap. */
-    bool
-    is_round() const
-    {
-      return shape == BodyShape::coin || shape == BodyShape::cap;
-    }
+    /** What its shape is asked for. */
+    const BodyGeometry &
+    geometry() const;
     /** Whether it is a block of splines whose cells across are equal. */
     bool
     has_equal_splines() const
@@ -101,12 +112,10 @@ namespace Debond
       return element == ElementKind::spline && shape == BodyShape::block &&
              cells_under_implant == 0 && lateral_grading == 1.;
     }
-    /** Height of the body on its axis [mm]. */
+    /** Height of the body on its axis [mm]; of one from a file how far it
+     *  reaches from z = 0. */
     double
-    thickness() const
-    {
-      return is_round() ? height : size[2];
-    }
+    thickness() const;
     /** A tenth of the thickness [mm]: what penetrates deeper has most likely a
      *  wrong unit. */
     double
@@ -116,10 +125,14 @@ namespace Debond
     }
     /** Size of the contact face along x (0) or y (1), seen from above [mm]. */
     double
-    width(const unsigned int direction) const
-    {
-      return is_round() ? 2. * radius : size[direction];
-    }
+    width(unsigned int direction) const;
+    /** Cells in x, y, z of a lattice; of a mesh those of a lattice that has as
+     *  many in all and at the contact face. */
+    std::array<unsigned int, 3>
+    lattice_of_cells() const;
+    /** Degree of the faces of a mesh: that of the file, or of the elements. */
+    unsigned int
+    degree_of_faces() const;
     /** Mean width of the cells [mm] along x (0) or y (1), under the implant if
      *  a bone has them there. */
     double
@@ -127,11 +140,8 @@ namespace Debond
     {
       return cells_under_implant > 0 ?
                2. * rim[direction] / cells_under_implant :
-               width(direction) / cells[direction];
+               width(direction) / lattice_of_cells()[direction];
     }
-    /** Height of the rim of the contact face above its centre [mm]. */
-    double
-    rise() const;
     /** Radius of a coin or a cap, half the shorter side of a block [mm]: the
      * `R` of expressions and of length tolerances. */
     double
@@ -145,14 +155,19 @@ namespace Debond
     std::vector<double>
     lateral_fractions(unsigned int direction) const;
 
-    /** Corners of a block at rest, of a bone [mm]. */
+    /** Corners of the box around a bone at rest [mm]. */
     std::array<std::array<double, 3>, 2>
     corners_of_bone() const
     {
+      if (mesh)
+        return box_of_mesh;
       return {{{{-0.5 * size[0], -0.5 * size[1], -size[2]}},
                {{0.5 * size[0], 0.5 * size[1], 0.}}}};
     }
 
+    /** Reads the mesh if the shape is that of a file. Throws EntryError. */
+    void
+    read_mesh(const std::string &section);
     /** Makes `modulus` and the mean young_modulus of the expression and the
      *  voxels, if there are any. @p radius: R of the expression [mm]. Throws
      *  EntryError. */
@@ -180,9 +195,15 @@ namespace Debond
 
   private:
     void
+    declare_shape(EntryTable &table, bool is_bone);
+    void
     declare_material(EntryTable &table, bool is_bone);
     void
     declare_modulus(EntryTable &table, bool is_bone);
   };
+
+  /** The contact face of a body: that of its shape, or bilinear. */
+  NurbsSurface
+  make_contact_surface(const BodyParameters &body, Side side = Side::implant);
 } // namespace Debond
 #endif

@@ -1,5 +1,5 @@
-#ifndef debond_bulk_modulus_field_h
-#define debond_bulk_modulus_field_h
+#ifndef debond_shapes_modulus_field_h
+#define debond_shapes_modulus_field_h
 
 #include <debond/input/expression_parser.h>
 #include <debond/input/voxel_image.h>

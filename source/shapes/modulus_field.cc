@@ -1,4 +1,4 @@
-#include <debond/bulk/modulus_field.h>
+#include <debond/shapes/modulus_field.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 

@@ -1,5 +1,5 @@
-#ifndef debond_bulk_side_h
-#define debond_bulk_side_h
+#ifndef debond_shapes_side_h
+#define debond_shapes_side_h
 
 #include <array>
 

@@ -1,0 +1,21 @@
+#ifndef debond_shapes_boundary_h
+#define debond_shapes_boundary_h
+
+#include <deal.II/base/types.h>
+
+namespace Debond
+{
+  /** Parts of the boundary of a body: its boundary ids in the triangulation.
+   */
+  namespace Boundary
+  {
+    using Id = dealii::types::boundary_id;
+
+    constexpr Id free     = 0;
+    constexpr Id contact  = 1;
+    constexpr Id held     = 2; ///< does not move
+    constexpr Id slides_x = 3; ///< held along x only
+    constexpr Id slides_y = 4; ///< held along y only
+  }                            // namespace Boundary
+} // namespace Debond
+#endif

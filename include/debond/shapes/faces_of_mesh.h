@@ -1,0 +1,45 @@
+#ifndef debond_shapes_faces_of_mesh_h
+#define debond_shapes_faces_of_mesh_h
+
+#include <debond/geometry/nurbs_surface.h>
+#include <debond/shapes/mesh_file.h>
+#include <debond/shapes/side.h>
+
+#include <array>
+#include <vector>
+
+namespace Debond
+{
+  /** The face of a cell that is on the contact face. */
+  struct ContactFace
+  {
+    unsigned int number = 0; ///< of the face in its cell, in deal.II's order
+    /** Coordinates of the unit cell that are the parameters of the surface
+     *  element. */
+    std::array<unsigned int, 2> axes{{0, 1}};
+
+    /** Face @p number, with a_1 x a_2 out of a bone and into an implant. */
+    static ContactFace
+    of(unsigned int number, Side side);
+    unsigned int
+    across() const
+    {
+      return number / 2;
+    }
+  };
+
+  /** Cells of a mesh that have a face on the contact boundary, in the order of
+   *  the surface elements of contact_surface_of(). */
+  std::vector<dealii::Triangulation<3>::active_cell_iterator>
+  cells_at_contact_face(const dealii::Triangulation<3> &triangulation);
+  ContactFace
+  contact_face_of(const dealii::Triangulation<3>::cell_iterator &cell,
+                  Side                                           side);
+
+  /** The contact face of a body from a file: a patch for each face of its
+   *  cells, of degree 1 (bilinear) or 2, which passes through the four or nine
+   *  nodes of the face. */
+  NurbsSurface
+  contact_surface_of(const FileMesh &mesh, unsigned int degree, Side side);
+} // namespace Debond
+#endif

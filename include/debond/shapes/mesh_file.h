@@ -1,0 +1,49 @@
+#ifndef debond_shapes_mesh_file_h
+#define debond_shapes_mesh_file_h
+
+#include <deal.II/base/point.h>
+#include <deal.II/grid/tria.h>
+
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Debond
+{
+  /** A body as a file of hexahedra has it. Lengths are in mm. */
+  struct FileMesh
+  {
+    /** One piece, whose vertices are the corners of the hexahedra. Boundary ids
+     *  are those of Boundary: faces named contact, held, slides x and slides y,
+     *  all others free. The contact face is in one piece, and a cell has one
+     *  face of it at most. */
+    dealii::Triangulation<3> triangulation;
+    /** 1: hexahedra with 8 nodes, 2: with 20 or 27. */
+    unsigned int order = 1;
+
+    /** Where the 27 support points of FE_Q<3>(2) of a cell are, in deal.II's
+     *  order. The map of the cell interpolates them; of order 1 it is
+     *  trilinear. */
+    std::vector<dealii::Point<3>>
+    points_of_second_order(
+      const dealii::Triangulation<3>::cell_iterator &cell) const;
+
+    /** Vertices of an edge, a face or a cell, ascending, then invalid ones:
+     *  what tells it from others in whatever order deal.II has its vertices. */
+    using Vertices = std::array<unsigned int, 8>;
+    /** Nodes in the middle of edges, faces and cells, of order 2. */
+    std::map<Vertices, dealii::Point<3>> middles;
+  };
+
+  /**
+   * Reads a mesh of Gmsh (.msh), Abaqus (.inp) or VTK (.vtk), with the names of
+   * its groups of faces. Throws an EntryError of @p entry, "Bone / Mesh file",
+   * that says what is wrong with the file: what the bulk cannot be made of is
+   * refused here.
+   */
+  std::shared_ptr<const FileMesh>
+  read_mesh_file(const std::string &filename, const std::string &entry);
+} // namespace Debond
+#endif

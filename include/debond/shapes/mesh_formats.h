@@ -1,0 +1,59 @@
+#ifndef debond_shapes_mesh_formats_h
+#define debond_shapes_mesh_formats_h
+
+#include <debond/input/input_file.h>
+
+#include <deal.II/base/point.h>
+
+#include <array>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace Debond
+{
+  /** Size of the largest file of a mesh. */
+  constexpr unsigned int largest_mesh_MB = 4000;
+
+  /** Where nodes of a hexahedron may be in deal.II's unit cell: the support
+   *  points of FE_Q<3>(2), in their order, 8 corners first. */
+  const std::vector<dealii::Point<3>> &
+  places_in_hexahedron();
+
+  /** What a file of a mesh says. */
+  struct StoredMesh
+  {
+    static constexpr unsigned int none = -1;
+
+    std::vector<dealii::Point<3>> nodes;
+    /** Of each hexahedron the node at each of its places, or none. */
+    std::vector<std::array<unsigned int, 27>> hexahedra;
+    /** Into how many nodes they have, 8, 20 or 27; all numbers that occur. */
+    std::set<unsigned int> nodes_per_hexahedron;
+    /** How many solids of other kinds there are. */
+    std::map<std::string, unsigned int> other_solids;
+    /** Corners of the faces of each named group. Of a triangle the last one is
+     *  none. */
+    std::map<std::string, std::vector<std::array<unsigned int, 4>>> groups;
+
+    /** One with 8 or 20 nodes in the order of Abaqus and VTK. */
+    void
+    add_hexahedron(const std::vector<unsigned int> &nodes);
+  };
+
+  /** All versions of Gmsh's .msh. */
+  StoredMesh
+  read_gmsh_mesh(const std::string &filename, const FileRefusal &refuse);
+
+  /** Abaqus' input files, .inp: nodes, elements, sets and surfaces of one part.
+   */
+  StoredMesh
+  read_abaqus_mesh(const std::string &filename, const FileRefusal &refuse);
+
+  /** Legacy files of VTK: the groups are 1 to 4 of the data MaterialID of
+   *  quadrilaterals, the boundary ids. */
+  StoredMesh
+  read_vtk_mesh(const std::string &filename, const FileRefusal &refuse);
+} // namespace Debond
+#endif

@@ -1,0 +1,304 @@
+#include <debond/input/allowed_values.h>
+#include <debond/shapes/mesh_formats.h>
+#include <debond/support/number_text.h>
+
+#include <deal.II/base/geometry_info.h>
+
+#include <boost/algorithm/string/case_conv.hpp>
+#include <boost/algorithm/string/predicate.hpp>
+#include <boost/algorithm/string/trim.hpp>
+
+#include <cmath>
+#include <locale>
+#include <optional>
+#include <unordered_map>
+
+namespace Debond
+{
+  namespace
+  {
+    /** What is read of a file of Abaqus, line by line. */
+    class AbaqusFile
+    {
+    public:
+      AbaqusFile(const std::string &text, const FileRefusal &refuse)
+        : refuse_file(refuse)
+      {
+        Classic<std::istringstream> lines(text);
+        for (std::string line; std::getline(lines, line);)
+          {
+            ++line_number;
+            boost::trim(line, std::locale::classic());
+            if (line.empty() || boost::starts_with(line, "**"))
+              continue;
+            if (line[0] == '*')
+              begin_section(line);
+            else
+              read_data(line);
+          }
+        if (!unfinished.empty())
+          refuse("it is cut off within an element");
+        for (const auto &[name, sides] : surfaces)
+          for (const auto &side : sides)
+            add_faces(side, mesh.groups[name]);
+      }
+
+      StoredMesh mesh;
+
+    private:
+      /** Elements and their side of a surface. */
+      struct Sides
+      {
+        std::string  elements; ///< a set, or one of them
+        unsigned int face;     ///< of deal.II's
+        unsigned int line;
+      };
+
+      void
+      refuse(const std::string &why) const
+      {
+        refuse_file("line " + std::to_string(line_number) + ": " + why);
+      }
+
+      void
+      begin_section(const std::string &line)
+      {
+        if (!unfinished.empty())
+          refuse("the element before has too few nodes");
+        parameters.clear();
+        const auto words = items_of(line);
+        section = boost::to_upper_copy(words[0], std::locale::classic());
+        for (const auto &word : words)
+          {
+            const auto  equals = std::min(word.find('='), word.size());
+            std::string value  = word.substr(std::min(equals + 1, word.size()));
+            boost::trim_if(value, boost::is_any_of(" \t\""));
+            parameters[boost::to_upper_copy(boost::trim_copy(
+                                              word.substr(0, equals)),
+                                            std::locale::classic())] = value;
+          }
+        if (section == "*INCLUDE")
+          refuse("*INCLUDE: expected nodes and elements in this file");
+        if (section == "*ELEMENT")
+          begin_elements();
+        if (section == "*SURFACE")
+          {
+            const std::string type = upper("TYPE");
+            if (!type.empty() && type != "ELEMENT")
+              section.clear();
+            else
+              surfaces[parameters["NAME"]];
+          }
+      }
+
+      void
+      begin_elements()
+      {
+        const std::string type = upper("TYPE");
+        is_solid               = boost::starts_with(type, "C3D");
+        const auto end =
+          std::min(type.find_first_not_of("0123456789", 3), type.size());
+        const std::string n = is_solid ? type.substr(3, end - 3) : "";
+        nodes_of_element    = n == "8" ? 8 : n == "20" ? 20 : 0;
+      }
+
+      void
+      read_data(const std::string &line)
+      {
+        const auto items = items_of(line);
+        if (section == "*NODE")
+          read_node(items);
+        else if (section == "*ELEMENT" && is_solid)
+          read_element(items);
+        else if (section == "*ELSET")
+          read_set(items);
+        else if (section == "*SURFACE")
+          read_surface(items);
+        else if (section == "*INSTANCE")
+          refuse("this instance is moved: expected a part that is in place");
+      }
+
+      void
+      read_node(const std::vector<std::string> &items)
+      {
+        dealii::Point<3> x;
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            const auto number =
+              d + 1 < items.size() ? read_number(items[d + 1]) : std::nullopt;
+            if (!number)
+              refuse("expected a node, its number and x, y, z");
+            x[d] = number.value_or(0.);
+          }
+        if (!node_number.emplace(integer(items[0]), mesh.nodes.size()).second)
+          refuse("the second node " + items[0] +
+                 ": expected one part only, each number once");
+        mesh.nodes.push_back(x);
+      }
+
+      void
+      read_element(const std::vector<std::string> &items)
+      {
+        if (nodes_of_element == 0)
+          {
+            ++mesh.other_solids["elements " + upper("TYPE")];
+            return;
+          }
+        for (const auto &item : items)
+          unfinished.push_back(integer(item));
+        if (unfinished.size() < nodes_of_element + 1)
+          return; // it goes on in the next line
+        std::vector<unsigned int> nodes;
+        for (unsigned int n = 1; n < unfinished.size(); ++n)
+          {
+            const auto found = node_number.find(unfinished[n]);
+            if (found == node_number.end())
+              refuse("there is no node " + std::to_string(unfinished[n]));
+            nodes.push_back(found->second);
+          }
+        if (nodes.size() > nodes_of_element)
+          refuse("expected " + std::to_string(nodes_of_element) +
+                 " nodes of an element, not " + std::to_string(nodes.size()));
+        if (!element_number.emplace(unfinished[0], mesh.hexahedra.size())
+               .second)
+          refuse("the second element " + std::to_string(unfinished[0]) +
+                 ": expected one part only, each number once");
+        if (parameters.count("ELSET"))
+          sets[upper("ELSET")].push_back(unfinished[0]);
+        mesh.add_hexahedron(nodes);
+        unfinished.clear();
+      }
+
+      void
+      read_set(const std::vector<std::string> &items)
+      {
+        auto &set = sets[upper("ELSET")];
+        if (parameters.count("GENERATE"))
+          {
+            const long step = items.size() > 2 ? integer(items[2]) : 1;
+            if (items.size() < 2 || step < 1)
+              refuse("expected the first and the last element, and a step");
+            else
+              for (long e = integer(items[0]); e <= integer(items[1]);
+                   e += step)
+                set.push_back(e);
+            return;
+          }
+        for (const auto &item : items)
+          {
+            const auto other =
+              sets.find(boost::to_upper_copy(item, std::locale::classic()));
+            if (other == sets.end())
+              set.push_back(integer(item));
+            else
+              {
+                const std::vector<long> copy = other->second;
+                set.insert(set.end(), copy.begin(), copy.end());
+              }
+          }
+      }
+
+      void
+      read_surface(const std::vector<std::string> &items)
+      {
+        static const std::map<std::string, unsigned int> faces{
+          {"S1", 4}, {"S2", 5}, {"S3", 2}, {"S4", 1}, {"S5", 3}, {"S6", 0}};
+        const auto face =
+          faces.find(items.size() < 2 ?
+                       "" :
+                       boost::to_upper_copy(items[1], std::locale::classic()));
+        if (face == faces.end())
+          refuse("expected an element or a set of them and a face, S1 to S6");
+        else
+          surfaces[parameters["NAME"]].push_back(
+            {boost::to_upper_copy(items[0], std::locale::classic()),
+             face->second,
+             line_number});
+      }
+
+      void
+      add_faces(const Sides                              &sides,
+                std::vector<std::array<unsigned int, 4>> &faces)
+      {
+        line_number    = sides.line;
+        const auto set = sets.find(sides.elements);
+        for (const long element : set == sets.end() ?
+                                    std::vector<long>{integer(sides.elements)} :
+                                    set->second)
+          {
+            const auto found = element_number.find(element);
+            if (found == element_number.end())
+              refuse("there is no hexahedron " + std::to_string(element));
+            else
+              {
+                faces.emplace_back();
+                for (unsigned int v = 0; v < 4; ++v)
+                  faces.back()[v] =
+                    mesh.hexahedra[found->second][dealii::GeometryInfo<
+                      3>::face_to_cell_vertices(sides.face, v)];
+              }
+          }
+      }
+
+      static std::vector<std::string>
+      items_of(const std::string &line)
+      {
+        std::vector<std::string> items{""};
+        for (const char c : line)
+          if (c == ',')
+            items.emplace_back();
+          else
+            items.back() += c;
+        for (auto &item : items)
+          boost::trim(item, std::locale::classic());
+        if (items.size() > 1 && items.back().empty())
+          items.pop_back(); // a comma at the end
+        return items;
+      }
+
+      std::string
+      upper(const std::string &parameter) const
+      {
+        const auto found = parameters.find(parameter);
+        return found == parameters.end() ?
+                 "" :
+                 boost::to_upper_copy(found->second, std::locale::classic());
+      }
+
+      long
+      integer(const std::string &item) const
+      {
+        const auto number = read_number(item);
+        if (!number || *number != std::floor(*number) || *number < 0 ||
+            *number > 1e12)
+          {
+            refuse("'" + item + "' is no number of a node or an element");
+            return 0;
+          }
+        return static_cast<long>(*number);
+      }
+
+      const FileRefusal                        &refuse_file;
+      unsigned int                              line_number = 0;
+      std::string                               section;
+      std::map<std::string, std::string>        parameters; ///< of it
+      bool                                      is_solid         = false;
+      unsigned int                              nodes_of_element = 0;
+      std::vector<long>                         unfinished;
+      std::unordered_map<long, unsigned int>    node_number, element_number;
+      std::map<std::string, std::vector<long>>  sets;
+      std::map<std::string, std::vector<Sides>> surfaces;
+    };
+  } // namespace
+
+
+
+  StoredMesh
+  read_abaqus_mesh(const std::string &filename, const FileRefusal &refuse)
+  {
+    AbaqusFile file(
+      plain_text(read_input_bytes(filename, refuse, largest_mesh_MB), refuse),
+      refuse);
+    return std::move(file.mesh);
+  }
+} // namespace Debond

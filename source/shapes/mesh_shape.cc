@@ -1,0 +1,91 @@
+#include <debond/shapes/body_geometry.h>
+#include <debond/shapes/body_parameters.h>
+#include <debond/shapes/faces_of_mesh.h>
+
+#include <algorithm>
+#include <tuple>
+
+namespace Debond
+{
+  namespace
+  {
+    /** The hexahedra of a file, where the file has them. */
+    class MeshShape : public BodyGeometry
+    {
+    public:
+      std::string
+      name() const override
+      {
+        return "file";
+      }
+      std::string
+      description() const override
+      {
+        return "the hexahedra of a Mesh file";
+      }
+      bool
+      is_for_bone() const override
+      {
+        return true;
+      }
+      std::vector<std::string>
+      entries() const override
+      {
+        return {"Mesh file"};
+      }
+
+      void
+      check(const BodyParameters &body, const EntryCheck &refuse) const override
+      {
+        for (const auto &[is_set, entry, expected] :
+             {std::make_tuple(body.element == ElementKind::spline,
+                              "Element",
+                              "trilinear or quadratic"),
+              std::make_tuple(body.coarser_below, "Coarser below", "false"),
+              std::make_tuple(body.cells_under_implant > 0,
+                              "Cells under implant",
+                              "0"),
+              std::make_tuple(body.lateral_grading != 1.,
+                              "Lateral grading",
+                              "1"),
+              std::make_tuple(body.layer_grading != 1., "Layer grading", "1"),
+              std::make_tuple(body.bulk_solver == BulkSolver::multigrid ||
+                                body.bulk_solver == BulkSolver::lattice,
+                              "Bulk solver",
+                              "direct")})
+          refuse(is_set,
+                 entry,
+                 std::string("the cells are those of a file: expected ") +
+                   expected);
+      }
+
+      double
+      width(const BodyParameters &body,
+            const unsigned int    direction) const override
+      {
+        return body.box_of_face[1][direction] - body.box_of_face[0][direction];
+      }
+      // how far it reaches from z = 0
+      double
+      thickness(const BodyParameters &body) const override
+      {
+        return std::max(-body.box_of_mesh[0][2], body.box_of_mesh[1][2]);
+      }
+
+      NurbsSurface
+      contact_face(const BodyParameters &body, const Side side) const override
+      {
+        return contact_surface_of(*body.mesh, body.degree_of_faces(), side);
+      }
+    };
+  } // namespace
+
+
+
+  const BodyGeometry &
+  mesh_geometry()
+  {
+    static const MeshShape shape;
+    return shape;
+  }
+} // namespace Debond

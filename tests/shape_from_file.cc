@@ -1,0 +1,196 @@
+// Coin and block written to files of Gmsh and read again, Shape = file.
+// - Of the first order, also with cells in another order and turned: the curve
+//   of the bodies themselves with Contact surface = bilinear, of which they are
+//   another description.
+// - Of the second order: faces through nine points of the disk, which tend to
+//   it, with the curve, by more than the second order.
+
+#include <debond/output/torque_curve.h>
+
+#include <algorithm>
+
+#include "driven_scene.h"
+#include "mesh_writer.h"
+
+using namespace Debond;
+
+const char *const torsion = R"(
+subsection Interface
+  set Quadrature points = 5
+end
+subsection Bone
+  set Material = linear
+end
+subsection Implant
+  set Material = linear
+end
+subsection Chuck
+  subsection Translation z
+    set Value = -0.0049 * min(t, 1)
+  end
+  subsection Rotation z
+    set Value = 4 * max(t - 1, 0)
+  end
+end
+subsection Load steps
+  set Times = 0, 1, 2
+  set Steps = 1, 40
+  set Residual tolerance = 1e-11
+end
+)";
+
+using Overrides = std::vector<std::string>;
+
+Overrides
+operator+(Overrides list, const Overrides &more)
+{
+  list.insert(list.end(), more.begin(), more.end());
+  return list;
+}
+
+/** Writes the bodies of the scene with these entries; the entries for the scene
+ *  with the files. */
+Overrides
+files_of(const std::string &name,
+         const Overrides   &entries,
+         const unsigned int order,
+         const bool         shuffled)
+{
+  const Scene scene = Scene::from_text(torsion, entries);
+  Overrides   result;
+  for (const Side side : both_sides)
+    {
+      const bool        is_bone  = side == Side::bone;
+      const std::string section  = is_bone ? "Bone" : "Implant";
+      const std::string filename = name + "_" + name_of(side) + ".msh";
+      write_msh(BulkSpace(is_bone ? scene.bone : scene.implant, side),
+                filename,
+                order,
+                shuffled);
+      result.push_back(section + "/Shape=file");
+      result.push_back(section + "/Mesh file=" + filename);
+    }
+  return result;
+}
+
+/** Largest difference of torques and forces, relative to the largest. */
+double
+difference(const std::vector<TorqueRow> &rows,
+           const std::vector<TorqueRow> &others)
+{
+  double torque = 0, force = 0, torques = 0, forces = 0;
+  if (rows.size() != others.size())
+    return 1;
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    {
+      grow(torques, std::abs(rows[i].torque_Nmm));
+      grow(forces, std::abs(rows[i].force_N));
+      grow(torque, std::abs(rows[i].torque_Nmm - others[i].torque_Nmm));
+      grow(force, std::abs(rows[i].force_N - others[i].force_N));
+    }
+  return std::max(torque / torques, force / forces);
+}
+
+void
+first_order(const std::string &what, const Overrides &materials)
+{
+  const Overrides bilinear =
+    materials + Overrides{"Bone/Contact surface=bilinear",
+                          "Implant/Contact surface=bilinear"};
+  const auto rows = run_scene("bilinear", torsion, bilinear);
+  for (const bool shuffled : {false, true})
+    report(what + (shuffled ? ", cells turned" : ""),
+           difference(rows,
+                      run_scene("file",
+                                torsion,
+                                materials +
+                                  files_of("first", bilinear, 1, shuffled))),
+           1e-10);
+}
+
+// Rigid bodies, pressed together: the force over stiffness and depth is the
+// area of the faces.
+double
+area_of_coin(const unsigned int n, const unsigned int order)
+{
+  write_coin("area.msh", 2.5, 3., n, order);
+  const auto rows = run_scene("area",
+                              torsion,
+                              {"Bone/Material=rigid",
+                               "Implant/Material=rigid",
+                               "Implant/Shape=file",
+                               "Implant/Mesh file=area.msh",
+                               "Chuck/Rotation z/Value=0",
+                               "Load steps/Times=0, 1",
+                               "Load steps/Steps=1"});
+  return std::abs(rows.back().force_N) / (585 * 0.0049);
+}
+
+void
+area()
+{
+  for (const unsigned int order : {1, 2})
+    {
+      double before = 0;
+      for (const unsigned int n : {0, 1, 2, 3})
+        {
+          const double error =
+            std::abs(area_of_coin(n, order) / (M_PI * 2.5 * 2.5) - 1);
+          if (n > 1)
+            report("area of a coin of faces of degree " +
+                     std::to_string(order) + ": error over that before",
+                   error / before,
+                   order == 1 ? 0.26 : 0.066);
+          before = error;
+        }
+    }
+}
+
+// The coin of quadratic cells from a file and that of splines, on the same
+// bone: with finer cells the same curve.
+void
+quadratic()
+{
+  const Overrides bone{"Bone/Element=quadratic",
+                       "Bone/Cells=16, 16, 3",
+                       "Bone/Cells under implant=8"};
+  const auto      splines = run_scene("splines",
+                                 torsion,
+                                 bone + Overrides{"Implant/Element=spline",
+                                                  "Implant/Cells=16, 4"});
+  double          before  = 0;
+  for (const unsigned int n : {0, 1, 2})
+    {
+      write_coin("quadratic.msh", 2.5, 3., n, 2);
+      const double error =
+        difference(splines,
+                   run_scene("quadratic",
+                             torsion,
+                             bone +
+                               Overrides{"Implant/Element=quadratic",
+                                         "Implant/Shape=file",
+                                         "Implant/Mesh file=quadratic.msh"}));
+      report("curve of a coin of quadratic cells",
+             error,
+             n == 0 ? 3e-2 :
+             n == 1 ? 3e-3 :
+                      3e-4);
+      before = error;
+    }
+}
+
+void
+test()
+{
+  first_order("linear", {});
+  first_order("neo-hookean",
+              {"Bone/Material=neo-hookean", "Implant/Material=neo-hookean"});
+  area();
+  quadratic();
+}
+
+int
+main()
+{
+  return run_test(test);
+}

@@ -83,10 +83,9 @@ namespace Debond
       bool
       linearise(const Eigen::VectorXd &v) override
       {
-        // The patterns stay, with the memory that they took: only values
-        // change.
+        // The patterns stay; values are needed until CHOLMOD has them.
         for (const auto &block : blocks)
-          block->K = 0.;
+          block->K.reinit(block->pattern);
         Eigen::MatrixXd                              tangent;
         dealii::FullMatrix<double>                   K;
         std::vector<dealii::types::global_dof_index> dofs;
@@ -107,9 +106,12 @@ namespace Debond
         // their choice takes effect.
         std::vector<Condensation> attempts(blocks.size());
         for (unsigned int k = 0; k < blocks.size(); ++k)
-          if (!attempts[k].factorise(blocks[k]->lower_triangle(),
-                                     blocks[k]->condensed))
-            return false;
+          {
+            const SymmetricSparseMatrix lower = blocks[k]->lower_triangle();
+            blocks[k]->K.clear();
+            if (!attempts[k].factorise(lower, blocks[k]->condensed))
+              return false;
+          }
         for (unsigned int k = 0; k < blocks.size(); ++k)
           blocks[k]->condensation = std::move(attempts[k]);
         return true;
@@ -335,7 +337,6 @@ namespace Debond
               constraints.add_entries_local_to_global(dofs, pattern, false);
             }
         block.pattern.copy_from(pattern);
-        block.K.reinit(block.pattern);
       }
 
       const std::optional<MirrorSymmetry> symmetry; ///< of small strains

@@ -48,13 +48,12 @@ namespace Debond
 
 
 
-    /** Images in mirror @p d of some nodes, of which no two are at the same
+    /** Images in both mirrors of some nodes, of which no two are at the same
      *  place, put into @p images. False if one of them has none. */
     bool
-    find_images(const BulkSpace                 &space,
-                const unsigned int               d,
-                const std::vector<unsigned int> &nodes,
-                std::vector<unsigned int>       &images)
+    find_images(const BulkSpace                          &space,
+                const std::vector<unsigned int>          &nodes,
+                std::array<std::vector<unsigned int>, 2> &images)
     {
       std::vector<dealii::Point<3>> places;
       double                        extent = 0.;
@@ -66,25 +65,26 @@ namespace Debond
         }
       const auto                tree = dealii::pack_rtree_of_indices(places);
       std::vector<unsigned int> nearest;
-      for (unsigned int k = 0; k < nodes.size(); ++k)
-        {
-          const unsigned int node = nodes[k];
-          if (images[node] != dealii::numbers::invalid_unsigned_int)
-            continue; // it is an image itself
-          dealii::Point<3> mirrored = places[k];
-          mirrored[d]               = -mirrored[d];
-          nearest.clear();
-          tree.query(boost::geometry::index::nearest(mirrored, 1),
-                     std::back_inserter(nearest));
-          const unsigned int image = nodes[nearest.front()];
-          if (places[nearest.front()].distance(mirrored) > rounding * extent)
-            return false;
-          for (unsigned int c = 0; c < 3; ++c)
-            if (space.is_fixed(node, c) != space.is_fixed(image, c))
+      for (const unsigned int d : {0, 1})
+        for (unsigned int k = 0; k < nodes.size(); ++k)
+          {
+            const unsigned int node = nodes[k];
+            if (images[d][node] != dealii::numbers::invalid_unsigned_int)
+              continue; // it is an image itself
+            dealii::Point<3> mirrored = places[k];
+            mirrored[d]               = -mirrored[d];
+            nearest.clear();
+            tree.query(boost::geometry::index::nearest(mirrored, 1),
+                       std::back_inserter(nearest));
+            const unsigned int image = nodes[nearest.front()];
+            if (places[nearest.front()].distance(mirrored) > rounding * extent)
               return false;
-          images[node]  = image;
-          images[image] = node;
-        }
+            for (unsigned int c = 0; c < 3; ++c)
+              if (space.is_fixed(node, c) != space.is_fixed(image, c))
+                return false;
+            images[d][node]  = image;
+            images[d][image] = node;
+          }
       return true;
     }
 
@@ -130,16 +130,21 @@ namespace Debond
     for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
       cell_of.emplace(sorted(space.cells()[cell].nodes), cell);
 
+    for (const unsigned int d : {0, 1})
+      {
+        result.image[d].assign(space.n_nodes(),
+                               dealii::numbers::invalid_unsigned_int);
+        if (!has_mirrored_functions(space.surface(), d))
+          return {};
+      }
+    for (const auto &kind : kinds)
+      if (!find_images(space, kind, result.image))
+        return {};
+
     std::array<std::vector<unsigned int>, 2> image_of_cell;
     for (const unsigned int d : {0, 1})
       {
-        std::vector<unsigned int> &image = result.image[d];
-        image.assign(space.n_nodes(), dealii::numbers::invalid_unsigned_int);
-        if (!has_mirrored_functions(space.surface(), d))
-          return {};
-        for (const auto &kind : kinds)
-          if (!find_images(space, d, kind, image))
-            return {};
+        const std::vector<unsigned int> &image = result.image[d];
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
           {
             std::vector<unsigned int> nodes = space.cells()[cell].nodes;

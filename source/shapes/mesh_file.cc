@@ -605,7 +605,13 @@ namespace Debond
         }
       Pieces pieces(n_faces);
       for (const auto &[edge, beside] : faces_at_edge)
-        pieces.join(beside.front(), beside.back());
+        {
+          if (beside.size() > 2)
+            refuse("more than two faces named contact meet at the edge " +
+                   at(0.5 * (vertex_points[edge[0]] + vertex_points[edge[1]])) +
+                   ": expected a surface");
+          pieces.join(beside.front(), beside.back());
+        }
       if (pieces.number() > 1)
         refuse("its contact face is in " + std::to_string(pieces.number()) +
                " pieces that have no edge in common: expected one");

@@ -247,7 +247,7 @@ namespace Debond
         !boost::starts_with(bytes, "$NOD"))
       refuse("this is no mesh of Gmsh: it does not begin with $MeshFormat");
     boost::trim_right(bytes, std::locale::classic());
-    if (!boost::istarts_with(bytes.substr(bytes.rfind('\n') + 1), "$End"))
+    if (!boost::starts_with(bytes.substr(bytes.rfind('\n') + 1), "$End"))
       refuse("this file is cut off: its last line is not $End...");
 
     static std::mutex                 one_at_a_time; // Gmsh is of globals

@@ -47,6 +47,7 @@
 // the rows (doc/example/torque_curve.cc).
 using namespace Debond;
 
+
 namespace
 {
   // <h3>The command line</h3>
@@ -544,7 +545,9 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
   // The first code of all that runs, before the constructors of the libraries:
   // some of what they call, templates, the linker takes from this program.
   __attribute__((section(".preinit_array"),
-                 used)) void (*const first_call)() = require_instructions;
+                 used)) void (*const first_call)()  = require_instructions;
+  __attribute__((section(".preinit_array"),
+                 used)) void (*const second_call)() = remember_ignored_signals;
 } // namespace
 
 

@@ -2,8 +2,9 @@
 // - Of the first order, also with cells in another order and turned: the curve
 //   of the bodies themselves with Contact surface = bilinear, of which they are
 //   another description.
-// - Of the second order: faces through nine points of the disk, which tend to
-//   it, with the curve, by more than the second order.
+// - Coins of straight and of curved faces: the area of the disk, with the order
+//   of the faces; of quadratic cells, the curve of splines.
+// - Points that slide over the ridges between faces: friction is mu N.
 
 #include <debond/output/torque_curve.h>
 
@@ -179,6 +180,42 @@ quadratic()
     }
 }
 
+// Pushed sideways over ten faces, in steps of a few micrometres: on ridges,
+// where the equations have no solution on either side, points are held, and no
+// step fails. With all bonds broken the force is mu_b N.
+void
+ridges()
+{
+  const char *const shear = R"(
+subsection Bone
+  set Material = linear
+  set Cells    = 18, 18, 3
+  set Contact surface = bilinear
+end
+subsection Implant
+  set Material = linear
+end
+subsection Chuck
+  subsection Translation z
+    set Value = -0.0049 * min(t, 1)
+  end
+  subsection Translation x
+    set Value = 0.4 * max(t - 1, 0)
+  end
+end
+subsection Load steps
+  set Times = 0, 1, 2
+  set Steps = 1, 100
+end
+)";
+  const auto        rows  = run_scene("ridges", shear);
+  report("sliding over ridges: rows are those planned", rows.size() == 102);
+  const auto &end = rows.back().chuck_reaction;
+  report("friction over the normal force",
+         std::abs(std::abs(end[0] / end[2]) / 0.4 - 1),
+         1e-3);
+}
+
 void
 test()
 {
@@ -187,6 +224,7 @@ test()
               {"Bone/Material=neo-hookean", "Implant/Material=neo-hookean"});
   area();
   quadratic();
+  ridges();
 }
 
 int

@@ -63,7 +63,7 @@ namespace Debond
         !linearise(at_rest))
       throw EntryError(
         std::string(body_mesh.side() == Side::bone ? "Bone" : "Implant") +
-          " / Cells",
+          (body_mesh.has_lattice() ? " / Cells" : " / Mesh file"),
         "the stiffness of this body is not positive definite: its cells are "
         "too thin, or its Poisson ratio is too close to 0.5");
   }

@@ -270,16 +270,8 @@ namespace Debond
   {
     constexpr unsigned int max_iterations = 30;
     Vector2d               xi             = start;
+    held                                  = {{false, false}};
     evaluate(xi, result.basis);
-    // |h|/|a| is a distance: it cannot be smaller than the rounding of
-    // positions, which are of the size of the surface, and of the sliding
-    // distance found from them, which moves the traction
-    const double rounding =
-      1e-16 * (x.norm() + geometry.a1.norm() + geometry.a2.norm());
-    const auto round_off = [&] {
-      return rounding * (1. + std::abs(equations->resistance_slope()) /
-                                law.tangential_penalty);
-    };
     unsigned int pushes = 0;
     for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
       {
@@ -299,9 +291,94 @@ namespace Debond
           break;
       }
     if (distance_error() > 100. * round_off())
-      return SlipOutcome::not_found;
+      return master.surface->has_ridges() ? solve_with_ridges(xi, result) :
+                                            SlipOutcome::not_found;
     result.state.xi = xi;
     return SlipOutcome::solved;
+  }
+
+
+
+  // The step of Newton's method within an element. Parameters at a side beyond
+  // which it leads stay, and the other one has a step of its own.
+  SlipProblem::ElementStep
+  SlipProblem::step_in_element(const NurbsSurface::Place &place) const
+  {
+    const auto            box   = master.surface->element_bounds(place.element);
+    const SlipEquations  &e     = *equations;
+    const Eigen::Matrix2d slope = e.along_surface().h;
+    ElementStep           result{-slope.inverse() * e.h};
+    for (unsigned int d = 0; d < 2; ++d)
+      result.beyond[d] = (place.xi[d] <= box[0][d] && result.step[d] < 0.) ||
+                         (place.xi[d] >= box[1][d] && result.step[d] > 0.);
+    for (unsigned int d = 0; d < 2; ++d)
+      if (result.beyond[d])
+        {
+          const unsigned int o = 1 - d;
+          result.step[d]       = 0.;
+          result.step[o]       = result.beyond[o] ? 0. : -e.h[o] / slope(o, o);
+        }
+    return result;
+  }
+
+
+
+  // Where faces meet at an angle tangents jump, and the equations may have no
+  // solution: each side leads to the other one. Then the ridge holds xi_hat,
+  // and what is left to solve is along it. The equations across are missed by
+  // the gap along the normal times the angle, a small part of the elastic gap.
+  SlipOutcome
+  SlipProblem::solve_with_ridges(const Vector2d     &start,
+                                 ContactPointResult &result)
+  {
+    constexpr unsigned int max_iterations = 60;
+    constexpr double       negligible     = 1e-13; // of a parameter
+    const NurbsSurface    &surface        = *master.surface;
+    NurbsSurface::Place    now{surface.element_of(start), start};
+    evaluate_in(now, result.basis);
+    for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
+      {
+        const auto        box  = surface.element_bounds(now.element);
+        const ElementStep here = step_in_element(now);
+        if (!here.step.allFinite())
+          return SlipOutcome::not_found;
+        const Vector2d target =
+          (now.xi + here.step).cwiseMax(box[0]).cwiseMin(box[1]);
+        const double step = (target - now.xi).cwiseAbs().maxCoeff();
+        if (step > negligible && error_within(here.beyond) > round_off())
+          {
+            now.xi = target;
+            evaluate_in(now, result.basis);
+            continue;
+          }
+        // solved within the element, or at a side that the equations lead over
+        bool moved = false;
+        if (here.beyond[0] || here.beyond[1])
+          for (const NurbsSurface::Place &beside :
+               surface.places_beside(now.element, now.xi))
+            {
+              evaluate_in(beside, result.basis);
+              const ElementStep there = step_in_element(beside);
+              if (there.step.allFinite() && !there.beyond[0] &&
+                  !there.beyond[1] &&
+                  there.step.cwiseAbs().maxCoeff() > negligible)
+                {
+                  now   = beside;
+                  moved = true;
+                  break;
+                }
+            }
+        if (moved)
+          continue;
+        evaluate_in(now, result.basis);
+        const auto end = surface.end_of_surface(now.element, now.xi);
+        if ((here.beyond[0] && end[0] != 0) || (here.beyond[1] && end[1] != 0))
+          return SlipOutcome::left_patch;
+        held            = here.beyond;
+        result.state.xi = now.xi;
+        return SlipOutcome::solved;
+      }
+    return SlipOutcome::not_found;
   }
 
 
@@ -370,9 +447,18 @@ namespace Debond
       }
     const auto by_w  = e.along_w();
     const auto by_xi = e.along_surface();
-    result.dxi       = -by_xi.h.inverse() * by_w.h;
-    result.dt        = by_w.traction + by_xi.traction * result.dxi;
-    result.dslip     = by_w.distance + by_xi.distance * result.dxi;
+    // what a ridge holds does not move
+    Eigen::Matrix2d inverse = by_xi.h.inverse();
+    for (unsigned int d = 0; d < 2; ++d)
+      if (held[d])
+        {
+          inverse.setZero();
+          if (!held[1 - d])
+            inverse(1 - d, 1 - d) = 1. / by_xi.h(1 - d, 1 - d);
+        }
+    result.dxi   = -inverse * by_w.h;
+    result.dt    = by_w.traction + by_xi.traction * result.dxi;
+    result.dslip = by_w.distance + by_xi.distance * result.dxi;
   }
 
 
@@ -382,10 +468,32 @@ namespace Debond
   inline void
   SlipProblem::evaluate(const Vector2d &xi, SurfaceBasis &basis)
   {
-    master.surface->evaluate(xi, basis, true);
+    evaluate_in({master.surface->element_of(xi), xi}, basis);
+  }
+
+
+
+  inline void
+  SlipProblem::evaluate_in(const NurbsSurface::Place &place,
+                           SurfaceBasis              &basis)
+  {
+    master.surface->evaluate_in_element(place.element, place.xi, basis, true);
     contract(basis, *master.positions, true, geometry);
     equations.emplace(
       law, friction, history, x, y_old, geometry, master.outward_sign);
+  }
+
+
+
+  // |h|/|a| is a distance: it cannot be smaller than the rounding of positions,
+  // which are of the size of the surface, and of the sliding distance found
+  // from them, which moves the traction.
+  inline double
+  SlipProblem::round_off() const
+  {
+    return 1e-16 * (x.norm() + geometry.a1.norm() + geometry.a2.norm()) *
+           (1. +
+            std::abs(equations->resistance_slope()) / law.tangential_penalty);
   }
 
 
@@ -397,6 +505,17 @@ namespace Debond
   {
     return Vector2d(equations->h[0] / geometry.a1.norm(),
                     equations->h[1] / geometry.a2.norm())
+      .norm();
+  }
+
+
+
+  // That along parameters that are not held.
+  double
+  SlipProblem::error_within(const std::array<bool, 2> &beyond) const
+  {
+    return Vector2d(beyond[0] ? 0. : equations->h[0] / geometry.a1.norm(),
+                    beyond[1] ? 0. : equations->h[1] / geometry.a2.norm())
       .norm();
   }
 } // namespace Debond

@@ -55,16 +55,6 @@ namespace Debond
 
 
 
-  unsigned int
-  BodyParameters::degree_of_faces() const
-  {
-    return contact_surface == SurfaceKind::bilinear ? 1 :
-           element == ElementKind::quadratic        ? 2 :
-                                                      mesh->order;
-  }
-
-
-
   void
   BodyParameters::read_mesh(const std::string &section)
   {
@@ -297,8 +287,8 @@ namespace Debond
               "on the z axis. Names of groups of faces say what they are: "
               "contact, held, and slides x or slides y for what is held along "
               "x or y only; the others are free. The contact face is bilinear, "
-              "or of degree two where the file is of the second order or "
-              "Element = quadratic.");
+              "or of degree two with Element = quadratic, which files of the "
+              "second order need.");
   }
 
 
@@ -585,6 +575,9 @@ namespace Debond
                entry,
                "it has no meaning for this Shape, " + geometry.name() +
                  ": give " + boost::join(own, " and "));
+      refuse(body.mesh && body.cells != usual.cells,
+             "Cells",
+             "the cells are those of a file: leave it out");
       geometry.check(body, refuse);
     }
   } // namespace

@@ -57,6 +57,11 @@ namespace Debond
                  entry,
                  std::string("the cells are those of a file: expected ") +
                    expected);
+        refuse(body.mesh && body.mesh->order == 2 &&
+                 body.element == ElementKind::trilinear,
+               "Element",
+               "the cells of the file are of the second order: expected "
+               "quadratic");
       }
 
       double
@@ -75,7 +80,9 @@ namespace Debond
       NurbsSurface
       contact_face(const BodyParameters &body, const Side side) const override
       {
-        return contact_surface_of(*body.mesh, body.degree_of_faces(), side);
+        const unsigned int degree =
+          body.element == ElementKind::quadratic ? 2 : 1;
+        return contact_surface_of(*body.mesh, degree, side);
       }
     };
   } // namespace

@@ -13,6 +13,7 @@ namespace Debond
   namespace
   {
     volatile std::sig_atomic_t arrived = 0;
+    bool                       is_ignored[NSIG]; // when the program began
     /** A pipe, because a signal may be handled by any thread and need not
      *  interrupt what the main one waits for. */
     int pipe_ends[2] = {-1, -1};
@@ -39,6 +40,19 @@ namespace Debond
 
 
   void
+  remember_ignored_signals()
+  {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1})
+      {
+        struct sigaction action = {};
+        sigaction(signal, nullptr, &action);
+        is_ignored[signal] = action.sa_handler == SIG_IGN;
+      }
+  }
+
+
+
+  void
   catch_interruptions()
   {
     if (pipe_ends[0] < 0 && pipe2(pipe_ends, O_CLOEXEC | O_NONBLOCK) != 0)
@@ -47,8 +61,11 @@ namespace Debond
       {
         struct sigaction action = {};
         sigaction(signal, nullptr, &action);
-        if (action.sa_handler == SIG_IGN)
-          continue; // nohup
+        if (action.sa_handler == SIG_IGN || is_ignored[signal])
+          {
+            std::signal(signal, SIG_IGN); // nohup
+            continue;
+          }
         action.sa_handler = handle;
         action.sa_flags   = SA_RESTART;
         sigaction(signal, &action, nullptr);

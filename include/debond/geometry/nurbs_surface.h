@@ -109,6 +109,13 @@ namespace Debond
       return points.cols();
     }
 
+    /** Whether its elements meet at angles. */
+    bool
+    has_ridges() const
+    {
+      return degree() == 1 || !is_one_patch();
+    }
+
     /** Of one patch; of several that of each. */
     const KnotVector &
     knots(const unsigned int direction) const

@@ -275,19 +275,39 @@ namespace Debond
     // distance is smaller.
     void
     evaluate(const Eigen::Vector2d &xi, SurfaceBasis &basis);
+    void
+    evaluate_in(const NurbsSurface::Place &place, SurfaceBasis &basis);
     double
     distance_error() const;
+    double
+    error_within(const std::array<bool, 2> &beyond) const;
+    double
+    round_off() const;
     bool
     search_along(const Eigen::Vector2d &step,
                  double                 error,
                  Eigen::Vector2d       &xi,
                  SurfaceBasis          &basis);
 
+    // Newton's step in an element, and how far it may go; the rest of it that
+    // leads beyond a side where xi_hat lies.
+    struct ElementStep
+    {
+      Eigen::Vector2d     step;
+      std::array<bool, 2> beyond{{false, false}};
+    };
+    ElementStep
+    step_in_element(const NurbsSurface::Place &place) const;
+    SlipOutcome
+    solve_with_ridges(const Eigen::Vector2d &start, ContactPointResult &result);
+
     const ContactPointLaw &law;
     const PointFriction   &friction;
     const PointHistory    &history;
     const Eigen::Vector3d &x, &y_old;
     const MasterSurface   &master;
+    /** Parameters that a ridge of the master holds. */
+    std::array<bool, 2> held{{false, false}};
 
     // The master at the last trial place, and the equations there. They refer
     // to the geometry, so that a new place needs new equations; they are made

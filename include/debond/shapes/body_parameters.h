@@ -130,9 +130,6 @@ namespace Debond
      *  many in all and at the contact face. */
     std::array<unsigned int, 3>
     lattice_of_cells() const;
-    /** Degree of the faces of a mesh: that of the file, or of the elements. */
-    unsigned int
-    degree_of_faces() const;
     /** Mean width of the cells [mm] along x (0) or y (1), under the implant if
      *  a bone has them there. */
     double

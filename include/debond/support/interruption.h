@@ -19,6 +19,11 @@ namespace Debond
     const int signal;
   };
 
+  /** Remembers which signals are ignored, as SIGHUP below nohup. Libraries may
+   *  catch them while they are loaded, as UCX does: before that. */
+  void
+  remember_ignored_signals();
+
   /** From now on SIGINT, SIGTERM, SIGHUP and SIGUSR1, but for those that are
    * ignored, only ask to stop; a second one ends the process at once. */
   void

@@ -35,7 +35,7 @@ ranks() {
   shift
   "$run" "$mpirun" "$n" "$debond" "$@" > said 2>&1
 }
-said() { grep -o -e "$1" said | head -n 1; }
+said() { grep -a -o -e "$1" said | head -n 1; }
 
 echo "two processes"
 ranks 2 $scene || cat said
@@ -87,7 +87,7 @@ done
 exec 9<&-
 # more processes than variants, and a network without memory in common
 ranks 4 $scene --set "Interface/Sliding threshold={{0.02|0.04}}" --threads 1 --jobs 1 --set Output/Directory=idle && echo "some have nothing to do"
-OMPI_MCA_btl=tcp,self ranks 2 $scene --set "Interface/Sliding threshold={{0.02|0.03|0.04}}" --set Output/Directory=tcp && echo "by TCP"
+OMPI_MCA_btl=tcp,self OMPI_MCA_btl_tcp_if_include=lo ranks 2 $scene --set "Interface/Sliding threshold={{0.02|0.03|0.04}}" --set Output/Directory=tcp && echo "by TCP"
 
 echo "a process that is killed"
 "$run" "$mpirun" 2 "$debond" $scene --set "Load steps/Steps=1,400" --set "Output/Checkpoint minutes=1e-9" --set "Output/Fields every=0" --set Output/Directory=killed > said 2>&1 &

@@ -282,8 +282,8 @@ namespace Debond
 
 
 
-    /** Of hexahedra with 20 nodes the middles of faces and of the cell follow
-     *  from the functions of serendipity elements. */
+    // Of hexahedra with 20 nodes the middles of faces and of the cell follow
+    // from the functions of serendipity elements.
     void
     MeshBuilder::place_points()
     {
@@ -367,7 +367,7 @@ namespace Debond
 
 
 
-    /** All determinants may be negative: deal.II turns such a cell around. */
+    // All determinants may be negative: deal.II turns such a cell around.
     bool
     MeshBuilder::is_tangled(const Points &x) const
     {

@@ -543,11 +543,17 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
   // The first code of all that runs, before the constructors of the libraries:
-  // some of what they call, templates, the linker takes from this program.
+  // some of what they call, templates, the linker takes from this program, and
+  // they catch signals.
+  void
+  before_libraries()
+  {
+    require_instructions();
+    remember_ignored_signals();
+  }
+
   __attribute__((section(".preinit_array"),
-                 used)) void (*const first_call)()  = require_instructions;
-  __attribute__((section(".preinit_array"),
-                 used)) void (*const second_call)() = remember_ignored_signals;
+                 used)) void (*const first_call)() = before_libraries;
 } // namespace
 
 

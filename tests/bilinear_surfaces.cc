@@ -27,13 +27,6 @@ const std::vector<std::string> coarse{},
   medium{"Bone/Cells=30, 30, 2", "Implant/Cells=6, 2"};
 
 std::vector<std::string>
-operator+(std::vector<std::string> list, const std::vector<std::string> &more)
-{
-  list.insert(list.end(), more.begin(), more.end());
-  return list;
-}
-
-std::vector<std::string>
 surfaces(const std::string &bone, const std::string &implant)
 {
   return {"Bone/Contact surface=" + bone, "Implant/Contact surface=" + implant};

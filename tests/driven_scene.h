@@ -16,6 +16,16 @@
 
 #include "checks.h"
 
+/** Entries of a scene, and more. */
+inline std::vector<std::string>
+operator+(std::vector<std::string> list, const std::vector<std::string> &more)
+{
+  list.insert(list.end(), more.begin(), more.end());
+  return list;
+}
+
+
+
 /** A scene taken step by step. Steps are not halved: one that does not converge
  *  ends the test. */
 class DrivenScene

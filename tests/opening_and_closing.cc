@@ -44,15 +44,6 @@ both_bodies(const std::string &material)
   return {"Bone/Material=" + material, "Implant/Material=" + material};
 }
 
-std::vector<std::string>
-operator+(std::vector<std::string> list, const std::vector<std::string> &more)
-{
-  list.insert(list.end(), more.begin(), more.end());
-  return list;
-}
-
-
-
 /** Compares two runs from time 5, when both are pressed, to the end. Returns
  * the largest difference of the torque relative to its largest value. */
 double

@@ -42,13 +42,6 @@ end
 
 using Overrides = std::vector<std::string>;
 
-Overrides
-operator+(Overrides list, const Overrides &more)
-{
-  list.insert(list.end(), more.begin(), more.end());
-  return list;
-}
-
 /** Writes the bodies of the scene with these entries; the entries for the scene
  *  with the files. */
 Overrides
@@ -107,6 +100,75 @@ first_order(const std::string &what, const Overrides &materials)
                                 materials +
                                   files_of("first", bilinear, 1, shuffled))),
            1e-10);
+}
+
+/** Where the bone's file has its contact face: within @p half from the axis.
+ * The faces beside it are @p beside. */
+void
+write_small_face(const BulkSpace                 &bone,
+                 const std::string               &filename,
+                 const double                     half,
+                 const dealii::types::boundary_id beside)
+{
+  dealii::Triangulation<3> triangulation;
+  triangulation.copy_triangulation(bone.dof_handler().get_triangulation());
+  for (const auto &face : triangulation.active_face_iterators())
+    if (face->at_boundary() && face->boundary_id() == Boundary::contact &&
+        std::max(std::abs(face->center()[0]), std::abs(face->center()[1])) >
+          half)
+      face->set_boundary_id(beside);
+  write_msh(
+    triangulation,
+    [&](const unsigned int cell, const dealii::Point<3> &p) {
+      const Eigen::Vector3d X =
+        CellFunctions(bone, bone.cells()[cell]).position(p);
+      return dealii::Point<3>(X[0], X[1], X[2]);
+    },
+    filename);
+}
+
+// A contact face that ends on the top of the bone: cells beside it have nodes
+// on its border, which follow its control points. Bilinear faces and trilinear
+// cells have the same functions whichever faces are named, so that the curve
+// is that of the whole face.
+void
+small_face(const std::string &what, const Overrides &materials)
+{
+  const Overrides bilinear =
+    materials + Overrides{"Bone/Contact surface=bilinear",
+                          "Implant/Contact surface=bilinear"};
+  const Scene     scene = Scene::from_text(torsion, bilinear);
+  const BulkSpace bone(scene.bone, Side::bone);
+  write_small_face(bone, "small.msh", 4.3, Boundary::free);
+  const Overrides small{"Bone/Shape=file",
+                        "Bone/Mesh file=small.msh",
+                        "Implant/Contact surface=bilinear"};
+  report(what + ", a contact face that ends on the top",
+         difference(run_scene("bilinear", torsion, bilinear),
+                    run_scene("small", torsion, materials + small)),
+         1e-10);
+
+  // held by the cells beside: then the border of the face is
+  write_small_face(bone, "held.msh", 4.3, Boundary::held);
+  const BulkSpace held(
+    Scene::from_text(torsion, {"Bone/Shape=file", "Bone/Mesh file=held.msh"})
+      .bone,
+    Side::bone);
+  unsigned int n_held = 0, n_wrong = 0;
+  for (unsigned int A = 0; A < held.surface().n_control_points(); ++A)
+    {
+      const unsigned int    node = held.control_point_node(A);
+      const Eigen::Vector3d X    = held.reference_position(node);
+      // 11 x 11 cells of 12.5 mm / 15
+      const bool is_border =
+        std::max(std::abs(X[0]), std::abs(X[1])) > 5.4 * 12.5 / 15.;
+      const bool is_held = held.is_fixed(node, 0) && held.is_fixed(node, 1) &&
+                           held.is_fixed(node, 2);
+      n_held += is_held;
+      n_wrong += is_held != is_border;
+    }
+  report("its border, held by the cells beside",
+         n_held == 4 * 11 && n_wrong == 0);
 }
 
 // Rigid bodies, pressed together: the force over stiffness and depth is the
@@ -222,6 +284,9 @@ test()
   first_order("linear", {});
   first_order("neo-hookean",
               {"Bone/Material=neo-hookean", "Implant/Material=neo-hookean"});
+  small_face("linear", {});
+  small_face("neo-hookean",
+             {"Bone/Material=neo-hookean", "Implant/Material=neo-hookean"});
   area();
   quadratic();
   ridges();

@@ -90,10 +90,8 @@ namespace Debond
     set_boundary_ids();
     if (body_parameters.coarser_below)
       {
-        for (const auto &cell : triangulation.active_cell_iterators())
-          if (cell->face(body_side == Side::bone ? 5 : 4)->boundary_id() ==
-              Boundary::contact)
-            cell->set_refine_flag(dealii::RefinementCase<3>::cut_xy);
+        for (const auto &[cell, face] : cells_at_contact_face(triangulation))
+          cell->set_refine_flag(dealii::RefinementCase<3>::cut_xy);
         triangulation.execute_coarsening_and_refinement();
       }
     dofs.distribute_dofs(vector_fe);
@@ -121,11 +119,11 @@ namespace Debond
         active_cells.emplace_back(cell);
       }
     unsigned int element = 0;
-    for (const auto &cell : cells_at_contact_face(triangulation))
+    for (const auto &[cell, face] : cells_at_contact_face(triangulation))
       {
         Cell &info           = bulk_cells[cell->active_cell_index()];
         info.enriched        = true;
-        info.face            = contact_face_of(cell, body_side);
+        info.face            = ContactFace::of(face, body_side);
         info.surface_element = element++;
       }
   }

@@ -189,10 +189,12 @@ namespace Debond
               result.push_back(upwards ? part + stride : part - stride);
               continue;
             }
-          const double    middle = gauss.point(index[1 - d])[0];
-          Eigen::Vector2d xi     = box[upwards];
-          xi[1 - d] = (1. - middle) * box[0][1 - d] + middle * box[1][1 - d];
-          for (const auto &place : surface.places_beside(element, xi))
+          dealii::Point<2> middle_of_side;
+          middle_of_side[d]     = upwards;
+          middle_of_side[1 - d] = gauss.point(index[1 - d])[0];
+          for (const auto &place :
+               surface.places_beside(element,
+                                     parameters_at(box, middle_of_side)))
             result.push_back(part_of(point_at(place.element, place.xi)));
         }
     return result;

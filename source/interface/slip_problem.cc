@@ -345,7 +345,7 @@ namespace Debond
         const Vector2d target =
           (now.xi + here.step).cwiseMax(box[0]).cwiseMin(box[1]);
         const double step = (target - now.xi).cwiseAbs().maxCoeff();
-        if (step > negligible && error_within(here.beyond) > round_off())
+        if (step > negligible && distance_error(here.beyond) > round_off())
           {
             now.xi = target;
             evaluate_in(now, result.basis);
@@ -499,23 +499,13 @@ namespace Debond
 
 
   // h has the unit of a_alpha times a length. Over |a_alpha| it is the distance
-  // in the surface by which the gap misses what is asked of it [mm].
+  // in the surface by which the gap misses what is asked of it [mm], along the
+  // parameters that are not held.
   inline double
-  SlipProblem::distance_error() const
+  SlipProblem::distance_error(const std::array<bool, 2> &held) const
   {
-    return Vector2d(equations->h[0] / geometry.a1.norm(),
-                    equations->h[1] / geometry.a2.norm())
-      .norm();
-  }
-
-
-
-  // That along parameters that are not held.
-  double
-  SlipProblem::error_within(const std::array<bool, 2> &beyond) const
-  {
-    return Vector2d(beyond[0] ? 0. : equations->h[0] / geometry.a1.norm(),
-                    beyond[1] ? 0. : equations->h[1] / geometry.a2.norm())
+    return Vector2d(held[0] ? 0. : equations->h[0] / geometry.a1.norm(),
+                    held[1] ? 0. : equations->h[1] / geometry.a2.norm())
       .norm();
   }
 } // namespace Debond

@@ -2,6 +2,7 @@
 #include <debond/input/input_file.h>
 #include <debond/input/scene_file.h>
 #include <debond/scene/scene.h>
+#include <debond/shapes/mesh_file.h>
 #include <debond/shapes/modulus_field.h>
 #include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
@@ -44,7 +45,7 @@ namespace Debond
         text += identity_of(component.file);
       for (const BodyParameters *const body : {&scene.bone, &scene.implant})
         if (body->mesh)
-          text += body->identity_of_mesh;
+          text += body->mesh->identity;
       if (scene.bone.modulus && scene.bone.modulus->voxels())
         text += scene.bone.modulus->voxels()->identity;
       return text;

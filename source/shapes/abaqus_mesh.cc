@@ -165,7 +165,7 @@ namespace Debond
                  ": expected one part only, each number once");
         if (parameters.count("ELSET"))
           sets[upper("ELSET")].push_back(unfinished[0]);
-        mesh.add_hexahedron(nodes);
+        mesh.add_hexahedron(nodes, common_places());
         unfinished.clear();
       }
 

@@ -1,8 +1,7 @@
 #include <debond/input/entry_table.h>
-#include <debond/input/input_file.h>
 #include <debond/shapes/body_geometry.h>
 #include <debond/shapes/body_parameters.h>
-#include <debond/shapes/faces_of_mesh.h>
+#include <debond/shapes/mesh_file.h>
 #include <debond/shapes/modulus_field.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
@@ -41,16 +40,20 @@ namespace Debond
   std::array<unsigned int, 3>
   BodyParameters::lattice_of_cells() const
   {
+    return mesh ? mesh->lattice_of_cells() : cells;
+  }
+
+
+
+  std::array<std::array<double, 3>, 2>
+  BodyParameters::corners_of_bone() const
+  {
     if (!mesh)
-      return cells;
-    const double n      = mesh->triangulation.n_active_cells(),
-                 n_face = cells_at_contact_face(mesh->triangulation).size();
-    const auto rounded  = [](const double x) -> unsigned int {
-      return std::lround(std::max(1., x));
-    };
-    return {{rounded(std::sqrt(n_face)),
-             rounded(std::sqrt(n_face)),
-             rounded(n / n_face)}};
+      return {{{{-0.5 * size[0], -0.5 * size[1], -size[2]}},
+               {{0.5 * size[0], 0.5 * size[1], 0.}}}};
+    const auto &[lower, upper] = mesh->box.get_boundary_points();
+    return {
+      {{{lower[0], lower[1], lower[2]}}, {{upper[0], upper[1], upper[2]}}}};
   }
 
 
@@ -65,28 +68,7 @@ namespace Debond
       throw EntryError(section + " / Shape",
                        "it needs the name of a file: " + section +
                          " / Mesh file");
-    mesh              = read_mesh_file(mesh_file, section + " / Mesh file");
-    identity_of_mesh  = identity_of(mesh_file);
-    const auto box_of = [](const auto &points) {
-      std::array<std::array<double, 3>, 2> box{
-        {{{1e300, 1e300, 1e300}}, {{-1e300, -1e300, -1e300}}}};
-      for (const dealii::Point<3> &p : points)
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            box[0][d] = std::min(box[0][d], p[d]);
-            box[1][d] = std::max(box[1][d], p[d]);
-          }
-      return box;
-    };
-    box_of_mesh = box_of(mesh->triangulation.get_vertices());
-    std::vector<dealii::Point<3>> on_face;
-    for (const auto &cell : cells_at_contact_face(mesh->triangulation))
-      {
-        const auto face = cell->face(contact_face_of(cell, Side::bone).number);
-        for (const unsigned int v : face->vertex_indices())
-          on_face.push_back(face->vertex(v));
-      }
-    box_of_face = box_of(on_face);
+    mesh = read_mesh_file(mesh_file, section + " / Mesh file");
   }
 
 

@@ -44,11 +44,6 @@ namespace Debond
       }
 
       double
-      rise(const BodyParameters &body) const override
-      {
-        return height_on_sphere(body.radius, body.cap_radius);
-      }
-      double
       area(const BodyParameters &body) const override
       {
         return 2. * M_PI * body.cap_radius * rise(body);
@@ -63,6 +58,14 @@ namespace Debond
       contact_face(const BodyParameters &body, const Side) const override
       {
         return NurbsSurface::cap(body.radius, body.cap_radius, body.cells[0]);
+      }
+
+    private:
+      /** Height of the rim of the contact face above its centre [mm]. */
+      static double
+      rise(const BodyParameters &body)
+      {
+        return height_on_sphere(body.radius, body.cap_radius);
       }
     };
   } // namespace

@@ -3,7 +3,9 @@
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_tools.h>
 
+#include <map>
 #include <utility>
 
 namespace Debond
@@ -23,89 +25,64 @@ namespace Debond
 
 
 
-  namespace
-  {
-    bool
-    is_contact(const dealii::Triangulation<3>::cell_iterator &cell,
-               const unsigned int                             face)
-    {
-      return cell->at_boundary(face) &&
-             cell->face(face)->boundary_id() == Boundary::contact;
-    }
-  } // namespace
-
-
-
-  std::vector<dealii::Triangulation<3>::active_cell_iterator>
+  std::vector<
+    std::pair<dealii::Triangulation<3>::active_cell_iterator, unsigned int>>
   cells_at_contact_face(const dealii::Triangulation<3> &triangulation)
   {
-    std::vector<dealii::Triangulation<3>::active_cell_iterator> result;
+    std::vector<
+      std::pair<dealii::Triangulation<3>::active_cell_iterator, unsigned int>>
+      result;
     for (const auto &cell : triangulation.active_cell_iterators())
       for (const unsigned int face : cell->face_indices())
-        if (is_contact(cell, face))
-          {
-            result.push_back(cell);
-            break;
-          }
+        if (cell->at_boundary(face) &&
+            cell->face(face)->boundary_id() == Boundary::contact)
+          result.emplace_back(cell, face);
     return result;
   }
 
 
 
-  ContactFace
-  contact_face_of(const dealii::Triangulation<3>::cell_iterator &cell,
-                  const Side                                     side)
-  {
-    for (const unsigned int face : cell->face_indices())
-      if (is_contact(cell, face))
-        return ContactFace::of(face, side);
-    AssertThrow(false, dealii::ExcInternalError());
-    return {};
-  }
-
-
-
   namespace
   {
-    /** Coefficients of the Bernstein polynomials that take these values at the
-     *  ends and in the middle. */
+    /** Of values at the n x n nodes of a face the coefficients of Bernstein
+     *  polynomials, first one direction, then the other. */
     void
-    interpolate(Eigen::Ref<Eigen::Matrix3Xd> x)
+    interpolate(Eigen::Matrix3Xd &x, const unsigned int n)
     {
-      if (x.cols() == 3)
-        x.col(1) = 2. * x.col(1) - 0.5 * (x.col(0) + x.col(2));
+      if (n == 3)
+        for (const unsigned int step : {1, 3})
+          for (unsigned int line = 0; line < 3; ++line)
+            {
+              const unsigned int first = line * (4 - step);
+              x.col(first + step) =
+                2. * x.col(first + step) -
+                0.5 * (x.col(first) + x.col(first + 2 * step));
+            }
     }
   } // namespace
 
 
 
-  // Nodes are those of FE_Q: faces share what they have in common.
+  // Control points are the functions of FE_Q on the face: cells share them.
   NurbsSurface
   contact_surface_of(const FileMesh    &mesh,
                      const unsigned int degree,
                      const Side         side)
   {
+    using dealii::FETools::lexicographic_to_hierarchic_numbering;
+    const auto function     = lexicographic_to_hierarchic_numbering<3>(degree),
+               node         = lexicographic_to_hierarchic_numbering<3>(2);
     const unsigned int    n = degree + 1;
     const dealii::FE_Q<3> fe(degree);
-    const dealii::FE_Q<3> second_order(2);
     dealii::DoFHandler<3> dofs(mesh.triangulation);
     dofs.distribute_dofs(fe);
-    std::vector<unsigned int>                    number_of(dofs.n_dofs(),
-                                        dealii::numbers::invalid_unsigned_int);
-    std::vector<std::vector<unsigned int>>       faces;
-    std::vector<Eigen::Vector3d>                 points;
     std::vector<dealii::types::global_dof_index> indices(fe.n_dofs_per_cell());
-    // number of the function of FE_Q at a place of the unit cell
-    const auto function_at = [](const dealii::FE_Q<3>  &element,
-                                const dealii::Point<3> &place) {
-      unsigned int a = 0;
-      while (element.unit_support_point(a).distance(place) > 1e-10)
-        ++a;
-      return a;
-    };
-    for (const auto &cell : cells_at_contact_face(mesh.triangulation))
+    std::map<dealii::types::global_dof_index, unsigned int> control_point_of;
+    std::vector<std::vector<unsigned int>>                  faces;
+    ControlNet                                              net(3, 0);
+    for (const auto &[cell, number] : cells_at_contact_face(mesh.triangulation))
       {
-        const ContactFace face   = contact_face_of(cell, side);
+        const ContactFace face   = ContactFace::of(number, side);
         const auto        places = mesh.points_of_second_order(cell);
         dealii::DoFHandler<3>::active_cell_iterator(&mesh.triangulation,
                                                     cell->level(),
@@ -113,39 +90,27 @@ namespace Debond
                                                     &dofs)
           ->get_dof_indices(indices);
         std::vector<unsigned int> control_points;
-        Eigen::Matrix3Xd          X(3, n * n);
+        Eigen::Matrix3Xd          x(3, n * n);
         for (unsigned int k = 0; k < n * n; ++k)
           {
-            dealii::Point<3> p;
-            p[face.axes[0]]      = double(k % n) / degree;
-            p[face.axes[1]]      = double(k / n) / degree;
-            p[face.across()]     = face.number % 2;
-            const auto &x        = places[function_at(second_order, p)];
-            X.col(k)             = Eigen::Vector3d(x[0], x[1], x[2]);
-            unsigned int &number = number_of[indices[function_at(fe, p)]];
-            if (number == dealii::numbers::invalid_unsigned_int)
-              {
-                number = points.size();
-                points.emplace_back();
-              }
-            control_points.push_back(number);
+            std::array<unsigned int, 3> i;
+            i[face.axes[0]]  = k % n;
+            i[face.axes[1]]  = k / n;
+            i[face.across()] = number % 2 * degree;
+            const auto &place =
+              places[node[2 / degree * (i[0] + 3 * i[1] + 9 * i[2])]];
+            x.col(k) << place[0], place[1], place[2];
+            const auto found = control_point_of.emplace(
+              indices[function[i[0] + n * i[1] + n * n * i[2]]],
+              control_point_of.size());
+            control_points.push_back(found.first->second);
           }
-        for (unsigned int j = 0; j < n; ++j)
-          interpolate(X.middleCols(n * j, n));
-        for (unsigned int i = 0; i < n; ++i)
-          {
-            Eigen::Matrix3Xd column(3, n);
-            for (unsigned int j = 0; j < n; ++j)
-              column.col(j) = X.col(i + n * j);
-            interpolate(column);
-            for (unsigned int j = 0; j < n; ++j)
-              points[control_points[i + n * j]] = column.col(j);
-          }
+        interpolate(x, n);
+        net.conservativeResize(3, control_point_of.size());
+        for (unsigned int k = 0; k < n * n; ++k)
+          net.col(control_points[k]) = x.col(k);
         faces.push_back(std::move(control_points));
       }
-    ControlNet net(3, points.size());
-    for (unsigned int A = 0; A < points.size(); ++A)
-      net.col(A) = points[A];
     return NurbsSurface(degree, faces, net);
   }
 } // namespace Debond

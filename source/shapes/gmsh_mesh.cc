@@ -172,14 +172,12 @@ namespace Debond
                 if (is_here)
                   place.push_back(p);
               }
-          mesh.nodes_per_hexahedron.insert(type.n_nodes);
+          std::vector<unsigned int> numbers(type.n_nodes);
           for (std::size_t e = 0; e < elements[t].size(); ++e)
             {
-              mesh.hexahedra.emplace_back();
-              mesh.hexahedra.back().fill(StoredMesh::none);
               for (int n = 0; n < type.n_nodes; ++n)
-                mesh.hexahedra.back()[place[n]] =
-                  number.at(nodes[t][e * type.n_nodes + n]);
+                numbers[n] = number.at(nodes[t][e * type.n_nodes + n]);
+              mesh.add_hexahedron(numbers, place);
             }
         }
     }

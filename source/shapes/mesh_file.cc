@@ -27,13 +27,10 @@ namespace Debond
 
 
 
-  namespace
+  const std::vector<unsigned int> &
+  common_places()
   {
-    /** Places of the nodes of Abaqus and VTK: corners around the bottom and the
-     *  top, then the middles of the edges around them and between them. */
-    std::vector<unsigned int>
-    common_places()
-    {
+    static const std::vector<unsigned int> all = []() {
       const std::vector<unsigned int> corners{0, 1, 3, 2, 4, 5, 7, 6};
       std::vector<unsigned int>       places = corners;
       for (const auto &[a, b] : std::vector<std::pair<int, int>>{{0, 1},
@@ -54,15 +51,16 @@ namespace Debond
                 .distance(2. * places_in_hexahedron()[p]) < 0.1)
             places.push_back(p);
       return places;
-    }
-  } // namespace
+    }();
+    return all;
+  }
 
 
 
   void
-  StoredMesh::add_hexahedron(const std::vector<unsigned int> &nodes)
+  StoredMesh::add_hexahedron(const std::vector<unsigned int> &nodes,
+                             const std::vector<unsigned int> &places)
   {
-    static const std::vector<unsigned int> places = common_places();
     nodes_per_hexahedron.insert(nodes.size());
     hexahedra.emplace_back();
     hexahedra.back().fill(StoredMesh::none);
@@ -634,6 +632,14 @@ namespace Debond
                        at(x) + " and " + at(given.first->second) +
                        ": merge duplicate nodes");
             }
+      std::vector<Point> on_face;
+      for (const auto &[corners, face] : faces)
+        if (face.id == Boundary::contact)
+          for (unsigned int c = 0; c < 4; ++c)
+            on_face.push_back(vertex_points[corners[c]]);
+      mesh->box             = dealii::BoundingBox<3>(vertex_points);
+      mesh->box_of_face     = dealii::BoundingBox<3>(on_face);
+      mesh->n_contact_faces = on_face.size() / 4;
       dealii::GridTools::invert_cells_with_negative_measure(vertex_points,
                                                             cells);
       dealii::GridTools::consistently_order_cells(cells);
@@ -672,6 +678,21 @@ namespace Debond
 
 
 
+  std::array<unsigned int, 3>
+  FileMesh::lattice_of_cells() const
+  {
+    const auto rounded = [](const double x) -> unsigned int {
+      return std::lround(std::max(1., x));
+    };
+    const unsigned int across = rounded(std::sqrt(n_contact_faces));
+    return {
+      {across,
+       across,
+       rounded(double(triangulation.n_active_cells()) / n_contact_faces)}};
+  }
+
+
+
   std::vector<dealii::Point<3>>
   FileMesh::points_of_second_order(
     const dealii::Triangulation<3>::cell_iterator &cell) const
@@ -700,6 +721,10 @@ namespace Debond
     const FileRefusal refuse = [&](const std::string &why) {
       throw EntryError(entry, why, filename);
     };
-    return MeshBuilder(read_stored_mesh(filename, refuse), refuse).mesh;
+    const std::string identity = identity_of(filename);
+    const auto        mesh =
+      MeshBuilder(read_stored_mesh(filename, refuse), refuse).mesh;
+    mesh->identity = identity;
+    return mesh;
   }
 } // namespace Debond

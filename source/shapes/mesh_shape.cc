@@ -68,13 +68,14 @@ namespace Debond
       width(const BodyParameters &body,
             const unsigned int    direction) const override
       {
-        return body.box_of_face[1][direction] - body.box_of_face[0][direction];
+        return body.mesh->box_of_face.side_length(direction);
       }
       // how far it reaches from z = 0
       double
       thickness(const BodyParameters &body) const override
       {
-        return std::max(-body.box_of_mesh[0][2], body.box_of_mesh[1][2]);
+        const auto &[lower, upper] = body.mesh->box.get_boundary_points();
+        return std::max(-lower[2], upper[2]);
       }
 
       NurbsSurface

@@ -135,7 +135,7 @@ namespace Debond
             types.push_back(type);
             if ((type == 12 && cell.size() == 8) ||
                 (type == 25 && cell.size() == 20))
-              mesh.add_hexahedron(cell);
+              mesh.add_hexahedron(cell, common_places());
             else if ((type >= 10 && type <= 14) ||
                      (type >= 24 && type != 28 && type != 30 && type <= 33))
               ++mesh

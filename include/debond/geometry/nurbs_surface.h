@@ -15,7 +15,7 @@ namespace Debond
    * The basis functions of one surface element, evaluated at one parametric
    * point xi = (xi^1, xi^2). Derivatives are with respect to the parameters
    * of the patch (which run over one in both directions), not of the element.
-   Only the first @p size entries of each array are valid.
+   * Only the first @p size entries of each array are valid.
    */
   struct SurfaceBasis
   {

@@ -278,9 +278,7 @@ namespace Debond
     void
     evaluate_in(const NurbsSurface::Place &place, SurfaceBasis &basis);
     double
-    distance_error() const;
-    double
-    error_within(const std::array<bool, 2> &beyond) const;
+    distance_error(const std::array<bool, 2> &held = {{false, false}}) const;
     double
     round_off() const;
     bool

@@ -59,12 +59,6 @@ namespace Debond
     /** On the axis. */
     virtual double
     thickness(const BodyParameters &body) const = 0;
-    /** Height of the rim of the contact face above its centre. */
-    virtual double
-    rise(const BodyParameters &) const
-    {
-      return 0.;
-    }
     /** How far it reaches from the axis while it turns. */
     virtual double
     reach(const BodyParameters &body) const;

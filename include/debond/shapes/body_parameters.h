@@ -61,11 +61,8 @@ namespace Debond
     double                cap_radius = 50;       ///< of the sphere [mm]
     /** `Mesh file`, and what is in it if the shape is that of a file; see
      *  read_mesh(). */
-    std::string                     mesh_file, identity_of_mesh;
+    std::string                     mesh_file;
     std::shared_ptr<const FileMesh> mesh;
-    /** Lowest and highest corner of the box around it and of that around its
-     *  contact face [mm]. */
-    std::array<std::array<double, 3>, 2> box_of_mesh{}, box_of_face{};
     /** Number of cells in x, y, z; z along the axis (`Cells = n, m` becomes
      *  n, n, m). */
     std::array<unsigned int, 3> cells{{15, 15, 2}};
@@ -154,13 +151,7 @@ namespace Debond
 
     /** Corners of the box around a bone at rest [mm]. */
     std::array<std::array<double, 3>, 2>
-    corners_of_bone() const
-    {
-      if (mesh)
-        return box_of_mesh;
-      return {{{{-0.5 * size[0], -0.5 * size[1], -size[2]}},
-               {{0.5 * size[0], 0.5 * size[1], 0.}}}};
-    }
+    corners_of_bone() const;
 
     /** Reads the mesh if the shape is that of a file. Throws EntryError. */
     void

@@ -6,6 +6,7 @@
 #include <debond/shapes/side.h>
 
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace Debond
@@ -28,13 +29,11 @@ namespace Debond
     }
   };
 
-  /** Cells of a mesh that have a face on the contact boundary, in the order of
-   *  the surface elements of contact_surface_of(). */
-  std::vector<dealii::Triangulation<3>::active_cell_iterator>
+  /** Cells that have a face on the contact boundary, and its number, in the
+   *  order of the surface elements of contact_surface_of(). */
+  std::vector<
+    std::pair<dealii::Triangulation<3>::active_cell_iterator, unsigned int>>
   cells_at_contact_face(const dealii::Triangulation<3> &triangulation);
-  ContactFace
-  contact_face_of(const dealii::Triangulation<3>::cell_iterator &cell,
-                  Side                                           side);
 
   /** The contact face of a body from a file: a patch for each face of its
    *  cells, of degree 1 (bilinear) or 2, which passes through the four or nine

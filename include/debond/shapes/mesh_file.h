@@ -1,6 +1,7 @@
 #ifndef debond_shapes_mesh_file_h
 #define debond_shapes_mesh_file_h
 
+#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/point.h>
 #include <deal.II/grid/tria.h>
 
@@ -22,6 +23,15 @@ namespace Debond
     dealii::Triangulation<3> triangulation;
     /** 1: hexahedra with 8 nodes, 2: with 20 or 27. */
     unsigned int order = 1;
+    /** Around its vertices, and around those of the contact face [mm]. */
+    dealii::BoundingBox<3> box, box_of_face;
+    unsigned int           n_contact_faces = 0;
+    std::string            identity; ///< of the file, see identity_of()
+
+    /** Cells in x, y, z of a lattice that has as many in all and at the contact
+     *  face. */
+    std::array<unsigned int, 3>
+    lattice_of_cells() const;
 
     /** Where the 27 support points of FE_Q<3>(2) of a cell are, in deal.II's
      *  order. The map of the cell interpolates them; of order 1 it is

@@ -21,6 +21,12 @@ namespace Debond
   const std::vector<dealii::Point<3>> &
   places_in_hexahedron();
 
+  /** Places of the 8 or 20 nodes of Abaqus and VTK, in their order: corners
+   *  around the bottom and the top, then the middles of the edges around them
+   *  and between them. */
+  const std::vector<unsigned int> &
+  common_places();
+
   /** What a file of a mesh says. */
   struct StoredMesh
   {
@@ -37,9 +43,10 @@ namespace Debond
      *  none. */
     std::map<std::string, std::vector<std::array<unsigned int, 4>>> groups;
 
-    /** One with 8 or 20 nodes in the order of Abaqus and VTK. */
+    /** One with nodes at these places. */
     void
-    add_hexahedron(const std::vector<unsigned int> &nodes);
+    add_hexahedron(const std::vector<unsigned int> &nodes,
+                   const std::vector<unsigned int> &places);
   };
 
   /** All versions of Gmsh's .msh. */

@@ -1107,7 +1107,7 @@ def multigrid_model():
                  measured['seconds_contact_tangent']) / n_unknowns('75, 75, 15')
     latency, bandwidth, last_level = 2e-6, 10e9, 1e-3
     lines = []
-    for name, n in (('1.3 M', 1.3e6), ('10 M', 1e7), ('100 M', 1e8)):
+    for name, n in (('1.3 M', 1.3e6), ('10 M', 1e7)):
         across = (5 * n / 3) ** (1 / 3)  # cells across a block of their shape
         of_contact = 8 * 3 * 0.13 * across ** 2  # bytes of the unknowns under the implant
         line = [name]

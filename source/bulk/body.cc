@@ -34,7 +34,9 @@ namespace Debond
     , law(law)
     , unknown_numbers(3 * body_mesh.surface().n_control_points(), -1)
     , is_contact(body_mesh.surface().n_control_points(), false)
-  {}
+  {
+    body_mesh.release_triangulation();
+  }
 
 
 
@@ -136,20 +138,6 @@ namespace Debond
                              Ranks::number() > 1 ?
                                ": it takes one process" :
                                ": leave this entry as it was"));
-  }
-
-
-
-  Eigen::VectorXd
-  Body::to_archive(const Eigen::VectorXd &state) const
-  {
-    return whole_bulk && state.size() > 0 ? body_mesh.gathered(state) : state;
-  }
-
-  Eigen::VectorXd
-  Body::from_archive(const Eigen::VectorXd &state) const
-  {
-    return whole_bulk && state.size() > 0 ? body_mesh.own_part(state) : state;
   }
 
 

@@ -63,6 +63,18 @@ namespace Debond
 
 
 
+  void
+  BulkOfCells::dofs_of(const unsigned int                            cell,
+                       std::vector<dealii::types::global_dof_index> &dofs) const
+  {
+    dofs.clear();
+    for (const unsigned int node : mesh.cells()[cell].nodes)
+      for (unsigned int c = 0; c < 3; ++c)
+        dofs.push_back(3 * node + c);
+  }
+
+
+
   // Cauchy stress [MPa] for pictures: from the Gauss points, where it is
   // most accurate, to the corners of each cell, and there the mean over the
   // cells. The polynomial through the points evaluates no gradient at a

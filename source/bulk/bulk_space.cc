@@ -1,15 +1,17 @@
 #include <debond/bulk/bulk_space.h>
+#include <debond/support/input_error.h>
 #include <debond/support/ranks.h>
 
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/mapping_q.h>
+#include <deal.II/fe/mapping_q1.h>
 #include <deal.II/fe/mapping_q_cache.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
+#include <deal.II/lac/vector.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace Debond
 {
@@ -42,10 +44,6 @@ namespace Debond
                        const NurbsSurface   &face)
     : body_parameters(parameters)
     , body_side(side)
-    , columns(columns_of_rank(
-        parameters.cells,
-        parameters.bulk_solver == BulkSolver::multigrid ? Ranks::own() : 0,
-        parameters.bulk_solver == BulkSolver::multigrid ? Ranks::number() : 1))
     , contact_surface(face)
     , layer_knots(make_layers(parameters))
     , scalar_fe(degree())
@@ -55,38 +53,52 @@ namespace Debond
     if (has_lattice())
       make_grid();
     else
-      take_mesh();
+      triangulation.copy_triangulation(body_parameters.mesh->triangulation);
+    dofs.distribute_dofs(vector_fe);
     n_nodes_of_fe = dofs.n_dofs() / 3;
-    make_mapping();
-    number_nodes();
-    if (has_lattice())
-      complete_cells();
-    if (!has_splines())
-      add_nodes_of_fe();
-    make_constraints();
-    if (has_splines()) // of which nothing but the corners is asked for
+    find_cells();
+    if (has_splines())
+      number_nodes_of_splines();
+    else
       {
-        dofs.clear();
-        triangulation.clear();
+        place_nodes();
+        number_nodes_of_cells();
       }
+    make_mapping();
+    const ControlNet &control_points = contact_surface.control_points();
+    for (unsigned int A = 0; A < control_points.cols(); ++A)
+      reference_positions.push_back(control_points.col(A));
+    make_constraints();
+    deal_out();
+    if (has_splines())
+      release_triangulation();
+  }
+
+
+
+  void
+  BulkSpace::release_triangulation()
+  {
+    active_cells.clear();
+    dofs.clear();
+    triangulation.clear();
   }
 
 
 
   // The cells form a lattice. The triangulation is first made with lattice
-  // indices as coordinates; then each vertex moves to its place. Where cells
-  // are coarser below, the contact layer is refined, across only.
+  // indices as coordinates; place_nodes() moves each vertex to its place. Where
+  // cells are coarser below, the contact layer is refined, across only.
   void
   BulkSpace::make_grid()
   {
-    const auto &n             = body_parameters.cells;
-    const auto &[begin, end]  = columns;
+    const auto        &n      = body_parameters.cells;
     const unsigned int n_wide = body_parameters.coarser_below ? 2 : 1;
     dealii::GridGenerator::subdivided_hyper_rectangle(
       triangulation,
-      {(end[0] - begin[0]) / n_wide, (end[1] - begin[1]) / n_wide, n[2]},
-      dealii::Point<3>(begin[0], begin[1], 0),
-      dealii::Point<3>(end[0], end[1], n[2]));
+      {n[0] / n_wide, n[1] / n_wide, n[2]},
+      dealii::Point<3>(),
+      dealii::Point<3>(n[0], n[1], n[2]));
     set_boundary_ids();
     if (body_parameters.coarser_below)
       {
@@ -94,74 +106,11 @@ namespace Debond
           cell->set_refine_flag(dealii::RefinementCase<3>::cut_xy);
         triangulation.execute_coarsening_and_refinement();
       }
-    dofs.distribute_dofs(vector_fe);
-    find_places_in_lattice();
-    dealii::GridTools::transform(
-      [&](const dealii::Point<3> &p) {
-        const Eigen::Vector3d X = place_in_lattice(p);
-        return dealii::Point<3>(X[0], X[1], X[2]);
-      },
-      triangulation);
   }
 
 
 
-  void
-  BulkSpace::take_mesh()
-  {
-    triangulation.copy_triangulation(body_parameters.mesh->triangulation);
-    dofs.distribute_dofs(vector_fe);
-    for (const auto &cell : dofs.active_cell_iterators())
-      {
-        Cell &info = bulk_cells.emplace_back();
-        for (const unsigned int v : cell->vertex_indices())
-          info.vertices[v] = cell->vertex_dof_index(v, 0) / 3;
-        active_cells.emplace_back(cell);
-      }
-    unsigned int element = 0;
-    for (const auto &[cell, face] : cells_at_contact_face(triangulation))
-      {
-        Cell &info           = bulk_cells[cell->active_cell_index()];
-        info.enriched        = true;
-        info.face            = ContactFace::of(face, body_side);
-        info.surface_element = element++;
-      }
-  }
-
-
-
-  void
-  BulkSpace::find_places_in_lattice()
-  {
-    lattice.resize(dofs.n_dofs() / 3);
-    boxes.resize(triangulation.n_levels());
-    for (const auto &cell : dofs.cell_iterators())
-      {
-        if (degree() == 2 && !has_splines())
-          boxes[cell->level()].push_back({{cell->vertex(0), cell->vertex(7)}});
-        if (!cell->is_active())
-          continue;
-        Cell &info = bulk_cells.emplace_back();
-        for (const unsigned int v : cell->vertex_indices())
-          {
-            const dealii::Point<3> p = cell->vertex(v);
-            info.vertices[v]         = cell->vertex_dof_index(v, 0) / 3;
-            auto &index              = lattice[info.vertices[v]];
-            for (unsigned int d = 0; d < 3; ++d)
-              index[d] = std::lround(p[d]);
-            // layers are counted from the contact face, the bone's top
-            if (body_side == Side::bone)
-              index[2] = body_parameters.cells[2] - index[2];
-          }
-        if (!has_splines())
-          active_cells.emplace_back(cell);
-      }
-  }
-
-
-
-  // Indices say what is at the boundary. Those of a rank's part are none where
-  // it is cut off.
+  // Indices say what is at the boundary.
   void
   BulkSpace::set_boundary_ids()
   {
@@ -181,6 +130,41 @@ namespace Debond
                                 is_side(1)      ? Boundary::slides_y :
                                                   Boundary::free);
         }
+  }
+
+
+
+  // All cells, and which element of the surface they touch or, with splines,
+  // stand above or below. The first vertex of a cell in a lattice is the one
+  // with the least indices; layers are counted from the contact face, the
+  // bone's top.
+  void
+  BulkSpace::find_cells()
+  {
+    for (const auto &cell : dofs.active_cell_iterators())
+      {
+        Cell &info = bulk_cells.emplace_back();
+        for (const unsigned int v : cell->vertex_indices())
+          info.vertices[v] = cell->vertex_dof_index(v, 0) / 3;
+        if (!has_splines())
+          active_cells.emplace_back(cell);
+        if (!has_lattice())
+          continue;
+        const auto            &n     = body_parameters.cells;
+        const dealii::Point<3> first = cell->vertex(0);
+        info.surface_element         = std::lround(first[0] + n[0] * first[1]);
+        info.layer =
+          std::lround(body_side == Side::bone ? n[2] - 1 - first[2] : first[2]);
+      }
+    unsigned int element = 0;
+    for (const auto &[cell, face] : cells_at_contact_face(triangulation))
+      {
+        Cell &info    = bulk_cells[cell->active_cell_index()];
+        info.enriched = true;
+        info.face     = ContactFace::of(face, body_side);
+        if (!has_lattice())
+          info.surface_element = element++;
+      }
   }
 
 
@@ -205,6 +189,48 @@ namespace Debond
                  end    = -outward_sign() * body_parameters.thickness();
     X[2] += (end - X[2]) * between(layer_knots.breakpoints(), layers);
     return X;
+  }
+
+
+
+  // Of FE_Q, and with them the vertices. A file says where they are.
+  void
+  BulkSpace::place_nodes()
+  {
+    reference_positions.resize(n_nodes_of_fe);
+    const auto put = [&](const unsigned int node, const dealii::Point<3> &p) {
+      reference_positions[node] << p[0], p[1], p[2];
+    };
+    if (!has_lattice())
+      {
+        for (const auto &cell : dofs.active_cell_iterators())
+          {
+            const auto nodes = nodes_of_fe(cell);
+            if (degree() == 1)
+              for (const unsigned int v : cell->vertex_indices())
+                put(nodes[v], cell->vertex(v));
+            else
+              {
+                const auto places =
+                  body_parameters.mesh->points_of_second_order(cell);
+                for (unsigned int a = 0; a < nodes.size(); ++a)
+                  put(nodes[a], places[a]);
+              }
+          }
+        return;
+      }
+    std::vector<dealii::Point<3>> indices(dofs.n_dofs());
+    dealii::DoFTools::map_dofs_to_support_points(
+      dealii::StaticMappingQ1<3>::mapping, dofs, indices);
+    for (unsigned int node = 0; node < n_nodes_of_fe; ++node)
+      reference_positions[node] = place_in_lattice(indices[3 * node]);
+    for (const auto &cell : dofs.active_cell_iterators())
+      for (const unsigned int v : cell->vertex_indices())
+        {
+          const Eigen::Vector3d &X =
+            reference_positions[cell->vertex_dof_index(v, 0) / 3];
+          cell->vertex(v) = dealii::Point<3>(X[0], X[1], X[2]);
+        }
   }
 
 
@@ -247,120 +273,76 @@ namespace Debond
         bulk_mapping = std::make_unique<CellByCell<dealii::MappingQ<3>>>(1);
         return;
       }
+    dealii::Vector<double> places(dofs.n_dofs());
+    for (unsigned int dof = 0; dof < places.size(); ++dof)
+      places[dof] = reference_positions[dof / 3][dof % 3];
     auto mapping =
       std::make_unique<CellByCell<dealii::MappingQCache<3>>>(degree());
-    mapping->initialize(
-      triangulation, [&](const dealii::Triangulation<3>::cell_iterator &cell) {
-        if (!has_lattice())
-          return body_parameters.mesh->points_of_second_order(cell);
-        const auto &[corner, opposite] = boxes[cell->level()][cell->index()];
-        std::vector<dealii::Point<3>> places;
-        for (dealii::Point<3> p : scalar_fe.get_unit_support_points())
-          {
-            for (unsigned int d = 0; d < 3; ++d)
-              p[d] = (1. - p[d]) * corner[d] + p[d] * opposite[d];
-            const Eigen::Vector3d X = place_in_lattice(p);
-            places.emplace_back(X[0], X[1], X[2]);
-          }
-        return places;
-      });
+    mapping->initialize(dealii::StaticMappingQ1<3>::mapping,
+                        dofs,
+                        places,
+                        false);
     bulk_mapping = std::move(mapping);
   }
 
 
 
-  // For splines fractions of the depth are Greville abscissae: the map is
-  // linear in the depth, and the sides of a disk are those of a cylinder.
+  // Level by level, that of the contact face last. Fractions of the depth are
+  // Greville abscissae: the map is linear in the depth, and the sides of a disk
+  // are those of a cylinder.
   void
-  BulkSpace::number_nodes()
+  BulkSpace::number_nodes_of_splines()
   {
-    const ControlNet &control_points = contact_surface.control_points();
-    if (has_splines())
+    const ControlNet         &control_points = contact_surface.control_points();
+    const unsigned int        n_in_level     = control_points.cols();
+    const std::vector<double> fractions      = layer_knots.greville_abscissae();
+    const double end = -outward_sign() * body_parameters.thickness();
+    for (unsigned int level = 1; level < fractions.size(); ++level)
+      for (unsigned int A = 0; A < n_in_level; ++A)
+        {
+          Eigen::Vector3d X = control_points.col(A);
+          X[2] += (end - X[2]) * fractions[level];
+          reference_positions.push_back(X);
+        }
+    for (Cell &cell : bulk_cells)
       {
-        const std::vector<double> fractions = layer_knots.greville_abscissae();
-        const double end = -outward_sign() * body_parameters.thickness();
-        for (unsigned int node = 0; node < n_inner_nodes(); ++node)
-          {
-            const auto      i = place_of(node).index;
-            Eigen::Vector3d X = control_points.col(
-              i[0] + contact_surface.knots(0).n_basis_functions() * i[1]);
-            X[2] += (end - X[2]) * fractions[i[2]];
-            reference_positions.push_back(X);
-          }
-      }
-    else
-      {
-        std::vector<dealii::Point<3>> places(dofs.n_dofs());
-        dealii::DoFTools::map_dofs_to_support_points(*bulk_mapping,
-                                                     dofs,
-                                                     places);
-        for (unsigned int node = 0; node < n_inner_nodes(); ++node)
-          reference_positions.emplace_back(places[3 * node][0],
-                                           places[3 * node][1],
-                                           places[3 * node][2]);
-      }
-    for (unsigned int A = 0; A < control_points.cols(); ++A)
-      reference_positions.push_back(control_points.col(A));
-  }
-
-
-
-  // The first vertex of a cell is the one with the least coordinates.
-  void
-  BulkSpace::complete_cells()
-  {
-    const unsigned int n_functions =
-      (contact_surface.degree() + 1) * (contact_surface.degree() + 1);
-    for (Cell &info : bulk_cells)
-      {
-        const auto &first = lattice[info.vertices.front()],
-                   &last  = lattice[info.vertices.back()];
-        info.layer        = std::min(first[2], last[2]);
-        info.enriched     = info.layer == 0;
-        info.face = ContactFace::of(body_side == Side::bone ? 5 : 4, body_side);
-        info.surface_element = first[0] + body_parameters.cells[0] * first[1];
-        if (!has_splines())
-          continue;
-        const auto control_points =
-          contact_surface.element_control_points(info.surface_element);
-        // functions begin with the number of their first cell
-        const auto add_level = [&](const unsigned int level) {
-          const auto        &begin = columns.begin, &end = columns.end;
-          const unsigned int n_1 = end[0] - begin[0] + 2;
-          for (unsigned int a = 0; a < n_functions; ++a)
-            info.nodes.push_back(
-              level == 0 ? control_point_node(control_points[a]) :
-                           (level - 1) * n_in_level() + first[0] - begin[0] +
-                             a % 3 + n_1 * (first[1] - begin[1] + a / 3));
-        };
-        const unsigned int level = layer_knots.first_basis_function(info.layer);
+        const unsigned int level = layer_knots.first_basis_function(cell.layer);
         for (unsigned int k = level; k <= level + layer_knots.degree(); ++k)
-          add_level(k);
+          for (const unsigned int node : nodes_of_element(cell.surface_element))
+            cell.nodes.push_back(
+              k == 0 ? node : node - n_inner_nodes() + (k - 1) * n_in_level);
       }
   }
 
 
 
   void
-  BulkSpace::add_nodes_of_fe()
+  BulkSpace::number_nodes_of_cells()
   {
     for (const auto &cell : dofs.active_cell_iterators())
       {
         Cell &info = bulk_cells[cell->active_cell_index()];
         if (info.enriched)
-          {
-            const auto control_points =
-              contact_surface.element_control_points(info.surface_element);
-            const unsigned int n = contact_surface.degree() + 1;
-            for (unsigned int a = 0; a < n * n; ++a)
-              info.nodes.push_back(control_point_node(control_points[a]));
-          }
+          info.nodes = nodes_of_element(info.surface_element);
         const auto nodes = nodes_of_fe(cell);
         for (unsigned int a = 0; a < nodes.size(); ++a)
           if (!info.enriched ||
               !scalar_fe.has_support_on_face(a, info.face.number))
             info.nodes.push_back(nodes[a]);
       }
+  }
+
+
+
+  std::vector<unsigned int>
+  BulkSpace::nodes_of_element(const unsigned int element) const
+  {
+    const auto control_points = contact_surface.element_control_points(element);
+    const unsigned int        n = contact_surface.degree() + 1;
+    std::vector<unsigned int> nodes;
+    for (unsigned int a = 0; a < n * n; ++a)
+      nodes.push_back(control_point_node(control_points[a]));
+    return nodes;
   }
 
 
@@ -384,77 +366,12 @@ namespace Debond
 
 
 
-  BulkSpace::Place
-  BulkSpace::place_of(const unsigned int node) const
-  {
-    const auto        &n   = body_parameters.cells;
-    const unsigned int n_1 = contact_surface.knots(0).n_basis_functions(),
-                       n_2 = contact_surface.knots(1).n_basis_functions();
-    const bool is_inner    = node < n_inner_nodes();
-    if (is_inner && !has_splines())
-      return {lattice[node], n};
-    const std::array<unsigned int, 3> last{
-      {n_1 - 1, n_2 - 1, layer_knots.n_basis_functions() - 1}};
-    if (!is_inner)
-      {
-        const unsigned int A = node - n_inner_nodes();
-        return {{{A % n_1, A / n_1, 0}}, last};
-      }
-    const unsigned int n_here   = columns.end[0] - columns.begin[0] + 2,
-                       in_level = node % n_in_level();
-    return {{{columns.begin[0] + in_level % n_here,
-              columns.begin[1] + in_level / n_here,
-              1 + node / n_in_level()}},
-            last};
-  }
-
-
-
-  namespace
-  {
-    /** Inner nodes of a whole body along x or y. */
-    unsigned int
-    n_across(const BulkSpace &mesh, const unsigned int direction)
-    {
-      const unsigned int n = mesh.parameters().cells[direction];
-      return mesh.has_splines() ? n + 2 : mesh.degree() * n + 1;
-    }
-  } // namespace
-
-
-
-  unsigned int
-  BulkSpace::number_in_whole(const unsigned int node) const
-  {
-    const auto         i = place_of(node).index;
-    const unsigned int n = n_across(*this, 0) * n_across(*this, 1);
-    if (node >= n_inner_nodes())
-      return n_nodes_of_whole() - n_nodes() + node;
-    return i[0] + n_across(*this, 0) * i[1] +
-           n * (has_splines() ? i[2] - 1 : i[2]);
-  }
-
-
-
-  unsigned int
-  BulkSpace::n_nodes_of_whole() const
-  {
-    const unsigned int n_levels = has_splines() ?
-                                    layer_knots.n_basis_functions() - 1 :
-                                    degree() * body_parameters.cells[2] + 1;
-    return n_across(*this, 0) * n_across(*this, 1) * n_levels +
-           contact_surface.n_control_points();
-  }
-
-
-
   unsigned int
   BulkSpace::n_dofs_as_published() const
   {
-    return 3 * ((has_lattice() ? n_nodes_of_whole() : n_nodes()) -
-                (body_parameters.contact_surface == SurfaceKind::nurbs ?
-                   0 :
-                   contact_surface.n_control_points()));
+    return 3 * (body_parameters.contact_surface == SurfaceKind::nurbs ?
+                  n_nodes() :
+                  n_inner_nodes());
   }
 
 
@@ -462,36 +379,7 @@ namespace Debond
   unsigned int
   BulkSpace::n_unknowns() const
   {
-    if (body_parameters.bulk_solver != BulkSolver::multigrid)
-      return 3 * (n_nodes() - std::count(tied.begin(), tied.end(), true));
-    return 3 * (n_nodes_of_whole() -
-                (has_splines() ? 0 : n_across(*this, 0) * n_across(*this, 1)));
-  }
-
-
-
-  // What several ranks have is the same on all of them.
-  Eigen::VectorXd
-  BulkSpace::gathered(const Eigen::VectorXd &v) const
-  {
-    Eigen::VectorXd whole =
-      Eigen::VectorXd::Constant(3 * n_nodes_of_whole(),
-                                -std::numeric_limits<double>::infinity());
-    for (unsigned int node = 0; node < n_nodes(); ++node)
-      whole.segment<3>(3 * number_in_whole(node)) = v.segment<3>(3 * node);
-    Ranks::take_largest(whole.data(), whole.size());
-    return whole;
-  }
-
-
-
-  Eigen::VectorXd
-  BulkSpace::own_part(const Eigen::VectorXd &whole) const
-  {
-    Eigen::VectorXd v(3 * n_nodes());
-    for (unsigned int node = 0; node < n_nodes(); ++node)
-      v.segment<3>(3 * node) = whole.segment<3>(3 * number_in_whole(node));
-    return v;
+    return 3 * (n_nodes() - std::count(tied.begin(), tied.end(), true));
   }
 
 
@@ -527,7 +415,6 @@ namespace Debond
         if (info.enriched && !has_splines())
           tie(info, nodes_of_fe(cell));
       }
-    tell_held_control_points();
     tie_hanging_nodes();
     follow.close();
     hold_followed_nodes();
@@ -609,21 +496,6 @@ namespace Debond
 
 
 
-  // All ranks know all control points, but each has its own cells.
-  void
-  BulkSpace::tell_held_control_points()
-  {
-    if (body_parameters.bulk_solver != BulkSolver::multigrid)
-      return;
-    const unsigned int  first = 3 * n_inner_nodes();
-    std::vector<double> held(fixed.begin() + first, fixed.end());
-    Ranks::take_largest(held.data(), held.size());
-    for (unsigned int i = 0; i < held.size(); ++i)
-      fixed[first + i] = held[i] == 1.;
-  }
-
-
-
   void
   BulkSpace::tie(const Cell &cell, const std::vector<unsigned int> &nodes_of_fe)
   {
@@ -644,6 +516,45 @@ namespace Debond
                                    N(b, 0));
             }
         }
+  }
+
+
+
+  // Parts of METIS have few faces in common. A node belongs to the first of the
+  // ranks that have a cell with it; those that follow others mostly have none.
+  void
+  BulkSpace::deal_out()
+  {
+    own_nodes                  = dealii::complete_index_set(n_nodes());
+    const unsigned int n_ranks = Ranks::number();
+    if (body_parameters.bulk_solver != BulkSolver::multigrid || n_ranks == 1)
+      return;
+    dealii::GridTools::partition_triangulation(n_ranks, triangulation);
+    std::vector<unsigned int> owner(n_nodes(), n_ranks);
+    std::vector<Cell>         all_cells;
+    all_cells.swap(bulk_cells);
+    active_cells.clear();
+    for (const auto &cell : triangulation.active_cell_iterators())
+      {
+        Cell &info = all_cells[cell->active_cell_index()];
+        for (const unsigned int node : info.nodes)
+          owner[node] = std::min(owner[node], cell->subdomain_id());
+        if (cell->subdomain_id() != Ranks::own())
+          continue;
+        bulk_cells.push_back(std::move(info));
+        active_cells.push_back(cell);
+      }
+    for (unsigned int rank = 0; rank < n_ranks; ++rank)
+      if (std::count(owner.begin(), owner.end(), rank) == 0)
+        throw EntryError("Bone / Bulk solver",
+                         std::to_string(n_ranks) + " processes cannot share " +
+                           std::to_string(all_cells.size()) +
+                           " cells: expected fewer");
+    own_nodes = dealii::IndexSet(n_nodes());
+    for (unsigned int node = 0; node < n_nodes(); ++node)
+      if (owner[node] % n_ranks == Ranks::own())
+        own_nodes.add_index(node);
+    own_nodes.compress();
   }
 
 

@@ -312,16 +312,6 @@ namespace Debond
         return symmetry ? symmetry->n_images(cell) : 1;
       }
 
-      void
-      dofs_of(const unsigned int                            cell,
-              std::vector<dealii::types::global_dof_index> &dofs) const
-      {
-        dofs.clear();
-        for (const unsigned int node : mesh.cells()[cell].nodes)
-          for (unsigned int c = 0; c < 3; ++c)
-            dofs.push_back(3 * node + c);
-      }
-
       // The pattern of K, which is made once.
       void
       add_block(const dealii::AffineConstraints<double> &constraints)

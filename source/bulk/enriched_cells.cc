@@ -50,6 +50,14 @@ namespace Debond
     std::vector<ShapeValues> phi;
     for (const dealii::Point<3> &point : quadrature.get_points())
       phi.push_back(shape_values(mesh.element(), point));
+    if (!body.has_equal_splines())
+      {
+        std::size_t n_functions = 0;
+        for (const BulkSpace::Cell &cell : mesh.cells())
+          n_functions += cell.nodes.size();
+        gradient_list.reserve(3 * n_points() * n_functions);
+        JxW.reserve(n_points() * n_cells());
+      }
     std::map<std::array<unsigned int, 3>, unsigned int> kind_of_place;
     for (unsigned int cell = 0; cell < n_cells(); ++cell)
       {

@@ -1,4 +1,3 @@
-#include <debond/bulk/body_partition.h>
 #include <debond/bulk/bulk_solvers.h>
 #include <debond/bulk/whole_bulk.h>
 #include <debond/support/ranks.h>
@@ -9,15 +8,14 @@
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
 #include <Eigen/Geometry>
-#include <Epetra_Import.h>
 #include <Epetra_Map.h>
-#include <Epetra_MpiComm.h>
 #include <Epetra_MultiVector.h>
 #include <ml_MultiLevelPreconditioner.h>
 
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 // A bulk of any size, of any modulus and on any number of ranks: step-40's
@@ -66,85 +64,26 @@ namespace Debond
   WholeBulk::add_up_at_vertices(std::vector<Eigen::Matrix3d> &stress,
                                 std::vector<double>          &n_cells) const
   {
-    if (Ranks::number() == 1)
-      return;
-    Eigen::Matrix<double, 10, Eigen::Dynamic> sums =
-      Eigen::Matrix<double, 10, Eigen::Dynamic>::Zero(
-        10, mesh.n_vertices_of_whole());
-    for (unsigned int k = 0; k < stress.size(); ++k)
-      {
-        auto column      = sums.col(mesh.vertex_in_whole(k));
-        column.head<9>() = stress[k].reshaped();
-        column[9]        = n_cells[k];
-      }
-    Ranks::add_up(sums);
-    for (unsigned int k = 0; k < stress.size(); ++k)
-      {
-        const auto column = sums.col(mesh.vertex_in_whole(k));
-        stress[k]         = column.head<9>().reshaped(3, 3);
-        n_cells[k]        = column[9];
-      }
+    Ranks::add_up(stress.front().data(), 9 * stress.size());
+    Ranks::add_up(n_cells.data(), n_cells.size());
   }
 
 
 
   namespace
   {
-    /** Index lists of owned and of local degrees of freedom for Trilinos. */
-    struct Maps
-    {
-      Epetra_MpiComm   comm;
-      Epetra_Map       owned, at_nodes;
-      Epetra_Import    import;
-      dealii::IndexSet owned_set;
-
-      /** @p numbers: of the degrees of freedom at nodes that have one. */
-      Maps(const BodyPartition &partition, const std::vector<int> &numbers)
-        : comm(Ranks::communicator())
-        , owned(3 * int(partition.n_nodes()),
-                3 * int(partition.n_owned()),
-                0,
-                comm)
-        , at_nodes(-1, int(numbers.size()), numbers.data(), 0, comm)
-        , import(at_nodes, owned)
-        , owned_set(3 * partition.n_nodes())
-      {
-        owned_set.add_range(3 * partition.first_owned(),
-                            3 *
-                              (partition.first_owned() + partition.n_owned()));
-      }
-    };
-
-
-
     class MultigridBulk : public WholeBulk
     {
     public:
       MultigridBulk(const BulkSpace &mesh, const NeoHookean &material)
         : WholeBulk(mesh, material)
-        , partition(mesh)
+        , rows(3 * mesh.n_nodes())
       {
-        for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
-          if (const int number = partition.number_of(node); number >= 0)
-            for (unsigned int c = 0; c < 3; ++c)
-              {
-                dofs.push_back(3 * node + c);
-                numbers.push_back(3 * number + c);
-              }
-        number_of_dof.assign(3 * mesh.n_nodes(), -1);
-        for (unsigned int k = 0; k < dofs.size(); ++k)
-          number_of_dof[dofs[k]] = numbers[k];
-        dof_of_owned.resize(n_owned());
-        for (unsigned int k = 0; k < dofs.size(); ++k)
-          if (const int place = place_of(numbers[k]); place >= 0)
-            dof_of_owned[place] = dofs[k];
-      }
-
-      /** To be called once by all ranks. */
-      void
-      make_maps()
-      {
-        maps = std::make_unique<Maps>(partition, numbers);
+        for (const auto node : mesh.owned_nodes())
+          for (unsigned int c = 0; c < 3; ++c)
+            owned_dofs.push_back(3 * node + c);
+        rows.add_indices(owned_dofs.begin(), owned_dofs.end());
+        rows.compress();
       }
 
       // Those that this rank owns are known to the others by their places in
@@ -160,9 +99,10 @@ namespace Debond
               const unsigned int node = mesh.control_point_node(A);
               if (!control_points[A] || mesh.is_fixed(node, c))
                 continue;
-              if (const int place = place_of(number_of_dof[3 * node + c]);
-                  place >= 0)
-                owned_unknowns.emplace_back(unknowns.size(), place);
+              if (rows.is_element(3 * node + c))
+                owned_unknowns.emplace_back(unknowns.size(),
+                                            rows.index_within_set(3 * node +
+                                                                  c));
               unknowns.push_back(3 * node + c);
             }
         return unknowns;
@@ -192,38 +132,35 @@ namespace Debond
       unsigned int
       n_owned() const override
       {
-        return 3 * partition.n_owned();
+        return owned_dofs.size();
       }
 
       Eigen::VectorXd
-      assembled(const Eigen::VectorXd &nodes) const override
+      assembled(Eigen::VectorXd nodes) const override
       {
-        Eigen::VectorXd     parts = nodes(dofs), result = zero();
-        const Epetra_Vector source(View, maps->at_nodes, parts.data());
-        Epetra_Vector       target(View, maps->owned, result.data());
-        target.Export(source, maps->import, Add);
-        for (unsigned int k = 0; k < result.size(); ++k)
-          if (is_fixed(dof_of_owned[k]))
-            result[k] = 0.;
-        return result;
+        Ranks::add_up(nodes);
+        return owned_of(nodes);
       }
 
       Eigen::VectorXd
       at_nodes(const Eigen::VectorXd &owned) const override
       {
-        Eigen::VectorXd     values(dofs.size()), copy = owned;
-        const Epetra_Vector source(View, maps->owned, copy.data());
-        Epetra_Vector       target(View, maps->at_nodes, values.data());
-        target.Import(source, maps->import, Insert);
-        Eigen::VectorXd result = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
-        result(dofs)           = values;
-        return result;
+        Eigen::VectorXd nodes = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
+        nodes(owned_dofs)     = owned;
+        Ranks::add_up(nodes);
+        mesh.distribute(nodes);
+        return nodes;
       }
 
       Eigen::VectorXd
       owned_of(const Eigen::VectorXd &nodes) const override
       {
-        return nodes(dof_of_owned);
+        Eigen::VectorXd owned(n_owned());
+        for (unsigned int k = 0; k < owned.size(); ++k)
+          owned[k] = mesh.constraints().is_constrained(owned_dofs[k]) ?
+                       0. :
+                       nodes[owned_dofs[k]];
+        return owned;
       }
 
       void
@@ -265,104 +202,92 @@ namespace Debond
       }
 
     private:
-      /** Of a degree of freedom of the matrix, among those that this rank owns;
-       *  -1: it does not. */
-      int
-      place_of(const int number) const
-      {
-        const int place = number - 3 * int(partition.first_owned());
-        return place >= 0 && place < int(n_owned()) ? place : -1;
-      }
-      Eigen::VectorXd
-      zero() const
-      {
-        return Eigen::VectorXd::Zero(n_owned());
-      }
-      bool
-      is_fixed(const unsigned int dof) const
-      {
-        return mesh.is_fixed(dof / 3, dof % 3);
-      }
-
       // Epetra's vectors are views on ours.
       template <typename Work>
       void
       apply(const Work &work, const double *const x, double *const y) const
       {
-        const Epetra_Vector in(View, maps->owned, const_cast<double *>(x));
-        Epetra_Vector       out(View, maps->owned, y);
+        const Epetra_Map   &map = K.trilinos_matrix().RowMap();
+        const Epetra_Vector in(View, map, const_cast<double *>(x));
+        Epetra_Vector       out(View, map, y);
         work(in, out);
       }
 
-      /** Calls work(row numbers, which of them are fixed) for each cell. */
-      template <typename Work>
-      void
-      for_each_cell(const Work &work) const
-      {
-        std::vector<dealii::types::global_dof_index> rows;
-        for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
-          {
-            rows.clear();
-            for (unsigned int a = 0; a < cells.n_nodes(cell); ++a)
-              for (unsigned int c = 0; c < 3; ++c)
-                rows.push_back(number_of_dof[3 * cells.nodes(cell)[a] + c]);
-            work(cell, rows);
-          }
-      }
-
+      // Nodes that follow others mostly have no cell, and a diagonal of their
+      // own all the same.
       void
       make_pattern()
       {
-        dealii::IndexSet rows_here(3 * partition.n_nodes());
-        std::vector<dealii::types::global_dof_index> sorted(numbers.begin(),
-                                                            numbers.end());
-        std::sort(sorted.begin(), sorted.end());
-        rows_here.add_indices(sorted.begin(), sorted.end());
-        const unsigned int row_length = mesh.has_splines() ? 375 : 81;
-        dealii::TrilinosWrappers::SparsityPattern pattern(maps->owned_set,
-                                                          maps->owned_set,
-                                                          rows_here,
-                                                          maps->comm.Comm(),
-                                                          row_length);
-        for_each_cell([&](unsigned int, const auto &rows) {
-          for (const auto row : rows)
-            pattern.add_entries(row, rows.begin(), rows.end());
-        });
+        std::vector<bool> is_here(3 * mesh.n_nodes(), false);
+        const auto        see = [&](const auto dof) { is_here[dof] = true; };
+        std::for_each(owned_dofs.begin(), owned_dofs.end(), see);
+        std::vector<dealii::types::global_dof_index> dofs;
+        for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
+          {
+            dofs_of(cell, dofs);
+            std::for_each(dofs.begin(), dofs.end(), see);
+          }
+        for (const auto &line : mesh.constraints().get_lines())
+          for (const auto &entry : line.entries)
+            if (is_here[line.index])
+              see(entry.first);
+        dealii::IndexSet rows_here(is_here.size());
+        for (unsigned int dof = 0; dof < is_here.size(); ++dof)
+          if (is_here[dof])
+            rows_here.add_index(dof);
+        rows_here.compress();
+        // a guess, which deal.II multiplies by the span of the rows
+        const unsigned int row_length = std::min<std::size_t>(
+          mesh.degree() == 2 ? 375 : 81,
+          std::numeric_limits<int>::max() / is_here.size() - 1);
+        dealii::TrilinosWrappers::SparsityPattern pattern(
+          rows, rows, rows_here, Ranks::communicator(), row_length);
+        for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
+          {
+            dofs_of(cell, dofs);
+            mesh.constraints().add_entries_local_to_global(dofs,
+                                                           pattern,
+                                                           false);
+          }
+        for (const auto dof : owned_dofs)
+          pattern.add(dof, dof);
         pattern.compress();
         K.reinit(pattern);
       }
 
-      // Fixed degrees of freedom keep their own entry, so that ML meets nothing
-      // unusual.
+      // Constrained degrees of freedom keep an entry of their own, so that ML
+      // meets nothing unusual.
       void
       assemble(const Eigen::VectorXd &v)
       {
         if (K.m() == 0)
           make_pattern();
         K = 0.;
-        Eigen::MatrixXd            tangent;
-        dealii::FullMatrix<double> matrix;
-        for_each_cell([&](const unsigned int cell, const auto &rows) {
-          const unsigned int n = rows.size();
-          cells.tangent(cell, v, tangent);
-          matrix.reinit(n, n);
-          const auto fixed = [&](const unsigned int i) {
-            return mesh.is_fixed(cells.nodes(cell)[i / 3], i % 3);
-          };
-          for (unsigned int i = 0; i < n; ++i)
-            for (unsigned int j = 0; j < n; ++j)
-              if (i == j || (!fixed(i) && !fixed(j)))
-                matrix(i, j) = tangent(i, j);
-          K.add(rows, matrix);
-        });
+        Eigen::MatrixXd                              tangent;
+        dealii::FullMatrix<double>                   matrix;
+        std::vector<dealii::types::global_dof_index> dofs;
+        for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
+          {
+            cells.tangent(cell, v, tangent);
+            dofs_of(cell, dofs);
+            matrix.reinit(dofs.size(), dofs.size(), true);
+            Eigen::Map<Eigen::MatrixXd>(&matrix(0, 0),
+                                        matrix.m(),
+                                        matrix.n()) = tangent; // symmetric
+            mesh.constraints().distribute_local_to_global(matrix, dofs, K);
+          }
         K.compress(dealii::VectorOperation::add);
+        for (const auto dof : owned_dofs)
+          if (mesh.is_tied(dof / 3) && K.diag_element(dof) == 0.)
+            K.set(dof, dof, 1.);
+        K.compress(dealii::VectorOperation::insert);
       }
 
       // All that is cheap to know; GMRES finds out the rest.
       bool
       has_positive_diagonal() const
       {
-        Epetra_Vector diagonal(maps->owned);
+        Epetra_Vector diagonal(K.trilinos_matrix().RowMap());
         K.trilinos_matrix().ExtractDiagonalCopy(diagonal);
         double n_bad = 0.;
         for (unsigned int k = 0; k < n_owned(); ++k)
@@ -374,19 +299,22 @@ namespace Debond
       set_up_multigrid()
       {
         const unsigned int  n = n_owned();
-        Epetra_MultiVector  modes(maps->owned, 6);
+        Epetra_MultiVector  modes(K.trilinos_matrix().RowMap(), 6);
         std::vector<double> coordinates[3];
+        // To ML the nodes of other ranks are all in (0, 0, 0), and it says so
+        // of one that is there itself.
+        constexpr double origin = 1e3;
         for (unsigned int k = 0; k < n; ++k)
           {
             const Eigen::Vector3d &X =
-              mesh.reference_position(dof_of_owned[k] / 3);
+              mesh.reference_position(owned_dofs[k] / 3);
             const unsigned int c = k % 3;
             modes[c][k]          = 1.;
             for (unsigned int r = 0; r < 3; ++r)
               modes[3 + r][k] = Eigen::Vector3d::Unit(r).cross(X)[c];
             if (c == 0)
               for (unsigned int d = 0; d < 3; ++d)
-                coordinates[d].push_back(X[d]);
+                coordinates[d].push_back(X[d] + origin);
           }
         Teuchos::ParameterList list;
         ML_Epetra::SetDefaults("SA", list);
@@ -418,13 +346,9 @@ namespace Debond
           K.trilinos_matrix(), list, true);
       }
 
-      const BodyPartition       partition;
-      std::vector<unsigned int> dofs;          ///< at nodes, with a number
-      std::vector<int>          numbers;       ///< of these in the matrix
-      std::vector<int>          number_of_dof; ///< -1: none
-      std::vector<unsigned int> dof_of_owned;
-      std::unique_ptr<Maps>     maps;
-      dealii::TrilinosWrappers::SparseMatrix               K;
+      dealii::IndexSet                             rows;       ///< of this rank
+      std::vector<dealii::types::global_dof_index> owned_dofs; ///< the same
+      dealii::TrilinosWrappers::SparseMatrix       K;
       std::unique_ptr<ML_Epetra::MultiLevelPreconditioner> multigrid;
       Eigen::VectorXd                                      linearised_at;
       /** Unknown, place among the owned. */
@@ -442,7 +366,6 @@ namespace Debond
     std::unique_ptr<MultigridBulk> bulk;
     Ranks::in_agreement(
       [&] { bulk = std::make_unique<MultigridBulk>(mesh, material); });
-    bulk->make_maps();
     return bulk;
   }
 } // namespace Debond

@@ -428,7 +428,7 @@ namespace Debond
       Allowed::choice("false | true"),
       "Whether cells below the first layer, that at the contact face, "
       "are twice as wide along x and y, with hanging nodes between. For "
-      "trilinear and quadratic elements and the direct solver.");
+      "trilinear and quadratic elements.");
     table.add(
       "Material",
       material,
@@ -499,10 +499,6 @@ namespace Debond
              "Coarser below",
              "two cells across become one below the first layer: expected even "
              "numbers of Cells across, and two layers or more");
-      refuse(body.coarser_below && body.bulk_solver == BulkSolver::multigrid,
-             "Coarser below",
-             "hanging nodes are for the direct solver: expected false");
-
       constexpr double  thinnest = 1e-6;
       const std::string thinner  = "thinner than a millionth of the body";
       refuse(std::pow(1. / body.cells[2], body.layer_grading) < thinnest,

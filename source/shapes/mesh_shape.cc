@@ -49,10 +49,9 @@ namespace Debond
                               "Lateral grading",
                               "1"),
               std::make_tuple(body.layer_grading != 1., "Layer grading", "1"),
-              std::make_tuple(body.bulk_solver == BulkSolver::multigrid ||
-                                body.bulk_solver == BulkSolver::lattice,
+              std::make_tuple(body.bulk_solver == BulkSolver::lattice,
                               "Bulk solver",
-                              "direct")})
+                              "auto, direct or multigrid")})
           refuse(is_set,
                  entry,
                  std::string("the cells are those of a file: expected ") +

@@ -59,6 +59,16 @@ namespace Debond
 
 
   double
+  n_unknowns_of(const BodyParameters &body)
+  {
+    const double p     = body.element == ElementKind::quadratic ? 2. : 1.;
+    const auto   cells = body.lattice_of_cells();
+    return 3. * (p * cells[0] + 1.) * (p * cells[1] + 1.) * (p * cells[2] + 1.);
+  }
+
+
+
+  double
   bytes_of_body(const ModelParameters &model,
                 const Side             side,
                 const BulkSolver       solver,
@@ -70,14 +80,18 @@ namespace Debond
     constexpr double per_unknown = 2500., per_spline_cell = 8000.,
                      per_spline_unknown = 7000., per_quadratic_cell = 20000.,
                      per_quadratic_unknown = 5000.;
-    // K, its multigrid and the vectors of GMRES
-    constexpr double of_multigrid = 4300., of_multigrid_for_splines = 12000.;
-    const double     per_cell = draws ? 8000. : 3000.;
-    const auto       cells    = body.lattice_of_cells();
-    const double     x = cells[0], y = cells[1], z = cells[2];
+    // K, its multigrid and the vectors of GMRES, and what all ranks know
+    constexpr double of_multigrid = 4300., of_multigrid_for_splines = 12000.,
+                     of_multigrid_for_quadratic = 6000., known_to_all = 800.;
+    const double per_cell = draws ? 8000. : 3000.;
+    const auto   cells    = body.lattice_of_cells();
+    const double x = cells[0], y = cells[1], z = cells[2];
     n_condensed = 0.;
     if (body.is_rigid())
       return per_cell * x * y * z;
+    // cells that are coarser below stand for a quarter of those above
+    const double wide           = body.coarser_below ? 0.5 : 1.,
+                 share_of_cells = (1. + (z - 1.) * wide * wide) / z;
 
     const double more = body.contact_surface == SurfaceKind::nurbs ? 2. : 1.;
     const double nodes_on_face = (x + more) * (y + more);
@@ -114,20 +128,23 @@ namespace Debond
       }
     if (solver == BulkSolver::multigrid)
       {
-        n_condensed = 0.;
-        return (per_cell * x * y * z + 3. * nodes_on_face * (z + 1.) *
-                                         (body.element == ElementKind::spline ?
-                                            of_multigrid_for_splines :
-                                            of_multigrid)) /
-               Ranks::number();
+        n_condensed               = 0.;
+        const bool   is_quadratic = body.element == ElementKind::quadratic;
+        const double per_unknown_here =
+          body.element == ElementKind::spline ? of_multigrid_for_splines :
+          is_quadratic                        ? of_multigrid_for_quadratic :
+                                                of_multigrid;
+        return share_of_cells *
+               (((per_cell + (is_quadratic ? per_quadratic_cell : 0.)) * x * y *
+                   z +
+                 per_unknown_here * n_unknowns_of(body)) /
+                  Ranks::number() +
+                known_to_all * x * y * z);
       }
     if (body.element == ElementKind::spline) // two layers of nodes part a box
       return (per_cell + per_spline_cell) * x * y * z +
              per_spline_unknown * 3. * nodes_on_face * (z + 1.) +
              2. * factor(x + more, y + more, z + 1.);
-    // cells that are coarser below stand for a quarter of those above
-    const double wide           = body.coarser_below ? 0.5 : 1.,
-                 share_of_cells = (1. + (z - 1.) * wide * wide) / z;
     if (body.element == ElementKind::quadratic)
       return share_of_cells * ((per_cell + per_quadratic_cell) * x * y * z +
                                per_quadratic_unknown * 3. * (2. * x + 1.) *

@@ -183,24 +183,10 @@ namespace Debond
     double
     seconds_of_multigrid(const ModelParameters &model)
     {
-      const auto  &n          = model.bone.cells;
-      const double n_unknowns = 3. * (n[0] + 1.) * (n[1] + 1.) * (n[2] + 1.);
       const double iterations = 1.5 * model.load_steps.n_steps();
       const double per_cycle =
-        model.bone.element == ElementKind::spline ? 1.1e-6 : 2.2e-7;
-      return n_unknowns * (1.3e-5 + 7. * per_cycle * iterations);
-    }
-  } // namespace
-
-
-
-  namespace
-  {
-    bool
-    is_for_direct_solver(const BodyParameters &bone)
-    {
-      return bone.element == ElementKind::quadratic || bone.coarser_below ||
-             bone.mesh != nullptr;
+        model.bone.element == ElementKind::trilinear ? 2.2e-7 : 1.1e-6;
+      return n_unknowns_of(model.bone) * (1.3e-5 + 7. * per_cycle * iterations);
     }
   } // namespace
 
@@ -215,7 +201,7 @@ namespace Debond
       return "for " + std::to_string(Ranks::number()) + " processes";
     if (bone.bulk_solver == BulkSolver::multigrid)
       return "as asked for";
-    if (bone.bulk_solver != BulkSolver::automatic || is_for_direct_solver(bone))
+    if (bone.bulk_solver != BulkSolver::automatic)
       return "";
     double       n_condensed;
     const double sparse = bytes_of_body(
@@ -243,26 +229,11 @@ namespace Debond
     };
     if (bone.is_rigid())
       return; // nothing is dealt out
-    if (bulk_solver() == BulkSolver::multigrid && is_for_direct_solver(bone))
-      throw EntryError(
-        bone.mesh          ? "Bone / Shape" :
-        bone.coarser_below ? "Bone / Coarser below" :
-                             "Bone / Element",
-        "it is for the direct solver and one process: expected " +
-          std::string(bone.mesh          ? "block" :
-                      bone.coarser_below ? "false" :
-                                           "trilinear or spline") +
-          (n > 1 ? ", or one process" : ", or Bulk solver = direct"));
     if (n > 1 && (bone.bulk_solver == BulkSolver::direct ||
                   bone.bulk_solver == BulkSolver::lattice))
       refuse("that solver is for one process, and here are " +
              std::to_string(n) +
              ": expected auto or multigrid, or one process");
-    if (bulk_solver() == BulkSolver::multigrid &&
-        parts_across(bone.cells, n)[0] == 0)
-      refuse(std::to_string(n) + " processes cannot share columns of " +
-             std::to_string(bone.cells[0]) + " x " +
-             std::to_string(bone.cells[1]) + " cells: expected fewer");
   }
 
 

@@ -50,7 +50,7 @@ numdiff -q -r 1e-7 -a 1e-9 -s ,'\n' rows-1 rows-2 && echo "the rows of one proce
 
 echo "refused"
 ranks 2 $scene --set "Bone/Bulk solver=direct" --set Output/Directory=no || said "that solver is for one process, and here are 2"
-ranks 7 $scene --set "Bone/Cells=6,6,2" --set Output/Directory=no || said "7 processes cannot share columns of 6 x 6 cells"
+ranks 7 $scene --set "Bone/Cells=2,2,1" --set Output/Directory=few || said "7 processes cannot share 4 cells"
 ranks 2 $scene --set "Model=auto" --set Output/Directory=no || said "auto runs in one process"
 ranks 2 $scene --set "Bone/Cells=four" --set Output/Directory=no || said "--set: Bone / Cells = 'four'"
 ls no 2> /dev/null

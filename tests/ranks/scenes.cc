@@ -5,7 +5,9 @@
 //
 // Scenes: trilinear and spline elements, Neo-Hooke, a loaded chuck with a
 // compliant machine, a pattern, the bone as slave, a path that is followed, two
-// bones whose modulus varies, a cap with bilinear faces and adaptive steps.
+// bones whose modulus varies, a cap with bilinear faces and adaptive steps;
+// quadratic elements, cells that are coarser below, a bone from a file, hardly
+// more cells than ranks.
 
 #include <debond/models/simulation.h>
 #include <debond/support/ranks.h>
@@ -22,10 +24,13 @@ using Changes = std::vector<std::string>;
 
 
 
-const std::string coin = pressed_and_turned + R"(
-subsection Bone
-  set Cells    = 12, 12, 4
-  set Material = linear
+/** A coin on a bone with these entries. */
+std::string
+coin_on(const std::string &bone)
+{
+  return pressed_and_turned + "subsection Bone\nset Material = linear\n" +
+         bone +
+         R"(
 end
 subsection Implant
   set Cells    = 4, 2
@@ -37,6 +42,11 @@ subsection Load steps
   set Residual tolerance = 1e-11
 end
 )";
+}
+
+const std::string block = "set Cells = 12, 12, 4",
+                  core  = "set Shape = file\nset Mesh file = " DEBOND_SOURCE_DIR
+                         "/prm/meshes/bone_core.msh";
 
 const Changes splines{"Bone/Element=spline", "Bone/Layer grading=1.5"};
 
@@ -51,9 +61,9 @@ operator+(Changes a, const Changes &b)
 
 /** The rows of a run. */
 std::vector<TorqueRow>
-rows_of(const Changes &changes)
+rows_of(const Changes &changes, const std::string &bone)
 {
-  const Scene scene = Scene::from_text(coin, changes);
+  const Scene scene = Scene::from_text(coin_on(bone), changes);
   Simulation  simulation(scene);
   simulation.run();
   // Where adaptive steps end depends on the last digits of their estimates.
@@ -93,13 +103,16 @@ difference(const std::vector<TorqueRow> &one,
 
 
 void
-compare(const std::string &name, const Changes &changes)
+compare(const std::string &name,
+        const Changes     &changes,
+        const std::string &bone = block)
 {
-  const auto whole = rows_of(changes + Changes{"Bone/Bulk solver=multigrid"});
+  const auto whole =
+    rows_of(changes + Changes{"Bone/Bulk solver=multigrid"}, bone);
   std::vector<TorqueRow> direct;
   {
     const Ranks::Together alone(Ranks::group_of(1));
-    direct = rows_of(changes + Changes{"Bone/Bulk solver=direct"});
+    direct = rows_of(changes + Changes{"Bone/Bulk solver=direct"}, bone);
   }
   if (!Ranks::is_first())
     return;
@@ -146,5 +159,16 @@ main()
            "Load steps/Adaptive=true",
            "Load steps/Steps=1, 1, 1"});
   compare("a modulus along x", {"Bone/Young modulus=18000 * exp(0.3 * x)"});
+  compare("quadratic elements",
+          {"Bone/Element=quadratic",
+           "Bone/Cells=8, 8, 2",
+           "Bone/Material=neo-hookean"});
+  compare("hanging nodes", {"Bone/Coarser below=true"});
+  compare("quadratic elements, hanging nodes",
+          {"Bone/Element=quadratic",
+           "Bone/Coarser below=true",
+           "Bone/Cells=8, 8, 2"});
+  compare("a bone from a file", {}, core);
+  compare("few cells", {"Bone/Cells=4, 3, 1"});
   Ranks::finish();
 }

@@ -209,27 +209,19 @@ namespace Debond
     {
       std::vector<bool> contact = is_contact;
       auto              state   = linearised_at;
-      if constexpr (is_in_memory<Archive>) // of each rank, its own part
-        archive &contact &state &accepted;
+      if constexpr (is_in_memory<Archive>)
+        archive &contact &state;
       else
         {
-          Eigen::VectorXd                whole = to_archive(*linearised_at);
-          AcceptedState<Eigen::VectorXd> known = accepted;
-          known.value                          = to_archive(accepted.value);
-          known.before                         = to_archive(accepted.before);
-          int      solver                      = solver_in_archive();
-          archive &solver;
+          Eigen::VectorXd at     = *linearised_at;
+          int             solver = solver_in_archive();
+          archive        &solver;
           if (solver != solver_in_archive())
             refuse_archive(solver);
-          archive &contact &whole &known;
-          if (Archive::is_loading::value)
-            {
-              state    = std::make_shared<Eigen::VectorXd>(from_archive(whole));
-              accepted = known;
-              accepted.value  = from_archive(known.value);
-              accepted.before = from_archive(known.before);
-            }
+          archive &contact &at;
+          state = std::make_shared<const Eigen::VectorXd>(std::move(at));
         }
+      archive &accepted;
       archive &surface_is_stale;
       if (Archive::is_loading::value)
         restore(contact, *state);
@@ -254,7 +246,7 @@ namespace Debond
     Eigen::MatrixXd
     support_modes(const Eigen::VectorXd &state) const;
 
-    const BulkSpace                body_mesh;
+    BulkSpace                      body_mesh;
     const std::unique_ptr<Bulk>    own_bulk;
     const CondensingBulk *const    condensing_bulk;
     const WholeBulk *const         whole_bulk;
@@ -271,12 +263,6 @@ namespace Debond
     }
     [[noreturn]] void
     refuse_archive(int solver) const;
-    /** A displacement as a checkpoint holds it, which is the same for any
-     * number of ranks, and back. */
-    Eigen::VectorXd
-    to_archive(const Eigen::VectorXd &state) const;
-    Eigen::VectorXd
-    from_archive(const Eigen::VectorXd &state) const;
     void
     number_unknowns(const std::vector<bool> &contact);
     /** Goes on from a checkpoint; the accepted state has been read. */

@@ -36,6 +36,10 @@ namespace Debond
       , cells(cells)
     {}
 
+    /** Degrees of freedom of a cell, put into @p dofs. */
+    void
+    dofs_of(unsigned int                                  cell,
+            std::vector<dealii::types::global_dof_index> &dofs) const;
     /** Adds to sums over the cells of this rank those of others, one entry for
      *  each vertex. */
     virtual void

@@ -7,6 +7,7 @@
 #include <debond/shapes/faces_of_mesh.h>
 #include <debond/shapes/side.h>
 
+#include <deal.II/base/index_set.h>
 #include <deal.II/base/point.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_q.h>
@@ -21,26 +22,6 @@
 
 namespace Debond
 {
-  /** Columns of cells: those whose places along x and y are in [begin, end).
-   */
-  struct CellColumns
-  {
-    std::array<unsigned int, 2> begin{{0, 0}}, end{{0, 0}};
-  };
-
-  /** Into how many parts along x and y a body of so many cells is dealt out
-   *  among @p n ranks; zeros: it cannot be. */
-  std::array<unsigned int, 2>
-  parts_across(const std::array<unsigned int, 3> &cells, unsigned int n);
-
-  /** The part of one of them. */
-  CellColumns
-  columns_of_rank(const std::array<unsigned int, 3> &cells,
-                  unsigned int                       rank,
-                  unsigned int                       n_ranks);
-
-
-
   /**
    * Mesh, finite elements, numbering and constraints of one body.
    *
@@ -62,8 +43,9 @@ namespace Debond
    * level by level, that of the contact surface last. In a cell they are
    * combinations of the functions of FE_Q(2). No vertex is a node.
    *
-   * With BulkSolver::multigrid a rank has its columns of cells only, and their
-   * nodes; but always all control points of the contact surface.
+   * With BulkSolver::multigrid the cells are dealt out among the ranks as in
+   * step-17: each rank knows all nodes and constraints, but has cells() of its
+   * own, and rows of the stiffness.
    */
   class BulkSpace
   {
@@ -118,7 +100,7 @@ namespace Debond
       return body_parameters.element == ElementKind::trilinear ? 1 : 2;
     }
     /** Triangulation and FESystem, whose dofs 3 k + component belong to node k.
-     *  Splines have none. */
+     *  Splines have none, nor a space that has released its own. */
     const dealii::DoFHandler<3> &
     dof_handler() const
     {
@@ -150,28 +132,14 @@ namespace Debond
     {
       return n_nodes_of_fe;
     }
-    /** Number of a vertex among those of the whole body, and of all these. */
-    unsigned int
-    vertex_in_whole(const unsigned int vertex) const
-    {
-      const auto &i = lattice[vertex];
-      const auto &n = body_parameters.cells;
-      return i[0] + (n[0] + 1) * (i[1] + (n[1] + 1) * i[2]);
-    }
-    unsigned int
-    n_vertices_of_whole() const
-    {
-      const auto &n = body_parameters.cells;
-      return (n[0] + 1) * (n[1] + 1) * (n[2] + 1);
-    }
     /** Nodes before the control points of the contact surface: the vertices,
      *  or the control points of the other levels. */
     unsigned int
     n_inner_nodes() const
     {
-      return has_splines() ?
-               n_in_level() * (layer_knots.n_basis_functions() - 1) :
-               n_vertices();
+      return has_splines() ? contact_surface.n_control_points() *
+                               (layer_knots.n_basis_functions() - 1) :
+                             n_vertices();
     }
     unsigned int
     n_nodes() const
@@ -185,12 +153,11 @@ namespace Debond
       return n_inner_nodes() + control_point;
     }
 
-    /** Degrees of freedom of the whole body as the paper counts them: all
-     *  vertices and, with NURBS, all control points, three each. */
+    /** Degrees of freedom as the paper counts them: all vertices and, with
+     *  NURBS, all control points, three each. */
     unsigned int
     n_dofs_as_published() const;
-    /** Three for each node of the whole body but the surface vertices, which
-     *  follow the control points. */
+    /** Three for each node that follows no others. */
     unsigned int
     n_unknowns() const;
 
@@ -222,21 +189,13 @@ namespace Debond
       return tied[node];
     }
 
-    /** Where a node stands among its like in each direction, the third from the
-     *  contact face inwards, and where the last one stands. */
-    struct Place
+    /** Nodes whose rows of the stiffness this rank has; each node is one
+     *  rank's. */
+    const dealii::IndexSet &
+    owned_nodes() const
     {
-      std::array<unsigned int, 3> index, last;
-    };
-    Place
-    place_of(unsigned int node) const;
-    /** A vector over the nodes of this rank in the order of their places in the
-     *  whole body, which no number of ranks changes, and back; collective. Only
-     *  for BulkSolver::multigrid. */
-    Eigen::VectorXd
-    gathered(const Eigen::VectorXd &v) const;
-    Eigen::VectorXd
-    own_part(const Eigen::VectorXd &whole) const;
+      return own_nodes;
+    }
     /** Whether cells have nodes that follow others: hanging nodes, or those of
      *  a cell that touches the contact face at an edge or a corner only. */
     bool
@@ -251,7 +210,7 @@ namespace Debond
     void
     condense(Eigen::VectorXd &force) const;
 
-    /** A cell of the bulk, active cell of the same number: the nodes of FE_Q in
+    /** A cell of the bulk: the nodes of FE_Q in
      *  deal.II's order, or, in the contact layer, the control points of its
      *  surface element followed by the nodes of FE_Q that are not on it. With
      *  splines: those of its surface element, in three levels. */
@@ -270,34 +229,39 @@ namespace Debond
       return bulk_cells;
     }
 
-    /** Not with splines. */
+    /** Of the triangulation, if there is one. */
     const dealii::Triangulation<3>::active_cell_iterator &
     active_cell(const unsigned int cell) const
     {
       return active_cells[cell];
     }
 
+    /** Frees the triangulation, of which nobody asks any more when the
+     *  gradients in the cells are known. */
+    void
+    release_triangulation();
+
   private:
     void
     make_grid();
     void
-    take_mesh();
-    void
-    find_places_in_lattice();
-    void
     set_boundary_ids();
+    void
+    find_cells();
     Eigen::Vector3d
     place_in_lattice(const dealii::Point<3> &point) const;
     void
+    place_nodes();
+    void
     make_mapping();
     void
-    number_nodes();
+    number_nodes_of_splines();
+    void
+    number_nodes_of_cells();
+    std::vector<unsigned int>
+    nodes_of_element(unsigned int element) const;
     std::vector<unsigned int>
     nodes_of_fe(const dealii::DoFHandler<3>::active_cell_iterator &cell) const;
-    void
-    complete_cells();
-    void
-    add_nodes_of_fe();
     void
     make_constraints();
     void
@@ -305,29 +269,14 @@ namespace Debond
     void
     hold(const Cell &cell, unsigned int face, unsigned int components);
     void
-    tell_held_control_points();
-    void
     tie_hanging_nodes();
     void
     tie(const Cell &cell, const std::vector<unsigned int> &nodes_of_fe);
-
-    /** Control points of a level of splines that the cells here have. */
-    unsigned int
-    n_in_level() const
-    {
-      return (columns.end[0] - columns.begin[0] + 2) *
-             (columns.end[1] - columns.begin[1] + 2);
-    }
-    /** Number of a node among those of the whole body, in the order of places.
-     */
-    unsigned int
-    number_in_whole(unsigned int node) const;
-    unsigned int
-    n_nodes_of_whole() const;
+    void
+    deal_out();
 
     const BodyParameters body_parameters;
     const Side           body_side;
-    const CellColumns    columns; ///< of this rank
     const NurbsSurface   contact_surface;
     const KnotVector     layer_knots;
 
@@ -338,19 +287,12 @@ namespace Debond
     dealii::DoFHandler<3>               dofs;
     dealii::AffineConstraints<double>   follow, all_constraints;
     std::vector<dealii::Triangulation<3>::active_cell_iterator> active_cells;
-    /** Of each cell of each level, of quadratic elements: two opposite corners
-     *  in the lattice. */
-    std::vector<std::vector<std::array<dealii::Point<3>, 2>>> boxes;
-
-
-    /** Lattice index (i, j, layer from the contact face) of each node that is
-     *  a corner of a cell, if there is a lattice. */
-    std::vector<std::array<unsigned int, 3>> lattice;
-    std::vector<Eigen::Vector3d>             reference_positions;
-    std::vector<bool>                        fixed, tied;
-    std::vector<Cell>                        bulk_cells;
-    unsigned int                             n_nodes_of_fe      = 0;
-    bool                                     followers_in_cells = false;
+    std::vector<Eigen::Vector3d> reference_positions;
+    std::vector<bool>            fixed, tied;
+    std::vector<Cell>            bulk_cells;
+    unsigned int                 n_nodes_of_fe      = 0;
+    bool                         followers_in_cells = false;
+    dealii::IndexSet             own_nodes;
   };
 
 

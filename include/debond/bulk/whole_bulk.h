@@ -21,8 +21,8 @@ namespace Debond
    *
    * Three kinds of vectors:
    *
-   *   nodes    3 n_nodes entries of the mesh of this rank; of forces its own
-   *            cells' part, of displacements the values;
+   *   nodes    all 3 n_nodes; of forces the part of this rank's own cells, of
+   *            displacements the values, which all ranks know;
    *   owned    the degrees of freedom that this rank owns, those of supports
    *            among them: sums over ranks are over these;
    *   unknowns the same on all ranks.
@@ -38,16 +38,15 @@ namespace Debond
       return unknowns.size();
     }
 
-    /** Sums the parts of all ranks; 0 in fixed degrees of freedom. Collective.
-     */
-    virtual Eigen::VectorXd
-    assembled(const Eigen::VectorXd &nodes) const = 0;
-    /** What this rank has to know of all ranks' values. Collective. */
+    /** The values of all ranks. Collective. */
     virtual Eigen::VectorXd
     at_nodes(const Eigen::VectorXd &owned) const = 0;
-    /** The owned values among those at nodes. */
+    /** The owned values among those at nodes; 0 in constrained ones. */
     virtual Eigen::VectorXd
     owned_of(const Eigen::VectorXd &nodes) const = 0;
+    /** The same of the sums of all ranks' parts. Collective. */
+    virtual Eigen::VectorXd
+    assembled(Eigen::VectorXd nodes) const = 0;
     /** This rank's part of the values at the unknowns, 0 beside; to be added up
      *  over the ranks. */
     virtual void

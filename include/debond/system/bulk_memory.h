@@ -7,6 +7,11 @@
 
 namespace Debond
 {
+  /** Degrees of freedom of the nodes of its cells, about, if none are coarser
+   *  below. */
+  double
+  n_unknowns_of(const BodyParameters &body);
+
   /** Bytes that a body takes on a rank without dense matrices: triangulation,
    *  shape functions and sparse matrices, the text of VTU files if it @p draws
    *  any (measured), and the sparse part of its factor, or multigrid.

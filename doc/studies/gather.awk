@@ -1,11 +1,12 @@
 # Gathers study.csv files into one table that is easy to plot: a row for each variant with what was chosen, seconds and
 # errors. Entries that a study does not vary have the value they have in prm/studies/work_precision_scene.prm; studies with
-# splines in their name are of splines.
+# splines or quadratic in their name are of such elements.
 BEGIN {
   chosen["Model"] = "finite elements"
   chosen["Bone / Cells"] = "30, 30, 4"
   chosen["Bone / Layer grading"] = "1.5"
   chosen["Bone / Cells under implant"] = "0"
+  chosen["Bone / Coarser below"] = "false"
   chosen["Bone / Material"] = "linear"
   chosen["Bone / Contact surface"] = "nurbs"
   chosen["Interface / Slave"] = "implant"
@@ -38,6 +39,7 @@ function value(name) { return name in number ? field[number[name]] : chosen[name
 
 FNR == 1 {
   splines = FILENAME ~ /splines/
+  quadratic = FILENAME ~ /quadratic/
   chosen["Interface / Quadrature points"] = splines ? 6 : 5
   delete number
   n = fields($0, field)
@@ -49,9 +51,9 @@ FNR == 1 {
   fields($0, field)
   if (value("converged") != "true") next
   closed = value("Model") != "finite elements"
-  tier = closed ? value("Model") : splines ? "splines" : value("Bone / Material")
+  tier = closed ? value("Model") : splines ? "splines" : quadratic ? "quadratic" : value("Bone / Material")
   split(value("Bone / Cells"), cells, ", "); split(value("Implant / Cells"), implant_cells, ", ")
-  mesh = closed ? "none" : !splines ? mesh_name[cells[1]] : value("Bone / Cells under implant") > 0 ? "graded to the rim" : "equal cells"
+  mesh = closed ? "none" : !splines && !quadratic ? mesh_name[cells[1]] : value("Bone / Cells under implant") > 0 ? "graded to the rim" : "equal cells"
   layers = closed ? "none" : cells[3] (value("Bone / Layer grading") == 1 ? " equal" : "")
   if (value("Load steps / Adaptive") == "true" && !closed) steps = "tol. " value("Load steps / Tolerance")
   else {
@@ -65,12 +67,13 @@ FNR == 1 {
   # what differs from the usual choice
   label = tier
   if (tier == "analytical") label = label (value("Closed form / Linear limit angle") == 0.13 ? "; printed angles" : "; own angles")
-  if (splines) {
+  if (splines || quadratic) {
     label = label (value("Bone / Material") == "linear" ? "" : " " value("Bone / Material")) "; " cells[1] " x " cells[2] " x " cells[3] " / " \
-      implant_cells[1] " x " implant_cells[1] " x " implant_cells[2] (mesh == "equal cells" ? "" : " " mesh)
+      implant_cells[1] " x " implant_cells[1] " x " implant_cells[2] (mesh == "equal cells" ? "" : " " mesh) \
+      (value("Bone / Coarser below") == "true" ? ", coarser below" : "")
   } else if (!closed && tier != "rigid") label = label "; " mesh "; " layers " layers"
   label = label "; " steps
-  if (!closed && !splines && points != 5) label = label "; " points "x" points " points"
+  if (!closed && !splines && !quadratic && points != 5) label = label "; " points "x" points " points"
   if (surface != "nurbs") label = label "; " surface
   if (slave != "implant") label = label "; slave: " slave
   shared = value("seconds_shared_set_up") # a run alone would spend it, too

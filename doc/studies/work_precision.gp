@@ -2,8 +2,8 @@
 # CSV file or "", methods: list of what is in it, CODE/METHOD.
 dir = "output/studies/"
 table = dir . "work_precision.csv"
-tiers = "mathieu analytical foundation rigid linear neo-hookean splines"
-tier_colours = "grey orange green purple blue red black"
+tiers = "mathieu analytical foundation rigid linear neo-hookean quadratic splines"
+tier_colours = "grey orange green purple blue red sky black"
 meshes = "none coarse lean medium fine very_fine equal_cells graded_to_the_rim"
 black = 0x000000
 colour(k) = value(word(tier_colours, k))

@@ -30,17 +30,17 @@ if [[ $draw_only == false ]]; then
   [[ -x $debond ]] || { echo "work_precision.sh: there is no $debond: build the program first, or set DEBOND" >&2; exit 1; }
   echo "Some ten minutes if the machine is quiet, which it should be; one run needs 2 GB. Each line below is a variant,
 run with two threads."
-  for study in closed_forms coulomb coulomb_splines ends splines ""; do
+  for study in closed_forms coulomb coulomb_splines ends splines quadratic ""; do
     echo "== $(date +%H:%M) work_precision${study:+_$study}"
     "$debond" "prm/studies/work_precision${study:+_$study}.prm" --jobs 1 --threads 2 "${force[@]}"
   done
 fi
 
-for study in work_precision{_closed_forms,_coulomb,_coulomb_splines,_ends,_splines,}; do
+for study in work_precision{_closed_forms,_coulomb,_coulomb_splines,_ends,_splines,_quadratic,}; do
   [[ -f $results/$study/study.csv ]] ||
     { echo "work_precision.sh: nothing to draw yet: there is no $results/$study/study.csv; run without --draw first" >&2; exit 1; }
 done
-awk -f doc/studies/gather.awk $results/work_precision{_closed_forms,_ends,_splines,}/study.csv > $results/work_precision.csv
+awk -f doc/studies/gather.awk $results/work_precision{_closed_forms,_ends,_splines,_quadratic,}/study.csv > $results/work_precision.csv
 awk -f doc/studies/gather.awk $results/work_precision_coulomb{,_splines}/study.csv > $results/work_precision_coulomb.csv
 
 # Rows for which no other is both faster and closer, and that are closer by at least a tenth than the one before:

@@ -5,6 +5,7 @@
 // of the volume of the coin.
 
 #include <debond/bulk/enriched_cells.h>
+#include <debond/bulk/neo_hookean.h>
 #include <debond/geometry/surface_geometry.h>
 
 #include <Eigen/Geometry>

@@ -21,6 +21,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "cauchy_stress.h"
 #include "checks.h"
 #include "pressed_and_turned.h"
 
@@ -179,10 +180,9 @@ manufactured_error(const ElementKind element, const unsigned int n)
                      const double JxW) {
     Eigen::Vector3d w;
     exact_w(X, w);
-    double H[3][3]{};
-    for (unsigned int d = 0; d < 3; ++d)
-      H[2][d] = w[d];
-    const Eigen::Matrix3d sigma = exact_E(X) * unit.linear_stress(H);
+    Eigen::Matrix3d H           = Eigen::Matrix3d::Zero();
+    H.row(2)                    = w;
+    const Eigen::Matrix3d sigma = exact_E(X) * hooke_stress(unit, H);
     for (unsigned int a = 0; a < N.rows(); ++a)
       load.segment<3>(3 * cell.nodes[a]) +=
         JxW *

@@ -3,6 +3,7 @@
 // at the sides.
 
 #include <debond/bulk/bulk_solvers.h>
+#include <debond/bulk/neo_hookean.h>
 #include <debond/support/input_error.h>
 
 #include <Eigen/LU>

@@ -1,12 +1,13 @@
 // A linear body is condensed in four classes of motions, by what two mirrors
 // make of them. What comes of it is that of the whole stiffness, condensed
 // here as a dense matrix: even and odd numbers of cells, all elements,
-// hanging nodes, and contact on a part of the face that is not symmetric itself. Bodies whose
-// mesh is not its own mirror image, whatever the shape, give that of the whole
-// stiffness, too.
+// hanging nodes, and contact on a part of the face that is not symmetric
+// itself. Bodies whose mesh is not its own mirror image, whatever the shape,
+// give that of the whole stiffness, too.
 
 #include <debond/bulk/bulk_solvers.h>
 #include <debond/bulk/mirror_symmetry.h>
+#include <debond/bulk/neo_hookean.h>
 
 #include <Eigen/LU>
 
@@ -24,10 +25,11 @@ void
 check(const std::string &name, const BulkSpace &mesh)
 {
   const BodyParameters &parameters = mesh.parameters();
-  const auto            bulk =
-    make_condensed_bulk(mesh,
-                        NeoHookean::from_young(parameters.young_modulus,
-                                               parameters.poisson_ratio));
+  const auto            bulk       = make_condensed_bulk(
+    mesh,
+    EnrichedCells(mesh,
+                  NeoHookean::from_young(parameters.young_modulus,
+                                         parameters.poisson_ratio)));
   const unsigned int n_cp = mesh.surface().n_control_points();
   std::vector<bool>  contact(n_cp, false);
   for (unsigned int A = 0; A < n_cp; ++A)

@@ -2,6 +2,7 @@
 #define debond_tests_stiffness_at_rest_h
 
 #include <debond/bulk/enriched_cells.h>
+#include <debond/bulk/neo_hookean.h>
 
 /** K at rest over all degrees of freedom of a body, supports not heeded. */
 inline Eigen::MatrixXd

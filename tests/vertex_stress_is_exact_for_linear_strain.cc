@@ -44,13 +44,9 @@ deviation(const BodyParameters &parameters,
     {
       const Eigen::Matrix3d gradient =
         H(body->mesh().reference_position(vertex));
-      double h[3][3];
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = 0; j < 3; ++j)
-          h[i][j] = gradient(i, j);
       const Eigen::Matrix3d expected = parameters.material == Material::linear ?
-                                         material.linear_stress(h) :
-                                         material.cauchy_stress(h);
+                                         hooke_stress(material, gradient) :
+                                         neo_hookean_stress(material, gradient);
       const double          difference = (stress[vertex] - expected).norm();
       if (!std::isnan(largest) && !(difference <= largest))
         largest = difference;

@@ -19,19 +19,18 @@
 // of 360 degrees.
 namespace Debond
 {
-  // Without a law of stress there is no bulk: the body is rigid, its control
+  // Without a bulk the body is rigid: its control
   // points are where the mesh has them, and no unknowns of the coupled system
   // are its own.
   Body::Body(const BodyParameters &parameters,
              const Side            side,
-             const StressLaw       law)
+             const bool            has_bulk)
     : body_mesh(parameters, side)
-    , own_bulk(law ? make_bulk(body_mesh) : nullptr)
+    , own_bulk(has_bulk ? make_bulk(body_mesh) : nullptr)
     , condensing_bulk(dynamic_cast<const CondensingBulk *>(own_bulk.get()))
     , whole_bulk(dynamic_cast<const WholeBulk *>(own_bulk.get()))
     , v(Eigen::VectorXd::Zero(3 * body_mesh.n_nodes()))
     , accepted(v)
-    , law(law)
     , unknown_numbers(3 * body_mesh.surface().n_control_points(), -1)
     , is_contact(body_mesh.surface().n_control_points(), false)
   {
@@ -223,7 +222,7 @@ namespace Debond
   Body::vertex_stress(const Eigen::VectorXd &state) const
   {
     if (own_bulk)
-      return own_bulk->vertex_stress(state, law);
+      return own_bulk->vertex_stress(state, has_small_strains());
     return std::vector<Eigen::Matrix3d>(body_mesh.n_vertices(),
                                         Eigen::Matrix3d::Zero());
   }

@@ -22,7 +22,7 @@ namespace Debond
     {
     public:
       LinearBody(const BodyParameters &parameters, const Side side)
-        : Body(parameters, side, &NeoHookean::linear_stress)
+        : Body(parameters, side, true)
       {}
 
       // r_c = S v_c + f_c [N].
@@ -134,11 +134,11 @@ namespace Debond
      * iteration of the whole system converges to the exact nonlinear solution,
      * and contracts about the strain until the bulk is linearised anew.
      */
-    class NeoHookeanBody : public Body
+    class LargeStrainBody : public Body
     {
     public:
-      NeoHookeanBody(const BodyParameters &parameters, const Side side)
-        : Body(parameters, side, &NeoHookean::cauchy_stress)
+      LargeStrainBody(const BodyParameters &parameters, const Side side)
+        : Body(parameters, side, true)
       {}
 
       // r~_c = R_c + f - K_ci K_ii^-1 R_i [N], with the true internal forces R
@@ -204,10 +204,7 @@ namespace Debond
     {
     public:
       WholeBody(const BodyParameters &parameters, const Side side)
-        : Body(parameters,
-               side,
-               parameters.has_large_strains() ? &NeoHookean::cauchy_stress :
-                                                &NeoHookean::linear_stress)
+        : Body(parameters, side, true)
         , bulk(*whole())
       {}
 
@@ -311,7 +308,7 @@ namespace Debond
     if (parameters.material == Material::linear)
       return std::make_unique<LinearBody>(parameters, side);
     if (parameters.material == Material::neo_hookean)
-      return std::make_unique<NeoHookeanBody>(parameters, side);
+      return std::make_unique<LargeStrainBody>(parameters, side);
     return std::make_unique<Body>(parameters, side);
   }
 } // namespace Debond

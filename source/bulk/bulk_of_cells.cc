@@ -5,7 +5,7 @@
 
 namespace Debond
 {
-  // R = int P : dF/dv dV by the true Neo-Hookean law, Eq. (1), cell by cell
+  // R = int P : dF/dv dV by the true law, Eq. (1), cell by cell
   // and without K.
   bool
   BulkOfCells::internal_forces(const Eigen::VectorXd &v,
@@ -82,7 +82,7 @@ namespace Debond
   // from cell to cell; the mean hides that, so it is no measure of the error.
   std::vector<Eigen::Matrix3d>
   BulkOfCells::vertex_stress(const Eigen::VectorXd &v,
-                             const StressLaw        law) const
+                             const bool             has_small_strains) const
   {
     const dealii::FE_DGQArbitraryNodes<3> through_points(
       dealii::QGauss<1>(cells.n_along()));
@@ -91,7 +91,7 @@ namespace Debond
     std::vector<double>          n_cells(mesh.n_vertices(), 0.);
     for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
       {
-        const auto at_points = cells.stress(cell, v, law);
+        const auto at_points = cells.stress(cell, v, has_small_strains);
         for (const unsigned int a : dealii::GeometryInfo<3>::vertex_indices())
           {
             // Vertices of the contact face are corners as any other here:

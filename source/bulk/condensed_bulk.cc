@@ -38,8 +38,8 @@ namespace Debond
       // neither is an unknown. Where a body with small strains is its own
       // mirror image, more of them make images follow each other, in four
       // ways, and K falls into four blocks that know nothing of each other.
-      CondensedBulk(const BulkSpace &mesh, const NeoHookean &material)
-        : CondensingBulk(mesh, material)
+      CondensedBulk(const BulkSpace &mesh, EnrichedCells &&cells_of_mesh)
+        : CondensingBulk(mesh, std::move(cells_of_mesh))
         , symmetry(mesh.parameters().has_large_strains() ?
                      std::nullopt :
                      MirrorSymmetry::of(mesh, cells))
@@ -338,8 +338,8 @@ namespace Debond
 
 
   std::unique_ptr<CondensingBulk>
-  make_condensed_bulk(const BulkSpace &mesh, const NeoHookean &material)
+  make_condensed_bulk(const BulkSpace &mesh, EnrichedCells &&cells)
   {
-    return std::make_unique<CondensedBulk>(mesh, material);
+    return std::make_unique<CondensedBulk>(mesh, std::move(cells));
   }
 } // namespace Debond

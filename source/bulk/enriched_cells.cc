@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace Debond
 {
@@ -34,10 +35,11 @@ namespace Debond
 
 
 
-  EnrichedCells::EnrichedCells(const BulkSpace  &mesh,
-                               const NeoHookean &material)
+  EnrichedCells::EnrichedCells(
+    const BulkSpace                            &mesh,
+    std::shared_ptr<const HyperelasticMaterial> material)
     : mesh(mesh)
-    , bulk_material(material)
+    , bulk_material(std::move(material))
     , line(mesh.degree() == 2 && !mesh.has_splines() ? 3 : 2)
     , quadrature(line.size())
   {
@@ -224,13 +226,12 @@ namespace Debond
                             const Eigen::VectorXd &v,
                             Forces                &sum) const
   {
-    PointValues<n_q> H[3][3], P[3][3];
+    PointValues<n_q> H[3][3], P[3][3], W;
     gradient_at_points<n_q>(cell, v, H);
-    bulk_material.stress(H, P);
+    bulk_material->stress(H, P, W);
     const PointValues<n_q> weight = weights<n_q>(cell);
-    sum.energy += (bulk_material.energy(H) * weight).sum();
-    sum.smallest_j =
-      std::min(sum.smallest_j, NeoHookean::volume_change(H).minCoeff());
+    sum.energy += (W * weight).sum();
+    sum.smallest_j = std::min(sum.smallest_j, volume_change(H).minCoeff());
     for (auto &row : P)
       for (PointValues<n_q> &entry : row)
         entry *= weight;
@@ -280,35 +281,48 @@ namespace Debond
   std::vector<Eigen::Matrix3d>
   EnrichedCells::stress(const unsigned int     cell,
                         const Eigen::VectorXd &v,
-                        const StressLaw        law) const
+                        const bool             has_small_strains) const
   {
-    return with_points([&](const auto n_q) {
-      PointValues<n_q()> H[3][3];
-      gradient_at_points<n_q()>(cell, v, H);
-      const Eigen::ArrayXd         factor = stiffness_factors(cell);
-      std::vector<Eigen::Matrix3d> result;
-      for (unsigned int q = 0; q < n_q(); ++q)
+    return with_points([&](const auto n) {
+      constexpr int    n_q = n();
+      PointValues<n_q> H[3][3], P[3][3], W, C[3][3][3][3];
+      gradient_at_points<n_q>(cell, v, H);
+      if (has_small_strains)
         {
-          double H_q[3][3];
-          for (unsigned int i = 0; i < 3; ++i)
-            for (unsigned int d = 0; d < 3; ++d)
-              H_q[i][d] = H[i][d][q];
-          result.push_back(factor[q] * (bulk_material.*law)(H_q));
+          const PointValues<n_q> zero = PointValues<n_q>::Zero();
+          const PointValues<n_q> at_rest[3][3]{{zero, zero, zero},
+                                               {zero, zero, zero},
+                                               {zero, zero, zero}};
+          bulk_material->tangent(at_rest, C);
         }
+      else
+        bulk_material->stress(H, P, W);
+      const PointValues<n_q>       j      = volume_change(H);
+      const Eigen::ArrayXd         factor = stiffness_factors(cell);
+      std::vector<Eigen::Matrix3d> result(n_q, Eigen::Matrix3d::Zero());
+      for (unsigned int q = 0; q < n_q; ++q)
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int J = 0; J < 3; ++J)
+            if (has_small_strains)
+              for (unsigned int k = 0; k < 3; ++k)
+                for (unsigned int L = 0; L < 3; ++L)
+                  result[q](i, J) += factor[q] * C[i][J][k][L][q] * H[k][L][q];
+            else
+              for (unsigned int k = 0; k < 3; ++k)
+                result[q](i, k) += factor[q] / (1. + j[q]) * P[i][J][q] *
+                                   ((k == J ? 1. : 0.) + H[k][J][q]);
       return result;
     });
   }
 
 
 
-  // dP_iJ/dF_kL = G (d_ik d_JL + A_iL A_kJ) + Lambda (A_iJ A_kL - ln J A_iL
-  // A_kJ) with A = F^-T. With the gradients g_a of the functions in the
-  // reference configuration, and h_a = A g_a in the deformed one,
+  // With the gradients g_a of the functions in the reference configuration
   //
-  //   K_ai,bk = sum_q (G d_ik g_a . g_b + (G - Lambda ln J) h_ak h_bi
-  //                    + Lambda h_ai h_bk) JxW:
+  //   K_ai,bk = sum_q g_aJ C_iJkL g_bL JxW,
   //
-  // three products of matrices with a row for each point.
+  // for each i and k a product of matrices with a row for each point and J.
+  // K_ki is the transpose of K_ik.
   void
   EnrichedCells::tangent(const unsigned int     cell,
                          const Eigen::VectorXd &v,
@@ -325,40 +339,38 @@ namespace Debond
                             const Eigen::VectorXd &v,
                             Eigen::MatrixXd       &K) const
   {
-    using Values         = PointValues<n_q>;
-    using Gradients      = Eigen::Matrix<double, n_q, Eigen::Dynamic>;
+    using Gradients      = Eigen::Matrix<double, 3 * n_q, Eigen::Dynamic>;
+    using Stride         = Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>;
     const unsigned int n = n_nodes(cell);
-    Values             H[3][3], A[3][3];
+    PointValues<n_q>   H[3][3], C[3][3][3][3];
     gradient_at_points<n_q>(cell, v, H);
-    const Values j = NeoHookean::volume_change(H);
-    NeoHookean::inverse_transpose(H, Values(1. + j), A);
-    const Eigen::Map<const Gradients> g(gradients(cell), n_q, 3 * n);
-    const Values                      weight = weights<n_q>(cell);
-    Gradients                         h(n_q, 3 * n);
-    for (unsigned int a = 0; a < n; ++a)
-      for (unsigned int i = 0; i < 3; ++i)
-        h.col(3 * a + i) = A[i][0] * g.col(3 * a).array() +
-                           A[i][1] * g.col(3 * a + 1).array() +
-                           A[i][2] * g.col(3 * a + 2).array();
-
-    const Values across =
-      weight * (bulk_material.G - bulk_material.Lambda * j.log1p());
-    const Eigen::MatrixXd crossed =
-      h.transpose() * (across.matrix().asDiagonal() * h);
-    K = h.transpose() *
-        ((bulk_material.Lambda * weight).matrix().asDiagonal() * h);
-    // all numbers of a node in a column
-    const Eigen::Map<const Eigen::Matrix<double, 3 * n_q, Eigen::Dynamic>>
-      g_of_node(gradients(cell), 3 * n_q, n);
-    const Eigen::Array<double, 3 * n_q, 1> weights =
-      bulk_material.G * weight.template replicate<3, 1>();
-    const Eigen::MatrixXd dots =
-      g_of_node.transpose() * (weights.matrix().asDiagonal() * g_of_node);
-    for (unsigned int b = 0; b < n; ++b)
-      for (unsigned int a = 0; a < n; ++a)
-        K.block<3, 3>(3 * a, 3 * b) +=
-          crossed.block<3, 3>(3 * a, 3 * b).transpose() +
-          dots(a, b) * Eigen::Matrix3d::Identity();
+    bulk_material->tangent(H, C);
+    const PointValues<n_q>            weight = weights<n_q>(cell);
+    const Eigen::Map<const Gradients> g(gradients(cell), 3 * n_q, n);
+    Gradients                         C_g(3 * n_q, n);
+    Eigen::MatrixXd                   K_ik(n, n);
+    K.resize(3 * n, 3 * n);
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int k = i; k < 3; ++k)
+        {
+          for (unsigned int J = 0; J < 3; ++J)
+            {
+              const PointValues<n_q> c[]{weight * C[i][J][k][0],
+                                         weight * C[i][J][k][1],
+                                         weight * C[i][J][k][2]};
+              for (unsigned int b = 0; b < n; ++b)
+                C_g.template block<n_q, 1>(J * n_q, b).array() =
+                  c[0] * g.template block<n_q, 1>(0, b).array() +
+                  c[1] * g.template block<n_q, 1>(n_q, b).array() +
+                  c[2] * g.template block<n_q, 1>(2 * n_q, b).array();
+            }
+          K_ik.noalias() = g.transpose() * C_g;
+          using Block    = Eigen::Map<Eigen::MatrixXd, 0, Stride>;
+          const Stride stride(9 * n, 3);
+          Block(&K(i, k), n, n, stride) = K_ik;
+          if (k != i)
+            Block(&K(k, i), n, n, stride) = K_ik.transpose();
+        }
   }
 
 

@@ -1,4 +1,5 @@
 #include <debond/bulk/bulk_solvers.h>
+#include <debond/bulk/neo_hookean.h>
 #include <debond/support/input_error.h>
 #include <debond/support/runtime.h>
 
@@ -174,8 +175,8 @@ namespace Debond
     class LatticeBulk : public CondensingBulk
     {
     public:
-      LatticeBulk(const BulkSpace &mesh, const EnrichedCells &cells)
-        : CondensingBulk(mesh, cells)
+      LatticeBulk(const BulkSpace &mesh, EnrichedCells &&cells_of_mesh)
+        : CondensingBulk(mesh, std::move(cells_of_mesh))
         , across{{Waves(mesh.parameters().cells[0], mesh.parameters().size[0]),
                   Waves(mesh.parameters().cells[1], mesh.parameters().size[1])}}
         , along_depth(
@@ -185,6 +186,8 @@ namespace Debond
                            return factor_of_layer(span, side < 0. ? 4 : 0);
                          }))
         , n_levels(mesh.depth().n_basis_functions() - 1)
+        , at_rest(NeoHookean::from_young(mesh.parameters().young_modulus,
+                                         mesh.parameters().poisson_ratio))
       {}
 
       // All coefficients of the face: what a wave displaces.
@@ -519,7 +522,7 @@ namespace Debond
       void
       assemble(const unsigned int p, const unsigned int q, Column &K) const
       {
-        const double G = cells.material().G, Lambda = cells.material().Lambda;
+        const auto [G, Lambda] = at_rest;
         const double m_x = across[0].values[p], m_y = across[1].values[q],
                      a_x = across[0].slopes[p] * m_y,
                      a_y = across[1].slopes[q] * m_x,
@@ -559,6 +562,7 @@ namespace Debond
       const std::array<Waves, 2> across;
       const Integrals            along_depth;
       const unsigned int         n_levels; ///< that are not held
+      const NeoHookean           at_rest;  ///< as any isotropic material
       WaveMatrices               stiffness, flexibility;
       std::vector<unsigned int>  unknowns; ///< degrees of freedom
     };
@@ -567,8 +571,8 @@ namespace Debond
 
 
   std::unique_ptr<CondensingBulk>
-  make_lattice_bulk(const BulkSpace &mesh, const EnrichedCells &cells)
+  make_lattice_bulk(const BulkSpace &mesh, EnrichedCells &&cells)
   {
-    return std::make_unique<LatticeBulk>(mesh, cells);
+    return std::make_unique<LatticeBulk>(mesh, std::move(cells));
   }
 } // namespace Debond

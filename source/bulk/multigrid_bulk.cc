@@ -75,8 +75,8 @@ namespace Debond
     class MultigridBulk : public WholeBulk
     {
     public:
-      MultigridBulk(const BulkSpace &mesh, const NeoHookean &material)
-        : WholeBulk(mesh, material)
+      MultigridBulk(const BulkSpace &mesh, EnrichedCells &&cells_of_mesh)
+        : WholeBulk(mesh, std::move(cells_of_mesh))
         , rows(3 * mesh.n_nodes())
       {
         for (const auto node : mesh.owned_nodes())
@@ -359,13 +359,9 @@ namespace Debond
 
 
   std::unique_ptr<WholeBulk>
-  make_multigrid_bulk(const BulkSpace &mesh, const NeoHookean &material)
+  make_multigrid_bulk(const BulkSpace &mesh, EnrichedCells &&cells)
   {
     Ranks::communicator(); // begins with MPI, before anything of Trilinos
-    // a modulus that makes no sense in the cells of one rank is told to all
-    std::unique_ptr<MultigridBulk> bulk;
-    Ranks::in_agreement(
-      [&] { bulk = std::make_unique<MultigridBulk>(mesh, material); });
-    return bulk;
+    return std::make_unique<MultigridBulk>(mesh, std::move(cells));
   }
 } // namespace Debond

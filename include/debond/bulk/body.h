@@ -25,8 +25,8 @@ namespace Debond
   class Body
   {
   public:
-    /** @p law gives the stress of a body that deforms. */
-    Body(const BodyParameters &parameters, Side side, StressLaw law = nullptr);
+    /** @p has_bulk: it deforms. */
+    Body(const BodyParameters &parameters, Side side, bool has_bulk = false);
     virtual ~Body() = default;
 
     const BulkSpace &
@@ -269,7 +269,6 @@ namespace Debond
     void
     restore(const std::vector<bool> &contact, const Eigen::VectorXd &state);
 
-    const StressLaw   law;
     std::vector<int>  unknown_numbers;
     std::vector<bool> is_contact;
     /** Some of the contact surface's control points are no unknowns. */

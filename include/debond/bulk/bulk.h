@@ -2,7 +2,6 @@
 #define debond_bulk_bulk_h
 
 #include <debond/bulk/bulk_space.h>
-#include <debond/bulk/neo_hookean.h>
 
 #include <Eigen/Core>
 
@@ -64,14 +63,14 @@ namespace Debond
 
     /**
      * Cauchy stress at the mesh vertices [MPa], in the body's frame and in the
-     * numbering of the vertex nodes, for pictures: computed by @p law at the
-     * Gauss points, where it is most accurate, extrapolated to the corners of
-     * each cell and averaged there over the cells of the body.
+     * numbering of the vertex nodes, for pictures: computed at the Gauss
+     * points, where it is most accurate, extrapolated to the corners of each
+     * cell and averaged there over the cells of the body.
      *
      * Nothing is differentiated at the corners: those of the disk are singular.
      */
     virtual std::vector<Eigen::Matrix3d>
-    vertex_stress(const Eigen::VectorXd &v, StressLaw law) const = 0;
+    vertex_stress(const Eigen::VectorXd &v, bool has_small_strains) const = 0;
     /** Young's modulus of a cell [MPa], the mean over its Gauss points. */
     virtual double
     young_modulus(unsigned int cell) const = 0;

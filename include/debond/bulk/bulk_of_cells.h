@@ -18,7 +18,8 @@ namespace Debond
     Eigen::MatrixXd
     product_at_rest(Eigen::MatrixXd x) const override;
     std::vector<Eigen::Matrix3d>
-    vertex_stress(const Eigen::VectorXd &v, StressLaw law) const override;
+    vertex_stress(const Eigen::VectorXd &v,
+                  bool                   has_small_strains) const override;
     double
     young_modulus(const unsigned int cell) const override
     {
@@ -27,13 +28,9 @@ namespace Debond
     }
 
   protected:
-    BulkOfCells(const BulkSpace &mesh, const NeoHookean &material)
+    BulkOfCells(const BulkSpace &mesh, EnrichedCells &&cells)
       : mesh(mesh)
-      , cells(mesh, material)
-    {}
-    BulkOfCells(const BulkSpace &mesh, const EnrichedCells &cells)
-      : mesh(mesh)
-      , cells(cells)
+      , cells(std::move(cells))
     {}
 
     /** Degrees of freedom of a cell, put into @p dofs. */

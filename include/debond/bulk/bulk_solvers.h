@@ -14,7 +14,7 @@ namespace Debond
    *  Neo-Hookean one as an approximate inverse beside its true internal
    *  forces. */
   std::unique_ptr<CondensingBulk>
-  make_condensed_bulk(const BulkSpace &mesh, const NeoHookean &material);
+  make_condensed_bulk(const BulkSpace &mesh, EnrichedCells &&cells);
 
   /** A bone of equal splines across (BodyParameters::has_equal_splines), which
    *  sines and cosines make diagonal. Its unknowns are all control points of
@@ -22,11 +22,11 @@ namespace Debond
    *  set_contact() throws EntryError. Layers of @p cells may differ in their
    *  modulus. */
   std::unique_ptr<CondensingBulk>
-  make_lattice_bulk(const BulkSpace &mesh, const EnrichedCells &cells);
+  make_lattice_bulk(const BulkSpace &mesh, EnrichedCells &&cells);
 
   /** A WholeBulk with algebraic multigrid, on all ranks. */
   std::unique_ptr<WholeBulk>
-  make_multigrid_bulk(const BulkSpace &mesh, const NeoHookean &material);
+  make_multigrid_bulk(const BulkSpace &mesh, EnrichedCells &&cells);
 
   /** The bulk of a body with the given @p mesh, which must outlive it; direct
    *  unless the mesh asks for another solver (ModelParameters says whether it

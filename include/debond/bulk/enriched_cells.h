@@ -2,13 +2,14 @@
 #define debond_bulk_enriched_cells_h
 
 #include <debond/bulk/bulk_space.h>
-#include <debond/bulk/neo_hookean.h>
+#include <debond/bulk/hyperelastic_material.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
 #include <Eigen/Core>
 
+#include <memory>
 #include <type_traits>
 #include <vector>
 
@@ -25,7 +26,14 @@ namespace Debond
   public:
     /** @p mesh must outlive this object. @p material is that of the mesh's
      *  young_modulus. */
-    EnrichedCells(const BulkSpace &mesh, const NeoHookean &material);
+    EnrichedCells(const BulkSpace                            &mesh,
+                  std::shared_ptr<const HyperelasticMaterial> material);
+    template <typename Law>
+    EnrichedCells(const BulkSpace &mesh, const Law &law)
+      : EnrichedCells(mesh,
+                      std::shared_ptr<const HyperelasticMaterial>(
+                        std::make_shared<MaterialOf<Law>>(law)))
+    {}
 
     unsigned int
     n_cells() const
@@ -60,9 +68,12 @@ namespace Debond
             const Eigen::VectorXd &v,
             Eigen::MatrixXd       &K) const;
 
-    /** Cauchy stress at the Gauss points of a cell [MPa]. */
+    /** Cauchy stress at the Gauss points of a cell [MPa], P F^T / J or, with
+     *  small strains, C(0) : H. */
     std::vector<Eigen::Matrix3d>
-    stress(unsigned int cell, const Eigen::VectorXd &v, StressLaw law) const;
+    stress(unsigned int           cell,
+           const Eigen::VectorXd &v,
+           bool                   has_small_strains) const;
 
     /** Reference volume [mm^3]. */
     double
@@ -89,10 +100,10 @@ namespace Debond
       return Eigen::Map<const Eigen::ArrayXd>(&factors[n_points() * cell],
                                               n_points());
     }
-    const NeoHookean &
+    const HyperelasticMaterial &
     material() const
     {
-      return bulk_material;
+      return *bulk_material;
     }
 
   private:
@@ -112,9 +123,6 @@ namespace Debond
     {
       return &gradient_list[first_gradient[kinds[cell]]];
     }
-    /** One number for each Gauss point of a cell. */
-    template <int n_q>
-    using PointValues = Eigen::Array<double, n_q, 1>;
     /** Calls work(n), n a constant: the number of points in a cell. */
     template <typename Work>
     auto
@@ -153,15 +161,15 @@ namespace Debond
     void
     find_factors();
 
-    const BulkSpace          &mesh;
-    const NeoHookean          bulk_material;
-    const dealii::QGauss<1>   line;
-    const dealii::QGauss<3>   quadrature;
-    std::vector<unsigned int> kinds;          ///< of each cell
-    std::vector<std::size_t>  first_gradient; ///< of each kind
-    std::vector<double>       gradient_list;
-    std::vector<double>       JxW;     ///< of the points of a kind [mm^3]
-    std::vector<double>       factors; ///< of those of a cell; empty: all 1
+    const BulkSpace                            &mesh;
+    std::shared_ptr<const HyperelasticMaterial> bulk_material;
+    const dealii::QGauss<1>                     line;
+    const dealii::QGauss<3>                     quadrature;
+    std::vector<unsigned int>                   kinds; ///< of each cell
+    std::vector<std::size_t> first_gradient;           ///< of each kind
+    std::vector<double>      gradient_list;
+    std::vector<double>      JxW;     ///< of the points of a kind [mm^3]
+    std::vector<double>      factors; ///< of those of a cell; empty: all 1
   };
 } // namespace Debond
 #endif

@@ -1,7 +1,7 @@
 #ifndef debond_bulk_neo_hookean_h
 #define debond_bulk_neo_hookean_h
 
-#include <Eigen/Core>
+#include <debond/bulk/hyperelastic_material.h>
 
 #include <cmath>
 
@@ -30,21 +30,6 @@ namespace Debond
       material.Lambda =
         2. * material.G * poisson_ratio / (1. - 2. * poisson_ratio);
       return material;
-    }
-
-    /** J - 1 = tr H + second and third invariant of H, free of cancellation. */
-    template <typename Number>
-    static Number
-    volume_change(const Number (&H)[3][3])
-    {
-      const Number minors = H[0][0] * H[1][1] - H[0][1] * H[1][0] +
-                            H[0][0] * H[2][2] - H[0][2] * H[2][0] +
-                            H[1][1] * H[2][2] - H[1][2] * H[2][1];
-      const Number determinant =
-        H[0][0] * (H[1][1] * H[2][2] - H[1][2] * H[2][1]) -
-        H[0][1] * (H[1][0] * H[2][2] - H[1][2] * H[2][0]) +
-        H[0][2] * (H[1][0] * H[2][1] - H[1][1] * H[2][0]);
-      return H[0][0] + H[1][1] + H[2][2] + minors + determinant;
     }
 
     /** F^-T for F = I + H with @p J = det F. */
@@ -102,17 +87,28 @@ namespace Debond
              0.5 * Lambda * ln_J * ln_J;
     }
 
-    /** Cauchy stress, Eq. (1) [MPa]. */
-    Eigen::Matrix3d
-    cauchy_stress(const double (&H)[3][3]) const;
-
-    /** The linear law of the same moduli: sigma = 2 G eps + Lambda tr eps I. */
-    Eigen::Matrix3d
-    linear_stress(const double (&H)[3][3]) const;
+    /** C_iJkL = dP_iJ/dF_kL = G (d_ik d_JL + A_iL A_kJ)
+     *  + Lambda (A_iJ A_kL - ln J A_iL A_kJ) with A = F^-T [MPa]. */
+    template <typename Number>
+    void
+    tangent(const Number (&H)[3][3], Number (&C)[3][3][3][3]) const
+    {
+      using std::log1p;
+      const Number j = volume_change(H);
+      Number       A[3][3];
+      inverse_transpose(H, Number(1. + j), A);
+      const Number crossed = G - Lambda * log1p(j);
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int J = 0; J < 3; ++J)
+          for (unsigned int k = 0; k < 3; ++k)
+            for (unsigned int L = 0; L < 3; ++L)
+              {
+                C[i][J][k][L] =
+                  crossed * A[i][L] * A[k][J] + Lambda * A[i][J] * A[k][L];
+                if (i == k && J == L)
+                  C[i][J][k][L] += G;
+              }
+    }
   };
-
-  /** Cauchy stress of one of these laws. */
-  using StressLaw =
-    Eigen::Matrix3d (NeoHookean::*)(const double (&H)[3][3]) const;
 } // namespace Debond
 #endif

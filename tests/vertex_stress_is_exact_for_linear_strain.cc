@@ -8,6 +8,8 @@
 #include <iostream>
 #include <string>
 
+#include "cauchy_stress.h"
+
 using namespace Debond;
 
 void

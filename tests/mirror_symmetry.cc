@@ -28,8 +28,8 @@ check(const std::string &name, const BulkSpace &mesh)
   const auto            bulk       = make_condensed_bulk(
     mesh,
     EnrichedCells(mesh,
-                  NeoHookean::from_young(parameters.young_modulus,
-                                         parameters.poisson_ratio)));
+                  material_of(NeoHookean::from_young(
+                    parameters.young_modulus, parameters.poisson_ratio))));
   const unsigned int n_cp = mesh.surface().n_control_points();
   std::vector<bool>  contact(n_cp, false);
   for (unsigned int A = 0; A < n_cp; ++A)

@@ -70,7 +70,7 @@ FNR == 1 {
   if (splines || quadratic) {
     label = label (value("Bone / Material") == "linear" ? "" : " " value("Bone / Material")) "; " cells[1] " x " cells[2] " x " cells[3] " / " \
       implant_cells[1] " x " implant_cells[1] " x " implant_cells[2] (mesh == "equal cells" ? "" : " " mesh) \
-      (value("Bone / Coarser below") == "true" ? ", coarser below" : "")
+      (value("Bone / Coarser below") == "true" ? " coarser below" : "")
   } else if (!closed && tier != "rigid") label = label "; " mesh "; " layers " layers"
   label = label "; " steps
   if (!closed && !splines && !quadratic && points != 5) label = label "; " points "x" points " points"

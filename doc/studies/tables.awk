@@ -1,4 +1,4 @@
-# Tables for doc/speed_and_accuracy.md from output/studies/work_precision.csv: splines, quadratic elements, what each factor does on two meshes of
+# Tables for doc/speed_and_accuracy.md from output/studies/work_precision.csv: splines, what each factor does on two meshes of
 # trilinear cells, and the fastest choice for a wanted accuracy.
 BEGIN { FS = "," }
 NR == 1 { next }
@@ -7,11 +7,9 @@ NR == 1 { next }
   mesh = $2 ", " $3
   what = $1 != "linear" ? "bodies " $1 : $4 != "tol. 1e-3" ? $4 : $5 != 5 ? $5 " x " $5 " points" : \
     $6 != "nurbs" ? $6 " surfaces" : $7 != "implant" ? "slave: " $7 : "usual choice"
-  if ($1 == "splines" || $1 == "quadratic") {
+  if ($1 == "splines") {
     split($16, part, "; ")
-    row = sprintf("%s%s | %s | %.2g s | %.1e | %.1e | %.1e", part[2], part[1] == $1 ? "" : ", Neo-Hookean", part[3], $8, $12, $14, $15)
-    if ($1 == "splines") splines[++n_splines] = row
-    else quadratic[++n_quadratic] = row
+    splines[++n_splines] = sprintf("%s%s | %s | %.2g s | %.1e | %.1e | %.1e", part[2], part[1] == "splines" ? "" : ", Neo-Hookean", part[3], $8, $12, $14, $15)
   }
   else if ($2 != "none" && changed <= 1) {
     row = sprintf("%.2g s | %.1e | %.1e | %.1e", $8, $12, $14, $15)
@@ -34,8 +32,6 @@ BEGIN { split("0.1 0.01 0.005 0.002 0.001 0.0005 0.0002 0.0001", limit, " ") }
 END {
   print "| splines, bone / implant | steps | seconds | torque | pressure | g_s |\n| --- | --- | --- | --- | --- | --- |"
   for (i = 1; i <= n_splines; i++) print "| " splines[i] " |"
-  print "\n| quadratic elements, bone / implant | steps | seconds | torque | pressure | g_s |\n| --- | --- | --- | --- | --- | --- |"
-  for (i = 1; i <= n_quadratic; i++) print "| " quadratic[i] " |"
   print "\n| mesh | unknowns | before steps | all | torque | pressure | g_s |\n| --- | --- | --- | --- | --- | --- | --- |"
   for (i = 1; i <= m; i++) print "| " meshes[i] " |"
   print "\n| | medium, 4 layers | torque | pressure | g_s | fine, 8 layers | torque | pressure | g_s |"

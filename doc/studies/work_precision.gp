@@ -48,8 +48,8 @@ do for [format in "png svg"] {
   set ylabel "Largest error of the torque curve / {/:Italic T}_{max}"
   set xrange [0.02:100]
   set yrange [1e-5:1]
-  set bmargin 9
-  set key at screen 0.5, 0.01 bottom center maxrows 4 samplen 1.5
+  set bmargin 11
+  set key at screen 0.5, 0.01 bottom center maxrows 5 samplen 1.5
   front = dir . "front_torque.csv"
   # what the reference is known to
   floor_of_error = 1.2e-5
@@ -68,7 +68,7 @@ do for [format in "png svg"] {
   eval picture(dir . "work_precision_local", 1400, 800)
   set multiplot
   set tmargin 2
-  set bmargin 10
+  set bmargin 12
   set yrange [1e-5:1]
   array what[2] = ["pressure", "slip"]
   array name[2] = ["pressure", "sliding distance {/:Italic g}_s"]
@@ -76,7 +76,7 @@ do for [format in "png svg"] {
     set origin (i - 1) / 2., 0
     set size 0.5, 1
     set ylabel "RMS error of the local " . name[i] . " / its mean"
-    set key at screen 0.5, 0.01 bottom center maxrows 4 samplen 1.5 width -2
+    set key at screen 0.5, 0.01 bottom center maxrows 5 samplen 1.5 width -2
     if (i == 2) { unset key }
     error = "error_" . what[i]
     plot for [k=1:words(tiers)] for [m=1:words(meshes)] table using (is(word(tiers, k), word(meshes, m)) ? column("seconds") : NaN):(best(column(error))) \

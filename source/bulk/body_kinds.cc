@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-// The two bodies that deform, from the cheaper to the more accurate one. The
+// The bodies that deform, from the cheaper to the more accurate one. The
 // paper uses the Neo-Hookean law, Eq. (1), for both bodies. Their strains are
 // about 1e-3 in the body's own frame, so that the Neo-Hookean law changes
 // nothing that is visible in the torque, and takes up to four times as long
@@ -302,13 +302,12 @@ namespace Debond
   std::unique_ptr<Body>
   make_body(const BodyParameters &parameters, const Side side)
   {
-    if (parameters.bulk_solver == BulkSolver::multigrid &&
-        !parameters.is_rigid())
+    if (parameters.is_rigid())
+      return std::make_unique<Body>(parameters, side);
+    if (parameters.bulk_solver == BulkSolver::multigrid)
       return std::make_unique<WholeBody>(parameters, side);
-    if (parameters.material == Material::linear)
-      return std::make_unique<LinearBody>(parameters, side);
-    if (parameters.material == Material::neo_hookean)
+    if (parameters.has_large_strains())
       return std::make_unique<LargeStrainBody>(parameters, side);
-    return std::make_unique<Body>(parameters, side);
+    return std::make_unique<LinearBody>(parameters, side);
   }
 } // namespace Debond

@@ -2,6 +2,8 @@
 #include <debond/bulk/neo_hookean.h>
 #include <debond/support/ranks.h>
 
+#include <deal.II/base/exceptions.h>
+
 #include <optional>
 #include <utility>
 
@@ -14,8 +16,16 @@ namespace Debond
     std::shared_ptr<const HyperelasticMaterial>
     make_material(const BodyParameters &body)
     {
-      return std::make_shared<MaterialOf<NeoHookean>>(
-        NeoHookean::from_young(body.young_modulus, body.poisson_ratio));
+      switch (body.material)
+        {
+          case Material::rigid:
+          case Material::linear:
+          case Material::neo_hookean:
+            return material_of(
+              NeoHookean::from_young(body.young_modulus, body.poisson_ratio));
+        }
+      AssertThrow(false, dealii::ExcNotImplemented());
+      return nullptr;
     }
   } // namespace
 

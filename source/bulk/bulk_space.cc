@@ -239,7 +239,7 @@ namespace Debond
   {
     /** Each cell by itself. With one thread FEValues takes what it can from the
      *  cell before if that is the same but for its place: other digits than
-     * with several. */
+     *  with several. */
     template <typename MappingType>
     class CellByCell : public MappingType
     {
@@ -520,8 +520,9 @@ namespace Debond
 
 
 
-  // Parts of METIS have few faces in common. A node belongs to the first of the
-  // ranks that have a cell with it; those that follow others mostly have none.
+  // Parts of METIS have few faces in common, and are the same on all ranks. A
+  // node belongs to the first of the ranks that have a cell with it; those that
+  // follow others mostly have none, and are the first rank's.
   void
   BulkSpace::deal_out()
   {

@@ -2,6 +2,8 @@
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 
+#include <deal.II/base/exceptions.h>
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -100,9 +102,17 @@ namespace Debond
   std::string
   name_of(const Material material)
   {
-    return material == Material::rigid  ? "rigid" :
-           material == Material::linear ? "linear" :
-                                          "neo-hookean";
+    switch (material)
+      {
+        case Material::rigid:
+          return "rigid";
+        case Material::linear:
+          return "linear";
+        case Material::neo_hookean:
+          return "neo-hookean";
+      }
+    AssertThrow(false, dealii::ExcNotImplemented());
+    return "";
   }
 
 
@@ -162,16 +172,18 @@ namespace Debond
     , coarsest{{scene.bone.cells, scene.implant.cells}}
   {
     refuse_what_has_no_curve(scene);
-    // None richer than a limit, in the order of their cost.
+    // None richer than a limit; at last those of the scene.
     const auto limited_to = [&](const Material limit) {
       return Materials{{std::min(scene.bone.material, limit),
                         std::min(scene.implant.material, limit)}};
     };
     linear_materials = limited_to(Material::linear);
-    for (const Material limit :
-         {Material::rigid, Material::linear, Material::neo_hookean})
-      if (materials.empty() || limited_to(limit) != materials.back())
-        materials.push_back(limited_to(limit));
+    for (const Materials &next :
+         {limited_to(Material::rigid),
+          linear_materials,
+          Materials{{scene.bone.material, scene.implant.material}}})
+      if (materials.empty() || next != materials.back())
+        materials.push_back(next);
     while (scene.bone.cells_under_implant == 0 &&
            can_be_halved(coarsest[0], 15) && can_be_halved(coarsest[1], 3))
       for (Cells &cells : coarsest)

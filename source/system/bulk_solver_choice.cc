@@ -113,8 +113,7 @@ namespace Debond
         if (model.chuck.component[ChuckComponent::translation_x + d]
               .is_unknown())
           return std::string("the implant may go anywhere in ") + "xy"[d];
-      if (model.bone.material == Material::neo_hookean &&
-          !is_pressed_lightly(model))
+      if (model.bone.has_large_strains() && !is_pressed_lightly(model))
         return "strains of the Neo-Hookean bone may be large";
       return "";
     }

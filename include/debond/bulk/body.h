@@ -281,8 +281,7 @@ namespace Debond
     bool surface_is_stale = false;
   };
 
-  /** The body that the scene asks for: the place where a material gets its
-   *  class. */
+  /** The body that the scene asks for. */
   std::unique_ptr<Body>
   make_body(const BodyParameters &parameters, Side side);
 } // namespace Debond

@@ -12,8 +12,8 @@ namespace Debond
 {
   /**
    * The finite elements of a body and the solver for their stiffness K: what a
-   * deformable body is built on. Other elements, or another solver, are another
-   * class of this kind and a line in make_bulk().
+   * deformable body is built on. Another solver is another class of this kind
+   * and a line in make_bulk().
    *
    * There are two kinds. A CondensingBulk brings some of its degrees of
    * freedom, c, into the coupled system and takes care of the others, i,

@@ -28,12 +28,6 @@ namespace Debond
      *  young_modulus. */
     EnrichedCells(const BulkSpace                            &mesh,
                   std::shared_ptr<const HyperelasticMaterial> material);
-    template <typename Law>
-    EnrichedCells(const BulkSpace &mesh, const Law &law)
-      : EnrichedCells(mesh,
-                      std::shared_ptr<const HyperelasticMaterial>(
-                        std::make_shared<MaterialOf<Law>>(law)))
-    {}
 
     unsigned int
     n_cells() const
@@ -53,9 +47,9 @@ namespace Debond
     }
 
     /** Adds the internal forces of all cells [N] to @p force (3 n_nodes of the
-     *  mesh) at the displacement @p v [mm] and returns the strain energy
-     *  [N mm]. False if a cell is turned inside out (J <= 0) or a value is not
-     *  finite; @p force and @p energy are then useless. */
+     *  mesh) at the displacement @p v [mm], and puts the strain energy [N mm]
+     *  into @p energy. False if a cell is turned inside out (J <= 0) or a value
+     * is not finite; @p force and @p energy are then useless. */
     bool
     internal_forces(const Eigen::VectorXd &v,
                     Eigen::VectorXd       &force,
@@ -99,11 +93,6 @@ namespace Debond
         return Eigen::ArrayXd::Ones(n_points());
       return Eigen::Map<const Eigen::ArrayXd>(&factors[n_points() * cell],
                                               n_points());
-    }
-    const HyperelasticMaterial &
-    material() const
-    {
-      return *bulk_material;
     }
 
   private:

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include <memory>
+
 namespace Debond
 {
   /** J - 1 = tr H + second and third invariant of H = F - I, free of
@@ -104,5 +106,12 @@ namespace Debond
   private:
     const Law law;
   };
+
+  template <typename Law>
+  std::shared_ptr<const HyperelasticMaterial>
+  material_of(const Law &law)
+  {
+    return std::make_shared<MaterialOf<Law>>(law);
+  }
 } // namespace Debond
 #endif

@@ -25,6 +25,8 @@ namespace Debond
     block,
     file
   };
+  /** In the order of their cost, and of the choices of the entry. Those after
+   *  `linear' have large strains. */
   enum class Material
   {
     rigid,
@@ -97,7 +99,7 @@ namespace Debond
     bool
     has_large_strains() const
     {
-      return material == Material::neo_hookean;
+      return material > Material::linear;
     }
     /** What its shape is asked for. */
     const BodyGeometry &

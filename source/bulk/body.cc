@@ -19,9 +19,8 @@
 // of 360 degrees.
 namespace Debond
 {
-  // Without a bulk the body is rigid: its control
-  // points are where the mesh has them, and no unknowns of the coupled system
-  // are its own.
+  // Without a bulk the body is rigid: its control points are where the mesh has
+  // them, and no unknowns of the coupled system are its own.
   Body::Body(const BodyParameters &parameters,
              const Side            side,
              const bool            has_bulk)

@@ -49,7 +49,7 @@ namespace Debond
     /** Adds the internal forces of all cells [N] to @p force (3 n_nodes of the
      *  mesh) at the displacement @p v [mm], and puts the strain energy [N mm]
      *  into @p energy. False if a cell is turned inside out (J <= 0) or a value
-     * is not finite; @p force and @p energy are then useless. */
+     *  is not finite; @p force and @p energy are then useless. */
     bool
     internal_forces(const Eigen::VectorXd &v,
                     Eigen::VectorXd       &force,

@@ -5,7 +5,7 @@
 
 #include <debond/bulk/body.h>
 #include <debond/bulk/chuck.h>
-#include <debond/output/field_output.h>
+#include <debond/output/bulk_fields.h>
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +57,7 @@ main()
                     Eigen::Vector3d(0, 0, coin.height),
                     coin.radius);
   const std::string vtu =
-    bulk_vtu({{body_of_bone.get(), body_of_coin.get()}}, chuck);
+    BulkFields({{body_of_bone.get(), body_of_coin.get()}}, chuck).vtu();
 
   const auto X = read_array(vtu, ""), u = read_array(vtu, "displacement"),
              stress          = read_array(vtu, "stress_MPa"),

@@ -156,6 +156,9 @@ def main():
     if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
         sys.exit(run_with_a_screen())
     global simple, vtkTextActor  # not at the top: it takes seconds, and mistakes are to be named at once
+    import paraview
+
+    paraview.compatibility.major, paraview.compatibility.minor = 5, 12  # names of later versions differ
     from paraview import simple
     from vtkmodules.vtkRenderingCore import vtkTextActor
     simple._DisableFirstRenderCameraReset()

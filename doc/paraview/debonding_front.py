@@ -3,8 +3,8 @@
     pvpython doc/paraview/debonding_front.py output/coin --field mu slip_mm --angles 1 2 5 10
     pvpython doc/paraview/debonding_front.py output/a output/b --labels disk random --output front.png
 
-pvpython comes with ParaView (Debian: paraview; written for 5.11). Where there is no screen, the script draws on that of
-xvfb-run (Debian: xvfb).
+pvpython comes with ParaView (Debian: paraview, of 13 python3-paraview; 5.11, 5.13). Where there is no screen, the script draws
+on that of xvfb-run (Debian: xvfb).
 
 The face is seen from above, through the implant, with +x to the right and +y up, as it lay at the start; with --turned as it
 lies at that angle. A field has the same colours in all columns and for all directories. The pictures are those of
@@ -229,6 +229,9 @@ def main():
     if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
         sys.exit(run_with_a_screen())
     global simple, vtkTextActor  # not at the top: it takes seconds, and mistakes are to be named at once
+    import paraview
+
+    paraview.compatibility.major, paraview.compatibility.minor = 5, 12  # names of later versions differ
     from paraview import simple
     from vtkmodules.vtkRenderingCore import vtkTextActor
     simple._DisableFirstRenderCameraReset()

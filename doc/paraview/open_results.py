@@ -17,8 +17,8 @@ fields that are not shown at first. Thin lines are the borders of trilinear cell
 degrees; where the angle turns back, or stands still other than at 0, the number of the file; where nothing rotates, the time
 of the scene. The series with these times are written into the directory, as bulk_view.pvd and interface_view.pvd.
 
-pvpython comes with ParaView (Debian: paraview; written for 5.11). Where there is no screen, the script draws on that of
-xvfb-run (Debian: xvfb).
+pvpython comes with ParaView (Debian: paraview, of 13 python3-paraview; 5.11, 5.13). Where there is no screen, the script draws
+on that of xvfb-run (Debian: xvfb).
 """
 
 import argparse
@@ -463,6 +463,9 @@ def read_arguments():
 
 def import_paraview():
     global simple  # not at the top: it takes seconds, and mistakes are to be named at once
+    import paraview
+
+    paraview.compatibility.major, paraview.compatibility.minor = 5, 12  # names of later versions differ
     from paraview import simple
     simple._DisableFirstRenderCameraReset()
 

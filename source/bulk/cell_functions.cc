@@ -34,6 +34,9 @@ namespace Debond
   {
     if (space.has_splines())
       extract_splines();
+    else if (cell.enriched)
+      for (unsigned int a = 0; a < space.element().n_dofs_per_cell(); ++a)
+        on_face[a] = space.element().has_support_on_face(a, cell.face.number);
   }
 
 
@@ -89,14 +92,11 @@ namespace Debond
   CellFunctions::of_contact_layer(const dealii::Point<3> &point,
                                   const ShapeValues      &phi) const
   {
-    const auto is_on_face = [&](const unsigned int a) {
-      return space.element().has_support_on_face(a, cell.face.number);
-    };
     const auto        &axes   = cell.face.axes;
     const unsigned int across = cell.face.across();
     double             l = 0., dl = 0.;
     for (unsigned int a = 0; a < phi.rows(); ++a)
-      if (is_on_face(a))
+      if (on_face[a])
         {
           l += phi(a, 0);
           dl += phi(a, 1 + across);
@@ -114,7 +114,7 @@ namespace Debond
         N(b, 1 + across)  = basis.N[b] * dl;
       }
     for (unsigned int a = 0, row = basis.size; a < phi.rows(); ++a)
-      if (!is_on_face(a))
+      if (!on_face[a])
         N.row(row++) = phi.row(a);
     return N;
   }

@@ -1,4 +1,5 @@
 #include <debond/interface/contact_interface.h>
+#include <debond/output/bulk_fields.h>
 #include <debond/output/field_output.h>
 #include <debond/output/result_files.h>
 #include <debond/support/number_text.h>
@@ -67,17 +68,18 @@ namespace Debond
   {
     const Body        &slave  = *bodies[interface.slave_side()];
     const unsigned int number = times.size();
-    const std::string  piece  = bulk_vtu(bodies, chuck);
+    const BulkFields   bulk(bodies, chuck);
     if (Ranks::number() == 1)
-      write_file(directory.file(file_name("bulk", number)), piece);
+      write_file(directory.file(file_name("bulk", number)), bulk.vtu());
     else
       {
-        write_own_file(directory.file(piece_name(number, Ranks::own())), piece);
+        write_own_file(directory.file(piece_name(number, Ranks::own())),
+                       bulk.vtu());
         std::vector<std::string> pieces;
         for (unsigned int rank = 0; rank < Ranks::number(); ++rank)
           pieces.push_back(piece_name(number, rank));
         write_file(directory.file(file_name("bulk", number)),
-                   list_of_pieces(bodies, pieces));
+                   bulk.list_of_pieces(pieces));
       }
     if (Ranks::is_first())
       write_file(directory.file(file_name("interface", number)),

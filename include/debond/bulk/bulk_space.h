@@ -17,6 +17,7 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <array>
+#include <bitset>
 #include <memory>
 #include <vector>
 
@@ -357,8 +358,9 @@ namespace Debond
 
     const BulkSpace       &space;
     const BulkSpace::Cell &cell;
-    Eigen::MatrixXd        E; ///< functions of FE_Q x splines
-    Eigen::VectorXd        w; ///< of each spline; empty: all 1
+    std::bitset<27>        on_face; ///< functions of FE_Q that NURBS replace
+    Eigen::MatrixXd        E;       ///< functions of FE_Q x splines
+    Eigen::VectorXd        w;       ///< of each spline; empty: all 1
   };
 } // namespace Debond
 #endif

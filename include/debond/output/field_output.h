@@ -21,8 +21,9 @@ namespace Debond
    *
    * Points lie at their *reference* positions X, and the array `displacement`
    * is x - X in space, the rigid motion of the implant included: the filter
-   * Warp By Vector shows the deformed state. Curved cells and surfaces are
-   * drawn as the model has them, finely subdivided.
+   * Warp By Vector shows the deformed state. Bodies with a curved surface are
+   * drawn by polynomials of degree 2 through points of the model, the contact
+   * surface as the model has it, finely subdivided.
    *
    * Arrays of the bulk (both bodies):
    *  - displacement [mm]; displacement_in_frame, v in the body's own frame
@@ -93,18 +94,6 @@ namespace Debond
     std::vector<unsigned int>         n_pieces;      ///< of the bulk in each
     std::size_t                       n_on_disk = 0; ///< files of each series
   };
-
-  /** The text of a VTU file with the fields of both bodies, bone and implant,
-   *  in the trial state; class FieldOutput says which. Of several ranks each
-   *  has its piece. Collective. */
-  std::string
-  bulk_vtu(const std::array<const Body *, 2> &bodies, const Chuck &chuck);
-
-  /** The text of a file that joins such pieces, given by the names of their
-   *  files. */
-  std::string
-  list_of_pieces(const std::array<const Body *, 2> &bodies,
-                 const std::vector<std::string>    &pieces);
 
   /** The text of a VTU file with the fields of the interface in the trial state
    *  on the surface of the body @p slave; class FieldOutput says which, and how

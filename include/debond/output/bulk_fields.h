@@ -1,0 +1,56 @@
+#ifndef debond_output_bulk_fields_h
+#define debond_output_bulk_fields_h
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Debond
+{
+  class Body;
+  class Chuck;
+  class NurbsSurface;
+
+  /**
+   * The fields of both bodies in the trial state, class FieldOutput says which,
+   * drawn by dealii::DataOut. Of several ranks each has the cells of its own.
+   */
+  class BulkFields
+  {
+  public:
+    /** @p bodies: bone, implant. Collective. */
+    BulkFields(const std::array<const Body *, 2> &bodies, const Chuck &chuck);
+    ~BulkFields();
+
+    /** The text of a VTU file. */
+    std::string
+    vtu() const;
+    /** The text of a file that joins those of several ranks, given by their
+     *  names. */
+    std::string
+    list_of_pieces(const std::vector<std::string> &pieces) const;
+
+  private:
+    class DrawnCells;
+
+    void
+    add(const Body  &body,
+        const Chuck &chuck,
+        bool         has_curved_cells,
+        bool         draws_modulus);
+
+    /** The first one has the patches of all. */
+    std::vector<std::unique_ptr<DrawnCells>> parts;
+  };
+
+  /** Into how many pieces a cell is cut in each direction, so that there are
+   *  about @p across of them on the face: the fewer cells a disk has, the more
+   *  pieces it takes to look round. */
+  unsigned int
+  n_pieces(const NurbsSurface &surface,
+           unsigned int        across,
+           unsigned int        least,
+           unsigned int        most);
+} // namespace Debond
+#endif

@@ -1,0 +1,351 @@
+#include <debond/bulk/body.h>
+#include <debond/bulk/bulk_space.h>
+#include <debond/bulk/chuck.h>
+#include <debond/geometry/surface_geometry.h>
+#include <debond/interface/contact_interface.h>
+#include <debond/output/bulk_fields.h>
+#include <debond/output/field_output.h>
+#include <debond/support/number_text.h>
+
+#include <deal.II/base/data_out_base.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <sstream>
+#include <tuple>
+#include <utility>
+
+namespace Debond
+{
+  namespace
+  {
+    template <typename Vector>
+    void
+    append_values(std::vector<double> &values, const Vector &more)
+    {
+      values.insert(values.end(), more.data(), more.data() + more.size());
+    }
+
+
+
+    /** The contact face as deal.II draws it: a patch for each element, a
+     *  regular grid of points with the values of all fields. These are no
+     * finite element functions, of which DataOut could be told. */
+    class DrawnFace : public dealii::DataOutInterface<2, 3>
+    {
+    public:
+      /** Names of the fields, and how many values each has: 1 or a vector's 3.
+       *  An element is cut into @p n pieces in each direction. */
+      DrawnFace(const std::vector<std::pair<std::string, unsigned int>> &fields,
+                const unsigned int                                       n)
+        : n_pieces(n)
+      {
+        for (const auto &[name, n_values] : fields)
+          {
+            if (n_values == 3)
+              ranges.emplace_back(names.size(),
+                                  names.size() + 2,
+                                  name,
+                                  dealii::DataComponentInterpretation::
+                                    component_is_part_of_vector);
+            names.insert(names.end(), n_values, name);
+          }
+      }
+
+      /** Adds an element. draw(k, values) is called for the points k: it
+       * appends the values of all fields to an empty list and returns the
+       * position. */
+      template <typename Draw>
+      void
+      add_element(const Draw &draw)
+      {
+        auto &patch                 = patches.emplace_back();
+        patch.n_subdivisions        = n_pieces;
+        patch.patch_index           = patches.size() - 1;
+        patch.reference_cell        = dealii::ReferenceCells::Quadrilateral;
+        patch.points_are_available  = true;
+        const unsigned int n_points = (n_pieces + 1) * (n_pieces + 1);
+        patch.data.reinit(names.size() + 3, n_points);
+        std::vector<double> values;
+        for (unsigned int p = 0; p < n_points; ++p)
+          {
+            values.clear();
+            const Eigen::Vector3d position = draw(p, values);
+            AssertDimension(values.size(), names.size());
+            append_values(values, position);
+            for (unsigned int i = 0; i < values.size(); ++i)
+              patch.data(i, p) = values[i];
+          }
+      }
+
+    private:
+      using Patch = dealii::DataOutBase::Patch<2, 3>;
+      using Range = std::tuple<
+        unsigned int,
+        unsigned int,
+        std::string,
+        dealii::DataComponentInterpretation::DataComponentInterpretation>;
+
+      const std::vector<Patch> &
+      get_patches() const override
+      {
+        return patches;
+      }
+      std::vector<std::string>
+      get_dataset_names() const override
+      {
+        return names;
+      }
+      std::vector<Range>
+      get_nonscalar_data_ranges() const override
+      {
+        return ranges;
+      }
+
+      const unsigned int       n_pieces;
+      std::vector<Patch>       patches;
+      std::vector<std::string> names;
+      std::vector<Range>       ranges; ///< vectors
+    };
+
+
+
+    /** The quadrature points of a surface as one tensor grid over the patch, or
+     *  one in each of several patches. */
+    class QuadratureGrid
+    {
+    public:
+      QuadratureGrid(const ContactInterface &interface,
+                     const NurbsSurface     &surface)
+        : points(interface.get_points())
+        , n(interface.points_per_element())
+        , is_one_patch(surface.is_one_patch())
+        , n_elements(is_one_patch ? surface.n_elements_per_direction() :
+                                    std::array<unsigned int, 2>{{1, 1}})
+      {
+        for (unsigned int d = 0; d < 2; ++d)
+          for (unsigned int i = 0; i < n * n_elements[d]; ++i)
+            coordinates[d].push_back(
+              points[d == 0 ? index(0, i, 0) : index(0, 0, i)].xi[d]);
+      }
+
+      /** Four points and their weights, and the nearest point. */
+      struct Stencil
+      {
+        std::array<const SlavePoint *, 4> point;
+        std::array<double, 4>             weight;
+        const SlavePoint                 *nearest;
+      };
+
+      /** At a point of @p element, between all points, for fields that are
+       *  continuous over the whole patch, or those of the element only, for
+       *  fields that may jump at its borders; constant beyond these. */
+      Stencil
+      stencil(const unsigned int     element,
+              const Eigen::Vector2d &place,
+              const bool             in_element) const
+      {
+        // patches have coordinates alike
+        const unsigned int patch = is_one_patch ? 0 : element;
+        Eigen::Vector2d    xi    = place;
+        if (!is_one_patch)
+          xi += points[0].xi - points[n * n * patch].xi;
+        std::array<unsigned int, 2> first, second;
+        std::array<double, 2>       share; // of the second
+        for (unsigned int d = 0; d < 2; ++d)
+          {
+            const auto &x     = coordinates[d];
+            std::size_t begin = 0, end = x.size();
+            if (in_element && is_one_patch)
+              {
+                begin = n * (d == 0 ? element % n_elements[0] :
+                                      element / n_elements[0]);
+                end   = begin + n;
+              }
+            const std::size_t upper =
+              std::upper_bound(x.begin() + begin, x.begin() + end, xi[d]) -
+              x.begin();
+            first[d]  = std::max(upper, begin + 1) - 1;
+            second[d] = std::min(upper, end - 1);
+            share[d]  = first[d] == second[d] ?
+                          0. :
+                          (xi[d] - x[first[d]]) / (x[second[d]] - x[first[d]]);
+          }
+        Stencil result;
+        for (unsigned int a = 0; a < 4; ++a)
+          {
+            result.weight[a] = dealii::GeometryInfo<2>::d_linear_shape_function(
+              dealii::Point<2>(share[0], share[1]), a);
+            result.point[a] = &points[index(patch,
+                                            a % 2 == 0 ? first[0] : second[0],
+                                            a / 2 == 0 ? first[1] : second[1])];
+          }
+        result.nearest = &points[index(patch,
+                                       share[0] < 0.5 ? first[0] : second[0],
+                                       share[1] < 0.5 ? first[1] : second[1])];
+        return result;
+      }
+
+    private:
+      /** Points are numbered element by element, the first parameter fastest in
+       *  both; @p i and @p j count over the whole patch. */
+      unsigned int
+      index(const unsigned int patch,
+            const unsigned int i,
+            const unsigned int j) const
+      {
+        const unsigned int element = patch + i / n + n_elements[0] * (j / n);
+        return n * n * element + i % n + n * (j % n);
+      }
+
+      const std::vector<SlavePoint>     &points;
+      const unsigned int                 n;
+      const bool                         is_one_patch;
+      const std::array<unsigned int, 2>  n_elements; ///< of a patch
+      std::array<std::vector<double>, 2> coordinates;
+    };
+
+
+
+    /** Pressure, traction on the slave, gap and sliding distance of a point,
+     *  which are continuous over the patch. A point that does not face the
+     *  master has no gap: the distance to the nearest border is none. An open
+     *  point with a negative gap is beyond the border, too. */
+    Eigen::Matrix<double, 6, 1>
+    continuous_values(const SlavePoint &point)
+    {
+      const ContactPointResult &trial = point.trial;
+      const bool                is_beyond =
+        trial.state.status == PointStatus::open &&
+        (!trial.state.has_partner || trial.normal_gap < 0.);
+      Eigen::Matrix<double, 6, 1> values;
+      values << trial.state.pressure, -trial.tangential_traction,
+        is_beyond ? 0. : trial.normal_gap, trial.state.slip;
+      return values;
+    }
+
+
+
+    /** Sliding distance [mm] and internal variables from those points that face
+     *  the implant: the others of a bone have never slid and would heal its
+     *  bond at the rim. */
+    FrictionState
+    state_under_implant(const QuadratureGrid::Stencil &stencil)
+    {
+      FrictionState state;
+      double        weight = 0.;
+      for (unsigned int a = 0; a < 4; ++a)
+        if (stencil.point[a]->faces_implant)
+          weight += stencil.weight[a];
+      for (unsigned int a = 0; a < 4; ++a)
+        if (stencil.point[a]->faces_implant)
+          {
+            const auto  &own  = stencil.point[a]->trial.state;
+            const double part = stencil.weight[a] / weight;
+            state.slip += part * own.slip;
+            for (unsigned int i = 0; i < state.internal.size(); ++i)
+              state.internal[i] += part * own.internal[i];
+          }
+      return state;
+    }
+
+
+
+    /**
+     * phi_0, phi and mu at a point of an element. Patterns jump from element to
+     * element, so phi_0 is that of the element's own points; phi and mu follow
+     * from it and the sliding distance, which does not jump, by the friction
+     * law: they are as sharp as the pattern where it jumps, smooth elsewhere.
+     */
+    std::array<double, 3>
+    bonding_values(const FrictionLaw             &law,
+                   const QuadratureGrid::Stencil &across_elements,
+                   const QuadratureGrid::Stencil &own)
+    {
+      double        phi_0 = 0.;
+      FrictionState state = state_under_implant(across_elements);
+      state.phi_0         = 0.; // without bonds that opening broke
+      for (unsigned int a = 0; a < 4; ++a)
+        {
+          const double part = own.weight[a] * own.point[a]->phi_0;
+          phi_0 += part;
+          if (!own.point[a]->trial.state.broken)
+            state.phi_0 += part;
+        }
+      const FrictionCoefficient friction = law.reported(state);
+      return {{phi_0, friction.phi, friction.mu}};
+    }
+
+
+
+    /** x - X of the control points of a body's contact surface. */
+    ControlNet
+    control_point_displacement(const Body &body, const Chuck &chuck)
+    {
+      const ControlNet &X = body.surface().control_points();
+      ControlNet        u = body.contact_displacement();
+      if (body.mesh().side() == Side::implant)
+        for (unsigned int A = 0; A < u.cols(); ++A)
+          u.col(A) = chuck.map(X.col(A), u.col(A)) - X.col(A);
+      return u;
+    }
+  } // namespace
+
+
+
+  std::string
+  interface_vtu(const Body             &slave,
+                const ContactInterface &interface,
+                const Chuck            &chuck)
+  {
+    const NurbsSurface  &surface = slave.surface();
+    const FrictionLaw   &law     = *interface.get_parameters().friction;
+    const ControlNet     u       = control_point_displacement(slave, chuck);
+    const QuadratureGrid grid(interface, surface);
+    SurfaceBasis         basis;
+    SurfaceGeometry      position, displacement;
+    const unsigned int   n = n_pieces(surface, 96, 4, 16);
+    const auto           corners =
+      dealii::QIterated<2>(dealii::QTrapezoid<1>(), n).get_points();
+    DrawnFace face({{"pressure_MPa", 1},
+                    {"traction_MPa", 3},
+                    {"gap_mm", 1},
+                    {"slip_mm", 1},
+                    {"phi_0", 1},
+                    {"phi", 1},
+                    {"mu", 1},
+                    {"state", 1},
+                    {"displacement", 3}},
+                   n);
+    for (unsigned int element = 0; element < surface.n_elements(); ++element)
+      face.add_element([&](const unsigned int k, std::vector<double> &values) {
+        const Eigen::Vector2d xi =
+          parameters_at(surface.element_bounds(element), corners[k]);
+        surface.evaluate_in_element(element, xi, basis, false);
+        contract(basis, surface.control_points(), false, position);
+        contract(basis, u, false, displacement);
+
+        const auto                  stencil = grid.stencil(element, xi, false);
+        Eigen::Matrix<double, 6, 1> continuous =
+          Eigen::Matrix<double, 6, 1>::Zero();
+        for (unsigned int a = 0; a < 4; ++a)
+          continuous +=
+            stencil.weight[a] * continuous_values(*stencil.point[a]);
+        append_values(values, continuous);
+        for (const double value :
+             bonding_values(law, stencil, grid.stencil(element, xi, true)))
+          values.push_back(value);
+        values.push_back(
+          static_cast<double>(stencil.nearest->trial.state.status));
+        append_values(values, displacement.y);
+        return position.y;
+      });
+    dealii::DataOutBase::VtkFlags flags;
+    flags.print_date_and_time = false;
+    flags.compression_level   = flags.best_speed;
+    face.set_flags(flags);
+    Classic<std::ostringstream> text;
+    face.write_vtu(text);
+    return text.str();
+  }
+} // namespace Debond

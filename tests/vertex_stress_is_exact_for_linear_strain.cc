@@ -113,6 +113,16 @@ main()
             report("  deviation under uniform strain",
                    deviation(parameters, side, uniform, uniform_gradient),
                    1e-12);
+            // strains of 1e-9, which F - I knows to 1e-7 only
+            report("  deviation under small uniform strain",
+                   deviation(
+                     parameters,
+                     side,
+                     [&H](const Eigen::Vector3d &X) -> Eigen::Vector3d {
+                       return 1e-8 * H * X;
+                     },
+                     [&H](const Eigen::Vector3d &) { return 1e-8 * H; }),
+                   1e-12);
           }
       BodyParameters parameters = block();
       parameters.material       = Material::linear;

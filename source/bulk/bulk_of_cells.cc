@@ -75,6 +75,23 @@ namespace Debond
 
 
 
+  void
+  BulkOfCells::stiffness_of(
+    const unsigned int                            cell,
+    const Eigen::VectorXd                        &v,
+    dealii::FullMatrix<double>                   &K,
+    std::vector<dealii::types::global_dof_index> &dofs) const
+  {
+    Eigen::MatrixXd tangent;
+    cells.tangent(cell, v, tangent);
+    dofs_of(cell, dofs);
+    K.reinit(dofs.size(), dofs.size(), true);
+    // symmetric: by rows is by columns
+    Eigen::Map<Eigen::MatrixXd>(&K(0, 0), K.m(), K.n()) = tangent;
+  }
+
+
+
   // Cauchy stress [MPa] for pictures: from the Gauss points, where it is
   // most accurate, to the corners of each cell, and there the mean over the
   // cells. The polynomial through the points evaluates no gradient at a

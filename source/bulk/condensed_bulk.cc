@@ -3,7 +3,6 @@
 #include <debond/bulk/mirror_symmetry.h>
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/sparsity_pattern.h>
 
@@ -86,17 +85,13 @@ namespace Debond
         // The patterns stay; values are needed until CHOLMOD has them.
         for (const auto &block : blocks)
           block->K.reinit(block->pattern);
-        Eigen::MatrixXd                              tangent;
         dealii::FullMatrix<double>                   K;
         std::vector<dealii::types::global_dof_index> dofs;
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
           if (const unsigned int n_images = n_images_of(cell))
             {
-              cells.tangent(cell, v, tangent);
-              dofs_of(cell, dofs);
-              K.reinit(dofs.size(), dofs.size(), true);
-              Eigen::Map<Eigen::MatrixXd>(&K(0, 0), K.m(), K.n()) =
-                n_images * tangent; // symmetric
+              stiffness_of(cell, v, K, dofs);
+              K *= n_images;
               for (const auto &block : blocks)
                 block->constraints.distribute_local_to_global(K,
                                                               dofs,

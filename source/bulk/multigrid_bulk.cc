@@ -2,7 +2,6 @@
 #include <debond/bulk/whole_bulk.h>
 #include <debond/support/ranks.h>
 
-#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
@@ -263,18 +262,12 @@ namespace Debond
         if (K.m() == 0)
           make_pattern();
         K = 0.;
-        Eigen::MatrixXd                              tangent;
-        dealii::FullMatrix<double>                   matrix;
+        dealii::FullMatrix<double>                   K_cell;
         std::vector<dealii::types::global_dof_index> dofs;
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
           {
-            cells.tangent(cell, v, tangent);
-            dofs_of(cell, dofs);
-            matrix.reinit(dofs.size(), dofs.size(), true);
-            Eigen::Map<Eigen::MatrixXd>(&matrix(0, 0),
-                                        matrix.m(),
-                                        matrix.n()) = tangent; // symmetric
-            mesh.constraints().distribute_local_to_global(matrix, dofs, K);
+            stiffness_of(cell, v, K_cell, dofs);
+            mesh.constraints().distribute_local_to_global(K_cell, dofs, K);
           }
         K.compress(dealii::VectorOperation::add);
         for (const auto dof : owned_dofs)

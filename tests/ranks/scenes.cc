@@ -16,6 +16,7 @@
 #include <algorithm>
 
 #include "../checks.h"
+#include "../driven_scene.h"
 #include "../pressed_and_turned.h"
 
 using namespace Debond;
@@ -49,15 +50,6 @@ const std::string block = "set Cells = 12, 12, 4",
                          "/prm/meshes/bone_core.msh";
 
 const Changes splines{"Bone/Element=spline", "Bone/Layer grading=1.5"};
-
-Changes
-operator+(Changes a, const Changes &b)
-{
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
-
 
 /** The rows of a run. */
 std::vector<TorqueRow>

@@ -4,6 +4,8 @@
 #include <debond/bulk/bulk.h>
 #include <debond/bulk/enriched_cells.h>
 
+#include <deal.II/lac/full_matrix.h>
+
 namespace Debond
 {
   /** What the cells of a bulk say by themselves, whatever solves for their
@@ -37,6 +39,13 @@ namespace Debond
     void
     dofs_of(unsigned int                                  cell,
             std::vector<dealii::types::global_dof_index> &dofs) const;
+    /** The same, and the stiffness K of the cell [N/mm] in state @p v, for
+     *  distribute_local_to_global(). */
+    void
+    stiffness_of(unsigned int                                  cell,
+                 const Eigen::VectorXd                        &v,
+                 dealii::FullMatrix<double>                   &K,
+                 std::vector<dealii::types::global_dof_index> &dofs) const;
     /** Adds to sums over the cells of this rank those of others, one entry for
      *  each vertex. */
     virtual void

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace Debond
 {
@@ -47,20 +48,23 @@ namespace Debond
     , contact_surface(face)
     , layer_knots(make_layers(parameters))
     , scalar_fe(degree())
-    , vector_fe(dealii::FE_Q<3>(has_splines() ? 1 : degree()), 3)
+    , vector_fe(dealii::FE_Q<3>(degree()), 3)
     , dofs(triangulation)
   {
-    if (has_lattice())
-      make_grid();
-    else
-      triangulation.copy_triangulation(body_parameters.mesh->triangulation);
-    dofs.distribute_dofs(vector_fe);
-    n_nodes_of_fe = dofs.n_dofs() / 3;
-    find_cells();
     if (has_splines())
-      number_nodes_of_splines();
+      {
+        make_cells_of_splines();
+        number_nodes_of_splines();
+      }
     else
       {
+        if (has_lattice())
+          make_grid();
+        else
+          triangulation.copy_triangulation(body_parameters.mesh->triangulation);
+        dofs.distribute_dofs(vector_fe);
+        n_nodes_of_fe = dofs.n_dofs() / 3;
+        find_cells();
         place_nodes();
         number_nodes_of_cells();
       }
@@ -70,8 +74,6 @@ namespace Debond
       reference_positions.push_back(control_points.col(A));
     make_constraints();
     deal_out();
-    if (has_splines())
-      release_triangulation();
   }
 
 
@@ -134,10 +136,9 @@ namespace Debond
 
 
 
-  // All cells, and which element of the surface they touch or, with splines,
-  // stand above or below. The first vertex of a cell in a lattice is the one
-  // with the least indices; layers are counted from the contact face, the
-  // bone's top.
+  // All cells, and which element of the surface they touch. The first vertex of
+  // a cell in a lattice is the one with the least indices; layers are counted
+  // from the contact face, the bone's top.
   void
   BulkSpace::find_cells()
   {
@@ -146,8 +147,7 @@ namespace Debond
         Cell &info = bulk_cells.emplace_back();
         for (const unsigned int v : cell->vertex_indices())
           info.vertices[v] = cell->vertex_dof_index(v, 0) / 3;
-        if (!has_splines())
-          active_cells.emplace_back(cell);
+        active_cells.emplace_back(cell);
         if (!has_lattice())
           continue;
         const auto            &n     = body_parameters.cells;
@@ -165,6 +165,33 @@ namespace Debond
         if (!has_lattice())
           info.surface_element = element++;
       }
+  }
+
+
+
+  // Of splines: elements of the surface times spans of the depth, from below,
+  // in deal.II's order. They need no triangulation, which takes longer to make
+  // than the lattice solver needs for its factors.
+  void
+  BulkSpace::make_cells_of_splines()
+  {
+    const auto        &n   = body_parameters.cells;
+    const unsigned int row = n[0] + 1, level = row * (n[1] + 1);
+    const bool         is_bone = body_side == Side::bone;
+    n_nodes_of_fe              = level * (n[2] + 1);
+    for (unsigned int k = 0; k < n[2]; ++k)
+      for (unsigned int e = 0; e < contact_surface.n_elements(); ++e)
+        {
+          Cell &cell           = bulk_cells.emplace_back();
+          cell.surface_element = e;
+          cell.layer           = is_bone ? n[2] - 1 - k : k;
+          cell.enriched        = cell.layer == 0;
+          if (cell.enriched)
+            cell.face = ContactFace::of(is_bone ? 5 : 4, body_side);
+          const unsigned int first = e % n[0] + e / n[0] * row + k * level;
+          for (unsigned int v = 0; v < 8; ++v)
+            cell.vertices[v] = first + v % 2 + v / 2 % 2 * row + v / 4 * level;
+        }
   }
 
 
@@ -403,18 +430,10 @@ namespace Debond
   {
     fixed.assign(3 * n_nodes(), false);
     tied.assign(n_nodes(), false);
-    for (const auto &cell : dofs.active_cell_iterators())
-      {
-        if (!cell->at_boundary())
-          continue;
-        const Cell &info = bulk_cells[cell->active_cell_index()];
-        for (const unsigned int f : cell->face_indices())
-          for (const auto &[id, components] : supports)
-            if (cell->at_boundary(f) && cell->face(f)->boundary_id() == id)
-              hold(info, f, components);
-        if (info.enriched && !has_splines())
-          tie(info, nodes_of_fe(cell));
-      }
+    if (has_splines())
+      hold_splines();
+    else
+      hold_and_tie_cells();
     tie_hanging_nodes();
     follow.close();
     hold_followed_nodes();
@@ -429,6 +448,47 @@ namespace Debond
         all_constraints.add_line(dof);
     all_constraints.merge(follow);
     all_constraints.close();
+  }
+
+
+
+  void
+  BulkSpace::hold_splines()
+  {
+    const auto &n       = body_parameters.cells;
+    const bool  is_bone = body_side == Side::bone;
+    for (const Cell &cell : bulk_cells)
+      {
+        const unsigned int i = cell.surface_element % n[0],
+                           j = cell.surface_element / n[0];
+        for (const auto &[is_there, face, components] :
+             {std::make_tuple(cell.layer == n[2] - 1, is_bone ? 4 : 5, 7),
+              std::make_tuple(is_bone && i == 0, 0, 1),
+              std::make_tuple(is_bone && i == n[0] - 1, 1, 1),
+              std::make_tuple(is_bone && j == 0, 2, 2),
+              std::make_tuple(is_bone && j == n[1] - 1, 3, 2)})
+          if (is_there)
+            hold(cell, face, components);
+      }
+  }
+
+
+
+  void
+  BulkSpace::hold_and_tie_cells()
+  {
+    for (const auto &cell : dofs.active_cell_iterators())
+      {
+        if (!cell->at_boundary())
+          continue;
+        const Cell &info = bulk_cells[cell->active_cell_index()];
+        for (const unsigned int f : cell->face_indices())
+          for (const auto &[id, components] : supports)
+            if (cell->at_boundary(f) && cell->face(f)->boundary_id() == id)
+              hold(info, f, components);
+        if (info.enriched)
+          tie(info, nodes_of_fe(cell));
+      }
   }
 
 
@@ -530,6 +590,8 @@ namespace Debond
     const unsigned int n_ranks = Ranks::number();
     if (body_parameters.bulk_solver != BulkSolver::multigrid || n_ranks == 1)
       return;
+    if (has_splines())
+      make_grid();
     dealii::GridTools::partition_triangulation(n_ranks, triangulation);
     std::vector<unsigned int> owner(n_nodes(), n_ranks);
     std::vector<Cell>         all_cells;
@@ -543,7 +605,8 @@ namespace Debond
         if (cell->subdomain_id() != Ranks::own())
           continue;
         bulk_cells.push_back(std::move(info));
-        active_cells.push_back(cell);
+        if (!has_splines())
+          active_cells.push_back(cell);
       }
     for (unsigned int rank = 0; rank < n_ranks; ++rank)
       if (std::count(owner.begin(), owner.end(), rank) == 0)

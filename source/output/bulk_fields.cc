@@ -23,93 +23,93 @@
 
 namespace Debond
 {
-  namespace
+  /** From v (three components) and the Cauchy stress (nine) in a body's frame
+   *  to the fields in space. */
+  class BulkFields::FieldsInSpace : public dealii::DataPostprocessor<3>
   {
-    using namespace dealii::DataComponentInterpretation;
+  public:
+    /** Null: the frame is that of space. */
+    explicit FieldsInSpace(const Chuck *chuck)
+      : chuck(chuck)
+    {}
 
-    /** From v (three components) and the Cauchy stress (nine) in a body's frame
-     *  to the fields in space. */
-    class FieldsInSpace : public dealii::DataPostprocessor<3>
+    void
+    evaluate_vector_field(
+      const dealii::DataPostprocessorInputs::Vector<3> &inputs,
+      std::vector<dealii::Vector<double>>              &fields) const override
     {
-    public:
-      /** Null: the frame is that of space. */
-      explicit FieldsInSpace(const Chuck *chuck)
-        : chuck(chuck)
-      {}
+      const Eigen::Matrix3d Q =
+        chuck ? chuck->rotation() : Eigen::Matrix3d::Identity();
+      for (unsigned int p = 0; p < fields.size(); ++p)
+        {
+          const dealii::Vector<double> &values = inputs.solution_values[p];
+          const Eigen::Map<const Eigen::Vector3d> v(values.begin());
+          const Eigen::Map<const Eigen::Matrix3d> sigma(values.begin() + 3);
+          const dealii::Point<3>     &point = inputs.evaluation_points[p];
+          const Eigen::Vector3d       X(point[0], point[1], point[2]);
+          Eigen::Map<Eigen::Vector3d> displacement(&fields[p][0]),
+            displacement_in_frame(&fields[p][3]);
+          Eigen::Map<Eigen::Matrix3d> stress(&fields[p][6]);
+          displacement_in_frame = v;
+          displacement          = v;
+          if (chuck)
+            displacement = chuck->map(X, v) - X;
+          stress        = Q * sigma * Q.transpose();
+          fields[p][15] = von_mises(sigma);
+        }
+    }
 
-      void
-      evaluate_vector_field(
-        const dealii::DataPostprocessorInputs::Vector<3> &inputs,
-        std::vector<dealii::Vector<double>>              &fields) const override
-      {
-        const Eigen::Matrix3d Q =
-          chuck ? chuck->rotation() : Eigen::Matrix3d::Identity();
-        for (unsigned int p = 0; p < fields.size(); ++p)
-          {
-            const dealii::Vector<double> &values = inputs.solution_values[p];
-            const Eigen::Map<const Eigen::Vector3d> v(values.begin());
-            const Eigen::Map<const Eigen::Matrix3d> sigma(values.begin() + 3);
-            const dealii::Point<3>     &point = inputs.evaluation_points[p];
-            const Eigen::Vector3d       X(point[0], point[1], point[2]);
-            Eigen::Map<Eigen::Vector3d> displacement(&fields[p][0]),
-              displacement_in_frame(&fields[p][3]);
-            Eigen::Map<Eigen::Matrix3d> stress(&fields[p][6]);
-            displacement_in_frame = v;
-            displacement          = v;
-            if (chuck)
-              displacement = chuck->map(X, v) - X;
-            stress        = Q * sigma * Q.transpose();
-            fields[p][15] = von_mises(sigma);
-          }
-      }
-
-      std::vector<std::string>
-      get_names() const override
-      {
-        std::vector<std::string> names(3, "displacement");
-        names.insert(names.end(), 3, "displacement_in_frame");
-        names.insert(names.end(), 9, "stress_MPa");
-        names.push_back("von_Mises_MPa");
-        return names;
-      }
-
-      std::vector<DataComponentInterpretation>
-      get_data_component_interpretation() const override
-      {
-        std::vector<DataComponentInterpretation> kinds(
-          6, component_is_part_of_vector);
-        kinds.insert(kinds.end(), 9, component_is_part_of_tensor);
-        kinds.push_back(component_is_scalar);
-        return kinds;
-      }
-
-      dealii::UpdateFlags
-      get_needed_update_flags() const override
-      {
-        return dealii::update_values | dealii::update_quadrature_points;
-      }
-
-    private:
-      const Chuck *const chuck;
-    };
-
-
-
-    class JoinedDataOut : public dealii::DataOut<3>
+    std::vector<std::string>
+    get_names() const override
     {
-    public:
-      /** As merge_patches(), with any numbers of pieces. */
-      void
-      append(const JoinedDataOut &other)
-      {
-        for (const auto &patch : other.patches)
-          {
-            patches.push_back(patch);
-            patches.back().patch_index = patches.size() - 1;
-          }
-      }
-    };
-  } // namespace
+      std::vector<std::string> names(3, "displacement");
+      names.insert(names.end(), 3, "displacement_in_frame");
+      names.insert(names.end(), 9, "stress_MPa");
+      names.push_back("von_Mises_MPa");
+      return names;
+    }
+
+    std::vector<
+      dealii::DataComponentInterpretation::DataComponentInterpretation>
+    get_data_component_interpretation() const override
+    {
+      using namespace dealii::DataComponentInterpretation;
+      std::vector<DataComponentInterpretation> kinds(
+        6, component_is_part_of_vector);
+      kinds.insert(kinds.end(), 9, component_is_part_of_tensor);
+      kinds.push_back(component_is_scalar);
+      return kinds;
+    }
+
+    dealii::UpdateFlags
+    get_needed_update_flags() const override
+    {
+      return dealii::update_values | dealii::update_quadrature_points;
+    }
+
+  private:
+    const Chuck *const chuck;
+  };
+
+
+
+  class BulkFields::JoinedDataOut : public dealii::DataOut<3>
+  {
+  public:
+    /** Takes the patches of another, as merge_patches() does, but of any
+     * numbers of pieces. Neighbours of patches are left as they are: VTU has
+     * none. */
+    void
+    take(JoinedDataOut &other)
+    {
+      for (auto &patch : other.patches)
+        {
+          patch.patch_index = patches.size();
+          patches.push_back(std::move(patch));
+        }
+      other.patches.clear();
+    }
+  };
 
 
 
@@ -330,7 +330,7 @@ namespace Debond
       if (body->mesh().side() == Side::bone || Ranks::is_first())
         add(*body, chuck, flags.write_higher_order_cells, draws_modulus);
     for (unsigned int i = 1; i < parts.size(); ++i)
-      parts[0]->data_out.append(parts[i]->data_out);
+      parts[0]->data_out.take(parts[i]->data_out);
     parts[0]->data_out.set_flags(flags);
   }
 

@@ -42,7 +42,8 @@ namespace Debond
    * With the element `spline` all nodes are control points, of functions that
    * are those of the contact surface times quadratic splines of the depth:
    * level by level, that of the contact surface last. In a cell they are
-   * combinations of the functions of FE_Q(2). No vertex is a node.
+   * combinations of the functions of FE_Q(2). No vertex is a node. Cells are
+   * those of a lattice, in deal.II's order, without a triangulation.
    *
    * With BulkSolver::multigrid the cells are dealt out among the ranks as in
    * step-17: each rank knows all nodes and constraints, but has cells() of its
@@ -249,6 +250,8 @@ namespace Debond
     set_boundary_ids();
     void
     find_cells();
+    void
+    make_cells_of_splines();
     Eigen::Vector3d
     place_in_lattice(const dealii::Point<3> &point) const;
     void
@@ -265,6 +268,10 @@ namespace Debond
     nodes_of_fe(const dealii::DoFHandler<3>::active_cell_iterator &cell) const;
     void
     make_constraints();
+    void
+    hold_splines();
+    void
+    hold_and_tie_cells();
     void
     hold_followed_nodes();
     void

@@ -32,6 +32,8 @@ namespace Debond
     list_of_pieces(const std::vector<std::string> &pieces) const;
 
   private:
+    class FieldsInSpace;
+    class JoinedDataOut;
     class DrawnCells;
 
     void

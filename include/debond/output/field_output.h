@@ -21,9 +21,10 @@ namespace Debond
    *
    * Points lie at their *reference* positions X, and the array `displacement`
    * is x - X in space, the rigid motion of the implant included: the filter
-   * Warp By Vector shows the deformed state. Bodies with a curved surface are
-   * drawn by polynomials of degree 2 through points of the model, the contact
-   * surface as the model has it, finely subdivided.
+   * Warp By Vector shows the deformed state. Splines and quadratic elements are
+   * cells of degree 2. Trilinear elements at a curved contact surface are drawn
+   * in pieces, by polynomials that interpolate the model (1e-5 mm for a coin);
+   * the contact surface is drawn as the model has it, in more pieces.
    *
    * Arrays of the bulk (both bodies):
    *  - displacement [mm]; displacement_in_frame, v in the body's own frame

@@ -54,7 +54,10 @@ make_pictures() {
       gnuplot -e "dir='output/calibrate/data_set_1'; source='Eq. (18)'" doc/plot_calibration.gp
       cp output/calibrate/data_set_1/fit.png doc/images/calibration_data_set_1.png
       ;;
-    geometry) gnuplot doc/geometry.gp && gnuplot doc/towing.gp && publish output/geometry output/towing ;;
+    geometry)
+      gnuplot doc/geometry.gp && gnuplot doc/towing.gp && gnuplot doc/cell.gp
+      publish output/geometry output/towing output/cell
+      ;;
     bodies) bodies ;;
     paper) doc/paper/reproduce.sh $figures && publish_figures $figures ;;
     fig_*) doc/paper/reproduce.sh "$1" && publish_figures "$1" ;;

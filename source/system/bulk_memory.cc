@@ -124,7 +124,7 @@ namespace Debond
     if (solver == BulkSolver::lattice) // no factors, functions of few cells
       {
         n_condensed = 0.;
-        return (draws ? 12500. : 1300.) * x * y * z;
+        return (draws ? 16000. : 1300.) * x * y * z;
       }
     if (solver == BulkSolver::multigrid)
       {

@@ -11,21 +11,16 @@
 #include <cmath>
 #include <cstdint>
 #include <iostream>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "cauchy_stress.h"
 #include "checks.h"
+#include "strained_body.h"
 #include "vtu_file.h"
 
 using namespace Debond;
 
-/** Displacement gradient of both bodies in their frames. */
-const Eigen::Matrix3d H =
-  (Eigen::Matrix3d() << 1., -2., 0.5, 0.3, -1.2, 2., 0.7, 0.2, -0.4)
-    .finished() *
-  1e-3;
 constexpr std::array<unsigned int, 3> n_bone{{6, 4, 3}};
 constexpr unsigned int                n_coin = 3, n_layers = 2;
 
@@ -34,20 +29,6 @@ double
 modulus(const Eigen::Vector3d &X)
 {
   return 5000. * (3. + X[0] / 10. + X[1] / 20. + X[2] / 30.);
-}
-
-
-
-std::unique_ptr<Body>
-strained_body(BodyParameters &parameters, const Side side)
-{
-  parameters.material  = Material::linear;
-  auto            body = make_body(parameters, side);
-  Eigen::VectorXd v(3 * body->mesh().n_nodes());
-  for (unsigned int node = 0; node < body->mesh().n_nodes(); ++node)
-    v.segment<3>(3 * node) = H * body->mesh().reference_position(node);
-  body->correct(v);
-  return body;
 }
 
 
@@ -126,11 +107,13 @@ check(const std::string &name, const ElementKind element, const bool coarser)
   for (unsigned int i = 0; i < fields.body.size(); ++i)
     {
       const bool            is_coin = fields.body[i] == 1;
-      const Eigen::Vector3d X = fields.vector(fields.X, i), v = H * X;
-      const double          E    = is_coin ? coin.young_modulus : modulus(X);
-      const BodyParameters &body = is_coin ? coin : bone;
+      const Eigen::Vector3d X       = fields.vector(fields.X, i),
+                            v       = uniform_gradient * X;
+      const double          E       = is_coin ? coin.young_modulus : modulus(X);
+      const BodyParameters &body    = is_coin ? coin : bone;
       const Eigen::Matrix3d own =
-        hooke_stress(NeoHookean::from_young(E, body.poisson_ratio), H);
+        hooke_stress(NeoHookean::from_young(E, body.poisson_ratio),
+                     uniform_gradient);
       Eigen::Matrix3d in_space = own;
       if (is_coin)
         in_space = Q * own * Q.transpose();

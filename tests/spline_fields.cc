@@ -10,37 +10,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "checks.h"
+#include "strained_body.h"
 #include "vtu_file.h"
 
 using namespace Debond;
 
 /** Cells across and layers. */
 constexpr unsigned int n_bone = 5, n_coin = 3, n_layers = 2;
-/** Displacement gradient of both bodies in their frames. */
-const Eigen::Matrix3d H =
-  (Eigen::Matrix3d() << 1., -2., 0.5, 0.3, -1.2, 2., 0.7, 0.2, -0.4)
-    .finished() *
-  1e-3;
-
-std::unique_ptr<Body>
-strained_body(BodyParameters parameters, const Side side)
-{
-  parameters.element       = ElementKind::spline;
-  parameters.material      = Material::linear;
-  parameters.layer_grading = 1.5;
-  auto             body    = make_body(parameters, side);
-  const BulkSpace &mesh    = body->mesh();
-  Eigen::VectorXd  v(3 * mesh.n_nodes());
-  for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
-    v.segment<3>(3 * node) = H * mesh.reference_position(node);
-  body->correct(v);
-  return body;
-}
 
 
 
@@ -48,11 +28,13 @@ int
 main()
 {
   BodyParameters bone, coin;
-  bone.cells              = {{n_bone, n_bone, n_layers}};
-  coin.shape              = BodyShape::coin;
-  coin.cells              = {{n_coin, n_coin, n_layers}};
-  const auto body_of_bone = strained_body(bone, Side::bone),
-             body_of_coin = strained_body(coin, Side::implant);
+  bone.cells   = {{n_bone, n_bone, n_layers}};
+  coin.shape   = BodyShape::coin;
+  bone.element = coin.element = ElementKind::spline;
+  bone.layer_grading = coin.layer_grading = 1.5;
+  coin.cells                              = {{n_coin, n_coin, n_layers}};
+  const auto body_of_bone                 = strained_body(bone, Side::bone),
+             body_of_coin                 = strained_body(coin, Side::implant);
   const Chuck       chuck(ChuckParameters(),
                     Eigen::Vector3d(0, 0, coin.height),
                     coin.radius);
@@ -106,10 +88,11 @@ main()
       const Eigen::Vector3d
         x   = Eigen::Map<const Eigen::Vector3f>(&X[3 * i]).cast<double>(),
         u_x = Eigen::Map<const Eigen::Vector3f>(&u[3 * i]).cast<double>();
-      grow(displacement, (u_x - H * x).norm());
+      grow(displacement, (u_x - uniform_gradient * x).norm());
       const BodyParameters &body = of[i] == 1 ? coin : bone;
       const double          E = body.young_modulus, nu = body.poisson_ratio;
-      const Eigen::Matrix3d strain = 0.5 * (H + H.transpose());
+      const Eigen::Matrix3d strain =
+        0.5 * (uniform_gradient + uniform_gradient.transpose());
       const Eigen::Matrix3d expected =
         E / (1. + nu) *
         (strain +

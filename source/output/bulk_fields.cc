@@ -97,8 +97,8 @@ namespace Debond
   {
   public:
     /** Takes the patches of another, as merge_patches() does, but of any
-     * numbers of pieces. Neighbours of patches are left as they are: VTU has
-     * none. */
+     *  numbers of pieces. Neighbours of patches are left as they are: VTU has
+     *  none. */
     void
     take(JoinedDataOut &other)
     {

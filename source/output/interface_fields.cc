@@ -30,7 +30,7 @@ namespace Debond
 
     /** The contact face as deal.II draws it: a patch for each element, a
      *  regular grid of points with the values of all fields. These are no
-     * finite element functions, of which DataOut could be told. */
+     *  finite element functions, of which DataOut could be told. */
     class DrawnFace : public dealii::DataOutInterface<2, 3>
     {
     public:
@@ -53,8 +53,8 @@ namespace Debond
       }
 
       /** Adds an element. draw(k, values) is called for the points k: it
-       * appends the values of all fields to an empty list and returns the
-       * position. */
+       *  appends the values of all fields to an empty list and returns the
+       *  position. */
       template <typename Draw>
       void
       add_element(const Draw &draw)

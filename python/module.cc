@@ -3,10 +3,14 @@
 
 #include <debond/campaigns/calibration.h>
 #include <debond/campaigns/run_scene.h>
+#include <debond/input/expression_parser.h>
+#include <debond/input/parameter_loop.h>
 #include <debond/models/closed_form_solution.h>
 #include <debond/models/simulation.h>
+#include <debond/models/varying_curve.h>
 #include <debond/output/profile_output.h>
 #include <debond/output/report.h>
+#include <debond/output/result_files.h>
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
 #include <debond/support/number_text.h>
@@ -17,6 +21,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <nlohmann/json.hpp>
+#include <pybind11/functional.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -334,6 +339,63 @@ namespace
 
 
 
+  using Changes = std::vector<std::pair<std::string, std::string>>;
+
+  /** Full names and values, as a scene has them. */
+  std::vector<SceneEntry>
+  entries_of(const Changes &changes)
+  {
+    std::vector<SceneEntry> entries;
+    for (const auto &[name, value] : changes)
+      {
+        entries.push_back(read_override(name + "=" + value));
+        entries.back().place.clear();
+      }
+    return entries;
+  }
+
+
+
+  /** What a scene prescribes of its chuck at these times, by column of
+   *  torque.csv. */
+  py::dict
+  prescribed(const Scene &scene, const std::vector<double> &times)
+  {
+    const Chuck chuck(scene.chuck,
+                      Eigen::Vector3d::Zero(),
+                      scene.implant.characteristic_radius());
+    Columns     columns;
+    for (const double time : times)
+      {
+        const auto values = chuck.values(time);
+        for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
+          if (!scene.chuck.component[k].loaded)
+            columns[ChuckParameters::column_name(k, false)].push_back(
+              values[k] * (is_rotation(k) ? 180. / M_PI : 1.));
+      }
+    return arrays(columns);
+  }
+
+
+
+  /** Of a study or of the experiments of a calibration: entries, and full
+   *  names of those that hold several values. */
+  std::vector<std::pair<std::vector<SceneEntry>, std::vector<std::string>>>
+  variants(const std::vector<SceneEntry> &entries)
+  {
+    std::vector<std::pair<std::vector<SceneEntry>, std::vector<std::string>>>
+      result;
+    for (const StudyVariant &variant : study_variants(entries))
+      {
+        result.emplace_back(variant.entries, std::vector<std::string>());
+        for (const std::size_t i : variant.varied)
+          result.back().second.push_back(variant.entries[i].full_name());
+      }
+    return result;
+  }
+
+
+
   /** Returns what is said on the console. */
   std::string
   calibrate(const std::vector<SceneEntry> &entries,
@@ -421,13 +483,29 @@ PYBIND11_MODULE(_debond, module)
   MPI_Get_library_version(mpi_library, &length);
   module.attr("mpi_library") = std::string(mpi_library, length);
   py::register_exception_translator(translate);
+  py::list columns; // of the chuck: position, load, their units, component
+  for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
+    columns.append(py::make_tuple(ChuckParameters::column_name(k, false),
+                                  ChuckParameters::column_name(k, true),
+                                  is_rotation(k) ? "deg" : "mm",
+                                  is_rotation(k) ? "N mm" : "N",
+                                  k));
+  module.attr("chuck_columns") = columns;
 
   py::class_<SceneEntry>(module, "Entry")
     .def_property_readonly("name", &SceneEntry::full_name)
-    .def_readonly("value", &SceneEntry::value);
+    .def_readonly("value", &SceneEntry::value)
+    .def_readonly("place", &SceneEntry::place)
+    .def("refuse", &SceneEntry::refuse);
   module.def("read_file", read_scene_file);
   module.def("read_text", read_scene_text);
   module.def("changed", changed);
+  module.def("text_of", scene_text);
+  module.def("variants", variants);
+  module.def("expression", [](const std::string &names,
+                              const std::string &text) -> Expression {
+    return read_expression(names, text, 0.);
+  });
   py::class_<Team>(module, "Team")
     .def(py::init<std::uintptr_t>())
     .def("gather", &Team::gather);
@@ -454,9 +532,75 @@ PYBIND11_MODULE(_debond, module)
                            [](const Scene &s) {
                              return s.model == ModelKind::automatic;
                            })
+    .def("prescribed", prescribed)
+    .def_property_readonly("values",
+                           [](const Scene &s) {
+                             std::map<std::string, std::string> values;
+                             for (const SceneEntry &entry :
+                                  read_scene_text(s.completed_parameters, ""))
+                               values[entry.full_name()] = entry.value;
+                             return values;
+                           })
+    .def_property_readonly("sample_times",
+                           [](const Scene &s) {
+                             return s.load_steps.sample_times();
+                           })
+    .def("refuse",
+         [](const Scene &s, const std::string &name, const std::string &why) {
+           throw s.with_place(EntryError(name, why));
+         })
     .def_property_readonly("warnings", [](const Scene &s) {
       return texts_of(s.warnings());
     });
+  using Free = py::call_guard<py::gil_scoped_release>;
+  py::class_<VaryingCurve>(module, "VaryingCurve")
+    .def(py::init<const std::vector<SceneEntry> &, const std::string &>(),
+         Free())
+    .def_property_readonly("why_no_closed_form",
+                           &VaryingCurve::why_no_closed_form)
+    .def("check",
+         [](VaryingCurve &curve, const Changes &changes) {
+           curve.check(entries_of(changes));
+         })
+    .def(
+      "compliance_of_bodies",
+      [](VaryingCurve &curve, const Changes &changes) {
+        return curve.compliance_of_bodies(entries_of(changes));
+      },
+      Free())
+    .def(
+      "steps_of",
+      [](VaryingCurve &curve, const Changes &changes) {
+        return curve.steps_of(entries_of(changes));
+      },
+      Free())
+    .def("by_foundation",
+         [](VaryingCurve                &curve,
+            const Changes               &changes,
+            const std::array<double, 2> &compliance,
+            const std::vector<double>   &angles) {
+           const auto rows =
+             curve.by_foundation(entries_of(changes), compliance, angles);
+           std::vector<double> torque;
+           for (const TorqueRow &row : rows)
+             torque.push_back(row.torque_Nmm);
+           return std::make_pair(
+             py::array_t<double>(torque.size(), torque.data()),
+             rows.empty() ?
+               0. :
+               rows.front().chuck_reaction[ChuckComponent::translation_z]);
+         })
+    .def("by_scene",
+         [](VaryingCurve                           &curve,
+            const Changes                          &changes,
+            const std::vector<std::vector<double>> &steps) {
+           std::vector<TorqueRow> rows;
+           {
+             const py::gil_scoped_release others_go_on;
+             rows = curve.by_scene(entries_of(changes), steps);
+           }
+           return arrays(rows);
+         });
   py::class_<Run>(module, "Run")
     .def(
       py::init([](const Scene &scene, const Values &driven, const Team &team) {
@@ -483,7 +627,26 @@ PYBIND11_MODULE(_debond, module)
     .def_property_readonly("warnings", [](const Run &run) {
       return texts_of(run.simulation->warnings());
     });
+  module.def("unit_of", [](const std::string &name) {
+    Scene      defaults;
+    EntryTable table;
+    defaults.declare(table);
+    return table.unit_of(name);
+  });
   module.def("closed_form", closed_form);
+  module.def("provenance", [] {
+    std::map<std::string, std::string> texts;
+    for (const auto &[name, text] : provenance())
+      texts[name] = text;
+    return texts;
+  });
+  py::class_<ResultDirectory>(module, "ResultDirectory");
+  module.def("claim_directory",
+             [](const Scene &scene, const std::string &text, const bool force) {
+               OutputParameters output        = scene.output;
+               output.overwrite_other_results = force;
+               return ResultDirectory(output, text);
+             });
   module.def("run_into_directory", run_into_directory);
   module.def("calibrate", calibrate);
   module.def("set_number_of_threads", set_number_of_threads);

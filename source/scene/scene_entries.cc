@@ -130,6 +130,12 @@ namespace Debond
                 calibration.torque_offset,
                 Allowed::number("N mm"),
                 "Torque [N mm] that the instrument shows without a load.");
+      table.add("Torque drift",
+                calibration.torque_drift,
+                Allowed::number("N mm"),
+                "By how much the torque that the instrument shows without a "
+                "load grows [N mm] from the first row of the measured file to "
+                "the last one, evenly.");
     }
 
 

@@ -76,6 +76,7 @@ namespace Debond
     double                   slack              = 0; ///< [deg]
     double                   machine_compliance = 0; ///< [deg/(N mm)]
     double                   torque_offset      = 0; ///< [N mm]
+    double                   torque_drift       = 0; ///< [N mm]
     MisfitMeasure            measure            = MisfitMeasure::least_squares;
     double                   largest_misfit     = 0.1; ///< e_rel
     unsigned int             starts             = 20;

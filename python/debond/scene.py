@@ -1,14 +1,4 @@
-"""debond from Python: scenes, curves as NumPy arrays, steps that a script drives, fits.
-
-    import debond
-    scene = debond.Scene("prm/coin_mode3_fast.prm", {"Interface/Sliding threshold": 0.03})
-    result = scene.run()
-    result.rows["torque_Nmm"].max()
-
-Units are those of scenes and of torque.csv: mm, N, N mm, MPa, degrees, s. Whatever is wrong with a scene raises SceneError
-with one line that names entry and place; a load that cannot be followed raises RunError. While the library computes, other
-threads of Python go on; Ctrl-C stops a run after the row at work, which is kept.
-"""
+"""Scenes, and runs of them in memory."""
 
 import json
 import os
@@ -20,18 +10,9 @@ import numpy
 
 import _debond
 
+from .errors import SceneError
+
 __version__ = _debond.version
-
-
-class SceneError(ValueError):
-    """A mistake in a scene or in a call. The text is one line; `entry` ("Interface / Sliding threshold"), `value` and `place`
-    ("scene.prm:12") say where, as far as they are known."""
-
-    entry = value = place = None
-
-
-class RunError(RuntimeError):
-    """A run that could not be finished; the text says where and why. Rows before are kept by Simulation."""
 
 
 def _text(value: Any) -> str:
@@ -283,17 +264,6 @@ def _checked(scene) -> Scene:
     if not isinstance(scene, Scene):
         raise SceneError(f"expected a debond.Scene, not {scene!r:.60}: debond.Scene(FILE) reads one")
     return scene
-
-
-def calibrate(scene: Scene, threads: int = 1, force: bool = False) -> Dict[str, Any]:
-    """Finds the unknowns <<...>> of a scene with `Task = calibrate` from measured curves, writes into its directory as the
-    program does, and returns what calibration.json holds: best fit, intervals, correlations. Raises SceneError, or RunError
-    if nothing fits."""
-    _debond.calibrate(_checked(scene)._entries, scene._name, threads, force)
-    directories = [entry.value for entry in scene._entries if entry.name == "Output / Directory"]
-    directory = directories[-1] if directories else _debond.default_directory
-    with open(os.path.join(directory, "calibration.json"), encoding="utf-8") as file:
-        return json.load(file)
 
 
 def set_number_of_threads(n: int) -> None:

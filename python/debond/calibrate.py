@@ -1,0 +1,268 @@
+"""A scene with `Task = calibrate` as the program runs it: into its directory, with all files.
+
+    python3 -m debond.calibrate SCENE.prm [--set ENTRY=VALUE]... [--threads N] [--force] [--check]
+"""
+
+import argparse
+import hashlib
+import json
+import math
+import os
+import sys
+from typing import Any, Dict
+
+import numpy
+
+import _debond
+
+from . import intervals
+from .errors import InputError, RunError
+from .fit import fit, problem_of
+from .scene import Scene
+
+
+def _plain(value):
+    """As JSON has it: null for what is not known."""
+    if isinstance(value, dict):
+        return {name: _plain(item) for name, item in value.items()}
+    if isinstance(value, (list, tuple, numpy.ndarray)):
+        return [_plain(item) for item in value]
+    if isinstance(value, (numpy.bool_, bool)):
+        return bool(value)
+    if isinstance(value, (float, numpy.floating)):
+        return float(value) if math.isfinite(value) else None
+    return int(value) if isinstance(value, numpy.integer) else value
+
+
+def _rigs(done):
+    """What the rig shows besides the implant, at the best fit: number, unit, and whether that is fitted."""
+    from .experiment import RIG
+
+    problem, result = done.problem, []
+    for experiment in problem.experiments:
+        rig, held = experiment.changes(done.values)[1], problem.unknowns.entries(experiment.number, done.values)
+        said = {entry.name for entry in experiment.given}
+        result.append({name: {"value": rig[key], "unit": _debond.unit_of("Calibration / " + name),
+                              "fitted": "Calibration / " + name in held}
+                       for key, name in RIG.items() if "Calibration / " + name in said})
+    return result
+
+
+def json_of(done) -> Dict[str, Any]:
+    """What calibration.json holds of a Fit."""
+    problem, told, names = done.problem, done.told, done.names
+    unknowns = {u.name: {"value": value, "unit": u.unit, "lower_95": lower, "upper_95": upper, "told": is_told, "at_bound": not free,
+                         "start": u.start, "bounds": [u.lower, u.upper], "logarithmic": u.logarithmic}
+                for u, value, lower, upper, is_told, free in zip(problem.unknowns.list, done.values, done.lower, done.upper, done.is_told, told.free)}
+    correlations = {f"{names[i]} | {names[j]}": told.correlations[i, j] for j in range(len(names)) for i in range(j)}
+    curves = [{"curve": m.name, "e_mp": m.e_mp, "e_rel": m.e_rel, "rms_over_largest": m.rms, "smooth_misfit_over_largest": m.smooth,
+               "fits": not m.does_not_fit} for m in done.misfits]
+    noises = [{"curve": m.name, "model": m.noise.name, "sd_over_largest": m.noise_over_largest, "correlation_of_neighbours": m.noise.correlation,
+               "rows": s.slice.stop - s.slice.start, "effective_rows": (s.slice.stop - s.slice.start) / m.noise.rows_per_value}
+              for m, s in zip(done.misfits, problem.series)]
+    per_search = numpy.where(problem.unknowns.logarithmic, done.values, 1)
+    return _plain({
+        "title": problem.values["Title"], "version": _debond.version, "provenance": _debond.provenance(), "seconds": done.seconds,
+        "evaluations": problem.runs.n_runs, "failures": problem.runs.n_failures, "last_failure": problem.runs.last_failure,
+        "measured_values": len(problem.measured), "noise_is_known": problem.noise_is_known, "unknowns": unknowns, "rig": _rigs(done),
+        "correlations": correlations, "curves": curves, "noise": noises, "taken_as_known": done.taken_as_known,
+        "optima": [{"cost": one.cost, "converged": one.converged, "unknowns": dict(zip(names, one.values))} for one in done.optima],
+        "cannot_be_told": [intervals.text_of(direction, problem.unknowns) for direction in told.directions], "warnings": done.warnings,
+        "candidates": [{"experiment": number + 1, "half_widths": dict(zip(names, widths * per_search))} for number, widths in done.candidates]})
+
+
+def write_whole(filename, text):
+    """Writes a text file, or nothing of it."""
+    part = filename + ".part"
+    try:
+        with open(part, "w", encoding="utf-8") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(part, filename)
+    except OSError as error:
+        if os.path.exists(part):
+            os.remove(part)
+        raise RunError(f"{filename} cannot be written: {error.strerror}") from None
+
+
+def _csv(columns):
+    rows = [",".join(columns)]
+    rows += [",".join(item if isinstance(item, str) else repr(float(item)) for item in row) for row in zip(*columns.values())]
+    return "\n".join(rows) + "\n"
+
+
+def _numbered(name, ending, i, n):
+    return f"{name}-{i + 1}{ending}" if n > 1 else name + ending
+
+
+def interval_text(done, j):
+    if not done.told.free[j]:
+        return "at its bound"
+    if not math.isfinite(done.upper[j] - done.lower[j]):
+        return "cannot be told"
+    return f"{done.lower[j]:.5g} to {done.upper[j]:.5g}" + ("" if done.is_told[j] else ", most of its bounds")
+
+
+def _fitted_scene(done, experiment, directory, n):
+    """A scene that runs, with what has been found. A run has no rig: where the fit has one, the title tells them apart."""
+    found = [f"{name}={text}" for name, text in done.problem.unknowns.entries(experiment.number, done.values).items()]
+    entries = _debond.changed(experiment.given, found)
+    values = _debond.Scene(entries, "fitted.prm", _debond.Team(0)).values
+    more = ["Task=simulate", "Output/Directory=" + os.path.join(directory, _numbered("fitted", "", experiment.number, n))]
+    if any(experiment.changes(done.values)[1].values()):
+        more.append(f"Title={values['Title'] or 'Fit to ' + values['Output / Reference curve']}, without the rig")
+    comment = [f"Fitted by debond {_debond.version}"]
+    comment += [f"  {name} = {value:.6g} (95 %: {interval_text(done, j)})" for j, (name, value) in enumerate(zip(done.names, done.values))]
+    comment.append(f"to {experiment.measured.file}" if experiment.is_done else "not measured yet")
+    return "".join(f"# {line}\n" for line in comment) + _debond.text_of(_debond.changed(entries, more))
+
+
+def save(done, directory):
+    """Writes the files of a Fit into a directory, its page too. Raises RunError if that is impossible."""
+    directory = os.fspath(directory)
+    os.makedirs(directory, exist_ok=True)
+    problem, n = done.problem, len(done.problem.experiments)
+    for experiment, columns in zip(problem.done, done.curves):
+        write_whole(os.path.join(directory, _numbered("fit", ".csv", experiment.number, n)), _csv(columns))
+    correlations = {"unknown": done.names}
+    correlations.update({name: [f"{value:.4g}" for value in column] for name, column in zip(done.names, done.told.correlations.T)})
+    write_whole(os.path.join(directory, "correlations.csv"), _csv(correlations))
+    for experiment in problem.experiments:
+        write_whole(os.path.join(directory, _numbered("fitted", ".prm", experiment.number, n)),
+                    _fitted_scene(done, experiment, directory, n))
+    if problem.values["Calibration / Profiles"] == "true":
+        profiles, columns = done.profiles(), {name: [] for name in ("unknown", "value", "chi_squared", *done.names)}
+        for name, profile in profiles.items():
+            for value, chi_squared, unknowns in zip(profile["value"], profile["chi_squared"], profile["unknowns"]):
+                for column, item in zip(columns.values(), (name, value, chi_squared, *unknowns)):
+                    column.append(item)
+        write_whole(os.path.join(directory, "profile.csv"), _csv(columns))
+    write_whole(os.path.join(directory, "calibration.json"), json.dumps(json_of(done), indent=2, ensure_ascii=False) + "\n")
+
+
+def lines_of(done):
+    """What the console says of a Fit."""
+    width = max(map(len, done.names))
+    yield f"{'unknown':{width}}  best fit    95 %"
+    for j, (name, value) in enumerate(zip(done.names, done.values)):
+        yield f"{name:{width}}  {value:<10.6g}  {interval_text(done, j)}"
+    for m in done.misfits:
+        yield (f"{m.name}: e_mp {100 * m.e_mp:.3g} %, e_rel {100 * m.e_rel:.3g} %, residuals {100 * m.rms:.3g} % of the largest value; "
+               + (f"noise {m.noise.name}, neighbours correlated by {m.noise.correlation:.2g}" if len(m.noise.phi) else "noise white"))
+    if len(done.optima) > 1:
+        first, second = done.optima[:2]
+        values = ", ".join(f"{name} = {value:.5g}" for name, value in zip(done.names, second.values))
+        yield (f"{len(done.optima)} different optima were found; the next one has {math.sqrt(second.cost / max(first.cost, 1e-300)):.3g} "
+               f"times the residuals: {values}")
+    yield from ("warning: " + text for text in done.warnings)
+    runs = done.problem.runs
+    if runs.n_failures:
+        yield f"{runs.n_failures} curves that were tried could not be computed, which the search went around; the last for: {runs.last_failure}"
+    for number, widths in done.candidates:
+        parts = []
+        for j, (name, then) in enumerate(zip(done.names, widths)):
+            now, value = done.told.half_widths[j], done.values[j] if done.problem.unknowns.list[j].logarithmic else 1
+            parts.append(f"unknown for {name}, at its bound" if not done.told.free[j] else
+                         f"{then / now:.2g} times as wide for {name}" if math.isfinite(now) else
+                         f"+-{then * value:.2g} for {name}" if math.isfinite(then) else f"no better for {name}")
+        yield f"Experiment {number + 1}, not done yet, would make the 95 % intervals {', '.join(parts)}"
+
+
+def _identity(scene, problem):
+    """What the results of a calibration belong to."""
+    parts = [_debond.version, _debond.text_of(scene._entries)]
+    for experiment in problem.done:
+        with open(experiment.measured.file, "rb") as file:
+            parts.append(f"# {experiment.measured.file} {hashlib.sha256(file.read()).hexdigest()}")
+    return "\n".join(parts) + "\n"
+
+
+def calibrate(scene, threads: int = 1, force: bool = False, *, executor=None, say=lambda text: None) -> Dict[str, Any]:
+    """Finds the unknowns <<...>> of a scene with `Task = calibrate` from measured curves, writes into its directory as the
+    program does, and returns what calibration.json holds. One that was interrupted goes on. executor: as of fit(). Raises
+    SceneError, or RunError if nothing fits."""
+    problem = problem_of(scene)
+    directory = problem.values["Output / Directory"]
+    lock = _debond.claim_directory(problem.experiments[0].scene, _identity(scene, problem), force)
+    log = os.path.join(directory, "evaluations.jsonl")
+    if force and os.path.exists(log):
+        os.remove(log)
+    for experiment in problem.done:
+        if experiment.measured.n_left_out:
+            say(f"{experiment.measured.n_left_out} rows of {experiment.measured.file} are not in the windows, stay where the row before "
+                "was, or are beyond what the scene comes to")
+    say(f"{len(problem.measured)} measured values, {len(problem.unknowns.list)} unknowns")
+    done = fit(scene, executor=executor, threads=threads, evaluations=log, say=say)
+    save(done, directory)
+    if problem.values["Output / Report"] == "true":
+        _write_page(directory)
+    for line in lines_of(done):
+        say(line)
+    say(f"Results are in {directory}/calibration.json, the fitted scene is {_numbered('fitted', '.prm', 0, len(problem.experiments))}")
+    del lock
+    largest = float(problem.values["Calibration / Largest misfit"])
+    if done.e_rel > largest:
+        opposite = problem.measured @ done.optima[0].curve < 0
+        raise RunError(f"no parameters of this scene fit the measured curve: the best ones leave e_rel = {100 * done.e_rel:.3g} %, more than "
+                       f"Calibration / Largest misfit, {100 * largest:.3g} %"
+                       + ("; the measured values have the opposite sign: turn the load round, or the values by a minus before the unit, as "
+                          "in Reference columns = 1 [deg], 2 [-N m]" if opposite else ""))
+    return json_of(done)
+
+
+def _write_page(directory):
+    try:
+        from . import page
+    except ImportError:
+        return
+    page.write(directory)
+
+
+def check_lines(problem):
+    """What would be done."""
+    for u in problem.unknowns.list:
+        yield f"{u.name}: from {u.start:.6g}, between {u.lower:.6g} and {u.upper:.6g}{', by its logarithm' if u.logarithmic else ''}"
+    for experiment in problem.experiments:
+        measured, over = experiment.measured, experiment.over
+        if not experiment.is_done:
+            yield "A candidate without a measured curve"
+            continue
+        ranges = "".join(f"{column.name} from {values.min():.6g} to {values.max():.6g} {column.unit}; "
+                         for column, values in zip(experiment.columns, measured.values.T))
+        yield (f"{measured.file}: {len(measured.over)} rows, {over.name} from {measured.over.min():.6g} to {measured.over.max():.6g} {over.unit}; "
+               + ranges + (f"no closed form: {experiment.why_no_closed_form}" if experiment.why_no_closed_form
+                           else "searched with the closed form first"))
+
+
+def main(arguments) -> int:
+    """The command; returns the exit code."""
+    parser = argparse.ArgumentParser(prog="python3 -m debond.calibrate", description=__doc__.splitlines()[0])
+    parser.add_argument("scene")
+    parser.add_argument("--set", action="append", default=[], metavar="ENTRY=VALUE")
+    parser.add_argument("--threads", type=int, default=os.cpu_count())
+    parser.add_argument("--force", action="store_true")
+    parser.add_argument("--check", action="store_true")
+    options = parser.parse_args(arguments)
+    try:
+        scene = Scene(options.scene)
+        scene._entries = _debond.changed(scene._entries, options.set)
+        if options.check:
+            for line in check_lines(problem_of(scene)):
+                print(line)
+        else:
+            calibrate(scene, options.threads, options.force, say=lambda text: print(text, flush=True))
+    except InputError as error:
+        print(error, file=sys.stderr)
+        return 1
+    except RunError as error:
+        print(error, file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("interrupted: the same calibration without --force goes on", file=sys.stderr)
+        return 130
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

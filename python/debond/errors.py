@@ -1,0 +1,28 @@
+"""What debond raises: mistakes of the user, and runs that could not be finished."""
+
+
+class InputError(ValueError):
+    """Anything wrong with what a user gave: a scene, a file, a call. The text is one line; `entry` ("Interface / Sliding
+    threshold"), `value` and `place` ("scene.prm:12") say where, as far as they are known."""
+
+    entry = value = place = None
+
+    @classmethod
+    def of_entry(cls, entry: str, why: str, value=None):
+        """The mistake `why` in what `entry` gives, whose text is `value`: ENTRY = 'VALUE': WHY."""
+        error = cls(entry + ("" if value is None else f" = '{shortened(value)}'") + ": " + why)
+        error.entry, error.value = entry, value
+        return error
+
+
+class SceneError(InputError):
+    """A mistake in a scene or in a call."""
+
+
+class RunError(RuntimeError):
+    """A run that could not be finished; the text says where and why. Rows before are kept by Simulation."""
+
+
+def shortened(text: str) -> str:
+    """What a user has written as it is shown in messages: the end of a very long text is left out."""
+    return text if len(text) <= 300 else text[:300] + "..."

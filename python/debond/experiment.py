@@ -1,0 +1,230 @@
+"""Experiments of a fit: what a scene predicts where something has been measured, for unknowns that change from one call to the
+next. The rig stands between both,
+
+    shown angle  = angle + offset + slack + compliance T,
+    shown torque = T + offset + drift * share of the test.
+"""
+
+import functools
+import threading
+
+import numpy
+
+import _debond
+
+from . import measurement
+from .errors import RunError, SceneError
+
+RIG = {"angle_offset": "Angle offset", "slack": "Slack", "compliance": "Machine compliance", "torque_offset": "Torque offset",
+       "drift": "Torque drift"}
+
+
+@functools.lru_cache(maxsize=16)
+def _curve_of_thread(text, name, _thread):
+    return _debond.VaryingCurve(_debond.read_text(text, name), name)
+
+
+def curve_of(text, name):
+    """The curve of the scene `text`, one for each thread: what it keeps is not for several at a time."""
+    return _curve_of_thread(text, name, threading.get_ident())
+
+
+def run_task(task):
+    """Rows of a run, as {column: array}, or why there are none: what an executor of any kind calls. `task`: text and name of
+    the scene, changes as pairs (full name, value), ends of steps of each phase, columns that are wanted."""
+    text, name, changes, steps, columns = task
+    try:
+        rows = curve_of(text, name).by_scene(list(changes), [list(ends) for ends in steps])
+    except (RunError, SceneError) as error:
+        return str(error)
+    return {column: rows[column] for column in columns}
+
+
+class Experiment:
+    """A scene with unknowns, and a measured curve that belongs to it."""
+
+    def __init__(self, unknowns, number, entries, name, measured=None):
+        """Experiment `number` of `unknowns`; `measured`: a Measurement that has been read. Raises SceneError."""
+        self.unknowns, self.number, self.given = unknowns, number, entries
+        entries = _debond.changed(entries, [f"{entry}={value}" for entry, value in unknowns.entries(number, unknowns.starts).items()])
+        self.scene = _debond.Scene(entries, name, _debond.Team(0))
+        self.entries, self.name = entries, name
+        self.values = self.scene.values
+        self.columns = [measurement.curve_column(self.scene, column.strip(), "Calibration / Curves")
+                        for column in self.values["Calibration / Curves"].split(",")]
+        self.over = measurement.curve_column(self.scene, self.values["Calibration / Over"], "Calibration / Over")
+        self.measured = measured or measurement.read(self.scene, self.values, self.columns, self.over, self._largest_shift())
+        self.text = _debond.text_of(entries)
+        self.curve = _debond.VaryingCurve(entries, name)
+        self.is_finite_elements = self.values["Model"] == "finite elements"
+        self._find_changes()
+        self.why_no_closed_form = self._find_why_no_closed_form()
+        self._centre = None
+
+    @property
+    def is_done(self):
+        return bool(self.measured.file)
+
+    @property
+    def size(self):
+        """Number of measured values."""
+        return self.measured.values.size
+
+    def changes(self, values):
+        """Entries of the scene but for those of the subsection Calibration, as pairs (full name, text), and the rig's numbers."""
+        entries = self.unknowns.entries(self.number, values)
+        rig = {key: float(entries.get("Calibration / " + name, self.values["Calibration / " + name])) for key, name in RIG.items()}
+        return tuple((name, text) for name, text in entries.items() if not name.startswith("Calibration / ")), rig
+
+    def _largest_shift(self):
+        ends = [self.unknowns.entries(self.number, values) for values in (self.unknowns.lower, self.unknowns.upper)]
+
+        def largest(name):
+            return max(float(entries.get("Calibration / " + name, self.values["Calibration / " + name])) for entries in ends)
+
+        return largest("Angle offset") + largest("Slack")
+
+    def _find_changes(self):
+        """What an unknown changes shows in the entries that hold it: the model, or the rig alone; the bodies' compliance."""
+        starts, before = self.unknowns.starts, self.unknowns.entries(self.number, self.unknowns.starts)
+        self.changes_model, self.changes_stiffness = [], []
+        self._vary = set()
+        for j, unknown in enumerate(self.unknowns.list):
+            other = starts.copy()
+            other[j] = 0.5 * (starts[j] + (unknown.upper if starts[j] < unknown.upper else unknown.lower))
+            after = self.unknowns.entries(self.number, other)
+            names = {name for name in before if before[name] != after[name]}
+            self._vary |= names
+            self.changes_model.append(any(not name.startswith("Calibration / ") for name in names))
+            self.changes_stiffness.append(any(name.startswith(("Bone / ", "Implant / ")) or "enalty stiffness" in name for name in names))
+
+    def _find_why_no_closed_form(self):
+        why = self.curve.why_no_closed_form
+        if why:
+            return why
+        if "Implant / Radius" in self._vary:
+            return "the radius is an unknown"
+        if not self.over.is_angle:
+            return "closed forms know curves over the angle"
+        if any(column.kind != "load" or column.component not in (2, 5) for column in self.columns):
+            return "closed forms know torque and axial force"
+        return ""
+
+    def check_bounds(self):
+        """Values that are not allowed within the bounds show now, and not in the middle of a search. Raises SceneError."""
+        for j, unknown in enumerate(self.unknowns.list):
+            for bound in (unknown.lower, unknown.upper):
+                values = self.unknowns.starts
+                values[j] = bound
+                try:
+                    self.curve.check(list(self.unknowns.entries(self.number, values).items()))
+                except SceneError as error:
+                    unknown.entry.refuse(f"at the bound {bound:.6g}: {error}")
+
+    def settle(self, values):
+        """Makes the closed form exact in stiffness at these unknowns: what the bodies add to the compliance of the interface
+        changes slowly, and is linear (by its logarithm) in the unknowns nearby."""
+        compliance = numpy.array(self.curve.compliance_of_bodies(list(self.changes(values)[0])))
+        slopes = numpy.zeros((2, len(values)))
+        for j, unknown in enumerate(self.unknowns.list):
+            if self.changes_stiffness[j] and compliance.all():
+                other = values.copy()
+                h = 1e-2 * max(abs(values[j]), 1e-2 * (unknown.upper - unknown.lower))
+                other[j] += h if values[j] + h <= unknown.upper else -h
+                there = numpy.array(self.curve.compliance_of_bodies(list(self.changes(other)[0])))
+                slopes[:, j] = numpy.log(there / compliance) / (other[j] - values[j])
+        self._centre = (values.copy(), compliance, slopes)
+
+    def by_closed_form(self, values):
+        """The disk on a foundation, where something has been measured (curves x n). Raises SceneError."""
+        if self._centre is None:
+            self.settle(self.unknowns.starts)
+        centre, compliance, slopes = self._centre
+        # far away the straight line must not leave what is possible
+        compliance = compliance * numpy.exp(numpy.clip(slopes @ (values - centre), -2, 2))
+        changes, rig = self.changes(values)
+        last = self.scene.prescribed([self.scene.sample_times[-1]])[self.over.key][0]
+        angles = self.measured.over - rig["angle_offset"] - rig["slack"]
+        angles = angles[(angles * last > 0) & (abs(angles) < abs(last))]
+        angles = numpy.unique(numpy.concatenate([numpy.linspace(0, last, 101), angles]))[::1 if last > 0 else -1]
+        torque, force = self.curve.by_foundation(list(changes), list(compliance), list(angles))
+        rows = {self.over.key: angles, "torque_Nmm": torque}
+        for column in self.columns:
+            rows[column.key] = torque if column.is_torque else numpy.full(len(angles), force)
+        return self.seen(rows, rig)
+
+    def task(self, values, steps):
+        """Of a run, for run_task()."""
+        changes, _ = self.changes(values)
+        columns = {self.over.key, "torque_Nmm", *(column.key for column in self.columns)}
+        return self.text, self.name, changes, tuple(tuple(ends) for ends in steps), tuple(sorted(columns))
+
+    def seen(self, rows, rig):
+        """Rows of a run as the instruments show them, at the measured rows: curves x n, one curve behind the other. The rows
+        are joined by straight lines, branch by branch. Before the beginning of a branch the curve stays as it begins, beyond
+        its end it goes on straight. Raises RunError."""
+        if rig["slack"] != 0:
+            rows = _with_rows_without_torque(rows)
+        measured, torque = self.measured, rows["torque_Nmm"]
+        torque = numpy.where(abs(torque) > 1e-9 * abs(torque).max(initial=0), torque, 0)
+        x = rows[self.over.key]
+        if self.over.is_angle:
+            x = x + rig["angle_offset"] + numpy.where(torque >= 0, rig["slack"], 0) + rig["compliance"] * torque
+        branch = branches_or_one(x, measured.least_turn)
+        if len(measured.branch) and branch[-1] < measured.branch[-1]:
+            raise RunError(f"{measured.file} turns back {measured.branch[-1]} times, the computed curve {branch[-1]} times")
+        result = numpy.empty((len(self.columns), len(measured.over)))
+        for b in numpy.unique(measured.branch):
+            at = measured.branch == b
+            first, last = numpy.searchsorted(branch, b), numpy.searchsorted(branch, b, side="right") - 1
+            begin, end, share = _neighbours(x[first - (b > 0):last + 1], measured.over[at])
+            for c, column in enumerate(self.columns):
+                y = rows[column.key][first - (b > 0):last + 1]
+                result[c, at] = (1 - share) * y[begin] + share * y[end]
+        for c, column in enumerate(self.columns):
+            if column.is_torque:
+                result[c] += rig["torque_offset"] + rig["drift"] * measured.share
+        if not numpy.isfinite(result).all():
+            raise RunError("the computed curve has no values where something has been measured")
+        return result.ravel()
+
+
+def branches_or_one(x, least_turn):
+    """As measurement.branches_of(); quickly for curves that do not turn back."""
+    steps = numpy.diff(x)
+    if (steps >= 0).all() or (steps <= 0).all():
+        return numpy.zeros(len(x), dtype=int)
+    return measurement.branches_of(x, least_turn)
+
+
+def _neighbours(x, places):
+    """Rows of a branch between which `places` lie, and the share of the second one."""
+    sign = -1 if x[-1] < x[0] else 1
+    reached = numpy.maximum.accumulate(sign * x)
+    end = numpy.minimum(numpy.searchsorted(reached, sign * places), len(x) - 1)
+    # of rows that stay in a place, as while it is pressed, the last one
+    last_there = numpy.arange(len(x))
+    for i in numpy.flatnonzero(x[1:] == x[:-1])[::-1]:
+        last_there[i] = last_there[i + 1]
+    stay = numpy.where(sign * places <= sign * x[0], x[0], places)
+    end = numpy.where(abs(x[end] - stay) <= 1e-9 * abs(stay), last_there[end], end)
+    begin = numpy.maximum(end - 1, 0)
+    width = x[end] - x[begin]
+    share = numpy.where(width == 0, 1, numpy.maximum(0, (places - x[begin]) / numpy.where(width == 0, 1, width)))
+    return begin, end, share
+
+
+def _with_rows_without_torque(rows):
+    """Where the torque changes its sign the slack is passed at rest: adds a row just before and one just after."""
+    torque = rows["torque_Nmm"]
+    rounding = 1e-9 * abs(torque).max(initial=0)
+    before = numpy.flatnonzero((torque[:-1] * torque[1:] < 0) & (abs(torque[:-1]) > 2 * rounding) & (abs(torque[1:]) > 2 * rounding))
+    share = torque[before] / (torque[before] - torque[before + 1])
+    result = {}
+    for name, values in rows.items():
+        between = (1 - share) * values[before] + share * values[before + 1]
+        pairs = numpy.repeat(between, 2)
+        if name == "torque_Nmm":
+            pairs = 2 * rounding * numpy.sign(numpy.column_stack([torque[before], torque[before + 1]])).ravel()
+        result[name] = numpy.insert(values, numpy.repeat(before + 1, 2), pairs)
+    return result

@@ -1,0 +1,399 @@
+"""Numbers of a scene from measured curves: how well the curves tell them, and which test would tell them better.
+
+    import debond
+    fit = debond.fit("prm/calibrate/data_set_1.prm")
+    fit.table()              # values with 95 % intervals
+    fit.curves[0]            # measured and fitted values with their band
+    fit.warnings
+    fit.save("output/fit")   # calibration.json, fit.csv, fitted.prm, report.html ...
+"""
+
+import functools
+import time
+from dataclasses import dataclass
+from typing import Any, Dict, List
+
+import numpy
+
+import _debond
+
+from . import intervals, known, noise
+from .errors import RunError
+from .experiment import Experiment
+from .problem import Optimum, Problem, Runs
+from .scene import Scene
+from .unknowns import Unknowns
+
+FOLLOWED, FOLLOWED_SLOWLY = 5, 2  # of the starts: runs take longer than closed forms
+FEWEST_ROWS = 20  # independent ones: what hangs together over more of a curve is taken for a misfit
+MISFIT_F = 5.0  # of noise.lack_of_fit(): beyond it noise is no explanation (8 waves, 0.02 % of curves that fit)
+
+
+def problem_of(scene, runs=None):
+    """The Problem of a scene with unknowns. Raises SceneError."""
+    scene = scene if isinstance(scene, Scene) else Scene(scene)
+    entries = _debond.changed(scene._entries, ["Task=calibrate"])
+    variants = _debond.variants(entries)
+    for entry in entries:
+        if entry.name == "Output / Directory" and "{{" in entry.value:
+            entry.refuse("a calibration has one directory: expected one value")
+    unknowns = Unknowns(variants)
+    problem = Problem(unknowns, [Experiment(unknowns, i, own, scene._name) for i, (own, _) in enumerate(variants)], runs or Runs())
+    _check(problem)
+    return problem
+
+
+def _check(problem):
+    """Refuses what could not be searched for."""
+    refuse = problem.experiments[0].scene.refuse
+    n, k = len(problem.measured), len(problem.unknowns.list)
+    if k == 0:
+        refuse("Task", "a calibration needs unknowns: write <<START in LOWER..UPPER>> in the place of numbers that are to be found")
+    if n == 0:
+        refuse("Output / Reference curve", "a calibration needs a measured curve")
+    if not problem.noise_is_known and n <= k:
+        refuse("Output / Reference curve", f"{n} measured values for {k} unknowns do not tell how well they fit: give more, or "
+                                           "Calibration / Noise")
+    if problem.values["Calibration / Profiles"] == "true" and problem.measure != "least squares":
+        refuse("Calibration / Profiles", "profiles are those of Measure = least squares")
+    for experiment in problem.experiments:
+        experiment.check_bounds()
+
+
+def _from_starts(problem, n_starts, n_best, closed):
+    """The best starts, followed to their ends."""
+    starts = problem.starts(n_starts)
+    costs = [numpy.inf if curve is None else problem.cost(curve) for curve in problem.curves(starts, closed)]
+    best = [starts[i] for i in numpy.argsort(costs, kind="stable")[:n_best] if numpy.isfinite(costs[i])]
+    return _follow(problem, best, closed)
+
+
+def _follow(problem, starts, closed):
+    ends = []
+    for start in starts:
+        if closed:
+            problem.settle(problem.unknowns.starts)
+            end = _centred(problem, problem.minimise(start, closed))
+        else:
+            end = _with_chosen_steps(problem, start)
+        ends.append(end)
+    return problem.distinct(ends)
+
+
+def _centred(problem, end):
+    """The closed form has the stiffness of the place that it was made exact at: there, until the fit stays there."""
+    for _ in range(6):
+        if end.why:
+            break
+        before = end.values
+        problem.settle(before)
+        end = problem.minimise(before, True)
+        if numpy.linalg.norm(end.values - before) <= 1e-8 * numpy.linalg.norm(before):
+            break
+    return end
+
+
+def _with_chosen_steps(problem, start):
+    """With the steps that are right where it starts, and again with those that are right where it has ended, if that is
+    elsewhere."""
+    end, searched = None, problem.unknowns.to_search
+    for _ in range(2):
+        try:
+            problem.choose_steps(start)
+        except RunError as error:
+            return end or Optimum(start, why=str(error))
+        end = problem.minimise(start, False, near=end)
+        moved = (searched(end.values) - searched(start)) / intervals.sizes_of(problem.unknowns, start)
+        if end.why or not any(problem.steps.values()) or abs(moved).max() < 0.2:
+            break
+        start = end.values
+    return end
+
+
+def find_optima(problem, say=lambda text: None):
+    """Optima with different curves, best first, and whether the closed form has found them. Searches with the closed form where
+    there is one, and from there with the scene's own model; with that alone where the closed form says no to all starts."""
+    clock, model = time.time(), problem.values["Model"]
+    n_starts = int(problem.values["Calibration / Starts"])
+    closed = not problem.why_no_closed_form
+    optima = _from_starts(problem, n_starts, FOLLOWED, True) if closed else []
+    by_closed_form = model == "foundation" and closed
+    if optima and not by_closed_form:
+        say(f"Closed form: {len(optima)} optim{'um' if len(optima) == 1 else 'a'}, after {time.time() - clock:.2g} s")
+        good = [one.values for one in optima if one.cost <= 4 * optima[0].cost + 1e-12][:FOLLOWED_SLOWLY]
+        optima = _follow(problem, good, False)
+    elif not by_closed_form:
+        optima = _from_starts(problem, n_starts, FOLLOWED_SLOWLY if model == "finite elements" else FOLLOWED, False)
+    if not optima:
+        raise RunError("nothing was found: no unknowns that were tried give a curve. The last reason: " + problem.runs.last_failure)
+    return optima, by_closed_form
+
+
+@dataclass
+class Misfit:
+    """How far a curve is from its fit."""
+
+    name: str
+    e_mp: float  # Eq. (19)
+    e_rel: float  # Eq. (50)
+    rms: float  # root mean square of the residuals over the largest value
+    noise: noise.Noise  # of residuals over their weights
+    effective_rows: float  # independent values that tell as much of a mean
+    noise_over_largest: float
+    F: float  # of noise.lack_of_fit()
+    smooth: float  # root mean square, over the largest value, of what does not change from row to row of the residuals
+
+    @property
+    def does_not_fit(self):
+        return (self.F > MISFIT_F or self.effective_rows < FEWEST_ROWS) and self.smooth > 1e-5
+
+
+def fit(scene, *, executor=None, threads: int = 1, evaluations: str = None, say=lambda text: None) -> "Fit":
+    """Finds the unknowns <<...>> of a scene from its measured curves: those of its `Output / Reference curve`, of each variant
+    if entries hold several values.
+
+    scene: a Scene or the name of a file. executor: of concurrent.futures, which makes the runs: processes here, or those of
+    mpi4py.futures or Dask. threads: without an executor. evaluations: a file that keeps the runs, so that a fit that was
+    interrupted goes on. say: a function that is told what is going on. Raises SceneError, or RunError if nothing fits."""
+    clock = time.time()
+    runs = Runs(executor, threads, evaluations)
+    problem = problem_of(scene, runs)
+    optima, closed = find_optima(problem, say)
+    return Fit(problem, optima, closed, clock)
+
+
+class Fit:
+    """A fit that is done. `values`, `lower`, `upper`: of the unknowns `names`, in the units of their entries; an end that is
+    infinite cannot be told."""
+
+    def __init__(self, problem, optima, closed, clock):
+        self.problem, self.optima, self.closed = problem, optima, closed
+        self.warnings: List[str] = []
+        best = optima[0]
+        if not problem.why_no_closed_form:
+            problem.settle(best.values)
+        problem.steps = best.steps or problem.steps
+        try:
+            if best.derivatives is None:
+                best.derivatives = problem.derivatives(best.values, closed)
+        except RunError as error:
+            raise RunError(f"the best fit cannot be differentiated: {error}") from None
+        self._best, self._derivatives = best, problem.weights[:, None] * best.derivatives
+        self.told = intervals.tell(problem, best, self._derivatives)
+        self.misfits = [self._misfit(series, own) for series, own in zip(problem.series, self.told.noises)]
+        self._find_intervals()
+        self._warn()
+        self.candidates = self._judge_candidates()
+        self.warnings += known.remarks_of(self)
+        self.seconds = time.time() - clock
+
+    @functools.cached_property
+    def taken_as_known(self):
+        """What the fit has not looked for, and what it would do to the answer if it were wrong: see known.table_of()."""
+        return known.table_of(self)
+
+    names = property(lambda self: self.problem.unknowns.names)
+    values = property(lambda self: self._best.values)
+    n_runs = property(lambda self: self.problem.runs.n_runs)
+
+    def _find_intervals(self):
+        problem, told = self.problem, self.told
+        if problem.measure != "least squares":
+            generator = numpy.random.default_rng(int(problem.values["Calibration / Seed"]))
+            ends = intervals.bootstrap(problem, self._best, self._derivatives, generator)
+            at = problem.unknowns.to_search(self.values)
+            finite = numpy.isfinite(told.half_widths)
+            told.lower, told.upper = (numpy.where(finite, at + end, one) for end, one in zip(ends, (told.lower, told.upper)))
+        else:
+            intervals.profile_ends(problem, told, intervals.nearby_curves(problem, self._best, self.closed), self._best)
+        logarithmic = problem.unknowns.logarithmic
+        with numpy.errstate(over="ignore"):
+            self.lower, self.upper = (numpy.where(logarithmic, numpy.exp(numpy.where(logarithmic, end, 0)), end)
+                                      for end in (told.lower, told.upper))
+        span = problem.unknowns.to_search(problem.unknowns.upper) - problem.unknowns.to_search(problem.unknowns.lower)
+        self.is_told = numpy.isfinite(told.half_widths) & (told.upper - told.lower < 0.9 * span) | ~told.free
+
+    def _misfit(self, series, own):
+        measured, curve = self.problem.measured[series.slice], self._best.curve[series.slice]
+        difference = curve - measured
+        sd = numpy.inf if series.experiment.measured.sd is None else 1 / self.problem.weights[series.slice]
+        used = (abs(measured) > 0.01 * series.scale) & ((sd <= series.scale) | numpy.isinf(sd))
+        n, rms = max(1, used.sum()), numpy.sqrt(numpy.mean(difference**2)) / series.scale
+        F = noise.lack_of_fit(difference / series.scale, self.told.derivatives[series.slice], series.experiment.measured.parts)
+        to_scale = numpy.median(1 / self.problem.weights[series.slice]) / series.scale
+        smooth = numpy.sqrt(max(0, rms**2 - own.variance * to_scale**2))
+        return Misfit(series.name, numpy.sum(abs(difference[used] / measured[used])) / n,
+                      numpy.sum(abs(difference[used])) / series.scale / n, rms, own, len(measured) / own.rows_per_value,
+                      own.sd * to_scale, F, smooth)
+
+    @property
+    def e_rel(self):
+        """Eq. (50), the largest of all curves."""
+        return max(misfit.e_rel for misfit in self.misfits)
+
+    def _warn(self):
+        problem = self.problem
+        if not self._best.converged:
+            self.warnings.append("the search has not converged: it ended after 150 steps with closed forms, 40 with runs, or where no "
+                                 "step helped")
+        for j, unknown in enumerate(problem.unknowns.list):
+            if not self.told.free[j]:
+                self.warnings.append(f"{unknown.name} ends at one of its bounds: the best value may lie beyond")
+        self.warnings += [intervals.text_of(direction, problem.unknowns) for direction in self.told.directions]
+        named = " ".join(self.warnings)
+        self.warnings += [f"the curves do not tell {name}: its interval is most of what is between its bounds"
+                          for name, told in zip(self.names, self.is_told) if not told and name not in named]
+        for misfit in self.misfits:
+            if misfit.does_not_fit:
+                self.warnings.append(f"the model does not fit {misfit.name}: beyond the noise the residuals have a smooth part of "
+                                     f"{100 * misfit.smooth:.2g} % of the largest value (root mean square). The intervals take it for "
+                                     "noise; they do not hold if the model is wrong")
+        self._warn_of_noise()
+
+    def _warn_of_noise(self):
+        rms = sorted((misfit.rms, misfit.name) for misfit in self.misfits)
+        if not self.problem.noise_is_known and rms[-1][0] > max(3 * rms[0][0], 1e-5):
+            self.warnings.append(f"residuals of {rms[-1][1]} are {rms[-1][0] / rms[0][0]:.2g} times those of {rms[0][1]}, over the "
+                                 "largest values: both count alike in the fit; Calibration / Noise for each curve makes it better")
+        if self.problem.noise_is_known:
+            residuals = self.problem.weights * (self._best.curve - self.problem.measured)
+            n = len(residuals) - self.told.free.sum()
+            n_independent = sum(n / own.rows_per_value * (s.slice.stop - s.slice.start) / len(residuals)
+                                for s, own in zip(self.problem.series, self.told.noises))
+            ratio = numpy.sqrt(residuals @ residuals / max(1, n))
+            if abs(ratio**2 - 1) > 3.3 * numpy.sqrt(2 / max(1, n_independent)):
+                self.warnings.append(f"the residuals are {ratio:.3g} times the noise that Calibration / Noise states: "
+                                     + ("the model does not fit, or the noise is more" if ratio > 1 else "the noise is less")
+                                     + ", and the intervals are wrong by about that")
+
+    def _judge_candidates(self):
+        """By how much experiments that have not been done would shrink the intervals: (number, half widths)."""
+        problem, result = self.problem, []
+        for experiment in problem.experiments:
+            if experiment.is_done:
+                continue
+            own = Problem(problem.unknowns, [experiment], problem.runs)
+            own.done, own.measured = [experiment], numpy.zeros(len(experiment.columns) * len(experiment.measured.over))
+            own.steps = problem.steps
+            closed = self.closed and not experiment.why_no_closed_form
+            if closed:
+                experiment.settle(self.values)
+            curve = own.curves([self.values], closed)[0]
+            if curve is None:
+                self.warnings.append(f"experiment {experiment.number + 1}, not done yet, could not be computed: {problem.runs.last_failure}")
+                continue
+            derivatives = own.derivatives(self.values, closed)
+            scales = abs(curve.reshape(len(experiment.columns), -1)).max(axis=1)
+            stated = numpy.array([float(item) for item in experiment.values["Calibration / Noise"].split(",")])
+            sd = numpy.repeat(scales * numpy.where(stated > 0, stated, 1), len(experiment.measured.over))
+            result.append((experiment.number, intervals.with_test(problem, self.told, derivatives / sd[:, None])))
+        return result
+
+    def table(self):
+        """A pandas.DataFrame: a row for each unknown, with value, ends of the 95 % interval, unit, and whether the curves tell
+        it."""
+        import pandas
+
+        units = [unknown.unit for unknown in self.problem.unknowns.list]
+        return pandas.DataFrame({"value": self.values, "lower_95": self.lower, "upper_95": self.upper, "unit": units,
+                                 "told": self.is_told}, index=pandas.Index(self.names, name="unknown"))
+
+    @property
+    def curves(self) -> List[Dict[str, numpy.ndarray]]:
+        """Of each experiment that has been done its columns: what it is drawn over, and of each curve NAME_measured,
+        NAME_fitted, NAME_lower_95 and NAME_upper_95, the band that the unknowns leave."""
+        problem, result = self.problem, []
+        told = numpy.isfinite(self.told.half_widths)
+        C = numpy.where(numpy.outer(told, told), self.told.covariance, 0)
+        sd = numpy.sqrt(numpy.maximum(0, numpy.einsum("ij,jk,ik->i", self.told.derivatives, C, self.told.derivatives)))
+        band = numpy.median(self.told.quantiles) * sd / problem.weights
+        for experiment in problem.done:
+            columns = {experiment.over.name: experiment.measured.over}
+            for series in problem.series:
+                if series.experiment is experiment:
+                    name, part = series.column.name, series.slice
+                    columns[name + "_measured"], columns[name + "_fitted"] = problem.measured[part], self._best.curve[part]
+                    columns[name + "_lower_95"] = self._best.curve[part] - band[part]
+                    columns[name + "_upper_95"] = self._best.curve[part] + band[part]
+            result.append(columns)
+        return result
+
+    def profiles(self, n: int = 11) -> Dict[str, Dict[str, numpy.ndarray]]:
+        """Fits in which one unknown is held at `n` values, two interval widths to both sides: {unknown: {"value",
+        "chi_squared" (n), "unknowns" (n x k)}}. chi_squared is the growth of the sum of squares, over what it grows by for one
+        standard deviation, squared: below 3.84 is the 95 % interval."""
+        problem, told, result = self.problem, self.told, {}
+        unknowns = problem.unknowns
+        at, lower, upper = (unknowns.to_search(v) for v in (self.values, unknowns.lower, unknowns.upper))
+        for j, name in enumerate(self.names):
+            if not told.free[j] or not numpy.isfinite(told.half_widths[j]):
+                continue
+            _, finite, _ = intervals._inverse(told.derivatives)
+            unit = (told.half_widths[j] / told.quantiles[j]) ** 2 / finite[j, j]
+            rows = []
+            for place in numpy.linspace(max(lower[j], 2 * told.lower[j] - at[j]), min(upper[j], 2 * told.upper[j] - at[j]), n):
+                start = at.copy()
+                start[j] = place
+                end = problem.minimise(unknowns.from_search(start), self.closed, numpy.delete(numpy.arange(len(at)), j))
+                rows.append((end.values[j], 2 * (end.cost - self._best.cost) / unit if end.converged else numpy.nan, end.values))
+            result[name] = dict(zip(("value", "chi_squared", "unknowns"), map(numpy.array, zip(*rows))))
+        return result
+
+    def bootstrap(self, n: int = 200, seed: int = 1) -> numpy.ndarray:
+        """Values of the unknowns (n x k) of fits to the fitted curves with new noise of the kind that was estimated."""
+        problem, generator, result = self.problem, numpy.random.default_rng(seed), []
+        measured = problem.measured
+        try:
+            for _ in range(n):
+                problem.measured = self._best.curve.copy()
+                for series, own in zip(problem.series, self.told.noises):
+                    problem.measured[series.slice] += own.draw(generator) / problem.weights[series.slice]
+                end = problem.minimise(self.values, self.closed)
+                if not end.why:
+                    result.append(end.values)
+        finally:
+            problem.measured = measured
+        return numpy.array(result)
+
+    def log_likelihood(self, values) -> float:
+        """Of these values of the unknowns, with the noise that was estimated; -inf outside of the bounds: for a posterior."""
+        unknowns = self.problem.unknowns
+        values = numpy.asarray(values, dtype=float)
+        if not ((values >= unknowns.lower) & (values <= unknowns.upper)).all():
+            return -numpy.inf
+        curve = self.problem.curves([values], self.closed)[0]
+        if curve is None:
+            return -numpy.inf
+        residuals = self.problem.weights * (curve - self.problem.measured)
+        whites = [own.whitened(residuals[series.slice][:, None])[0] for series, own in zip(self.problem.series, self.told.noises)]
+        return -0.5 * sum(float(numpy.sum(white**2)) for white in whites)
+
+    def posterior(self, steps: int = 1000, walkers: int = 0, seed: int = 1) -> numpy.ndarray:
+        """Samples of the unknowns (n x k) by emcee, uniform between the bounds (in the logarithm, with `log`) before; the first
+        half of the steps is left out. Raises ImportError without emcee."""
+        import emcee
+
+        unknowns, k = self.problem.unknowns, len(self.names)
+        walkers = walkers or 2 * k + 2
+        generator = numpy.random.default_rng(seed)
+        at, lower, upper = (unknowns.to_search(v) for v in (self.values, unknowns.lower, unknowns.upper))
+        width = numpy.minimum(self.told.half_widths, upper - lower)
+        start = numpy.clip(at + 0.1 * width * generator.standard_normal((walkers, k)), lower, upper)
+
+        def likelihood(searched):
+            inside = ((searched >= lower) & (searched <= upper)).all()
+            return self.log_likelihood(unknowns.from_search(searched)) if inside else -numpy.inf
+
+        sampler = emcee.EnsembleSampler(walkers, k, likelihood)
+        sampler._random.seed(seed)
+        sampler.run_mcmc(start, steps)
+        return numpy.array([unknowns.from_search(sample) for sample in sampler.get_chain(discard=steps // 2, flat=True)])
+
+    def save(self, directory) -> None:
+        """Writes calibration.json, fit.csv, correlations.csv, fitted.prm and report.html into a directory."""
+        from . import calibrate
+
+        calibrate.save(self, directory)
+
+    def _repr_html_(self) -> str:
+        return self.table()._repr_html_()

@@ -1,0 +1,293 @@
+"""How well curves tell the unknowns of a fit: 95 % intervals, what cannot be told, and what the answer hangs on.
+
+With derivatives J (N x k), weighted, and residuals of covariance V the least squares estimate has the covariance
+
+    C = (J'J)^-1 J'V J (J'J)^-1,
+
+whether the noise is white or not. V is estimated from the residuals (noise.py). An interval ends where the sum of squares, with
+the other unknowns at their best, has grown by t^2 C_jj/(J'J)^-1_jj, t of Student's distribution: for a curve that is linear in
+the unknowns that is +- t sqrt(C_jj). Degrees of freedom are Satterthwaite's.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy
+from scipy import stats
+
+from . import noise
+
+CONFIDENCE = 0.95
+_NEVER = 1e-7  # of the largest singular value: what is less is rounding
+
+
+@dataclass
+class Told:
+    """What the curves say of the unknowns at the best fit. Numbers are those that are searched: logarithms of some."""
+
+    derivatives: numpy.ndarray  # N x k, weighted
+    noises: list  # a Noise for each series, of weighted residuals
+    free: numpy.ndarray  # k: not held at a bound
+    covariance: numpy.ndarray  # k x k; of what cannot be told as large as rounding lets it be
+    half_widths: numpy.ndarray  # k: t sqrt(C_jj), infinite if nothing tells it
+    quantiles: numpy.ndarray  # k: t
+    lower: numpy.ndarray = None  # k: ends of the intervals
+    upper: numpy.ndarray = None
+    directions: list = field(default_factory=list)  # (changes of the unknowns, largest change of a curve over its scale)
+
+    @property
+    def correlations(self):
+        sd = numpy.sqrt(numpy.maximum(numpy.diag(self.covariance), 1e-150))
+        result = self.covariance / numpy.outer(sd, sd)
+        numpy.fill_diagonal(result, 1)
+        return result
+
+
+def _inverse(J, scale_limit=1e-10):
+    """(J'J)^-1, with what nothing tells very large, and the columns that it tells."""
+    size = numpy.linalg.norm(J, axis=0)
+    size[size == 0] = 1
+    _, sigma, rows = numpy.linalg.svd(numpy.vstack([J / size, numpy.zeros((max(0, J.shape[1] - len(J)), J.shape[1]))]),
+                                      full_matrices=False)
+    largest = max(sigma.max(initial=0), 1e-300)
+    lost = sigma <= _NEVER * largest
+    scaled = rows / size
+    inverse = (scaled.T / numpy.maximum(sigma, scale_limit * largest) ** 2) @ scaled
+    finite = (scaled.T * numpy.where(lost, 0, 1 / numpy.where(lost, 1, sigma) ** 2)) @ scaled
+    told = ~(abs(rows[lost]) > 1e-3).any(axis=0)
+    return inverse, finite, told
+
+
+def _sandwich(problem, J, inverse, noises):
+    """Parts of C from each series."""
+    parts = []
+    for series, own in zip(problem.series, noises):
+        rows = J[series.slice]
+        parts.append(inverse @ (rows.T @ own.covariance_times(rows)) @ inverse)
+    return parts
+
+
+def noises_of(problem, residuals, J):
+    """A Noise for each series, of residuals over their weights. If the scene states the noise its size is that."""
+    result = []
+    for series in problem.series:
+        own = noise.estimate(residuals[series.slice], J[series.slice], series.experiment.measured.parts)
+        if problem.noise_is_known:
+            own.variance = own.variance / own.sd**2
+        result.append(own)
+    return result
+
+
+def tell(problem, best, derivatives):
+    """What the curves tell at the `best` values, with `derivatives` (N x k) by what is searched, over the weights."""
+    unknowns = problem.unknowns
+    at, lower, upper = (unknowns.to_search(values) for values in (best.values, unknowns.lower, unknowns.upper))
+    residuals = problem.weights * (best.curve - problem.measured)
+    slope, near = derivatives.T @ residuals, 1e-6 * (upper - lower)
+    pushed = ((at - lower < near) & (slope > 0)) | ((upper - at < near) & (slope < 0))
+    J = numpy.where(pushed, 0, derivatives)
+    noises = noises_of(problem, residuals, J)
+    inverse, finite, told = _inverse(J)
+    k, parts = len(at), _sandwich(problem, J, finite, noises)
+    quantiles, half_widths = numpy.empty(k), numpy.full(k, numpy.inf)
+    variance = sum(parts)
+    for j in range(k):
+        freedom = _freedom(problem, J, finite[:, j], noises, [part[j, j] for part in parts])
+        quantiles[j] = stats.t.ppf(0.5 + CONFIDENCE / 2, freedom)
+        if pushed[j]:
+            half_widths[j] = 0  # it is at its bound, and no more is said
+        elif told[j]:
+            half_widths[j] = quantiles[j] * numpy.sqrt(max(0, variance[j, j]))
+    whole = variance + numpy.median([own.variance for own in noises]) * (inverse - finite)
+    result = Told(J, noises, ~pushed, whole, half_widths, quantiles, at - half_widths, at + half_widths)
+    _find_directions(problem, result, best.values, at, residuals)
+    return result
+
+
+def _freedom(problem, J, row, noises, variances):
+    """Degrees of freedom of sum(variances), each from the noise of its series."""
+    total, spread = sum(variances), 0.0
+    if problem.noise_is_known or not total > 0:
+        return 1e6
+    for series, own, part in zip(problem.series, noises, variances):
+        if part > 1e-3 * total:
+            direction = J[series.slice] @ row
+            freedom = noise.freedom_of(own, lambda n: direction @ n.covariance_times(direction[:, None])[:, 0])
+            spread += (part / total) ** 2 * 2 / freedom
+    return 2 / max(spread, 2e-6)
+
+
+def sizes_of(unknowns, values):
+    """Where an unknown that is searched as it is gets a relative change from: itself, or a part of its range about zero."""
+    return numpy.where(unknowns.logarithmic, 1, numpy.maximum(abs(values), 0.01 * (unknowns.upper - unknowns.lower)))
+
+
+def _find_directions(problem, told, values, at, residuals):
+    """Singular values of the relative changes that curves show if unknowns change by parts of themselves. A direction along
+    which unknowns can double without a change that the noise lets see cannot be told; so is one that is lost beside others."""
+    unknowns, free = problem.unknowns, numpy.flatnonzero(told.free)
+    if len(free) == 0:
+        return
+    scaled = told.derivatives[:, free] * sizes_of(unknowns, values)[free]
+    _, sigma, rows = numpy.linalg.svd(scaled, full_matrices=False)
+    spread = numpy.sqrt(numpy.mean(residuals**2)) if not problem.noise_is_known else 1.0
+    scales = numpy.concatenate([numpy.full(s.slice.stop - s.slice.start, s.scale) for s in problem.series])
+    for row in rows[sigma < max(1e-6 * sigma.max(), spread)]:
+        changes = numpy.zeros(len(at))
+        changes[free] = row / row[numpy.argmax(abs(row))]
+        told.directions.append((changes, abs(scaled @ changes[free] / problem.weights / scales).max()))
+
+
+def text_of(direction, unknowns):
+    """A direction that cannot be told, in words."""
+    changes, effect = direction
+    parts = numpy.flatnonzero(abs(changes) > 0.1)
+    names = [unknowns.names[j] for j in parts]
+    same = f"the curves then change by {100 * effect:.2g} % of their largest value where the unknowns change by 100 %"
+    if len(parts) == 1:
+        return f"the curves hardly depend on {names[0]}: {same}"
+    text = f"the curves cannot tell {', '.join(names[:-1])} and {names[-1]} apart: "
+    a, b = changes[parts[:2]]
+    if len(parts) == 2 and abs(abs(a) - abs(b)) < 0.1:
+        return text + f"they only appear as a {'product' if a * b < 0 else 'ratio'}; fix one of them ({same})"
+    moves = ", ".join(f"{name} by {changes[j]:+.2g} %" for name, j in zip(names, parts))
+    return text + f"the curves stay the same if they change together, {moves}; fix one of them ({same})"
+
+
+def squares_of(problem, best):
+    residuals = problem.weights * (best.curve - problem.measured)
+    return residuals @ residuals
+
+
+class _End:
+    """An end of the interval of one unknown that is being looked for: the sum of squares as a function of that unknown, the
+    others following."""
+
+    def __init__(self, j, sign, start, target, limit):
+        self.j, self.sign, self.target, self.limit = j, sign, target, limit
+        self.root, self.place = 0.0, 0.0  # of the step before: sqrt of the growth over its target, distance
+        self.at, self.distance = start, 0.0
+        self.best = numpy.inf
+        self.done = False
+
+
+def nearby_curves(problem, best, closed):
+    """A function of places (values of the unknowns) that gives curves there. Runs are replaced by the closed form where there is
+    one: what it says is not linear is added to the line through the best fit."""
+    if closed or problem.why_no_closed_form:
+        return lambda places: problem.curves(places, closed)
+    at = problem.unknowns.to_search(best.values)
+    base, slopes = problem.curves([best.values], True)[0], problem.derivatives(best.values, True)
+
+    def curves(places):
+        result = []
+        for place, curve in zip(places, problem.curves(places, True)):
+            moved = problem.unknowns.to_search(place) - at
+            result.append(None if curve is None else best.curve + best.derivatives @ moved + curve - base - slopes @ moved)
+        return result
+
+    return curves
+
+
+def profile_ends(problem, told, curves, best, rounds=12):
+    """Ends of the intervals along the curve that is not linear in the unknowns, found from those of the linear one. `curves`:
+    see nearby_curves(). All ends go on at once, so that their runs are made at the same time."""
+    unknowns = problem.unknowns
+    centre, lower, upper = (unknowns.to_search(v) for v in (best.values, unknowns.lower, unknowns.upper))
+    J = told.derivatives
+    _, finite, _ = _inverse(J)
+    ends = []
+    for j in numpy.flatnonzero(told.free & numpy.isfinite(told.half_widths) & (told.half_widths > 0)):
+        growth = told.half_widths[j] ** 2 / finite[j, j]  # of the sum of squares at the end
+        for sign in (-1, 1):
+            limit = (upper[j] - centre[j]) if sign > 0 else (centre[j] - lower[j])
+            end = _End(j, sign, centre, growth, limit)
+            _move(end, min(told.half_widths[j], limit), centre, finite, lower, upper)
+            ends.append(end)
+    for _ in range(rounds):
+        active = [end for end in ends if not end.done]
+        if not active:
+            break
+        _advance(problem, best, J, active, (centre, finite, lower, upper), curves)
+    told.lower, told.upper = centre - told.half_widths, centre + told.half_widths
+    for end in ends:
+        if end.done:
+            (told.lower if end.sign < 0 else told.upper)[end.j] = centre[end.j] + end.sign * end.distance
+
+
+def _move(end, distance, centre, finite, lower, upper):
+    """To this distance from the best value; the others go along as the linear curve says, from where they are."""
+    column = finite[:, end.j] / finite[end.j, end.j]
+    end.at = numpy.clip(end.at + column * end.sign * (distance - end.distance), lower, upper)
+    end.at[end.j] = centre[end.j] + end.sign * distance
+    end.distance, end.best = distance, numpy.inf
+
+
+def _advance(problem, best, J, ends, frame, nearby):
+    """One round: the others go to where the linear curve has the least squares; if they stay, the end moves on."""
+    centre, finite, lower, upper = frame
+    curves = nearby([problem.unknowns.from_search(end.at) for end in ends])
+    for end, curve in zip(ends, curves):
+        if curve is None:
+            end.done = True  # the linear one has to do
+            end.distance = min(end.distance, end.limit)
+            continue
+        residuals = problem.weights * (curve - problem.measured)
+        squares = residuals @ residuals
+        others = numpy.setdiff1d(numpy.arange(len(centre)), [end.j])
+        step = -numpy.linalg.lstsq(J[:, others], residuals, rcond=_NEVER)[0]
+        gain = -(residuals @ (J[:, others] @ step))
+        growth = min(squares, end.best) - squares_of(problem, best)
+        if squares < end.best and gain > 0.03 * end.target:
+            end.best = squares
+            end.at = end.at.copy()
+            end.at[others] = numpy.clip(end.at[others] + step, lower[others], upper[others])
+            continue
+        _judge(end, max(growth - gain * (squares <= end.best), 1e-12 * end.target), (centre, finite, lower, upper))
+
+
+def _judge(end, growth, frame):
+    """The square root of the growth is nearly linear in the distance: a secant finds where it is that of the target."""
+    root = numpy.sqrt(growth / end.target)
+    if abs(root - 1) < 0.03 or (end.distance >= end.limit and root < 1):
+        end.done = True
+        end.distance = min(end.distance / root, end.limit) if root >= 1 or end.distance < end.limit else end.limit
+        return
+    slope = (root - end.root) / (end.distance - end.place) if end.distance != end.place else root / end.distance
+    if not slope > 0:
+        slope = root / end.distance
+    target = end.distance + (1 - root) / slope
+    target = numpy.clip(target, 0.3 * end.distance, 2.5 * end.distance)
+    end.root, end.place = root, end.distance
+    _move(end, min(target, end.limit), *frame)
+
+
+def bootstrap(problem, best, derivatives, generator, n_samples=200, n_iterations=30):
+    """2.5 and 97.5 % quantiles of what is searched (2 x k) for the measures e_mp and e_rel: blocks of residuals of the same
+    curve are drawn anew, and the sum of magnitudes made small with the linear curve, by least squares with the weights of the
+    solution before."""
+    weights = problem.weights_of_measure
+    residuals, J = weights * (problem.measured - best.curve), (weights / problem.weights)[:, None] * derivatives
+    samples = numpy.empty((n_samples, J.shape[1]))
+    for sample in range(n_samples):
+        drawn = numpy.zeros(len(residuals))
+        for series in problem.series:
+            rows = numpy.arange(series.slice.start, series.slice.stop)[weights[series.slice] > 0]
+            length = max(1, round(len(rows) ** (1 / 3)))
+            firsts = generator.integers(0, len(rows) - length + 1, -(-len(rows) // length))
+            drawn[rows] = residuals[rows[(firsts[:, None] + numpy.arange(length)).ravel()[:len(rows)]]]
+        change = numpy.zeros(J.shape[1])
+        for _ in range(n_iterations):
+            root = 1 / numpy.sqrt(numpy.hypot(drawn - J @ change, 1e-3))
+            change = numpy.linalg.lstsq(root[:, None] * J, root * drawn, rcond=None)[0]
+        samples[sample] = change
+    return numpy.quantile(samples, [0.5 - CONFIDENCE / 2, 0.5 + CONFIDENCE / 2], axis=0)
+
+
+def with_test(problem, told, derivatives):
+    """Half widths (k) if a test with these derivatives (rows x k), over its noise, were done as well: with the noise that the
+    fit leaves, as far as it hangs together."""
+    scales = [own.sd * numpy.sqrt(own.rows_per_value) for own in told.noises]
+    rows = [told.derivatives[series.slice] / scale for series, scale in zip(problem.series, scales)]
+    rows.append(numpy.where(told.free, derivatives, 0) / numpy.sqrt(numpy.mean(numpy.square(scales))))
+    _, finite, known = _inverse(numpy.vstack(rows))
+    return numpy.where(told.free, numpy.where(known, told.quantiles * numpy.sqrt(numpy.diag(finite)), numpy.inf), 0)

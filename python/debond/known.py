@@ -1,0 +1,128 @@
+"""What a fit has taken as known: by how much its answer changes if that is wrong, and what the rig seems to do that the scene does
+not say."""
+
+import numpy
+
+import _debond
+
+from .errors import RunError, SceneError
+from .experiment import RIG, Experiment
+
+# Entries of a scene, and by what each of them is changed: a factor, or 0: a part of the angle or torque of the peak.
+_FACTORS = ["Implant / Radius", "Implant / Height", "Bone / Young modulus", "Implant / Young modulus",
+            "Interface / Penalty stiffness", "Interface / Tangential penalty stiffness", "Interface / Friction coefficient broken",
+            "Interface / Friction coefficient unbroken", "Interface / Sliding threshold", "Interface / Transition factor",
+            "Chuck / Translation z / Value"]
+_BONDING = "Interface / Bonding / Initial bonding"
+
+
+def _changes(fit):
+    """(entry, value, unit, change in words, its new text) of what is taken as known."""
+    problem = fit.problem
+    experiment = problem.done[0]
+    values, held = experiment.values, set().union(*(problem.unknowns.entries(e.number, fit.values) for e in problem.done))
+    result = []
+    for entry in _FACTORS:
+        text = values.get(entry, "")
+        if entry in held or not text or _is_zero(text):
+            continue
+        result.append((entry, text, _debond.unit_of(entry), "+10 %", f"({text}) * 1.1" if "Chuck" in entry else repr(1.1 * float(text))))
+    if _BONDING not in held and values.get(_BONDING) == "1":
+        result.append((_BONDING, "1", "", "-10 %", "0.9"))
+    curve = fit._best.curve[problem.series[0].slice]
+    peak = numpy.argmax(abs(curve))
+    angle, torque = experiment.measured.over[peak], curve[peak]
+    if experiment.over.is_angle and problem.series[0].column.is_torque and torque != 0:
+        for key, size in (("angle_offset", 0.1 * angle), ("slack", abs(0.1 * angle)), ("compliance", abs(0.1 * angle / torque)),
+                          ("torque_offset", 0.01 * torque), ("drift", 0.01 * torque)):
+            entry = "Calibration / " + RIG[key]
+            if entry not in held:
+                unit, now = _debond.unit_of(entry), float(values[entry])
+                part = "1 % of the largest torque" if "orque" in entry else "10 % of the angle of the largest torque"
+                result.append((entry, values[entry], unit, f"+{size:.2g} {unit}, {part}", repr(now + float(size))))
+    return result
+
+
+def _is_zero(text):
+    try:
+        return float(text) == 0
+    except ValueError:
+        return False
+
+
+def _change_of_curve(fit, entry, text):
+    """By how much the predicted values (N) at the best fit change if an entry of all experiments has another value; None if
+    there is no such curve. By the closed form where there is one: this is no place to spend runs."""
+    problem, curves = fit.problem, []
+    closed = not problem.why_no_closed_form
+    for experiment in problem.done:
+        try:
+            other = Experiment(problem.unknowns, experiment.number, _debond.changed(experiment.given, [f"{entry}={text}"]), experiment.name,
+                               experiment.measured)
+            if closed and not other.why_no_closed_form:
+                other.settle(fit.values)
+                curves.append(other.by_closed_form(fit.values))
+                continue
+            rows = problem.runs.rows([other.task(fit.values, problem.steps[id(experiment)])])[0]
+            if isinstance(rows, str):
+                return None
+            curves.append(other.seen(rows, other.changes(fit.values)[1]))
+        except (SceneError, RunError):
+            return None
+    base = problem.curves([fit.values], True)[0] if closed else fit._best.curve
+    return None if base is None else numpy.concatenate(curves) - base
+
+
+def table_of(fit):
+    """A list of {"entry", "value", "unit", "change", "effect": {unknown: by how many % of itself}}."""
+    problem, told = fit.problem, fit.told
+    usable = told.free & numpy.isfinite(told.half_widths)
+    table = []
+    for entry, value, unit, change, text in _changes(fit):
+        change_of_curve = _change_of_curve(fit, entry, text)
+        if change_of_curve is None:
+            continue
+        moved = numpy.zeros(len(fit.values))
+        moved[usable] = numpy.linalg.lstsq(told.derivatives[:, usable], -problem.weights * change_of_curve, rcond=1e-7)[0]
+        at = problem.unknowns.to_search(fit.values)
+        with numpy.errstate(over="ignore"):
+            other = numpy.where(problem.unknowns.logarithmic, numpy.exp(numpy.where(problem.unknowns.logarithmic, at + moved, 0)), at + moved)
+            effect = numpy.where(usable & (fit.values != 0), 100 * (other / numpy.where(fit.values == 0, 1, fit.values) - 1), numpy.nan)
+        table.append({"entry": entry, "value": value, "unit": unit, "change": change,
+                      "effect": {name: (float(x) if numpy.isfinite(x) else None) for name, x in zip(fit.names, effect)}})
+    return table
+
+
+def remarks_of(fit):
+    """What the rig seems to do that the scene does not say."""
+    return [remark for remark in (_slack_remark(fit, series) for series in fit.problem.series) if remark]
+
+
+def _slack_remark(fit, series):
+    """Proposes slack where the torque does not rise at the start: a line that starts at an angle s fits the rise better than one
+    from zero, by more than the noise."""
+    experiment = series.experiment
+    rig = experiment.changes(fit.values)[1]
+    if not (experiment.over.is_angle and series.column.is_torque) or rig["slack"] != 0 or rig["angle_offset"] != 0:
+        return ""
+    measured, x = fit.problem.measured[series.slice], abs(experiment.measured.over)
+    torque = measured * numpy.sign(measured[numpy.argmax(abs(measured))])
+    n = int(numpy.argmax(torque > 0.5 * torque.max()))
+    if n < 8:
+        return ""
+    x, torque = x[:n], torque[:n]
+    places = numpy.linspace(0, x[-1], 101)[:-5]
+
+    def squares(s):
+        hinge = numpy.maximum(0, x - s)
+        return numpy.sum((torque - hinge * (hinge @ torque) / (hinge @ hinge)) ** 2)
+
+    costs = numpy.array([squares(s) for s in places])
+    best = int(numpy.argmin(costs))
+    index = fit.problem.series.index(series)
+    noise_variance = costs[best] / max(1, n - 2) * fit.told.noises[index].rows_per_value
+    if best < 2 or costs[0] - costs[best] < 25 * noise_variance:
+        return ""
+    s = places[best]
+    return (f"{series.name} does not rise until {s:.2g} deg: if that is slack of the machine, Calibration / Slack = "
+            f"<<{s:.2g} in 0..{2 * s:.2g}>> finds it")

@@ -1,0 +1,201 @@
+"""What an instrument has written, as a fit uses it: which columns, which rows, and how large their noise is said to be."""
+
+from dataclasses import dataclass, field
+
+import numpy
+
+import _debond
+
+from . import measured
+
+ENTRY = "Output / Reference curve"
+
+
+@dataclass(frozen=True)
+class CurveColumn:
+    """A quantity that is measured: the time, or a reaction or position of the chuck."""
+
+    name: str  # as a column of torque.csv, or angle_deg
+    key: str  # column of the rows of a run
+    kind: str  # "time", "load" or "position"
+    unit: str
+    component: int = -1  # 0..5 of the chuck
+
+    @property
+    def is_angle(self):
+        return self.kind == "position" and self.component == 5
+
+    @property
+    def is_torque(self):
+        return self.kind == "load" and self.component == 5
+
+
+def curve_column(scene, name, entry):
+    """Raises SceneError that names the `entry` of the scene."""
+    if name == "time":
+        return CurveColumn(name, name, "time", "")
+    for position, load, unit, load_unit, k in _debond.chuck_columns:
+        if name == position or (k == 5 and name == "angle_deg"):
+            return CurveColumn(name, position, "position", unit, k)
+        if name == load or (k == 5 and name == "torque_Nmm"):
+            return CurveColumn(name, "torque_Nmm" if name == "torque_Nmm" else load, "load", load_unit, k)
+    scene.refuse(entry, "there is no such curve: expected time, angle_deg, torque_Nmm or a column of torque.csv that begins with "
+                        "chuck_")
+
+
+def branches_of(over, least):
+    """Between which turning points each value lies, 0 before the first. A curve turns where it goes back by more than `least`
+    of its range."""
+    branch = numpy.zeros(len(over), dtype=int)
+    if len(over) == 0:
+        return branch
+    tolerance = least * (over.max() - over.min())
+    direction = n = extreme = 0
+    for i, moved in enumerate(over):
+        moved -= over[extreme]
+        if direction == 0 and abs(moved) > tolerance:
+            direction = 1 if moved > 0 else -1
+        if direction * moved >= 0:
+            extreme = extreme if direction == 0 else i
+        elif abs(moved) > tolerance:
+            n += 1
+            branch[extreme + 1:i] = n
+            direction, extreme = -direction, i
+        branch[i] = n
+    return branch
+
+
+@dataclass
+class Measurement:
+    """Rows of a measured curve, in the order of the file."""
+
+    file: str  # empty: nothing has been measured yet
+    over: numpy.ndarray  # where (n)
+    values: numpy.ndarray  # n x curves, in the units of the scene
+    branch: numpy.ndarray  # of each row, between turning points
+    least_turn: float  # by which part of its range a curve goes back where it turns
+    scale: numpy.ndarray  # of each curve: its largest magnitude
+    sd: numpy.ndarray = None  # n x curves: of the noise, as it was stated; None: not stated
+    parts: list = field(default_factory=list)  # slices of rows without a gap of the windows
+    share: numpy.ndarray = None  # of each row: how much of the rows of the file is over
+    n_left_out: int = 0  # rows that are not fitted
+
+
+def _list_of(text):
+    return [item.strip() for item in text.split(",") if item.strip()]
+
+
+def numbers_of(values, name):
+    return [float(item) for item in _list_of(values["Calibration / " + name])]
+
+
+def _places(scene, over, times):
+    """The place along `over` at each of `times`, as far as the scene prescribes it; else None."""
+    times = numpy.asarray(times, dtype=float)
+    if over.kind == "time":
+        return times
+    return scene.prescribed(list(times)).get(over.key) if over.kind == "position" else None
+
+
+def _least_turn(scene, over):
+    """Measured places are not smooth: what goes back by less than a twentieth of the range is no turn, unless the scene turns
+    by less."""
+    usual = 0.05
+    places = _places(scene, over, scene.sample_times)
+    if places is None or numpy.ptp(places) == 0:
+        return usual
+    branch = branches_of(places, 1e-9)
+    turns = numpy.flatnonzero(numpy.diff(branch))
+    ends = numpy.r_[0, turns, len(places) - 1]
+    return min(usual, 0.4 * numpy.abs(numpy.diff(places[ends])).min() / numpy.ptp(places)) if len(turns) else usual
+
+
+def _reach(scene, over, largest_shift):
+    """What the scene comes to, with all that the rig may show more: rows beyond mean nothing."""
+    places = _places(scene, over, scene.sample_times)
+    if places is None:
+        return -numpy.inf, numpy.inf
+    margin, turned = 1e-9 * numpy.ptp(places), largest_shift if over.is_angle else 0
+    return places.min() - margin - abs(turned), places.max() + margin + turned
+
+
+def _used_rows(scene, values, columns, over, table, branch, largest_shift):
+    """Numbers of the rows that are fitted, and of each the window that it is in."""
+    places = table[:, 0]
+    implant = places.copy()  # where the implant is while the machine shows that place
+    if over.is_angle:
+        for c, column in enumerate(columns):
+            if column.is_torque:
+                implant -= float(values["Calibration / Machine compliance"]) * table[:, c + 1]
+    bounds = numbers_of(values, "Windows")
+    windows = list(zip(bounds[::2], bounds[1::2])) or [(-numpy.inf, numpy.inf)]
+    window = numpy.full(len(places), -1)
+    for w, (begin, end) in reversed(list(enumerate(windows))):
+        window[(places >= begin) & (places <= end)] = w
+    least, most = _reach(scene, over, largest_shift)
+    # of rows at the same place, as while it is pressed, the last one; the one at a turn may belong to either side of it
+    stays = numpy.r_[places[1:] == places[:-1], False]
+    turns = numpy.r_[branch[1:] != branch[:-1], False]
+    turns[0] = False
+    used = numpy.flatnonzero((window >= 0) & ~stays & ~turns & (implant >= least) & (implant <= most))
+    if len(used) == 0:
+        scene.refuse(ENTRY, f"{values[ENTRY]}: none of its {len(places)} rows, {over.name} from {places.min():.4g} to "
+                            f"{places.max():.4g}, is in Calibration / Windows and what the scene comes to, {least:.4g} to {most:.4g}")
+    return used, window[used]
+
+
+def _check(scene, values, columns):
+    if len(numbers_of(values, "Windows")) % 2:
+        scene.refuse("Calibration / Windows", "expected pairs of bounds, an even number of them")
+    noise = numbers_of(values, "Noise")
+    if len(noise) not in (1, len(columns)):
+        scene.refuse("Calibration / Noise", "expected one number, or one for each of Curves")
+    if noise.count(0) % len(noise):
+        scene.refuse("Calibration / Noise", "either that of all curves is known, or that of none: 0")
+
+
+def _proposed(scene, columns, over, least_turn):
+    """Places over all of the load, of a test that has not been done."""
+    times = numpy.linspace(scene.sample_times[0], scene.sample_times[-1], 401)
+    places = _places(scene, over, times)
+    if places is None:
+        scene.refuse("Calibration / Over", "what a test that has not been done is drawn over must be prescribed by its scene")
+    kept = places[numpy.r_[places[1:] != places[:-1], True]]
+    return Measurement("", kept, numpy.zeros((0, len(columns))), branches_of(kept, least_turn), least_turn,
+                       numpy.zeros(len(columns)), parts=[slice(0, len(kept))], share=numpy.linspace(0, 1, len(kept)))
+
+
+def read(scene, values, columns, over, largest_shift):
+    """The Measurement of a scene, whose entries are `values`: `columns` along `over`. The rig may show `largest_shift` [deg]
+    more than the implant has turned. Raises SceneError."""
+    _check(scene, values, columns)
+    least_turn = _least_turn(scene, over)
+    file = values[ENTRY]
+    if not file:
+        return _proposed(scene, columns, over, least_turn)
+    table = measured.read_measured(file, [column.name for column in (over, *columns)], values["Output / Reference columns"]).T
+    branch = branches_of(table[:, 0], least_turn)
+    used, window = _used_rows(scene, values, columns, over, table, branch, largest_shift)
+    scale = numpy.abs(table[:, 1:]).max(axis=0)  # of the whole file, so that a window changes no weight
+    for column, largest in zip(columns, scale):
+        if largest == 0:
+            scene.refuse(ENTRY, f"{file}: all of {column.name} is zero")
+    edges = [0, *(numpy.flatnonzero(numpy.diff(window)) + 1), len(used)]
+    return Measurement(file, table[used, 0], table[used, 1:], branch[used], least_turn, scale,
+                       _stated_noise(scene, values, columns, used, scale), [slice(a, b) for a, b in zip(edges, edges[1:])],
+                       used / max(1, len(table) - 1), len(table) - len(used))
+
+
+def _stated_noise(scene, values, columns, used, scale):
+    """Standard deviations as the scene states them (n x curves), or None."""
+    choice, entry = _list_of(values["Calibration / Noise columns"]), "Calibration / Noise columns"
+    if not choice:
+        noise = numpy.array(numbers_of(values, "Noise"))
+        return numpy.tile(noise * scale, (len(used), 1)) if noise[0] > 0 else None
+    if len(choice) != len(columns):
+        scene.refuse(entry, "expected one for each of Curves")
+    sd = measured.read_measured(values[ENTRY], [column.name for column in columns], choice, columns_entry=entry).T[used]
+    for row, c in numpy.argwhere(~(sd > 0))[:1]:
+        scene.refuse(entry, f"{values[ENTRY]}: the standard deviation of {columns[c].name} in row {used[row] + 1} is "
+                            f"{sd[row, c]:.4g}: expected a number above 0")
+    return sd

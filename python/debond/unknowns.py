@@ -1,0 +1,176 @@
+"""Unknowns of a scene, which stand in its entries in the place of numbers:
+
+    <<0.022 in 0.002..0.2>>         starts from 0.022, between these bounds
+    <<0.022 in 0.002..0.2 log>>     the same, searched by its logarithm
+    <<mu_b: 0.4 in 0.1..0.8>>       with a name
+    <<1.45 * mu_b>>                 no unknown of its own: follows from others
+"""
+
+import math
+import re
+from dataclasses import dataclass, field
+
+import numpy
+
+import _debond
+
+_EXPECTED = ("expected <<START in LOWER..UPPER>>, <<START in LOWER..UPPER log>>, <<NAME: START in LOWER..UPPER>> or "
+             "<<EXPRESSION>> in such names")
+_UNKNOWN = re.compile(r"(?P<start>.*?) in (?P<lower>.*?)\.\.(?P<upper>.*?)(?P<log> log)?$", re.S)
+
+
+def _short(text):
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+def _number(text):
+    try:
+        value = float(text)
+    except ValueError:
+        return math.nan
+    return value if re.fullmatch(r"[-+0-9.eE]+", text.strip()) else math.nan
+
+
+@dataclass
+class Unknown:
+    """A number that a fit is to find, in the unit of its entry."""
+
+    name: str
+    start: float
+    lower: float
+    upper: float
+    logarithmic: bool
+    unit: str = ""
+    entry: object = field(default=None, repr=False, compare=False)  # that says so, for messages
+
+
+def _read(entry, text):
+    match = _UNKNOWN.match(text)
+    start = _number(match["start"]) if match else math.nan
+    if math.isnan(start):
+        entry.refuse(f"'{_short(text)}': {_EXPECTED}")
+    lower, upper = _number(match["lower"]), _number(match["upper"])
+    if math.isnan(lower) or math.isnan(upper):
+        entry.refuse(f"the bounds '{_short(text[text.index(' in ') + 4:])}' are no numbers: {_EXPECTED}")
+    if not lower < upper or not lower <= start <= upper:
+        entry.refuse(f"'{_short(text)}': expected LOWER < UPPER and START between them")
+    if match["log"] and lower <= 0:
+        entry.refuse(f"'{_short(text)}': a logarithm needs bounds above 0")
+    return Unknown("", start, lower, upper, bool(match["log"]), "", entry)
+
+
+class Unknowns:
+    """Those of all experiments of a scene. `list`: of Unknown; values of all of them are arrays in its order.
+
+    An unknown that has a name, or whose entry has one value for all experiments, is the same in all of them; else each has
+    its own."""
+
+    def __init__(self, experiments):
+        """`experiments`: of each its entries and the full names of those that differ (_debond.variants). Raises SceneError."""
+        self.list = []
+        self._named = {}  # index -> name
+        self._n_experiments = len(experiments)
+        self._varied = []  # of each experiment: (entry, texts, marks)
+        for number, (entries, own) in enumerate(experiments):
+            self._varied.append([self._read_entry(number, entry, entry.name not in own)
+                                 for entry in entries if "<<" in entry.value])
+        names = ", ".join(self._named.values())
+        for entry, _, marks in (one for varied in self._varied for one in varied):
+            for i, mark in enumerate(marks):
+                if isinstance(mark, str):
+                    marks[i] = self._expression(entry, names, mark)
+
+    def _read_entry(self, number, entry, is_shared):
+        pieces = re.split(r"<<(.*?)>>", entry.value, flags=re.S)
+        texts, marks = pieces[::2], []
+        if any("<<" in text for text in texts):
+            entry.refuse(f"the << is not closed by >>: {_EXPECTED}")
+        alone = len(texts) == 2 and not texts[0].strip() and not texts[1].strip()
+        for mark in map(str.strip, pieces[1::2]):
+            name, colon, rest = mark.partition(":")
+            name = name.strip()
+            if colon and not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{0,99}", name):
+                entry.refuse(f"'{_short(name)}' is no name of letters, digits and _: {_EXPECTED}")
+            if not colon and " in " not in mark:
+                marks.append(mark)  # an expression, read once all names are known
+                continue
+            unknown = _read(entry, (rest if colon else mark).strip())
+            unknown.unit = _debond.unit_of(entry.name) if alone else ""
+            unknown.name = name if colon else (entry.name
+                                               + (f" (experiment {number + 1})" if self._n_experiments > 1 and not is_shared else "")
+                                               + (f" #{len(marks) + 1}" if marks else ""))
+            marks.append(self._add(unknown, bool(colon)))
+        return entry, texts, marks
+
+    def _add(self, unknown, has_name):
+        for i, other in enumerate(self.list):
+            if other.name == unknown.name:
+                if (other.start, other.lower, other.upper, other.logarithmic) != (unknown.start, unknown.lower, unknown.upper,
+                                                                                  unknown.logarithmic):
+                    unknown.entry.refuse(f"the unknown '{unknown.name}' is described differently in {other.entry.name} = "
+                                         f"'{_short(other.entry.value)}'")
+                other.unit = other.unit or unknown.unit
+                return i
+        if has_name:
+            self._named[len(self.list)] = unknown.name
+        self.list.append(unknown)
+        return len(self.list) - 1
+
+    @staticmethod
+    def _expression(entry, names, text):
+        if not math.isnan(_number(text)):
+            entry.refuse(f"<<{text}>> has no bounds: {_EXPECTED}")
+        try:
+            return text, _debond.expression(names, text)
+        except ValueError as error:
+            entry.refuse(f"<<{_short(text)}>>: {error}; {_EXPECTED}")
+
+    @property
+    def names(self):
+        return [unknown.name for unknown in self.list]
+
+    @property
+    def starts(self):
+        return numpy.array([unknown.start for unknown in self.list])
+
+    @property
+    def lower(self):
+        return numpy.array([unknown.lower for unknown in self.list])
+
+    @property
+    def upper(self):
+        return numpy.array([unknown.upper for unknown in self.list])
+
+    @property
+    def logarithmic(self):
+        return numpy.array([unknown.logarithmic for unknown in self.list], dtype=bool)
+
+    def to_search(self, values):
+        """What a search takes: numbers, or their logarithms."""
+        return numpy.where(self.logarithmic, numpy.log(numpy.where(self.logarithmic, values, 1)), values)
+
+    def from_search(self, searched):
+        with numpy.errstate(over="ignore"):
+            values = numpy.where(self.logarithmic, numpy.exp(numpy.where(self.logarithmic, searched, 0)), searched)
+        return numpy.clip(values, self.lower, self.upper)  # rounding must not lead over a bound
+
+    def entries(self, experiment, values):
+        """The entries of an experiment that hold unknowns, as {full name: text}. Raises SceneError where an expression has no
+        finite value."""
+        named = [float(values[i]) for i in self._named]
+        result = {}
+        for entry, texts, marks in self._varied[experiment]:
+            text = texts[0]
+            alone = len(texts) == 2 and not texts[0].strip() and not texts[1].strip()
+            for mark, after in zip(marks, texts[1:]):
+                if isinstance(mark, tuple):
+                    number = mark[1](named)
+                    if not math.isfinite(number):
+                        place = ", ".join(f"{name} = {values[i]:.6g}" for i, name in self._named.items())
+                        entry.refuse(f"<<{mark[0]}>> has no finite value at {place}")
+                else:
+                    number = float(values[mark])
+                # in an expression of the scene a minus may stand before it
+                text += (repr(number) if alone or number >= 0 else f"({number!r})") + after
+            result[entry.name] = text
+        return result

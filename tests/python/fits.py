@@ -1,0 +1,255 @@
+"""Fits of made-up curves whose parameters are known: curves without noise give them back; 95 % intervals hold the true values as
+often as they say, with white noise and with noise that hangs together; what curves cannot tell is named, and which test would;
+curves of another model are said not to fit.
+
+    fits.py [N]: N seeds for each kind of noise, 25 if it is not given
+"""
+
+import os
+import sys
+import tempfile
+import warnings
+
+import numpy
+from scipy import linalg, signal
+
+import debond
+from debond import noise
+
+warnings.simplefilter("error")
+SCENE = """
+set Model = foundation
+subsection Bone
+  set Material = rigid
+end
+subsection Implant
+  set Material = rigid
+end
+subsection Chuck
+  subsection Translation z
+    set Value = -0.0049 * min(t, 1)
+  end
+  subsection Rotation z
+    set Value = 10 * max(t - 1, 0)
+  end
+end
+subsection Load steps
+  set Steps = 1, 200
+end
+"""
+I = "Interface/"
+TRUTH = {I + "Friction coefficient unbroken": 0.58, I + "Sliding threshold": 0.022, I + "Transition factor": 0.74,
+         I + "Penalty stiffness": 585, I + "Tangential penalty stiffness": 700}
+FIVE = {I + "Friction coefficient unbroken": "<<mu_ub: 0.5 in 0.3..1.2>>", I + "Sliding threshold": "<<a_s: 0.01 in 0.004..0.1 log>>",
+        I + "Transition factor": "<<b_s: 0.5 in 0.1..3>>", I + "Penalty stiffness": "<<eps_n: 400 in 100..3000 log>>",
+        I + "Tangential penalty stiffness": "<<eps_t: 400 in 100..3000 log>>"}
+TWO = {I + "Friction coefficient unbroken": "<<mu_ub: 0.5 in 0.3..1.2>>", I + "Sliding threshold": "<<a_s: 0.01 in 0.004..0.1 log>>",
+       I + "Tangential penalty stiffness": 700}
+failures = []
+
+
+def report(name, is_so, why=""):
+    print(f"{name}: {'yes' if is_so else f'NO {why}'}", flush=True)
+    if not is_so:
+        failures.append(name)
+
+
+def write(filename, columns):
+    numpy.savetxt(filename, numpy.column_stack(list(columns.values())), "%.17g", ",", header=",".join(columns), comments="")
+
+
+def measured(filename, entries=TRUTH, angle_offset=0.0, torque_offset=0.0, factor=1.0, more=0.0):
+    """Writes what the scene with these entries predicts, seen through a rig, and returns it."""
+    rows = debond.Scene(None, entries, text=SCENE).run().rows
+    turned = rows["angle_deg"] > 0
+    columns = {"angle_deg": rows["angle_deg"][turned] + angle_offset, "torque_Nmm": rows["torque_Nmm"][turned] * factor + torque_offset + more,
+               "chuck_Fz_N": rows["chuck_Fz_N"][turned]}
+    write(filename, columns)
+    return columns
+
+
+def fit(entries, filename, **more):
+    calibration = {f"Calibration/{name}": value for name, value in more.items()}
+    return debond.fit(debond.Scene(None, {**entries, **calibration, "Output/Reference curve": filename}, text=SCENE))
+
+
+def check_values(name, found, expected):
+    worst = max(abs(found.values[found.names.index(unknown)] - value) / max(1e-3, abs(value)) for unknown, value in expected.items())
+    report(f"{name}: parameters of a curve without noise to 1e-4", worst < 1e-4, worst)
+
+
+def check_exact_curves():
+    five = {"mu_ub": 0.58, "a_s": 0.022, "b_s": 0.74, "eps_n": 585, "eps_t": 700}
+    measured("clean.csv")
+    check_values("five unknowns", fit(FIVE, "clean.csv", Curves="torque_Nmm, chuck_Fz_N"), five)
+    measured("rig.csv", angle_offset=0.2, torque_offset=1.5, more=numpy.linspace(0, 0.8, 200))
+    tied = {I + "Friction coefficient broken": "<<mu_b: 0.3 in 0.1..0.8>>", I + "Friction coefficient unbroken": "<<1.45 * mu_b>>",
+            I + "Sliding threshold": "<<a_s: 0.01 in 0.004..0.1 log>>", I + "Tangential penalty stiffness": 700}
+    rig = {"Angle offset": "<<angle: 0 in -1..1>>", "Torque offset": "<<torque: 0 in -5..5>>", "Torque drift": "<<drift: 0 in -5..5>>"}
+    check_values("rig and tie", fit(tied, "rig.csv", **rig), {"mu_b": 0.4, "a_s": 0.022, "angle": 0.2, "torque": 1.5, "drift": 0.8})
+    measured("double.csv", {**TRUTH, "Chuck/Translation z/Value": "-0.0098 * min(t, 1)"}, angle_offset=-0.1)
+    two = {I + "Friction coefficient broken": "<<mu_b: 0.3 in 0.1..0.8>>", I + "Sliding threshold": "<<a_s: 0.01 in 0.004..0.1 log>>",
+           I + "Tangential penalty stiffness": 700, "Chuck/Translation z/Value": "{{-0.0049||-0.0098}} * min(t, 1)"}
+    found = fit(two, "{{clean.csv||double.csv}}", **{"Angle offset": "{{<<0 in -1..1>>||<<0 in -1..1>>}}"})
+    check_values("two experiments, which share the friction and not the offset", found,
+                 {"mu_b": 0.4, "a_s": 0.022, "Calibration / Angle offset (experiment 1)": 0, "Calibration / Angle offset (experiment 2)": -0.1})
+
+
+def check_uneven_noise():
+    clean = measured("clean.csv")
+    odd = numpy.arange(200) % 2 == 1
+    write("uneven.csv", {"angle_deg": clean["angle_deg"], "torque_Nmm": clean["torque_Nmm"] * numpy.where(odd, 1.5, 1),
+                         "sd_Nmm": numpy.where(odd, 1e6, 0.01)})
+    entries = {**TWO, "Output/Reference columns": "angle_deg, torque_Nmm"}
+    check_values("every other row is wrong, and said to be uncertain", fit(entries, "uneven.csv", **{"Noise columns": "sd_Nmm"}),
+                 {"mu_ub": 0.58, "a_s": 0.022})
+    for measure in ("e_mp", "e_rel", "least squares"):
+        measured("outliers.csv", factor=numpy.where(numpy.arange(200) % 20 == 10, 1.2, 1))
+        is_met = abs(fit(TWO, "outliers.csv", Measure=measure).values[0] - 0.58) < 1e-3
+        report(f"{measure} is {'' if measure == 'least squares' else 'not '}led astray by a few wrong rows",
+               is_met == (measure != "least squares"))
+
+
+def correlated(generator, n, rho):
+    white = generator.standard_normal(n)
+    white[1:] *= numpy.sqrt(1 - rho**2)
+    return signal.lfilter([1], [1, -rho], white)
+
+
+def check_noise():
+    """Of the noise itself: against the whole covariance matrix, and against curves that were drawn."""
+    phi, n = numpy.array([0.9, -0.3, 0.2]), 60
+    own = noise.Noise(phi, 2.0, [slice(0, 25), slice(25, n)])
+    covariance = numpy.zeros((n, n))
+    for part in own.parts:
+        covariance[part, part] = linalg.toeplitz(2 * noise.autocovariance(phi, part.stop - part.start))
+    rows = numpy.random.default_rng(1).standard_normal((n, 3))
+    white, log = own.whitened(rows)
+    report("whitened rows are those of the covariance", numpy.allclose(white.T @ white, rows.T @ numpy.linalg.solve(covariance, rows)))
+    report("its determinant", abs(log - numpy.linalg.slogdet(covariance)[1]) < 1e-9)
+    report("its product", numpy.allclose(own.covariance_times(rows), covariance @ rows))
+    spread = numpy.cov(numpy.array([own.draw(numpy.random.default_rng(seed)) for seed in range(4000)]).T)
+    report("noise that is drawn has this covariance", abs(spread - covariance).max() < 0.12 * covariance.max())
+    # five smooth columns take some of the noise with them, which REML knows
+    place = numpy.linspace(0, 1, 500)
+    columns = numpy.cos(numpy.pi * place[:, None] * numpy.arange(5))
+    found = []
+    for seed in range(60):
+        drawn = correlated(numpy.random.default_rng(seed), 500, 0.9)
+        residuals = drawn - columns @ numpy.linalg.lstsq(columns, drawn, rcond=None)[0]
+        found.append(noise.estimate(residuals, columns, [slice(0, 500)]).correlation)
+    report("correlation of noise, 0.9, from what a fit has left: 0.9 +- 0.01", abs(numpy.mean(found) - 0.9) < 0.01, numpy.mean(found))
+
+
+def check_intervals(n_seeds):
+    """1 % of the largest torque; both kinds of noise."""
+    truth, least = [0.58, 0.022, 0.74, 585, 700], 0.95 - 3.3 * numpy.sqrt(0.95 * 0.05 / n_seeds)
+    rows = debond.Scene(None, {**TRUTH, "Load steps/Steps": "1, 2000"}, text=SCENE).run().rows
+    turned = rows["angle_deg"] > 0
+    angle, torque, force = (rows[name][turned] for name in ("angle_deg", "torque_Nmm", "chuck_Fz_N"))
+    for rho in (0.0, 0.95):
+        held, flags, in_band = numpy.zeros(5), 0, 0
+        for seed in range(n_seeds):
+            generator = numpy.random.default_rng(seed)
+            write("noise.csv", {"angle_deg": angle, "torque_Nmm": torque + 0.01 * torque.max() * correlated(generator, 2000, rho),
+                                "chuck_Fz_N": force * (1 + 0.01 * correlated(generator, 2000, rho))})
+            found = fit(FIVE, "noise.csv", Curves="torque_Nmm, chuck_Fz_N", Starts=1)
+            order = [found.names.index(name) for name in ("mu_ub", "a_s", "b_s", "eps_n", "eps_t")]
+            held += (found.lower[order] <= truth) & (truth <= found.upper[order])
+            flags += any(misfit.does_not_fit for misfit in found.misfits)
+            curve = found.curves[0]
+            in_band += curve["torque_Nmm_lower_95"][300] <= torque[300] <= curve["torque_Nmm_upper_95"][300]
+        for name, share in zip(("mu_ub", "a_s", "b_s", "eps_n", "eps_t", "the band of the curve"), [*held / n_seeds, in_band / n_seeds]):
+            report(f"correlation {rho}: {name} is held by its interval as often as chance allows", share >= least, share)
+        report(f"correlation {rho}: a model that is right is hardly ever said not to fit", flags <= 1 + 0.02 * n_seeds, flags)
+
+
+def check_words():
+    generator = numpy.random.default_rng(1)
+    measured("noise.csv", more=0.02 * 53 * generator.standard_normal(200))
+    report("no warning of a right fit", fit(TWO, "noise.csv", Noise=0.02).warnings == [], fit(TWO, "noise.csv", Noise=0.02).warnings)
+
+    def says(found, words):
+        return any(words in text for text in found.warnings)
+
+    report("noise that is larger than stated is told", says(fit(TWO, "noise.csv", Noise=0.005), "the noise is more"))
+    report("noise that is smaller than stated is told", says(fit(TWO, "noise.csv", Noise=0.08), "the noise is less"))
+    bound = fit({**TWO, I + "Friction coefficient unbroken": "<<mu_ub: 0.5 in 0.3..0.55>>"}, "noise.csv")
+    report("a bound that was hit is told", says(bound, "mu_ub ends at one of its bounds") and not says(bound, "a_s ends"))
+    # a formula of its own, with drift and slack
+    angle = numpy.linspace(0.05, 10, 200)
+    turned = numpy.maximum(0, angle - 0.3)
+    torque = 30 * numpy.tanh(3 * turned) + 20 * turned * numpy.exp(-turned) + 0.4 * angle
+    write("other.csv", {"angle_deg": angle, "torque_Nmm": torque + 0.3 * generator.standard_normal(200)})
+    other = fit(FIVE, "other.csv", **{"Largest misfit": 1})
+    report("another model does not fit", says(other, "the model does not fit torque_Nmm"), other.warnings)
+    rms = numpy.sqrt(numpy.mean((other.curves[0]["torque_Nmm_fitted"] - other.curves[0]["torque_Nmm_measured"])**2))
+    far = other.misfits[0].smooth * torque.max()
+    report("and how far: what the residuals are beyond the noise of 0.3 N mm, to 15 %", abs(far / numpy.sqrt(rms**2 - 0.3**2) - 1) < 0.15,
+           (far, rms))
+    report("slack at the start is seen, and proposed", says(other, "Calibration / Slack = <<0.3"), other.warnings)
+    report("no slack where there is none", not says(fit(TWO, "noise.csv"), "Slack"))
+
+
+def check_what_cannot_be_told():
+    measured("clean.csv")
+    products = {I + "Friction coefficient broken": "<<mu_b: 0.3 in 0.1..0.8 log>>", I + "Friction coefficient unbroken": "<<1.45 * mu_b>>",
+                I + "Tangential penalty stiffness": 700, "Chuck/Translation z/Value": "-<<depth: 0.006 in 0.002..0.02 log>> * min(t, 1)"}
+    found = fit(products, "clean.csv")
+    report("torque alone tells a product", any("mu_b" in text and "depth" in text and "apart: they only appear as a product" in text for text in found.warnings),
+           found.warnings)
+    report("intervals without an end", not numpy.isfinite([*found.lower, *found.upper]).any() or numpy.isinf(found.upper).all(), found.upper)
+    report("correlation of -1", abs(found.told.correlations[0, 1] + 1) < 1e-6)
+    found = fit(products, "{{clean.csv||}}", Curves="{{torque_Nmm||torque_Nmm, chuck_Fz_N}}")
+    report("a force that is measured too would tell both", len(found.candidates) == 1 and numpy.isfinite(found.candidates[0][1]).all())
+    hardly = fit({**TWO, "Implant/Young modulus": "<<E: 1e5 in 1e4..2e5>>"}, "clean.csv")
+    report("what changes nothing is not told, and does not end at its bound",
+           not hardly.is_told[hardly.names.index("E")] and not any("E ends" in text for text in hardly.warnings), hardly.warnings)
+
+
+def check_known():
+    """Friction appears as mu p: 10 % more load make both coefficients 10 % smaller."""
+    measured("clean.csv")
+    both = {**TWO, I + "Friction coefficient broken": "<<mu_b: 0.3 in 0.1..0.8>>"}
+    table = {row["entry"]: row["effect"] for row in fit(both, "clean.csv").taken_as_known}
+    load = table["Chuck / Translation z / Value"]
+    report("10 % more load make both coefficients 10 % smaller", max(abs(load[name] + 10) for name in ("mu_b", "mu_ub")) < 0.5, load)
+
+
+def check_posteriors():
+    """Where the curve is nearly linear in the unknowns all ways to an interval agree."""
+    generator = numpy.random.default_rng(3)
+    measured("noise.csv", more=0.53 * correlated(generator, 200, 0.7))
+    found = fit(TWO, "noise.csv")
+    sd = found.told.half_widths / found.told.quantiles
+    profile = found.profiles()
+    worst = max(abs(profile[name]["chi_squared"] - ((found.problem.unknowns.to_search(profile[name]["unknowns"])[:, j]
+                                                     - found.problem.unknowns.to_search(found.values)[j]) / sd[j]) ** 2).max() / 15.4
+                for j, name in enumerate(found.names))
+    report("profiles are parabolas, to 10 % of the largest", worst < 0.1, worst)
+    drawn = numpy.log(found.bootstrap(200)[:, 1])
+    report("bootstrap: standard deviation of log a_s to 20 %", abs(numpy.std(drawn) / sd[1] - 1) < 0.2, numpy.std(drawn) / sd[1])
+    try:
+        samples = found.posterior(400)
+    except ImportError:
+        return
+    report("posterior: standard deviation of mu_ub, with the noise as it hangs together, at most that of least squares to 20 %",
+           0.5 < numpy.std(samples[:, 0]) / sd[0] < 1.2, numpy.std(samples[:, 0]) / sd[0])
+
+
+def main():
+    n_seeds = int(sys.argv[1]) if len(sys.argv) > 1 else 25
+    with tempfile.TemporaryDirectory() as directory:
+        os.chdir(directory)
+        check_exact_curves()
+        check_uneven_noise()
+        check_noise()
+        check_words()
+        check_what_cannot_be_told()
+        check_known()
+        check_posteriors()
+        check_intervals(n_seeds)
+    sys.exit(f"{len(failures)} checks failed: {failures}" if failures else 0)
+
+
+main()

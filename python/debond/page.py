@@ -1,0 +1,73 @@
+"""Pages of results: `python3 -m debond.page DIR` writes DIR/report.html from the files in DIR.
+
+A page needs no other file and no network. It is written whole or not at all. Needs Jinja2 and nothing else.
+"""
+
+import os
+import sys
+
+import jinja2
+
+from debond.page_campaigns import context_of_calibration, context_of_study
+from debond.page_data import NoResults, members, number, short, shown, split_unit, table_of, with_unit
+from debond.page_run import context_of_run
+
+#: What a directory of each kind holds, its template and what fills that.
+KINDS = (("study.csv", "study.html", context_of_study), ("calibration.json", "calibration.html", context_of_calibration),
+         ("summary.json", "run.html", context_of_run), ("torque.csv", "run.html", context_of_run))
+
+
+def page_of(directory):
+    """The text of the page of a directory of results. Raises NoResults if it has none."""
+    for file, template, context in KINDS:
+        if os.path.exists(os.path.join(directory, file)):
+            templates = jinja2.FileSystemLoader(os.path.join(os.path.dirname(__file__), "templates"))
+            environment = jinja2.Environment(loader=templates, autoescape=True, trim_blocks=True, lstrip_blocks=True,
+                                             undefined=jinja2.StrictUndefined)
+            environment.globals.update(members=members, number=number, short=short, shown=shown, split_unit=split_unit,
+                                       table_of=table_of, with_unit=with_unit)
+            return environment.get_template(template).render(context(directory))
+    raise NoResults(f"there are no results in '{directory}' (summary.json, torque.csv, study.csv or calibration.json)")
+
+
+def write_whole(path, text):
+    """Writes a file whole or not at all."""
+    part = f"{path}.{os.getpid()}.part"
+    try:
+        with open(part, "w", encoding="utf-8") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(part, path)
+    except OSError:
+        if os.path.exists(part):
+            os.remove(part)
+        raise
+
+
+def write_page(directory):
+    """Writes report.html into a directory of results."""
+    write_whole(os.path.join(directory, "report.html"), page_of(directory))
+
+
+def main(arguments):
+    """Exit codes: 0, or 1 if there are no results to read, or 2 if the page cannot be written."""
+    if len(arguments) != 1:
+        print("usage: python3 -m debond.page DIR", file=sys.stderr)
+        return 1
+    path = os.path.join(arguments[0], "report.html")
+    try:
+        text = page_of(arguments[0])
+    except (NoResults, OSError) as error:
+        print(f"debond.page: {error}", file=sys.stderr)
+        return 1
+    try:
+        write_whole(path, text)
+    except OSError as error:
+        print(f"debond.page: cannot write {path}: {error.strerror}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

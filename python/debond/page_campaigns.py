@@ -1,0 +1,169 @@
+"""Pages of studies, ensembles and calibrations."""
+
+import os
+import re
+
+from debond.page_curve import Plot, colour
+from debond.page_data import number, numbers, n_rows, read_entries, read_json, read_table, split_unit, unique, varied_in
+from debond.page_run import TORQUE, axes_of, curve_table, files_of, origin_of, reference_of
+
+MOST_CURVES = 40    # more would hide each other, and make the page large
+MOST_BANDS = 8      # that can still be told apart
+MOST_COLOURS = 12   # of curves that a legend names
+
+
+def short_name(entry, entries):
+    """The end of the name of an entry that no other one has; `Value` alone says nothing."""
+    parts = entry.split(" / ")
+    for k in range(len(parts) - 1, 0, -1):
+        end = " / ".join(parts[k:])
+        if sum(other.endswith(" / " + end) for other in entries) < 2 and end != "Value":
+            return end
+    return entry
+
+
+def names_of(entries, values):
+    """Brief names of variants, and whether they have only what differs from the first variant: where four or more entries
+    vary, or none changes all of them."""
+    changes = max((sum(a != b for a, b in zip(row, values[0])) for row in values), default=0)
+    only_changes = changes > 0 and (len(entries) >= 4 or changes < len(entries))
+    return [", ".join(f"{short_name(name, entries)} = {value}" for name, value, first in zip(entries, row, values[0])
+                      if not only_changes or value != first) or "first values" * bool(entries) for row in values], only_changes
+
+
+def chosen(items):
+    """Some of many, evenly chosen."""
+    return items[::-(-len(items) // MOST_CURVES) or 1]
+
+
+def curves_of_study(directory, curves):
+    """The curves of variants, given as directories and names."""
+    some, plot = chosen(curves), None
+    for i, (variant, name) in enumerate(some):
+        table = curve_table(variant)
+        if plot is None:
+            axes = axes_of(table)
+            plot = Plot(*axes[2:], "curves of the variants")
+        if axes[0] in table:
+            xs, ys = (numbers(table[column]) for column in axes[:2])
+            plot.add(name, "line", xs, ys, colour(i, len(some)), most=20000 // len(some))
+    return with_reference(plot, [directory, *(variant for variant, _ in some[:1])], len(some), len(curves), "variants")
+
+
+def with_reference(plot, directories, n_drawn, n, what):
+    """What is drawn of a plot with the reference, and what it does not say itself."""
+    for one in directories if plot and plot.x == TORQUE[2] else []:
+        if not any(series["name"] == "reference" for series in plot.series):
+            plot.add("reference", "points", *reference_of(one), "#555555")
+    context = plot and plot.context()
+    if context:
+        context["many"] = n_drawn > MOST_COLOURS
+        lines = [one["name"] for one in context["shapes"] if one["kind"] == "line"]
+        context["notes"] = [f"{n_drawn} of {n} {what} are drawn."] * (n_drawn < n) + context["many"] * [
+            f"The colours go from dark to light in the order of the {what}, from {lines[0]} to {lines[-1]}."]
+    return context
+
+
+def bands_of_ensemble(directory, table, variants):
+    """The mean curve of each group of an ensemble, and the band that holds 5 to 95 % of its members."""
+    entries, groups = varied_in(table), {}
+    for i, key in enumerate(zip(*(table[name] for name in entries)) if entries else [()] * n_rows(table)):
+        groups.setdefault(key, []).append(i)
+    names = names_of(entries, list(groups))[0] if groups else []
+    all_groups = list(zip(names, groups.values()))
+    some, plot = chosen(all_groups), Plot(*TORQUE[2:], "mean curves of the groups")
+    columns = {name: numbers(table[name]) for name in ("angle_deg", "torque_mean_Nmm", "torque_p05_Nmm", "torque_p95_Nmm")}
+    for i, (name, rows) in enumerate(some):
+        xs, mean, low, high = ([column[k] for k in rows] for column in columns.values())
+        if len(some) <= MOST_BANDS:
+            plot.band("5 to 95 %" + (f", {name}" if name else " of the members"), xs, low, high, colour(i, len(some)))
+        plot.add(f"mean, {name}" if name else "mean", "line", xs, mean, colour(i, len(some)), most=20000 // len(some))
+    return with_reference(plot, [directory, *variants[:1]], len(some), len(all_groups), "groups")
+
+
+def warnings_of_study(table, names):
+    """Variants that failed, and what variants warn of; texts that differ in their numbers only are said once."""
+    texts, said = [], {}
+    for i, variant in enumerate(table.get("variant", [])):
+        if table["converged"][i] != "true":
+            texts.append(f"variant {variant}, {names[i]}: {table['reason'][i] or 'not done'}")
+        for text in filter(None, (table[name][i] for name in ("warnings", "remarks") if name in table)):
+            said.setdefault(re.sub(r"\d[\d.e+-]*", "", text), []).append((variant, text))
+    for several in said.values():
+        some = ", ".join(variant for variant, _ in several[:8]) + f" and {len(several) - 8} others" * (len(several) > 8)
+        numbers_of = f" (numbers of variant {several[0][0]})" * (len({text for _, text in several}) > 1)
+        texts.append(f"variant{'s' * (len(several) > 1)} {some}: {several[0][1]}{numbers_of}")
+    return texts
+
+
+def context_of_study(directory):
+    """What the template study.html shows of a study or an ensemble."""
+    table = read_table(os.path.join(directory, "study.csv"))
+    n, entries = n_rows(table), varied_in(table)
+    for name in ("converged", "reason"):
+        table.setdefault(name, [""] * n)
+    names, only_changes = names_of(entries, list(zip(*(table[name] for name in entries))) if entries else [()] * n)
+    places = [os.path.join(directory, f"variant-{int(text):03d}") for text in table.get("variant", []) if text.isdigit()]
+    done = [i for i in range(len(places)) if table["converged"][i] == "true"]
+    ensemble = read_table(os.path.join(directory, "ensemble.csv"))
+    curve = bands_of_ensemble(directory, ensemble, [places[i] for i in done]) if n_rows(ensemble) else \
+        curves_of_study(directory, [(places[i], names[i]) for i in done])
+    scene = next(filter(None, (read_entries(os.path.join(place, "parameters.prm")) for place in places)), {})
+    title = scene.get("Title")
+    summary = read_json(os.path.join(places[done[0]], "summary.json")) if done else {}
+    return {"title": f"{title}: study of {n} variants" if title else f"Study of {n} variants in {directory}",
+            "finished": len(done) == n, "reason": f"{len(done)} of {n} variants are done",
+            "warnings": warnings_of_study(table, names), "curve": curve,
+            "statistics": read_table(os.path.join(directory, "ensemble_summary.csv")),
+            "variants": {**table, "changed": names},
+            "first": ["changed"] if only_changes else entries, "entries": scene, "origin": origin_of(summary),
+            "files": files_of(directory)}
+
+
+def fits_of(directory):
+    """For each measured curve the picture with its fit, and that of what lies between them."""
+    pictures = []
+    files = sorted(name for name in os.listdir(directory) if re.fullmatch(r"fit(-\d+)?\.csv", name))
+    for file in sorted(files, key=lambda name: (len(name), name)):
+        table = read_table(os.path.join(directory, file))
+        over = next(iter(table), "")
+        for column in [name[:-len("_measured")] for name in table if name.endswith("_measured")]:
+            x, y = ((words.replace("_", " ").capitalize(), unit) for words, unit in map(split_unit, (over, column)))
+            xs, measured, fitted, low, high = (numbers(table.get(name, [])) for name in (
+                over, *(f"{column}_{kind}" for kind in ("measured", "fitted", "lower_95", "upper_95"))))
+            plot = Plot(x, y, f"fit of {column}")
+            rest = Plot(x, (f"Measured - fitted {y[0].lower()}", y[1]), f"residuals of {column}", high=150)
+            plot.band("95 % band", xs, low, high, "#c03028")
+            plot.add("measured", "points", xs, measured, "#555555")
+            plot.add("fitted", "line", xs, fitted, "#c03028")
+            rest.add("residuals", "points", xs, [a - b for a, b in zip(measured, fitted)], "#555555")
+            rest.level("", "#c03028", y=0)
+            pictures.append({"file": file if len(files) > 1 else "", "curve": plot.context(), "residuals": rest.context()})
+    return pictures
+
+
+def correlations_of(names, pairs):
+    """For each unknown a row of its correlations, each with the colour of its field: red where both grow together, blue where
+    one makes up for the other."""
+    rows = []
+    for a in names:
+        values = [1. if a == b else number(pairs.get(f"{a} | {b}", pairs.get(f"{b} | {a}"))) for b in names]
+        colours = [f"rgba({'192,48,40' if value > 0 else '42,120,176'},{0.6 * abs(value):.2f})" for value in values]
+        rows.append([(value, shade if a != b and value == value else "") for value, shade, b in zip(values, colours, names)])
+    return rows
+
+
+def context_of_calibration(directory):
+    """What the template calibration.html shows."""
+    json = read_json(os.path.join(directory, "calibration.json"))
+    n, failed, names = json.get("evaluations") or 0, json.get("failures") or 0, list(json.get("unknowns") or {})
+    texts = [(json.get("misfit") or {}).get("text"), *(json.get("cannot_be_told") or []), *(json.get("warnings") or [])]
+    title = json.get("title", "")
+    reason = f"{json.get('measured_values', 0)} measured values, " + (f"{n} evaluations" if n else "closed form")
+    return {"title": f"{title}: calibration" if title else f"Calibration in {directory}", "finished": True,
+            "reason": reason + f", {failed} evaluations failed" * bool(failed),
+            "warnings": unique(filter(None, texts)), "json": json, "names": names,
+            "correlations": correlations_of(names, json.get("correlations") or {}), "fits": fits_of(directory),
+            "origin": origin_of(json, json.get("seconds")),
+            "entries": {**read_entries(os.path.join(directory, "parameters.prm")), **(json.get("entries") or {})},
+            "files": files_of(directory)}

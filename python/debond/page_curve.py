@@ -1,0 +1,110 @@
+"""Curves of pages of results: SVG that is a picture by itself, and data from which the script of the page reads out values."""
+
+import math
+
+WIDTH = 560                                 # of the viewBox; text has 17 units, which are 11 px where the page is 400 px wide
+LEFT, TOP, WIDE, HIGH = 66, 30, 482, 292    # the area of the data in it
+FEW = ("#c03028", "#2c1e5c", "#e08a1e", "#3a7d44", "#2a78b0", "#8e4585", "#6b6b6b", "#a0522d", "#20a0a0", "#d868a8", "#98982a",
+       "#000000")
+
+
+def colour(i, n):
+    """Of curve i of n: a few are told apart by their colours, many by where they are between dark and light."""
+    if n <= len(FEW):
+        return FEW[i]
+    t, ends = i / (n - 1), ((44, 208, 240), (30, 74, 190), (92, 98, 90))
+    return "#" + "".join(f"{round(a + (b - a) * 2 * t if t < 0.5 else b + (c - b) * (2 * t - 1)):02x}" for a, b, c in ends)
+
+
+def ticks(low, high, most=7):
+    """Round numbers between two limits, and their texts."""
+    step = 10 ** math.floor(math.log10((high - low) / most))
+    step *= next(factor for factor in (1, 2, 5, 10) if (high - low) / (factor * step) <= most)
+    places = [k * step for k in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)]
+    digits = max(0, -math.floor(math.log10(step) + 1e-9))
+    plain = digits <= 4 and max(map(abs, (low, high))) < 1e6
+    return [(place, f"{place:.{digits}f}" if plain else f"{place:.3g}") for place in places]
+
+
+def at(xs, ys, x):
+    """The ordinate of a curve at x, linear between its rows; NaN beyond them."""
+    for i in range(1, len(xs)):
+        if min(xs[i - 1], xs[i]) <= x <= max(xs[i - 1], xs[i]) and xs[i] != xs[i - 1]:
+            return ys[i - 1] + (ys[i] - ys[i - 1]) * (x - xs[i - 1]) / (xs[i] - xs[i - 1])
+    return math.nan
+
+
+def finite(*columns):
+    """Columns without the rows that hold a number that is not finite."""
+    rows = [row for row in zip(*columns) if all(map(math.isfinite, row))]
+    return [list(column) for column in zip(*rows)] if rows else [[] for _ in columns]
+
+
+def thinned(xs, ys, most):
+    """At most so many rows: of each of the parts of a longer curve the lowest, the highest and the first."""
+    if len(xs) <= most:
+        return xs, ys
+    size = math.ceil(3 * len(xs) / most)
+    keep = sorted({k for i in range(0, len(xs), size) for part in [range(i, min(i + size, len(xs)))]
+                   for k in (i, min(part, key=ys.__getitem__), max(part, key=ys.__getitem__))} | {len(xs) - 1})
+    return [xs[k] for k in keep], [ys[k] for k in keep]
+
+
+class Plot:
+    """Curves over common axes, whose labels and units are given: ("Rotation angle", "°")."""
+
+    def __init__(self, x, y, about, high=HIGH):
+        self.x, self.y, self.about, self.high, self.series, self.levels = x, y, about, high, [], []
+
+    def add(self, name, kind, xs, ys, colour, most=4000):
+        """Adds a "line", "points", single large "marks", or a "band" between the first half of the rows and the second."""
+        xs, ys = finite(xs, ys)
+        if kind == "line":
+            xs, ys = thinned(xs, ys, most)
+            kind = kind if len(xs) > 1 else "points"
+        if xs:
+            self.series.append({"name": name, "kind": kind, "x": xs, "y": ys, "colour": colour})
+
+    def band(self, name, xs, lower, upper, colour):
+        xs, lower, upper = finite(xs, lower, upper)
+        self.add(name, "band", xs + xs[::-1], lower + upper[::-1], colour)
+
+    def level(self, name, colour, x=None, y=None):
+        """A dashed line all across at one x or one y."""
+        self.levels.append({"name": name, "x": x, "y": y, "colour": colour})
+
+    def limits(self):
+        """Those of the axes: all that is drawn, from 0 where nothing is negative."""
+        xs = [x for one in self.series for x in one["x"]] + [one["x"] for one in self.levels if one["x"] is not None]
+        ys = [y for one in self.series for y in one["y"]] + [one["y"] for one in self.levels if one["y"] is not None]
+        left, right, low, high = min(xs), max(xs), min(ys), max(ys)
+        gap = 0.08 * (high - low) or 0.1 * abs(high) or 1.
+        low = 0. if -1e-3 * high < low < 0.5 * high or low == high == 0 else low - gap
+        left, room = 0. if 0 < left < 0.1 * right else left, 0.02 * (right - left) or 1.
+        return (left - room if left < -0.5 * room else left, right + room), (low, high + gap)
+
+    def context(self):
+        """What the template curve.html draws; None without any data."""
+        if not self.series:
+            return None
+        (left, right), (low, high) = limits = self.limits()
+        fx, fy = WIDE / (right - left), self.high / (high - low)
+        shapes = []
+        for one in self.series:
+            places = [f"{(x - left) * fx:.2f} {(high - y) * fy:.2f}" for x, y in zip(one["x"], one["y"])]
+            is_dots = one["kind"] in ("points", "marks")
+            path = "".join(f"M{place}h.01" for place in places) if is_dots else "M" + "L".join(places)
+            shapes.append({**one, "path": path + "Z" * (one["kind"] == "band")})
+        for one in self.levels:
+            path = f"M0 {(high - one['y']) * fy:.2f}h{WIDE}" if one["x"] is None else \
+                f"M{(one['x'] - left) * fx:.2f} 0v{self.high}"
+            shapes.append({**one, "kind": "level", "path": path})
+        axes = {"x": [(f"{LEFT + (x - left) * fx:.1f}", text) for x, text in ticks(left, right)],
+                "y": [(f"{TOP + (high - y) * fy:.1f}", text) for y, text in ticks(low, high, most=7 * self.high / HIGH)]}
+        # names, places and values from which the script reads out; seven digits are more than it shows
+        box = (LEFT, TOP, WIDE, self.high)
+        data = {"x": limits[0], "y": limits[1], "box": box, "units": (self.x[1], self.y[1]), "series": [
+            {"name": one["name"], **{axis: [float(f"{value:.7g}") for value in one[axis]] for axis in "xy"}}
+            for one in self.series if one["kind"] in ("line", "points")]}
+        return {"x": self.x, "y": self.y, "about": self.about, "size": (WIDTH, self.high + TOP + 58), "box": box,
+                "shapes": shapes, "axes": axes, "data": data, "many": False, "notes": []}

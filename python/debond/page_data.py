@@ -1,0 +1,132 @@
+"""Files of a directory of results, as pages of results read them."""
+
+import csv
+import json
+import math
+import os
+
+#: Ends of the names of columns and members, and their units.
+UNITS = (("_Nmm_per_rad", "N mm/rad"), ("_MPa_per_mm", "MPa/mm"), ("_N_per_m", "N/m"), ("_Nmm", "N mm"), ("_MPa", "MPa"),
+         ("_deg", "°"), ("_mm2", "mm²"), ("_mm", "mm"), ("_MB", "MB"), ("_N", "N"))
+
+
+class NoResults(Exception):
+    """A directory has no results, or some that cannot be read; the text is one line."""
+
+
+def read_json(path):
+    """The object in a JSON file; an empty one if there is no such file."""
+    if not os.path.exists(path):
+        return {}
+    try:
+        with open(path, encoding="utf-8") as file:
+            content = json.load(file)
+    except ValueError as error:
+        raise NoResults(f"{path} cannot be read: {error}") from None
+    if not isinstance(content, dict):
+        raise NoResults(f"{path} cannot be read: expected an object")
+    return content
+
+
+def read_table(path):
+    """The columns of a CSV file, {name: texts}; without any if there is no such file. A last line that is not whole, as a run
+    at work leaves it, is left out."""
+    if not os.path.exists(path):
+        return {}
+    with open(path, encoding="utf-8", errors="replace", newline="") as file:
+        rows = list(csv.reader(file))
+    if not rows:
+        return {}
+    names = rows[0]
+    rows = [row for row in rows[1:] if len(row) == len(names)]
+    return dict(zip(names, map(list, zip(*rows)))) if rows else {name: [] for name in names}
+
+
+def n_rows(table):
+    return len(next(iter(table.values()), []))
+
+
+def number(text):
+    """A number; NaN for what is none."""
+    try:
+        return float(text)
+    except (TypeError, ValueError):
+        return math.nan
+
+
+def numbers(texts):
+    try:
+        return list(map(float, texts))
+    except ValueError:
+        return [number(text) for text in texts]
+
+
+def read_entries(path):
+    """The entries of a file of parameters, {"Chuck / Rotation z / Value": text}."""
+    entries, sections = {}, []
+    if os.path.exists(path):
+        with open(path, encoding="utf-8", errors="replace") as file:
+            for line in map(str.strip, file):
+                if line.startswith("subsection "):
+                    sections.append(line[len("subsection "):].strip())
+                elif line == "end" and sections:
+                    sections.pop()
+                elif line.startswith("set "):
+                    name, _, value = line[len("set "):].partition("=")
+                    entries[" / ".join([*sections, name.strip()])] = value.strip()
+    return entries
+
+
+def short(value, digits=4):
+    """A number with so many digits, but 17795 rather than 1.78e+04; "" for what is none."""
+    value = number(value)
+    if not math.isfinite(value):
+        return ""
+    return f"{round(value)}" if 10**digits <= abs(value) < 1e9 else f"{value:.{digits}g}"
+
+
+def shown(text, digits=4):
+    """What a field of a table is on a page: numbers are short, unknown ones left out."""
+    value = number(text)
+    return short(value, digits) if not isinstance(text, str) or math.isfinite(value) or text in ("nan", "-nan") else text
+
+
+def split_unit(name):
+    """The words and the unit of a column or a member: ("work", "N mm") of "work_Nmm"; the unit may be empty."""
+    for ending, unit in UNITS:
+        if name.endswith(ending):
+            return name[:-len(ending)], unit
+    return name, "s" if "seconds" in name else ""
+
+
+def with_unit(value, unit, digits=4):
+    """"53.8 N mm"; "" if the value is no finite number."""
+    text = short(value, digits)
+    return text and text + (unit if unit in ("", "°") else f" {unit}")
+
+
+def members(summary, rows, least=0.):
+    """Words, term and text of the members of a summary that have a value: rows are (name, words, term) with the unit that is
+    in the name, or (name, words, term, factor, unit). Values below that share of the largest are left out."""
+    values = [(row[3] if len(row) > 3 else 1) * number(summary.get(row[0])) for row in rows]
+    largest = max((abs(value) for value in values if math.isfinite(value)), default=0)
+    return [(row[1], row[2], with_unit(value, row[4] if len(row) > 3 else split_unit(row[0])[1]))
+            for row, value in zip(rows, values) if math.isfinite(value) and abs(value) >= least * largest]
+
+
+def unique(texts):
+    return list(dict.fromkeys(str(text) for text in texts))
+
+
+def varied_in(table):
+    """The columns that hold entries of the scene: these have a subsection, or are one of a few."""
+    return [name for name in table if " / " in name or name in ("Model", "Title")]
+
+
+def table_of(table, columns=None):
+    """Head and rows of these columns, (name, words), as far as a table has them and they are not empty; entries of the scene
+    stand as they were given."""
+    fields = [(words, [text if name in varied_in([name]) else shown(text) for text in table[name]])
+              for name, words in columns or [(name, name) for name in table] if name in table]
+    fields = [(words, texts) for words, texts in fields if any(texts)]
+    return [words for words, _ in fields], list(zip(*(texts for _, texts in fields)))

@@ -1,0 +1,158 @@
+"""Maps of the contact face on pages of results: values on a grid as small pictures, smooth between the places of the grid."""
+
+import base64
+import functools
+import itertools
+import math
+import struct
+import zlib
+
+from debond.page_data import number, numbers, read_table, short, with_unit
+
+QUANTITIES = (("pressure_MPa", "Pressure", "MPa"), ("slip_mm", "Sliding distance g_s", "mm"), ("phi", "Bonding state phi", ""),
+              ("mu", "Friction coefficient mu", ""))
+COLOURS = ((44, 30, 92), (208, 74, 98), (251, 233, 160))    # of the lowest, the middle and the highest value
+FINER = 2                                                   # pixels of a place of the grid, along each side
+SAME = 1e-3                                                 # what differs by less of the largest value is not told apart
+
+
+def columns_of_events(table):
+    """Of maps.csv: the places, and for each event its name, angle, time and columns. The file has rows for each event
+    (a column `event`), or columns for each event, named "EVENT | ANGLE | TIME | QUANTITY"."""
+    events, places = {}, slice(None)
+    if "event" in table:
+        keys = list(zip(table["event"], table["angle_deg"], table["time"]))
+        places = slice(0, keys.index(next((key for key in keys if key != keys[0]), None)) if len(set(keys)) > 1 else len(keys))
+        for key in dict.fromkeys(keys):
+            first = keys.index(key)
+            events[key] = {name: table[name][first:first + places.stop] for name, _, _ in QUANTITIES if name in table}
+    else:
+        for name in table:
+            words = name.split(" | ")
+            if len(words) == 4:
+                events.setdefault(tuple(words[:3]), {})[words[3]] = table[name]
+    return numbers(table.get("x_mm", [])[places]), numbers(table.get("y_mm", [])[places]), events
+
+
+class Grid:
+    """Places of the maps: rows from y low to high of places from x low to high."""
+
+    def __init__(self, xs, ys):
+        self.nx, self.ny = len(set(xs)), len(set(ys))
+        self.half_x, self.half_y = max(xs) * self.nx / (self.nx - 1), max(ys) * self.ny / (self.ny - 1)
+        self.xs, self.ys = xs, ys
+
+    def is_round(self, values):
+        """Whether there are values at all places in a circle, and only there."""
+        return math.isclose(self.half_x, self.half_y, rel_tol=1e-4) and math.isnan(values[0]) and all(
+            math.isnan(value) == (math.hypot(x, y) > self.half_x) for x, y, value in zip(self.xs, self.ys, values))
+
+
+def extended(row):
+    """A row in which the last known value, or at its beginning the first, stands where there is none; None if it has none."""
+    before, filled = next((value for value in row if value == value), None), []
+    for value in row:
+        before = value if value == value else before
+        filled.append(before)
+    return filled if before is not None else None
+
+
+@functools.lru_cache(maxsize=None)
+def windows(n, width):
+    """Of the pixels of n places: the first and the last place of the window around each, and the shares of these."""
+    pad = math.ceil(width / 2) + 1
+    ends = [[(k + 0.5) / FINER + pad + side * width / 2 for side in (-1, 1)] for k in range(n * FINER)]
+    return pad, [(int(low), int(high), low - int(low), high - int(high)) for low, high in ends]
+
+
+def averaged(values, width):
+    """Means over this many places around each pixel. Values that stand at the nearest places around points so far apart become
+    those that are linear between the points."""
+    pad, ends = windows(len(values), width)
+    padded = [value / width for value in (*[values[0]] * pad, *values, *[values[-1]] * pad)]
+    sums = list(itertools.accumulate(padded, initial=0.))
+    return [sums[j] + padded[j] * t - sums[i] - padded[i] * s for i, j, s, t in ends]
+
+
+def widths_of(grid, maps):
+    """Over how many places, along x and along y, all values stay the same in the middle of the face: the nearest points of the
+    interface lie so far apart."""
+    def width(indices):
+        rows = [row for row in zip(*([values[k] for k in indices] for values in maps)) if row[0] == row[0]]
+        changes = sum(a != b for a, b in zip(rows, rows[1:]))
+        return max(1, min(len(rows) / (changes + 1), len(indices) / 6))
+    i, j = grid.nx // 2, grid.ny // 2
+    return width(range(j * grid.nx, (j + 1) * grid.nx)), width(range(i, grid.nx * grid.ny, grid.nx))
+
+
+def picture(grid, values, low, high, widths, is_round):
+    """A PNG file of the values as a data URI; the page cuts round faces out."""
+    scale = 254.99 / (high - low)
+    rows = [values[j * grid.nx:(j + 1) * grid.nx] for j in range(grid.ny)]
+    gaps = [] if is_round else [[value != value for value in row] for row in rows]
+    rows = [extended(row) for row in rows]
+    known = [j for j, row in enumerate(rows) if row]
+    rows = [row or rows[min(known, key=lambda k: abs(k - j))] for j, row in enumerate(rows)]
+    columns = zip(*(averaged([(value - low) * scale for value in row], widths[0]) for row in rows))
+    lines = [bytearray(map(int, line)) for line in zip(*(averaged(list(column), widths[1]) for column in columns))]
+    for line, gap in zip(lines, (gap for gap in gaps for _ in range(FINER))):
+        for i in range(len(line)) if any(gap) else ():
+            line[i] = 255 if gap[i // FINER] else line[i]
+    return "data:image/png;base64," + base64.b64encode(png(grid.nx * FINER, lines[::-1])).decode()
+
+
+def png(width, lines):
+    """A PNG file with a palette, whose last colour is transparent."""
+    palette = bytearray()
+    for k in range(255):
+        i, t = min(k // 127, 1), (k - 127 * min(k // 127, 1)) / 127
+        palette += bytes(round(a + (b - a) * min(t, 1)) for a, b in zip(COLOURS[i], COLOURS[i + 1]))
+    chunks = ((b"IHDR", struct.pack(">IIBBBBB", width, len(lines), 8, 3, 0, 0, 0)),
+              (b"PLTE", bytes(palette) + b"\xff" * 3), (b"tRNS", b"\xff" * 255 + b"\0"),
+              (b"IDAT", zlib.compress(b"".join(b"\0" + line for line in lines), 6)), (b"IEND", b""))
+    return b"\x89PNG\r\n\x1a\n" + b"".join(struct.pack(">I", len(content)) + kind + content +
+                                          struct.pack(">I", zlib.crc32(kind + content)) for kind, content in chunks)
+
+
+def maps_of(path):
+    """What the page shows of maps.csv: for each quantity its pictures, and in words the maps that need none."""
+    xs, ys, events = columns_of_events(read_table(path))
+    if not events or len(set(xs)) < 2 or len(set(ys)) < 2:
+        return []
+    grid = Grid(xs, ys)
+    turns = any(number(angle) for _, angle, _ in events)
+    places = [(f"{short(angle, 3)}°" if turns else f"time {short(time)}", event) for event, angle, time in events]
+    quantities = [(words, unit, [numbers(columns[name]) for columns in events.values()])
+                  for name, words, unit in QUANTITIES if all(name in columns for columns in events.values())]
+    widths = widths_of(grid, [values for _, _, maps in quantities for values in maps])
+    return [maps_of_quantity(grid, places, maps, widths, words, unit) for words, unit, maps in quantities]
+
+
+def maps_of_quantity(grid, places, maps, widths, words, unit):
+    """The pictures of one quantity at all events, without those that are all of one value or the same as the one before."""
+    figures, notes, before = [], [], None
+    for (place, event), values in zip(places, maps):
+        known = [value for value in values if value == value]
+        if not known:
+            continue
+        low, high = min(known), max(known)
+        largest = max(abs(low), abs(high))
+        if high - low <= SAME * largest:
+            text = f"is {with_unit(high, unit)} everywhere"
+        elif before and all(abs(a - b) <= SAME * largest for a, b in zip(before[1], values) if a == a and b == b):
+            text = f"is the same, to 0.1 %, as at {before[0]}"
+        else:
+            before, is_round = (place, values), grid.is_round(values)
+            figures.append({"place": place, "event": event, "low": short(low, 3), "high": short(high, 3), "unit": unit,
+                            "round": is_round, "image": picture(grid, values, low, high, widths, is_round)})
+            continue
+        if notes and notes[-1][1] == text:
+            notes[-1][0].append(place)
+        else:
+            notes.append(([place], text))
+    if len(notes) == 1 and not figures:
+        notes = [f"It {notes[0][1]}{' at all of these times' * (len(maps) > 1)}."]
+    else:
+        notes = [f"At {', '.join(at)} it {text}." for at, text in notes]
+    return {"words": words, "unit": unit, "figures": figures, "notes": notes, "ratio": f"{grid.half_x:.6g} / {grid.half_y:.6g}",
+            "events": [f"{place}: {event}" for place, event in places]}

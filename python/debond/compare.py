@@ -1,0 +1,117 @@
+"""Finished results compared with a measured torque curve.
+
+    from debond.compare import compare
+    print(compare("output/run", "measured.csv", "2 [deg], 3 [N m]").text)
+
+    python3 -m debond.compare DIR CURVE [--columns LIST]
+"""
+
+import csv
+import os
+import sys
+from dataclasses import dataclass, field
+from typing import Dict
+
+import numpy
+
+from .curve_comparison import CurveComparison, compare_curves, torque_at
+from .errors import InputError
+from .measured import options_of, read_measured, read_measured_and_say
+
+CURVE = ("angle_deg", "torque_Nmm")
+
+
+@dataclass
+class Comparisons:
+    """What compare() finds. runs: of a run under "", of the variants of a study under "variant-001" ..., the closest first.
+    means: of the mean curves of an ensemble, by what is varied. text: all of it, for people."""
+
+    runs: Dict[str, CurveComparison] = field(default_factory=dict)
+    means: Dict[str, CurveComparison] = field(default_factory=dict)
+    text: str = ""
+
+
+def _curve_file(directory):
+    fine = directory + "/curve.csv"
+    return fine if os.path.exists(fine) else directory + "/torque.csv"
+
+
+def _rows_of(filename):
+    """Rows {column: text} of a table of a study or an ensemble, each behind what is varied: "Bone / Size = 8; ..."."""
+    with open(filename, encoding="utf-8", newline="") as file:
+        header, *rows = list(csv.reader(line for line in file if line.strip() and line[0] != "#")) or [[]]
+    return [("; ".join(f"{name} = {text}" for name, text in zip(header, row) if " / " in name), dict(zip(header, row)))
+            for row in rows]
+
+
+def _compare_variants(directory, measured, found):
+    """Lines on the variants of a study."""
+    rows, variants = _rows_of(directory + "/study.csv"), []
+    for varied, row in rows:
+        name = "variant-" + row["variant"].zfill(3)
+        curve = _curve_file(directory + "/" + name)
+        if os.path.exists(curve):
+            variants.append((name, varied, compare_curves(read_measured(curve, CURVE), measured)))
+    # what is not a number comes last
+    variants.sort(key=lambda variant: numpy.nan_to_num(variant[2].difference_mean, nan=numpy.inf))
+    found.runs.update((name, comparison) for name, _, comparison in variants)
+    lines = ["warning: " + remark for _, _, closest in variants[:1] for remark in closest.remarks]
+    lines += [f"{comparison.text()}: {name}, {varied}" for name, varied, comparison in variants]
+    n_without = len(rows) - len(variants)
+    return lines + [f"{n_without} of {len(rows)} variants have no curve"] * (n_without > 0)
+
+
+def _compare_band(directory, measured, found):
+    """Lines on the mean curve of each group of an ensemble, and how much of the measured one lies between its quantiles."""
+    bands, lines = {}, []
+    for varied, row in _rows_of(directory + "/ensemble.csv"):
+        bands.setdefault(varied, []).append(
+            [float(row[name]) for name in ("angle_deg", "torque_mean_Nmm", "torque_p05_Nmm", "torque_p95_Nmm")])
+    for varied, rows in bands.items():
+        angles, mean, *quantiles = numpy.array(rows).T
+        low, high = (torque_at(numpy.array([angles, quantile]), measured[0]) for quantile in quantiles)
+        n, n_inside = numpy.isfinite(low + high).sum(), ((low <= measured[1]) & (measured[1] <= high)).sum()
+        found.means[varied] = compare_curves(numpy.array([angles, mean]), measured)
+        lines.append(f"{found.means[varied].text()}: mean of the ensemble{varied and ', ' + varied}; {n_inside} of {n} rows "
+                     "lie between the quantiles of 5 and 95 %")
+    return lines
+
+
+def compare(directory, curve, columns=()) -> Comparisons:
+    """Compares the curves in `directory`, of a run, a study or an ensemble, with the measured one in the file `curve`. columns:
+    of that file, as of read_measured(). Raises InputError."""
+    directory, curve, found = os.fspath(directory), os.fspath(curve), Comparisons()
+    measured, said = read_measured_and_say(curve, CURVE, columns, "--compare", "--columns")
+    own, is_study = _curve_file(directory), os.path.exists(directory + "/study.csv")
+    if not is_study and not os.path.exists(own):
+        raise InputError(f"debond: --compare {directory}: there are no results in this directory, neither torque.csv nor "
+                         "study.csv")
+    angles, torques = measured
+    lines = [f"{curve}: {said}; {len(angles)} rows, from {angles.min():.4g} to {angles.max():.4g} deg, torques up to "
+             f"{abs(torques).max():.4g} N mm"]
+    if is_study:
+        lines += _compare_variants(directory, measured, found)
+        if os.path.exists(directory + "/ensemble.csv"):
+            lines += _compare_band(directory, measured, found)
+    else:
+        run = found.runs[""] = compare_curves(read_measured(own, CURVE), measured)
+        numbers = f" ({run.rows_used} rows; e_mp {100 * run.e_mp:.3g} %, e_rel {100 * run.e_rel:.3g} %)"
+        lines += [f"{directory}: {run.text()}{numbers if run.rows_used else ''}"] + ["warning: " + text for text in run.remarks]
+    found.text = "\n".join(lines) + "\n"
+    return found
+
+
+def main(arguments) -> int:
+    """Prints the comparison; returns the exit code."""
+    try:
+        files, options = options_of(arguments, 2, {"--columns": ""}, "DIR CURVE [--columns LIST], a directory of results and a "
+                                    "measured curve")
+        print(compare(*files, options["--columns"]).text, end="")
+    except InputError as error:
+        print(error, file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

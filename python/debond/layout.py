@@ -1,0 +1,272 @@
+"""The table in a text of an instrument or a spreadsheet: where it begins, what separates its items, how its columns are
+called. measured.py says what is understood."""
+
+import re
+import sys
+from typing import NamedTuple
+
+from .errors import shortened
+from .units import find_unit, unit_in, why_ambiguous
+
+# blanks of any width; what is not seen; dashes and minus signs, also Windows' dash where Latin-1 has nothing; signs of a
+# product; the Greek letter; an ordinal and a ring for degrees; apostrophes
+_BLANKS = "\u00a0\u2002-\u200a\u202f\u205f\u3000"
+_PLAIN = {"": "\u00ad\u200b\u200c\u200d\u2060\ufeff", "-": "\u2010\u2011\u2012\u2013\u2212\x96", "·": "\u22c5\u2219\u2022",
+          "µ": "\u03bc", "°": "\u00ba\u02da", "'": "\u2019\u02bc\x92"}
+_MARKS = str.maketrans({other: mark for mark, others in _PLAIN.items() for other in others})
+
+_NUMBER = re.compile(r"[-+]?([0-9]+\.?|[0-9]*[.,][0-9]+)([eEdD][-+]?[0-9]+)?")
+_TIME = re.compile(r"[0-9]{1,4}([-./])[0-9]{1,2}\1[0-9]{1,4}.*|[0-9]{1,2}:[0-9]{2}.*")
+# what instruments and spreadsheets write for no value, and what is too large
+_NOTHING = re.compile(r"[-*?]*|.*#.*|[-+]?[0-9]+[.,]?[0-9]*[ed][-+]?[0-9]+|[-+]?(nan|inf|infinity|∞|n/?a|none|null|"
+                      r"o\.?l\.?|ovld?|ovf|over|over-?(load|flow|range)|underflow|err|error|invalid)", re.I)
+_THOUSANDS = re.compile("[-+]?[0-9]{1,3}([ '.,][0-9]{3})+([.,][0-9]*)?")
+_NUMBER_AND_UNIT = re.compile(r"[-+]?[0-9.,]+ *([A-Za-z%]|[^\t -~]).*")
+
+
+def with_plain_marks(text: str) -> str:
+    """The same text with plain blanks, minus signs, dots of a product and apostrophes."""
+    if text.isascii():
+        return text
+    # a number with such a blank between thousands stays one word
+    text = re.sub(f"(?<=[0-9])[{_BLANKS}](?=[0-9]{{3}}(?![0-9]))", "'", text)
+    return re.sub(f"[{_BLANKS}]", " ", text).translate(_MARKS)
+
+
+def value_of(item: str):
+    """The number that `item` is, with a decimal point or comma, or an exponent of Fortran; None if it is none."""
+    if not _NUMBER.fullmatch(item):
+        return None
+    value = float(item.replace(",", ".").replace("d", "e").replace("D", "e"))
+    if abs(value) < sys.float_info.min and re.match("[^eEdD]*[1-9]", item):
+        return None  # so small that digits are lost
+    # SCPI, the language of many instruments, has 9.9E37 for infinity and 9.91E37 for what is no number
+    return value if abs(value) < 9.9e37 else None
+
+
+def _kind(item: str) -> str:
+    """"number", "nothing", "time" (a date or a time of day) or "text"."""
+    return ("number" if value_of(item) is not None else "nothing" if _NOTHING.fullmatch(item) else
+            "time" if _TIME.fullmatch(item) else "text")
+
+
+def remark_on(item: str) -> str:
+    """What to do with an item that is no number."""
+    kind = _kind(item)
+    return (": remove this row" if kind == "nothing" else
+            ": it is a date or a time of day; expected is a column with a number" if kind == "time" else
+            ": write thousands without a separator" if _THOUSANDS.fullmatch(item) else
+            ": write its unit into the name of the column" if _NUMBER_AND_UNIT.fullmatch(item) else
+            ": remove what is not part of the table")
+
+
+class _Line(NamedTuple):
+    """A line of a file, which is not empty; numbers count from 1."""
+
+    number: int
+    text: str
+    is_comment: bool
+
+
+def _lines_of(text):
+    lines = ((number, line.rstrip(" "), line.strip()) for number, line in enumerate(text.split("\n"), 1))
+    return [_Line(number, line, trimmed.startswith(("#", "%", "//"))) for number, line, trimmed in lines if trimmed]
+
+
+def _split(line, separator):
+    """The items of a line; with what separates behind the last one there are empty ones."""
+    if separator == " ":
+        return [] if "\t" in line else line.split()
+    # what stands in quotes may hold separators
+    parts = line.split('"')
+    parts[1::2] = [part.replace(separator, "\0") for part in parts[1::2]]
+    return [item.replace("\0", separator).strip() for item in "".join(parts).split(separator)]
+
+
+def filled(items):
+    """The items without empty ones at the end."""
+    n = len(items)
+    while n and not items[n - 1]:
+        n -= 1
+    return items[:n]
+
+
+def _shape_of(items):
+    """A letter for each item of a row, `t` for times and `x` for other texts; empty if it has less than two numbers, or
+    something else without a letter, as what another separator would split."""
+    kinds = [_kind(item) for item in filled(items)]
+    if any(kind == "text" and not re.search("[A-Za-z]|[^\0-\x7f]", item) for kind, item in zip(kinds, items)):
+        return ""
+    return "".join({"time": "t", "text": "x"}.get(kind, "n") for kind in kinds) if kinds.count("number") >= 2 else ""
+
+
+class Table:
+    """The table in a text: where it begins, what separates its items, how its columns are called.
+
+    separator; n_columns of rows; rows: (line, items); names of columns, or none; line_above: with another number of items.
+    refuse: raises InputError with what is no table, or may be read in two ways. separators: to choose from."""
+
+    def __init__(self, text, refuse, separators=";\t, "):
+        self.rows, self.names, self.line_above, self.refuse = [], [], None, refuse
+        lines = _lines_of(text)
+        shape, self.separator = self._choose(lines, separators)
+        if not shape:
+            self._refuse_no_row(lines, separators)
+        self.n_columns = len(shape)
+        self._read_rows(lines, shape)
+        self._refuse_decimal_commas()
+        self._refuse_thousands()
+
+    @property
+    def width(self):
+        """How many columns can be read."""
+        return max(self.n_columns, len(self.names))
+
+    def _items(self, line):
+        return _split(line.text, self.separator)
+
+    @staticmethod
+    def has_rows(text, separators):
+        return bool(Table._choose(_lines_of(text), separators)[0])
+
+    @staticmethod
+    def _choose(lines, separators):
+        """The shape and the separator with which most of the first lines are rows of the same shape."""
+        best, most = ("", ";"), 0
+        for separator in separators:
+            weights = {}
+            for line in lines[:1000]:
+                if not line.is_comment:
+                    shape = _shape_of(_split(line.text, separator))
+                    # with a wrong separator there are numbers and texts, too
+                    weights[shape] = weights.get(shape, 0) + (1 if "x" in shape else 2)
+            weights.pop("", None)
+            for shape in sorted(weights):
+                if weights[shape] > most:
+                    best, most = (shape, separator), weights[shape]
+        return best
+
+    def _refuse_no_row(self, lines, separators):
+        cells = [(line.number, item) for line in lines if not line.is_comment for separator in separators
+                 for item in _split(line.text, separator)]
+        odd = next((f"; '{shortened(item)}' in line {number}{remark_on(item)}" for number, item in cells
+                    if _kind(item) == "text" and (_THOUSANDS.fullmatch(item) or _NUMBER_AND_UNIT.fullmatch(item))), "")
+        first = f", and its first line is '{shortened(lines[0].text)}'" if lines else ""
+        self.refuse("this file holds no row of numbers; expected are two columns or more, separated by commas, semicolons, "
+                    f"tabs or blanks{first}{odd}")
+
+    def _first_row(self, lines, shape, begin):
+        """The first line from `begin` on that is a row of this shape."""
+        return next((i for i in range(begin, len(lines))
+                     if not lines[i].is_comment and _shape_of(self._items(lines[i])) == shape), len(lines))
+
+    def _may_be_names(self, items, row):
+        """Whether a line has no numbers, and as many items as rows."""
+        return (self.n_columns <= len(filled(items)) <= max(self.n_columns, len(row)) and
+                all(value_of(item) is None for item in items) and any(_kind(item) == "text" for item in items))
+
+    def _has_numbers_only(self, line):
+        kinds = {_kind(item) for item in filled(self._items(line))}
+        return not line.is_comment and "number" in kinds and kinds <= {"number", "nothing"}
+
+    def _read_rows(self, lines, shape):
+        first = self._first_row(lines, shape, 0)
+        # rows that lack a value, or have one too many
+        for i in reversed(range(first)):
+            if self._has_numbers_only(lines[i]):
+                first = i
+            elif not lines[i].is_comment:
+                break
+        self._find_names(lines, first)
+        i = first
+        while i < len(lines):
+            items = self._items(lines[i])
+            if not lines[i].is_comment and filled(items):
+                if self.rows and self._may_be_names(items, self.rows[0][1]):
+                    # numbers above the names are a date, say
+                    following = self._first_row(lines, shape, i)
+                    if self.names or following == len(lines):
+                        self.refuse(f"line {lines[i].number} has names in the place of numbers: keep one table in the file, "
+                                    "and remove what is not part of it")
+                    self.rows = []
+                    self._find_names(lines, following)
+                    i = following
+                    continue
+                self.rows.append((lines[i].number, items))
+            i += 1
+
+    def _find_names(self, lines, first):
+        """Names, or names and units below, right above the row `first`; else those in a comment there."""
+        row = self._items(lines[first])
+        self.line_above = None
+        for line in reversed([line for line in lines[:first] if not line.is_comment]):
+            above = self._items(line)
+            if not self._may_be_names(above, row):
+                if not self.names:
+                    self.line_above = line
+                break
+            above = filled(above)
+            if self.names:  # these are units
+                above += [""] * (len(self.names) - len(above))
+                self.names = [f"{name} [{unit}]".strip() if find_unit(unit) else f"{name} {unit}".strip()
+                              for name, unit in zip(above, self.names)]
+                return
+            self.names = above
+            if not any(find_unit(name) or find_unit(name.strip("[]()")) for name in above):
+                break
+        if not self.names and first > 0 and lines[first - 1].is_comment:
+            items = _split(lines[first - 1].text.lstrip("#%/ "), self.separator)
+            if self._may_be_names(items, row):
+                self.names = items
+
+    def _refuse_decimal_commas(self):
+        """Of `0,5,12,3` nobody knows whether these are two numbers or four, unless there are as many names."""
+        if self.separator == " ":
+            return
+        what_to_do = ": expected as many"
+        if self.separator == ",":
+            what_to_do = ": if decimals have commas, separate the columns with semicolons"
+        first, n_first = self.rows[0][0], len(filled(self.rows[0][1]))
+        above = self._items(self.line_above) if self.line_above else []
+        if not self.names and len(above) > 1 and any(map(unit_in, above)):
+            number = next((item for item in above if value_of(item) is not None), None)
+            if number and len(filled(above)) == n_first:
+                self.refuse(f"line {self.line_above.number} has '{number}' among the names or units of columns: expected names "
+                            "or units only")
+            self.refuse(f"line {self.line_above.number} names {len(filled(above))} columns, line {first} has {n_first} values"
+                        f"{what_to_do}")
+        if self.separator != ",":
+            return
+        for number, items in self.rows:
+            if len(items) < self.n_columns:
+                self.refuse(f"line {number} has {len(items)} values, other lines {self.n_columns}{what_to_do}")
+        are_whole = (re.fullmatch("[-+]?[0-9]+", item) for _, items in self.rows for item in filled(items))
+        if not self.names and self.n_columns > 2 and all(are_whole):
+            self.refuse(f"line {first} and all others hold whole numbers only{what_to_do}, else write the names of the "
+                        "columns above")
+
+    def _refuse_thousands(self):
+        """Of decimal points and commas one may separate thousands."""
+        marked = [(number, item) for number, items in self.rows for item in items
+                  if ("," in item or "." in item) and value_of(item) is not None]
+        with_comma = [(number, item) for number, item in marked if "," in item]
+        if not with_comma:
+            return
+        with_point = next((number for number, item in marked if "." in item), None)
+        what_to_do = ": write decimals in one way, and thousands without a separator"
+        if with_point:
+            self.refuse(f"line {with_point} has a number with a point and line {with_comma[0][0]} one with a comma"
+                        f"{what_to_do}")
+        # semicolons go with decimal commas
+        if self.separator != ";" and all(re.fullmatch("[-+]?[1-9][0-9]{0,2},[0-9]{3}", item) for _, item in with_comma):
+            self.refuse(f"the comma in numbers, as in line {with_comma[0][0]}, may be that of decimals or of thousands"
+                        f"{what_to_do}; semicolons between the columns go with decimal commas")
+
+    def described(self):
+        """The columns that there are, for messages."""
+        if not self.names:
+            above = (f", since the line above the numbers, '{shortened(self.line_above.text)}', does not name as many (blanks "
+                     "in names are taken for separators where blanks separate)" if self.line_above else "")
+            return f"this file has {self.n_columns} columns without names{above}"
+        why = next(filter(None, map(why_ambiguous, self.names)), "")
+        return "the columns of this file are '" + "', '".join(self.names) + "'" + (f" ({why})" if why else "")

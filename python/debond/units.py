@@ -1,0 +1,106 @@
+"""Units in the names of the columns of measured tables."""
+
+import math
+import re
+from typing import NamedTuple, Optional
+
+# of each quantity, for messages
+UNITS = {
+    "angle": "deg, rad, mrad, gon or rev",
+    "moment": "N mm, mN m, N cm, N m, kN m, lbf in, ozf in, kgf cm or the like",
+    "force": "mN, N, kN, lbf or kgf",
+    "length": "um, mm, cm, m or in",
+    "time": "ms, s, min or h",
+}
+EXAMPLES = {"angle": "deg", "moment": "N m", "force": "N", "length": "mm", "time": "s"}
+
+
+class Unit(NamedTuple):
+    """What a column holds, and the factor to what it is read in: deg, N mm, N, mm, s."""
+
+    quantity: str
+    factor: float
+
+
+def _units(quantity, factors):
+    return {name: Unit(quantity, factor) for name, factor in factors.items()}
+
+
+def _moments(forces, arms):
+    return {force + arm: Unit("moment", n * mm) for force, n in forces.items() for arm, mm in arms.items()}
+
+
+# exact, by definition
+_INCH, _LBF, _KGF, _RAD = 25.4, 0.45359237 * 9.80665, 9.80665, 180 / math.pi
+
+
+def _metric_units():
+    """Units in which M and m differ, without blanks and signs of a product."""
+    forces = {"uN": 1e-6, "µN": 1e-6, "mN": 1e-3, "cN": 1e-2, "dN": 0.1, "N": 1.0, "daN": 10.0, "kN": 1e3}
+    weights = {"gf": 1e-3 * _KGF, "kgf": _KGF, "kp": _KGF}
+    arms = {"mm": 1.0, "cm": 10.0, "m": 1e3}
+    return {
+        **_units("force", {**forces, **weights}),
+        **_units("length", {"um": 1e-3, "µm": 1e-3, **arms}),
+        # kg and g: masses that are meant as weights, as torque meters say them
+        **_moments({**forces, **weights, "kg": _KGF}, arms),
+        **_moments({"g": 1e-3 * _KGF}, {"cm": 10.0}),
+        # shouted: M for mega has no meaning here
+        **_units("moment", {"NM": 1e3, "NCM": 10.0, "NMM": 1.0, "KNM": 1e6}),
+    }
+
+
+def _other_units():
+    """Units that may be shouted."""
+    pounds = {**dict.fromkeys(("lb", "lbs", "lbf", "pound", "pounds"), _LBF),
+              **dict.fromkeys(("oz", "ozf", "ounce", "ounces"), _LBF / 16)}
+    inches = dict.fromkeys(("in", "inch", "inches"), _INCH)
+    arms = {**inches, **dict.fromkeys(("ft", "foot", "feet"), 12 * _INCH)}
+    moments = _moments(pounds, arms)
+    moments.update({arm + force: moments[force + arm] for force in pounds for arm in arms})
+    return {
+        **moments,
+        **_moments({"newton": 1.0}, dict.fromkeys(("metre", "metres", "meter", "meters"), 1e3)),
+        # alone, pounds and ounces may be masses
+        **_units("force", {"lbf": _LBF, "ozf": _LBF / 16}),
+        **_units("length", inches),
+        **_units("angle", {
+            **dict.fromkeys(("deg", "degree", "degrees", "°"), 1.0), "mdeg": 1e-3, "arcmin": 1 / 60,
+            **dict.fromkeys(("rad", "radian", "radians"), _RAD), "mrad": 1e-3 * _RAD, "urad": 1e-6 * _RAD, "µrad": 1e-6 * _RAD,
+            "gon": 0.9, "mgon": 0.9e-3,
+            **dict.fromkeys(("rev", "revs", "revolution", "revolutions", "turn", "turns"), 360.0)}),
+        # the name `time` is enough
+        **_units("time", {"us": 1e-6, "µs": 1e-6, "ms": 1e-3, **dict.fromkeys(("s", "sec", "second", "seconds", "time"), 1.0),
+                          "min": 60.0, "minutes": 60.0, "h": 3600.0, "hours": 3600.0}),
+    }
+
+
+_METRIC, _OTHER = _metric_units(), _other_units()
+
+
+def find_unit(text: str) -> Optional[Unit]:
+    """The unit that `text` is; None if it is none. Blanks and the signs of a product may stand where they like: "lbf in",
+    "in·lbf", "IN-LB"."""
+    plain = re.sub("[ .*·_-]", "", text)
+    return _METRIC.get(plain) or _OTHER.get(plain.lower())
+
+
+def unit_in(name: str) -> Optional[Unit]:
+    """The unit in the name of a column: in brackets, behind the last slash or underscore, or all or the last words of it. None
+    if there is none, or a factor."""
+    if re.search(r"10\^|[x*] ?10|×|[\])] *[x*/·]", name):
+        return None
+    for opening, closing in ("[]", "()"):
+        begin, end = name.rfind(opening), name.rfind(closing)
+        if 0 <= begin < end:
+            return find_unit(name[begin + 1:end])
+    # "Force in lbf" is no moment: words that begin with "in" are a unit only as the whole name
+    ends = [name[i:] for i in range(1, len(name)) if name[i - 1] in "/_ ," and not re.match("in[ _]", name[i:], re.I)]
+    return next(filter(None, map(find_unit, [name] + ends)), None)
+
+
+def why_ambiguous(name: str) -> str:
+    """What else a unit that find_unit() does not know could mean; empty if there are not several such meanings."""
+    if re.search(r"\bgrads?\b", name, re.I):
+        return "grad may be degrees, deg, or gon, of which a turn has 400"
+    return "nm may be N m or nanometres" if re.search(r"\bnm\b", name) else ""

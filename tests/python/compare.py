@@ -1,0 +1,192 @@
+"""Finished results compared by debond.compare with a measured curve of 11 and 22 N mm at 1 and 2 degrees: a run, a study and an
+ensemble made by hand, whose curves are straight lines, so that all numbers follow from their slopes; the definitions of the
+measures; and, with the program, the curve of a run against the measures in its summary.json.
+
+    PYTHONPATH=python python3 tests/python/compare.py [DEBOND]
+"""
+
+import contextlib
+import io
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+import numpy
+
+from debond.compare import compare, main
+from debond.curve_comparison import compare_curves, torque_at
+from debond.errors import InputError
+
+debond = os.path.abspath(sys.argv[1]) if sys.argv[1:] else None
+scenes = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "prm")
+scratch = tempfile.TemporaryDirectory()
+os.chdir(scratch.name)
+
+HEAD = ("measured.csv: column 1 'angle [deg]', column 2 'torque [Nm]'; 2 rows, from 1 to 2 deg, torques up to 22 N mm\n")
+RUN = HEAD + "run: 6.8 % in the mean, 9.1 % at most, at 2 deg (2 rows; e_mp 9.09 %, e_rel 1.5 %)\n"
+RUN_IN_NM = """in_Nm.csv: column 1 'angle_deg', column 2 'torque_Nmm'; 2 rows, from 1 to 2 deg, torques up to 0.022 N mm
+run: 68107 % in the mean, 90809 % at most, at 2 deg (2 rows; e_mp 9.08e+04 %, e_rel 15 %)
+warning: the largest torque of the reference curve is 0.022 and that of the run 100 N mm: is it in N mm?
+"""
+STUDY = HEAD + """0 % in the mean, 0 % at most, at 1 deg: variant-002, Bone / Cells = 4, 4, 2; Interface / Seed = 1
+6.8 % in the mean, 9.1 % at most, at 2 deg: variant-001, Bone / Cells = 3, 3, 2; Interface / Seed = 1
+not compared: nothing has rotated in the run: variant-004, Bone / Cells = 6, 6, 2; Interface / Seed = 1
+1 of 4 variants have no curve
+"""
+BAND = "of 2 rows lie between the quantiles of 5 and 95 %\n"
+MEANS = (f"6.8 % in the mean, 9.1 % at most, at 2 deg: mean of the ensemble, Bone / Cells = 3, 3, 2; 2 {BAND}"
+         f"0 % in the mean, 0 % at most, at 1 deg: mean of the ensemble, Bone / Cells = 4, 4, 2; 0 {BAND}"
+         f"6.8 % in the mean, 9.1 % at most, at 2 deg: mean of the ensemble, Bone / Cells = 5, 5, 2; 0 {BAND}")
+
+
+def write(filename, text):
+    os.makedirs(os.path.dirname(filename) or ".", exist_ok=True)
+    with open(filename, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+def line(slope):
+    """A torque of `slope` [N mm/deg] up to 10 degrees."""
+    return f"angle_deg,torque_Nmm\n0,0\n10,{10 * slope}\n"
+
+
+def expect(what, expected, got):
+    assert got == expected, f"{what}: expected\n{expected}got\n{got}"
+
+
+def expect_close(what, expected, got, tolerance=1e-12):
+    assert numpy.allclose(got, expected, rtol=tolerance, atol=0, equal_nan=True), f"{what}: expected {expected}, got {got}"
+
+
+def check_files():
+    write("measured.csv", "angle [deg];torque [Nm]\n1;0,011\n2;0,022\n")
+    write("in_Nm.csv", "angle_deg,torque_Nmm\n1,0.011\n2,0.022\n")
+    # a run, whose curve.csv is finer than its torque.csv
+    write("run/torque.csv", line(99))
+    write("run/curve.csv", line(10))
+    expect("run", RUN, compare("run", "measured.csv").text)
+    expect("run", RUN_IN_NM, compare("run", "in_Nm.csv").text)
+    write("study/study.csv", 'variant,Bone / Cells,Interface / Seed,T_max_Nmm\n1,"3, 3, 2",1,100\n2,"4, 4, 2",1,110\n'
+          '3,"5, 5, 2",1,nan\n4,"6, 6, 2",1,0\n')
+    write("study/variant-001/torque.csv", line(10))
+    write("study/variant-002/torque.csv", line(11))
+    write("study/variant-004/torque.csv", "angle_deg,torque_Nmm\n0,0\n0,0\n")
+    found = compare("study", "measured.csv")
+    expect("study", STUDY, found.text)
+    expect("names of variants", ["variant-002", "variant-001", "variant-004"], list(found.runs))
+    expect_close("variant-001", 1 / 11, found.runs["variant-001"].e_mp)
+    expect_close("variant-001", 1.5 / 100, found.runs["variant-001"].e_rel)
+    expect_close("variant-004", numpy.nan, found.runs["variant-004"].e_mp)
+    write("complete/study.csv", "variant,T_max_Nmm\n1,100\n")
+    write("complete/variant-001/torque.csv", line(10))
+    expect("study of one", HEAD + "6.8 % in the mean, 9.1 % at most, at 2 deg: variant-001, \n",
+           compare("complete", "measured.csv").text)
+    write("study/ensemble.csv", "Bone / Cells,angle_deg,members,torque_mean_Nmm,torque_sd_Nmm,torque_p05_Nmm,torque_p50_Nmm,"
+          "torque_p95_Nmm\n"
+          '"3, 3, 2",0,9,0,0,0,0,0\n"3, 3, 2",10,9,100,0,90,100,115\n'
+          '"4, 4, 2",0,9,0,0,0,0,0\n"4, 4, 2",10,9,110,0,112,115,200\n'
+          '"5, 5, 2",0,9,0,0,0,0,0\n"5, 5, 2",10,9,100,0,90,100,105\n')
+    found = compare("study", "measured.csv")
+    expect("ensemble", STUDY + MEANS, found.text)
+    expect_close("mean of an ensemble", 1.5 / 22, found.means["Bone / Cells = 3, 3, 2"].difference_mean)
+
+
+def check_measures():
+    """Against sums over the rows that count, for a run that turns backwards and rests at its first angle, too."""
+    angles = numpy.array([0, 0, 0, 1, 2, 4])
+    torques = numpy.array([3, 7, 5, 30, 40, 50])
+    measured = numpy.array([[-1, 0, 0.5, 1.5, 2, 3, 4, 5], [9, 9, 20, 0.1, 44, 45, 60, 70]])
+    # at 0.5, 2, 3 and 4 degrees: the others are not turned to, or have less than a hundredth of 70 N mm
+    difference, T_measured = numpy.array([2.5, 4, 0, 10]), numpy.array([20, 44, 45, 60])
+    for direction in (1, -1):
+        signs = [[direction], [1]]
+        found = compare_curves(numpy.array([angles, torques]) * signs, measured * signs)
+        expect("rows", 4, found.rows_used)
+        expect_close("e_mp", numpy.mean(difference / T_measured), found.e_mp)
+        expect_close("e_rel", numpy.mean(difference) / 50, found.e_rel)
+        expect_close("differences", [numpy.mean(difference) / 70, 10 / 70], [found.difference_mean, found.difference_max])
+        expect_close("where", 4 * direction, found.angle_of_max_deg)
+        expect("remarks", [], found.remarks)
+    rest = numpy.array([[0.0, 0, 0, 1], [3, 7, 1e17, 1]])
+    expect_close("torques from rest", [1e17, 1], torque_at(rest, numpy.array([0, 1])))
+    # an angle that stays has the torques before the jump and behind it
+    jump = numpy.array([[0.0, 1, 1, 2], [0, 10, 4, 6]])
+    expect_close("torques", [numpy.nan, 0, 10, 5, 6, numpy.nan], torque_at(jump, numpy.array([-1e-9, 0, 1, 1.5, 2, 2 + 1e-9])))
+    expect_close("torques at the ends", [0, 6], torque_at(jump, numpy.array([-1e-10, 2 + 1e-10]), 1e-9))
+
+
+def check_remarks():
+    up = numpy.array([[0.0, 5, 10], [0, 50, 60]])
+    one = numpy.array([[2.0, 4], [20, 40]])
+    for what, computed, measured, words in (
+            ("opposite sign", up, one * [[1], [-1]], "have the opposite sign"),
+            ("radians", up, one / [[57.3], [1]], "ends at 0.06981 and the run at 10 degrees: is it in degrees?"),
+            ("N um", up, one * [[1], [1000]], "is 4e+04 and that of the run 60 N mm: is it in N mm?"),
+            ("N m", up, one / [[1], [1000]], "is 0.04 and that of the run 60 N mm: is it in N mm?"),
+            ("unloading", up, numpy.array([[2.0, 4, 3], [20, 40, 30]]), "turn back: loading and unloading")):
+        remarks = compare_curves(computed, measured).remarks
+        assert len(remarks) == 1 and words in remarks[0], f"{what}: expected {words}, got {remarks}"
+    noisy = numpy.array([[2.0, 2.999, 2.96, 4], [20, 30, 30, 40]])
+    expect("angles with noise", [], compare_curves(up, noisy).remarks)
+    for what, computed, measured, words in (
+            ("turns back", numpy.array([[0.0, 2, 1], [0, 1, 2]]), one, "the run turns back"),
+            ("rounding errors", numpy.array([[0.0, 1e-10, -1e-10], [0, 1, 2]]), one, "nothing has rotated in the run"),
+            ("elsewhere", up, one * [[-1], [1]], "the run turns from 0 to 10 deg, and the curve from -2 to -4 deg")):
+        found = compare_curves(computed, measured)
+        expect(what, (0, words, "not compared: " + words), (found.rows_used, found.why_none, found.text()))
+
+
+def check_program():
+    """Texts and exit codes of the command line."""
+    for arguments, code, expected in (
+            (["run", "measured.csv"], 0, RUN),
+            (["run", "measured.csv", "--columns", "angle, 2"], 0, RUN),
+            (["--columns", "1 [deg], 2 [Nm]", "run", "measured.csv"], 0,
+             RUN.replace("deg]'", "deg]' as [deg]").replace("Nm]'", "Nm]' as [Nm]")),
+            (["run", "measured.csv", "--columns", "1"], 1, "--columns = '1': expected 2 columns, separated by commas\n"),
+            (["nothing", "measured.csv"], 1,
+             "debond: --compare nothing: there are no results in this directory, neither torque.csv nor study.csv\n"),
+            (["run", "missing.csv"], 1, "--compare = 'missing.csv': this file cannot be read: No such file or directory\n"),
+            ([], 1, ""), (["run"], 1, ""), (["run", "measured.csv", "--force"], 1, ""),
+            (["run", "measured.csv", "--columns"], 1, "")):
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            got = main(arguments)
+        expect(f"exit code of {arguments}", code, got)
+        if expected:
+            expect(str(arguments), expected, err.getvalue() if code else out.getvalue())
+        else:
+            is_right = out.getvalue() == "" and "expected DIR CURVE [--columns LIST]" in err.getvalue()
+            assert is_right, f"{arguments}: {out.getvalue()}{err.getvalue()}"
+    try:
+        compare("run", "measured.csv", ["1", "2 [deg]"])
+        raise AssertionError("a wrong unit has been read")
+    except InputError as error:
+        expect("entry", ("--columns", "1, 2 [deg]"), (error.entry, error.value))
+
+
+def check_run():
+    """The program computes the same measures of the same curves."""
+    curve = os.path.join(scenes, "paper", "data", "closed_form_b_data_set_1.csv")
+    subprocess.run([debond, os.path.join(scenes, "coin_mode3_fast.prm"), "--set", "Output/Directory=coin", "--set",
+                    "Output/Reference curve=" + curve, "--set", "Output/Fields every=0"], check=True, stdout=subprocess.DEVNULL)
+    with open("coin/summary.json", encoding="utf-8") as file:
+        summary = json.load(file)
+    found = compare("coin", curve).runs[""]
+    for name, value in (("e_mp", found.e_mp), ("e_rel", found.e_rel), ("difference_max", found.difference_max),
+                        ("difference_mean", found.difference_mean), ("reference_rows_used", found.rows_used),
+                        ("difference_max_deg", found.angle_of_max_deg)):
+        # the curve has twelve digits in its file
+        expect_close(name, summary[name], value, 1e-9)
+
+
+check_files()
+check_measures()
+check_remarks()
+check_program()
+if debond:
+    check_run()
+print("curves are compared as they should be")
+sys.exit(0)

@@ -9,7 +9,7 @@
 
 #include <sys/resource.h>
 
-#include "../driven_scene.h"
+#include "driven_scene.h"
 
 const char *const scene_text = R"(
 subsection Bone

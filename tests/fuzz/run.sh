@@ -14,7 +14,11 @@ mkdir -p "$work/findings"
 export ASAN_OPTIONS=detect_leaks=0 # libFuzzer looks for leaks itself
 seeds_of() {
   case $1 in
-    scene) ls prm/*.prm tests/bad_scenes/*.prm ;;
+    scene)
+      mkdir -p "$work/bad_scenes"
+      LC_ALL=C awk -v directory="$work/bad_scenes" -f tests/bad_scenes/split.awk tests/bad_scenes/*.scenes
+      ls prm/*.prm "$files"/*.prm "$work"/bad_scenes/*.prm
+      ;;
     csv) ls "$files"/*.csv "$here"/seeds/csv/* ;;
     image) ls "$files"/*.png "$files"/*.pgm "$here"/seeds/image/* ;;
     expression) ls "$here"/seeds/expression/* ;;

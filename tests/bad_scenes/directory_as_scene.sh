@@ -1,2 +1,0 @@
-# A directory in the place of a scene.
-debond files

@@ -1,3 +1,0 @@
-# An empty file.
-: > input.prm
-debond input.prm

@@ -1,3 +1,0 @@
-# No scene on the command line.
-debond
-debond --check

@@ -1,2 +1,0 @@
-# Two scenes at once.
-debond a.prm b.prm

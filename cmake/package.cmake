@@ -34,7 +34,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME debond)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "${summary}
 ${description}This package has the program, its scenes in /usr/share/debond/prm and its\npages.")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS gnuplot-nox)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS python3-debond)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "openmpi-bin, paraview, libdebond-dev")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libdebond-dev)
@@ -42,7 +42,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "libdeal.ii-dev (>= 9.4)" "libeigen3-dev (>= 3.4)" libopenblas-dev libsuitesparse-dev libpng-dev libnifti-dev
-    "libceres-dev (>= 2.1)" "nlohmann-json3-dev (>= 3.11)")
+    "nlohmann-json3-dev (>= 3.11)")
 list(JOIN CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "${summary} (library)
 ${description}This package has the static library and its headers. find_package(debond) of\nCMake finds them.")
@@ -52,10 +52,10 @@ if(TARGET debond_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-debond)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-      "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Python_VERSION_MAJOR}.${next_minor}), python3-numpy")
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas, debond")
+      "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Python_VERSION_MAJOR}.${next_minor}), python3-numpy, python3-scipy, python3-jinja2")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas, python3-openpyxl, debond")
   set(CPACK_DEBIAN_PYTHON_DESCRIPTION "${summary} (Python)
-${description}This package has the module: import debond.")
+${description}This package has the module, import debond, which also makes the pages of\nresults and the fits of the program.")
 endif()
 
 # What Debian wants beside the files that are installed is added to each package.

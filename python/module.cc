@@ -1,7 +1,6 @@
 // The module _debond: what debond.py needs of the library. Numbers go to NumPy,
 // everything else is text; what is convenient in Python is written in Python.
 
-#include <debond/campaigns/calibration.h>
 #include <debond/campaigns/run_scene.h>
 #include <debond/input/expression_parser.h>
 #include <debond/input/parameter_loop.h>
@@ -9,7 +8,6 @@
 #include <debond/models/simulation.h>
 #include <debond/models/varying_curve.h>
 #include <debond/output/profile_output.h>
-#include <debond/output/report.h>
 #include <debond/output/result_files.h>
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
@@ -332,8 +330,6 @@ namespace
     scene.output.overwrite_other_results = force;
     work_together(team.pointer, [&] {
       run_scene(scene);
-      if (scene.output.report)
-        write_report(scene.output.directory);
     });
   }
 
@@ -392,21 +388,6 @@ namespace
           result.back().second.push_back(variant.entries[i].full_name());
       }
     return result;
-  }
-
-
-
-  /** Returns what is said on the console. */
-  std::string
-  calibrate(const std::vector<SceneEntry> &entries,
-            const std::string             &name,
-            const unsigned int             n_threads,
-            const bool                     force)
-  {
-    const py::gil_scoped_release others_go_on;
-    Classic<std::ostringstream>  out;
-    run_calibration(entries, name, n_threads, force, out);
-    return out.str();
   }
 
 
@@ -523,6 +504,8 @@ PYBIND11_MODULE(_debond, module)
     .def_readonly("parameters", &Scene::completed_parameters)
     .def_property_readonly("directory",
                            [](const Scene &s) { return s.output.directory; })
+    .def_property_readonly("has_page",
+                           [](const Scene &s) { return s.output.report; })
     .def_property_readonly("has_closed_form",
                            [](const Scene &s) {
                              return s.model != ModelKind::finite_elements &&
@@ -648,6 +631,5 @@ PYBIND11_MODULE(_debond, module)
                return ResultDirectory(output, text);
              });
   module.def("run_into_directory", run_into_directory);
-  module.def("calibrate", calibrate);
   module.def("set_number_of_threads", set_number_of_threads);
 }

@@ -1,5 +1,3 @@
-#include <debond/campaigns/calibration.h>
-#include <debond/campaigns/compare_results.h>
 #include <debond/campaigns/run_scene.h>
 #include <debond/campaigns/study.h>
 #include <debond/input/allowed_values.h>
@@ -8,10 +6,11 @@
 #include <debond/models/memory_estimate.h>
 #include <debond/models/resumed_run.h>
 #include <debond/output/reference_comparison.h>
-#include <debond/output/report.h>
+#include <debond/output/result_files.h>
 #include <debond/scene/scene.h>
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
+#include <debond/support/laboratory.h>
 #include <debond/support/number_text.h>
 #include <debond/support/processor.h>
 #include <debond/support/progress.h>
@@ -300,19 +299,29 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
 
-  // A calibration runs its scenes in memory, several searches at a time.
-  void
-  act_on_calibration(const std::vector<SceneEntry> &entries,
-                     const Arguments               &arguments)
+  // Fits, comparisons and pages are written in Python, where statistics are at
+  // home; what they need of the program is its library, as a module.
+  bool
+  is_calibration(const std::vector<SceneEntry> &entries)
   {
+    return std::any_of(entries.begin(), entries.end(), [](const auto &entry) {
+      return entry.full_name() == "Task" && entry.value == "calibrate";
+    });
+  }
+
+  [[noreturn]] void
+  become_calibration(const Arguments &arguments)
+  {
+    std::vector<std::string> words{
+      arguments.scene_file,
+      "--threads=" + std::to_string(or_processors(arguments.n_threads))};
+    for (const std::string &text : arguments.overrides)
+      words.push_back("--set=" + text);
+    if (arguments.force)
+      words.push_back("--force");
     if (arguments.check)
-      return check_calibration(entries, arguments.scene_file, std::cout);
-    catch_interruptions();
-    run_calibration(entries,
-                    arguments.scene_file,
-                    or_processors(arguments.n_threads),
-                    arguments.force,
-                    std::cout);
+      words.push_back("--check");
+    Laboratory::become("calibrate", words);
   }
 
 
@@ -328,8 +337,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
       const std::string &directory = scene.output.directory;
       if (!scene.output.report)
         return;
-      write_report(directory);
-      if (!scene.output.quiet)
+      const bool has_page = write_page(directory);
+      if (!scene.output.quiet && has_page)
         std::cout << "Open " << directory << "/report.html in a browser"
                   << (scene.output.fields_every > 0 &&
                           scene.model == ModelKind::finite_elements ?
@@ -424,12 +433,12 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     if (!arguments.directory_to_resume.empty())
       return resume(arguments);
     if (!arguments.directory_to_compare.empty())
-      return compare_results(arguments.directory_to_compare,
-                             arguments.scene_file,
-                             split_list(arguments.columns),
-                             std::cout);
+      Laboratory::become("compare",
+                         {arguments.directory_to_compare,
+                          arguments.scene_file,
+                          "--columns=" + arguments.columns});
     if (!arguments.directory_to_report.empty())
-      return write_report(arguments.directory_to_report);
+      Laboratory::become("page", {arguments.directory_to_report});
     if (arguments.scene_file.empty())
       return print_parameters(std::cout);
 
@@ -443,7 +452,7 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     if (Ranks::number() > 1 && is_calibration(entries))
       refuse_usage("a calibration runs in one process: leave out mpirun");
     if (is_calibration(entries) && !arguments.print_parameters)
-      return act_on_calibration(entries, arguments);
+      become_calibration(arguments);
     // A study's entries hold {{a|b}}: each of its variants is a scene, they
     // themselves are none.
     if (!varied_entries(entries).empty() && !arguments.print_parameters)

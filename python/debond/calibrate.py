@@ -216,7 +216,7 @@ def _write_page(directory):
         from . import page
     except ImportError:
         return
-    page.write(directory)
+    page.write_page(directory)
 
 
 def check_lines(problem):
@@ -233,6 +233,10 @@ def check_lines(problem):
         yield (f"{measured.file}: {len(measured.over)} rows, {over.name} from {measured.over.min():.6g} to {measured.over.max():.6g} {over.unit}; "
                + ranges + (f"no closed form: {experiment.why_no_closed_form}" if experiment.why_no_closed_form
                            else "searched with the closed form first"))
+        if over.is_angle and any(column.is_torque and numpy.sum(values) * experiment.last_angle < 0
+                                 for column, values in zip(experiment.columns, measured.values.T)):
+            yield (f"warning: {measured.file}: the torques of the reference curve have the opposite sign: a minus before the unit turns "
+                   "it, as in Reference columns = 1 [deg], 2 [-N m]")
 
 
 def main(arguments) -> int:

@@ -5,13 +5,13 @@ class InputError(ValueError):
     """Anything wrong with what a user gave: a scene, a file, a call. The text is one line; `entry` ("Interface / Sliding
     threshold"), `value` and `place` ("scene.prm:12") say where, as far as they are known."""
 
-    entry = value = place = None
+    entry = value = place = why = None
 
     @classmethod
     def of_entry(cls, entry: str, why: str, value=None):
         """The mistake `why` in what `entry` gives, whose text is `value`: ENTRY = 'VALUE': WHY."""
         error = cls(entry + ("" if value is None else f" = '{shortened(value)}'") + ": " + why)
-        error.entry, error.value = entry, value
+        error.entry, error.value, error.why = entry, value, why
         return error
 
 

@@ -70,6 +70,11 @@ class Experiment:
         """Number of measured values."""
         return self.measured.values.size
 
+    @functools.cached_property
+    def last_angle(self):
+        """To which the scene turns the chuck [deg]; 0 if it prescribes a moment."""
+        return self.scene.prescribed([self.scene.sample_times[-1]]).get("chuck_rz_deg", numpy.zeros(1))[0]
+
     def changes(self, values):
         """Entries of the scene but for those of the subsection Calibration, as pairs (full name, text), and the rig's numbers."""
         entries = self.unknowns.entries(self.number, values)
@@ -143,7 +148,7 @@ class Experiment:
         # far away the straight line must not leave what is possible
         compliance = compliance * numpy.exp(numpy.clip(slopes @ (values - centre), -2, 2))
         changes, rig = self.changes(values)
-        last = self.scene.prescribed([self.scene.sample_times[-1]])[self.over.key][0]
+        last = self.last_angle
         angles = self.measured.over - rig["angle_offset"] - rig["slack"]
         angles = angles[(angles * last > 0) & (abs(angles) < abs(last))]
         angles = numpy.unique(numpy.concatenate([numpy.linspace(0, last, 101), angles]))[::1 if last > 0 else -1]

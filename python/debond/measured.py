@@ -202,7 +202,10 @@ def options_of(arguments: Sequence[str], n_files: int, options: Mapping[str, str
     files, options, words = [], dict(options), list(arguments)
     while words:
         word = words.pop(0)
-        if word in options and words:
+        name, equals, value = word.partition("=")
+        if name in options and equals:
+            options[name] = value
+        elif word in options and words:
             options[word] = words.pop(0)
         elif word.startswith("-"):
             raise InputError(f"{word}: expected {usage}")
@@ -216,12 +219,16 @@ def options_of(arguments: Sequence[str], n_files: int, options: Mapping[str, str
 def main(arguments: Sequence[str]) -> int:
     """Writes the columns of a measured table as plain CSV to the standard output; returns the exit code."""
     try:
-        files, options = options_of(arguments, 1, {"--columns": "", "--curves": "angle_deg,torque_Nmm"},
+        files, options = options_of(arguments, 1, {"--columns": "", "--curves": "angle_deg,torque_Nmm", "--entry": "FILE",
+                                                   "--columns-entry": "--columns"},
                                     "FILE [--columns LIST] [--curves angle_deg,torque_Nmm]")
         names = [name.strip() for name in options["--curves"].split(",")]
-        values = read_measured(files[0], names, options["--columns"], "FILE", "--columns")
+        values = read_measured(files[0], names, options["--columns"], options["--entry"], options["--columns-entry"])
     except InputError as error:
-        print(f"debond.measured: {error}", file=sys.stderr)
+        if error.why is not None and options["--entry"] != "FILE":  # the program asks, and says it with the place of the entry
+            print(error.entry, error.value or "", error.why, sep="\n")
+        else:
+            print(f"debond.measured: {error}", file=sys.stderr)
         return 1
     for row in [names, *(map(repr, row) for row in values.T.tolist())]:
         print(",".join(row))

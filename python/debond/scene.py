@@ -169,6 +169,12 @@ class Scene:
             entries = _debond.changed(entries, ["Output/Directory=" + os.fspath(directory)])
         scene = _debond.Scene(entries, self._name, team)
         _debond.run_into_directory(scene, force, team)
+        if scene.has_page and (comm is None or comm.rank == 0):
+            try:
+                from . import page
+            except ImportError:  # a run does not fail because Jinja2 is missing
+                return scene.directory
+            page.write_page(scene.directory)
         return scene.directory
 
 

@@ -1,7 +1,6 @@
 #include <debond/bulk/chuck.h>
 #include <debond/geometry/surface_geometry.h>
 #include <debond/input/entry_table.h>
-#include <debond/input/measured_table.h>
 #include <debond/support/input_error.h>
 
 #include <algorithm>
@@ -36,16 +35,6 @@ namespace Debond
            (of_load ? (rotation ? 'M' : 'F') : (rotation ? 'r' : 'u')) +
            "xyz"[component % 3] +
            (of_load ? (rotation ? "_Nmm" : "_N") : (rotation ? "_deg" : "_mm"));
-  }
-
-
-
-  Quantity
-  ChuckParameters::quantity(const unsigned int component, const bool of_load)
-  {
-    return is_rotation(component) ?
-             (of_load ? Quantity::moment : Quantity::angle) :
-             (of_load ? Quantity::force : Quantity::length);
   }
 
 

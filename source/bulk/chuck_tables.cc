@@ -30,10 +30,8 @@ namespace Debond
       return read_measured_table(
         component.file,
         ChuckParameters::entry_name(k, "File"),
-        {{abscissa_of(component),
-          component.over_angle ? Quantity::angle : Quantity::time},
-         {ChuckParameters::column_name(k, component.loaded),
-          ChuckParameters::quantity(k, component.loaded)}},
+        {abscissa_of(component),
+         ChuckParameters::column_name(k, component.loaded)},
         component.columns,
         ChuckParameters::entry_name(k, "File columns"));
     }

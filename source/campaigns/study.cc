@@ -8,7 +8,6 @@
 #include <debond/models/memory_estimate.h>
 #include <debond/output/curve_comparison.h>
 #include <debond/output/reference_comparison.h>
-#include <debond/output/report.h>
 #include <debond/output/result_files.h>
 #include <debond/output/variant_names.h>
 #include <debond/support/input_error.h>
@@ -270,7 +269,7 @@ namespace Debond
         write_ensemble(out);
         name_best(out);
         if (reports)
-          write_report_of_study(directory);
+          reports = write_page(directory);
         out << "Results are in " << directory << "/study.csv"
             << (reports ? " and report.html" : "") << std::endl;
         if (n_done() < variants.size())
@@ -503,7 +502,7 @@ namespace Debond
       {
         write_table();
         if (reports && Ranks::is_first())
-          write_report_of_study(directory);
+          write_page(directory);
         throw Interrupted(signal,
                           Text()
                             << "interrupted by " << signal_name(signal) << ": "

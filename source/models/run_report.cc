@@ -1,3 +1,4 @@
+#include <debond/input/entry_table.h>
 #include <debond/models/run_report.h>
 #include <debond/output/reference_comparison.h>
 #include <debond/support/number_text.h>
@@ -93,6 +94,26 @@ namespace Debond
 
 
 
+  namespace
+  {
+    /** Those whose value is not the default, for the page of the run. */
+    nlohmann::ordered_json
+    changed_entries(const Scene &scene)
+    {
+      Scene      defaults;
+      EntryTable table; // for units
+      defaults.declare(table);
+      nlohmann::ordered_json list = nlohmann::ordered_json::array();
+      for (const SceneEntry &entry : scene.changed_entries)
+        list.push_back({{"entry", entry.full_name()},
+                        {"value", entry.value},
+                        {"unit", table.unit_of(entry.full_name())}});
+      return list;
+    }
+  } // namespace
+
+
+
   RunReport::RunReport(const Scene &scene, const ResultDirectory &directory)
     : console(scene.output.quiet, scene.load_steps.times, std::cout)
     , scene(scene)
@@ -149,6 +170,8 @@ namespace Debond
     const std::vector<TorqueRow> fine = fine_curve(rows);
     if (fine.size() > rows.size())
       write_file(directory.file("curve.csv"), curve_table(fine));
+    if (!reference.empty())
+      write_reference(directory.path(), reference);
     if (!output.curve_at.empty())
       write_file(directory.file("curve_at.csv"),
                  curve_table(rows_at(fine, output.curve_at)));
@@ -173,6 +196,7 @@ namespace Debond
       Ranks::take_largest(&peak_memory, 1);
     summary["peak_memory_MB"]  = peak_memory;
     summary["reference_files"] = files_of_reference;
+    summary["changed_entries"] = changed_entries(scene);
     for (const auto &[name, text] : provenance())
       summary["provenance"][name] = text;
     write_json(directory.file("summary.json"), summary);

@@ -11,21 +11,15 @@ namespace Debond
 {
   namespace
   {
-    /** Integrals of s^2 t ds and their derivatives, from 0 to a path that
-     *  grows, for points of one phi_0. */
+    /** The integral of s^2 t ds from 0 to a path that grows, for points of one
+     *  phi_0. */
     class AlongPath
     {
     public:
-      AlongPath(const TorsionModel::Disk         &disk,
-                const double                      phi_0,
-                const bool                        is_bonded,
-                const std::vector<DiskVariation> &variations)
+      AlongPath(const TorsionModel::Disk &disk, const double phi_0)
         : disk(disk)
         , phi_0(phi_0)
-        , is_bonded(is_bonded)
-        , variations(variations)
         , stick_limit(path_at(0.))
-        , by_parameters(Eigen::VectorXd::Zero(variations.size()))
       {
         // smooth parts of the decay are divided, for the Gauss points
         constexpr unsigned int parts = 16;
@@ -43,11 +37,9 @@ namespace Debond
       {
         if (s < stick_limit)
           {
-            const double end   = std::min(target, stick_limit),
-                         grows = (std::pow(end, 4) - std::pow(s, 4)) / 4.;
-            integral += disk.stiffness * grows;
-            for (std::size_t j = 0; j < variations.size(); ++j)
-              by_parameters[j] += variations[j].stiffness * grows;
+            const double end = std::min(target, stick_limit);
+            integral +=
+              disk.stiffness * (std::pow(end, 4) - std::pow(s, 4)) / 4.;
             s = end;
           }
         if (target <= stick_limit)
@@ -60,29 +52,18 @@ namespace Debond
       }
 
       double integral = 0; ///< [N mm]
-      double
-      traction() const ///< at the path that it has come to [MPa]
-      {
-        return s < stick_limit ? disk.stiffness * s :
-                                 law(*disk.friction, g).mu * disk.pressure;
-      }
-      const Eigen::VectorXd &
-      derivatives() const
-      {
-        return by_parameters;
-      }
 
     private:
       FrictionCoefficient
-      law(const FrictionLaw &of, const double slip) const
+      law(const double slip) const
       {
-        return of.coefficient({phi_0, slip}, 0.);
+        return disk.friction->coefficient({phi_0, slip}, 0.);
       }
       double
       path_at(const double slip) const
       {
         return slip +
-               law(*disk.friction, slip).mu * disk.pressure / disk.stiffness;
+               law(slip).mu * disk.pressure / disk.stiffness;
       }
 
       /** The sliding distance at a path, which is beyond the last one. */
@@ -90,7 +71,7 @@ namespace Debond
       slip_at(const double target) const
       {
         const auto excess = [&](const double slip) {
-          const auto mu = law(*disk.friction, slip);
+          const auto mu = law(slip);
           return std::make_pair(slip + mu.mu * disk.pressure / disk.stiffness -
                                   target,
                                 1. + mu.dmu * disk.pressure / disk.stiffness);
@@ -118,41 +99,16 @@ namespace Debond
       add(const double slip, const double weight)
       {
         const double p = disk.pressure, stiffness = disk.stiffness;
-        const auto   mu    = law(*disk.friction, slip);
-        const double slope = mu.dmu * p, s = slip + mu.mu * p / stiffness;
-        const double ds = (1. + slope / stiffness) * weight;
-        integral += s * s * mu.mu * p * ds;
-        for (std::size_t j = 0; j < variations.size(); ++j)
-          {
-            const DiskVariation &by    = variations[j];
-            double               limit = mu.mu * by.pressure; // d(mu p)
-            if (by.plus)
-              limit += p * (law(*by.plus, slip).mu - law(*by.minus, slip).mu) /
-                       by.width;
-            if (is_bonded && by.phi_0 != 0.)
-              limit += p * bonding_slope(slip) * by.phi_0;
-            const double dg = -(limit - mu.mu * p * by.stiffness / stiffness) /
-                              (stiffness + slope);
-            by_parameters[j] += s * s * (slope * dg + limit) * ds;
-          }
+        const auto   mu = law(slip);
+        const double s  = slip + mu.mu * p / stiffness;
+        integral += s * s * mu.mu * p * (1. + mu.dmu * p / stiffness) * weight;
       }
 
-      /** d mu / d phi_0: mu is linear in it. */
-      double
-      bonding_slope(const double slip) const
-      {
-        return disk.friction->coefficient({1., slip}, 0.).mu -
-               disk.friction->coefficient({0., slip}, 0.).mu;
-      }
-
-      const TorsionModel::Disk         &disk;
-      const double                      phi_0;
-      const bool                        is_bonded;
-      const std::vector<DiskVariation> &variations;
-      const double                      stick_limit; ///< path [mm]
-      std::vector<double>               ends;        ///< of parts of g [mm]
-      double                            s = 0, g = 0;
-      Eigen::VectorXd                   by_parameters;
+      const TorsionModel::Disk &disk;
+      const double              phi_0;
+      const double              stick_limit; ///< path [mm]
+      std::vector<double>       ends;        ///< of parts of g [mm]
+      double                    s = 0, g = 0;
     };
   } // namespace
 
@@ -160,10 +116,9 @@ namespace Debond
 
   // A bonded core and what surrounds it are two such integrals: that of the
   // core up to its edge, and that of the surroundings from there on.
-  TorsionCurve
-  torsion_curve(const TorsionModel::Disk         &disk,
-                const std::vector<double>        &angles,
-                const std::vector<DiskVariation> &variations)
+  Eigen::VectorXd
+  torsion_curve(const TorsionModel::Disk  &disk,
+                const std::vector<double> &angles)
   {
     const double R = disk.radius, R_core = std::min(R, disk.bonded_radius);
     std::vector<std::size_t> order(angles.size());
@@ -171,10 +126,8 @@ namespace Debond
     std::sort(order.begin(), order.end(), [&](const auto i, const auto j) {
       return std::abs(angles[i]) < std::abs(angles[j]);
     });
-    AlongPath core(disk, disk.phi_0, true, variations),
-      inside(disk, 0., false, variations), around(disk, 0., false, variations);
-    TorsionCurve curve{Eigen::VectorXd::Zero(angles.size()),
-                       Eigen::MatrixXd::Zero(angles.size(), variations.size())};
+    AlongPath       core(disk, disk.phi_0), inside(disk, 0.), around(disk, 0.);
+    Eigen::VectorXd torque = Eigen::VectorXd::Zero(angles.size());
     for (const std::size_t i : order)
       {
         const double angle = std::abs(angles[i]);
@@ -183,21 +136,13 @@ namespace Debond
         const double factor =
           std::copysign(2. * M_PI / std::pow(angle, 3), angles[i]);
         core.go_to(R_core * angle);
-        curve.torque[i]         = factor * core.integral;
-        curve.derivative.row(i) = factor * core.derivatives();
+        torque[i] = factor * core.integral;
         if (R_core == R)
           continue;
         inside.go_to(R_core * angle);
         around.go_to(R * angle);
-        curve.torque[i] += factor * (around.integral - inside.integral);
-        curve.derivative.row(i) +=
-          factor * (around.derivatives() - inside.derivatives());
-        const double edge =
-          std::copysign(2. * M_PI * R_core * R_core, angles[i]) *
-          (core.traction() - inside.traction());
-        for (std::size_t j = 0; j < variations.size(); ++j)
-          curve.derivative(i, j) += edge * variations[j].bonded_radius;
+        torque[i] += factor * (around.integral - inside.integral);
       }
-    return curve;
+    return torque;
   }
 } // namespace Debond

@@ -132,7 +132,7 @@ namespace Debond
     std::vector<double> radians;
     for (const double angle : angles)
       radians.push_back(angle * degree);
-    const Eigen::VectorXd  torque = torsion_curve(disk, radians).torque;
+    const Eigen::VectorXd  torque = torsion_curve(disk, radians);
     std::vector<TorqueRow> rows(angles.size());
     for (std::size_t i = 0; i < rows.size(); ++i)
       {

@@ -19,7 +19,7 @@ namespace Debond
     constexpr unsigned int n_across = 48; ///< places of the grid
 
     // of an InterfacePoint
-    constexpr unsigned int of_pressure = 3, of_slip = 5, of_mu = 7;
+    constexpr unsigned int of_pressure = 3, of_slip = 5, of_phi = 6, of_mu = 7;
 
 
 
@@ -145,41 +145,47 @@ namespace Debond
       else
         ++i;
 
-    std::vector<std::string>          names{"x_mm", "y_mm"};
-    std::vector<dealii::RTree<Entry>> trees;
+    std::string  table = csv_line({"event",
+                                   "step",
+                                   "time",
+                                   "angle_deg",
+                                   "x_mm",
+                                   "y_mm",
+                                   "pressure_MPa",
+                                   "slip_mm",
+                                   "phi",
+                                   "mu"});
+    const double dx = 2. * half_x / n_across, dy = 2. * half_y / n_across;
     for (const Snapshot &one : all)
       {
-        trees.push_back(tree_of(one.points));
-        for (const char *const quantity : {"pressure_MPa", "slip_mm", "mu"})
-          names.push_back(one.events + " | " + to_text(one.angle_deg, 3) +
-                          " | " + to_text(one.time, 6) + " | " + quantity);
-      }
-    std::string  table = csv_line(names);
-    const double dx = 2. * half_x / n_across, dy = 2. * half_y / n_across;
-    for (unsigned int j = 0; j < n_across; ++j)
-      for (unsigned int i = 0; i < n_across; ++i)
-        {
-          const dealii::Point<2> place((i + 0.5) * dx - half_x,
-                                       (j + 0.5) * dy - half_y);
-          std::string line = to_text(place[0], 6) + "," + to_text(place[1], 6);
-          for (unsigned int k = 0; k < all.size(); ++k)
+        const auto  tree = tree_of(one.points);
+        const std::string of_event =
+          one.events + "," + std::to_string(one.step) + "," +
+                    to_text(one.time, 6) + "," +
+          to_text(one.angle_deg, 6) + ",";
+        const double reach =
+          is_mesh ? std::max({dx,
+                              dy,
+                              std::sqrt(4. * half_x * half_y /
+                                        one.points.size())}) :
+                    std::numeric_limits<double>::infinity();
+        for (unsigned int j = 0; j < n_across; ++j)
+          for (unsigned int i = 0; i < n_across; ++i)
             {
-              const double reach =
-                is_mesh ?
-                  std::max(
-                    {dx,
-                     dy,
-                     std::sqrt(4. * half_x * half_y / all[k].points.size())}) :
-                  std::numeric_limits<double>::infinity();
-              const auto *const point =
+              const dealii::Point<2> place((i + 0.5) * dx - half_x,
+                                           (j + 0.5) * dy - half_y);
+              const auto *const      point =
                 is_round && place.norm() > half_x ?
-                  nullptr :
-                  closest(all[k].points, trees[k], place, reach);
-              for (const unsigned int q : {of_pressure, of_slip, of_mu})
-                line += "," + (point ? to_text((*point)[q], 4) : "nan");
+                       nullptr :
+                       closest(one.points, tree, place, reach);
+              table += of_event + to_text(place[0], 6) + "," +
+                       to_text(place[1], 6);
+              for (const unsigned int q :
+                   {of_pressure, of_slip, of_phi, of_mu})
+                table += "," + (point ? to_text((*point)[q], 4) : "nan");
+              table += "\n";
             }
-          table += line + "\n";
-        }
+      }
     write_file(directory.file("maps.csv"), table);
   }
 } // namespace Debond

@@ -1,3 +1,4 @@
+#include <debond/input/csv_table.h>
 #include <debond/input/input_file.h>
 #include <debond/output/curve_comparison.h>
 #include <debond/output/profile_output.h>
@@ -13,6 +14,17 @@
 
 namespace Debond
 {
+  void
+  write_reference(const std::string &directory, const ReferenceCurve &curve)
+  {
+    std::string text = "angle_deg,torque_Nmm\n";
+    for (const auto &[angle, torque] : curve)
+      text += csv_line(std::vector<double>{angle, torque});
+    write_file(directory + "/reference.csv", text);
+  }
+
+
+
   std::map<std::string, std::string>
   reference_files(const OutputParameters &output)
   {
@@ -68,6 +80,7 @@ namespace Debond
     if (!measured.empty())
       {
         erase_texts(summary["warnings"], output.reference_curve);
+        write_reference(directory, measured);
         const CurveComparison comparison(curve, measured);
         const Rotation        rotation(curve);
         if (rotation.direction == 0. || rotation.reverses)

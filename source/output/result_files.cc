@@ -1,5 +1,6 @@
 #include <debond/output/result_files.h>
 #include <debond/support/input_error.h>
+#include <debond/support/laboratory.h>
 #include <debond/support/number_text.h>
 #include <debond/support/provenance.h>
 #include <debond/support/ranks.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <regex>
 #include <vector>
 
@@ -23,7 +25,7 @@ namespace Debond
     static const std::regex rung("rung-[0-9]+"),
       file("(summary|repetition-[0-9]+)\\.json|checkpoint-[12]|"
            "report\\.html|torque\\.(svg|png)|"
-           "(torque|curve|curve_at|auto|bonding|profiles|friction_law|maps)"
+           "(torque|curve|curve_at|reference|auto|bonding|profiles|friction_law|maps)"
            "\\.csv|"
            "(bulk|interface)(-[0-9]+(\\.[0-9]+)?\\.p?vtu|\\.pvd)");
     const fs::directory_iterator entries(directory);
@@ -138,6 +140,23 @@ namespace Debond
   {
     const std::string fine = directory + "/curve.csv";
     return std::filesystem::exists(fine) ? fine : directory + "/torque.csv";
+  }
+
+
+
+  bool
+  write_page(const std::string &directory)
+  {
+    if (!Ranks::is_first())
+      return false;
+    const int code = Laboratory::run("page", {directory});
+    if (code == 127)
+      std::cout << "There is no page of the results, report.html: "
+                << Laboratory::what_it_needs << std::endl;
+    if (code == 2)
+      throw RunError("the page of the results in " + directory +
+                     " could not be written");
+    return code == 0;
   }
 
 

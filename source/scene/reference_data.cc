@@ -4,50 +4,20 @@
 
 namespace Debond
 {
-  namespace
-  {
-    ReferenceCurve
-    read_curve(const std::string              &filename,
-               const std::string              &entry,
-               const std::vector<std::string> &columns,
-               const std::string              &columns_entry,
-               std::string                    *read_from = nullptr)
-    {
-      ReferenceCurve curve;
-      if (!filename.empty())
-        for (const std::vector<double> &row :
-             read_measured_table(filename,
-                                 entry,
-                                 {{"angle_deg", Quantity::angle},
-                                  {"torque_Nmm", Quantity::moment}},
-                                 columns,
-                                 columns_entry,
-                                 read_from))
-          curve.emplace_back(row[0], row[1]);
-      return curve;
-    }
-  } // namespace
-
-
-
   ReferenceCurve
   read_reference_curve(const std::string              &filename,
                        const std::vector<std::string> &columns)
   {
-    return read_curve(filename,
-                      "Output / Reference curve",
-                      columns,
-                      "Output / Reference columns");
-  }
-
-
-
-  ReferenceCurve
-  read_curve_to_compare(const std::string              &filename,
-                        const std::vector<std::string> &columns,
-                        std::string                    &read_from)
-  {
-    return read_curve(filename, "--compare", columns, "--columns", &read_from);
+    ReferenceCurve curve;
+    if (!filename.empty())
+      for (const std::vector<double> &row :
+           read_measured_table(filename,
+                               "Output / Reference curve",
+                               {"angle_deg", "torque_Nmm"},
+                               columns,
+                               "Output / Reference columns"))
+        curve.emplace_back(row[0], row[1]);
+    return curve;
   }
 
 

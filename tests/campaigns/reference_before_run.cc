@@ -1,9 +1,8 @@
 // What --check says of a reference curve before anything is run: torques and
 // angles that go against the rotation that the scene prescribes, angles in
 // radians, a curve that turns back. A right curve has no warning, whichever way
-// the implant turns. The same of all models, of studies and of calibrations.
+// the implant turns. The same of all models and of studies.
 
-#include <debond/campaigns/calibration.h>
 #include <debond/campaigns/run_scene.h>
 #include <debond/campaigns/study.h>
 #include <debond/input/parameter_loop.h>
@@ -98,7 +97,7 @@ main()
     return with_overrides(read_scene_text(pressed_and_turned, "scene.prm"),
                           changes);
   };
-  std::ostringstream study, calibration;
+  std::ostringstream study;
   check_study(entries({opposite,
                        "Bone/Young modulus={{17000|18000}}",
                        "Output/Directory=results/study"}),
@@ -106,25 +105,4 @@ main()
               study);
   std::cout << "opposite, of a study\n";
   print_warnings(study);
-  for (const std::string &one : {right, opposite})
-    check_calibration(
-      entries({one,
-               "Task=calibrate",
-               "Interface/Friction coefficient broken=<<0.4 in 0.1..1>>",
-               "Output/Directory=results/fit"}),
-      "scene.prm",
-      calibration);
-  std::cout << "a right one and an opposite one, of calibrations\n";
-  print_warnings(calibration);
-  // of two tests one has not been done
-  std::ostringstream candidate;
-  check_calibration(
-    entries({"Output/Reference curve={{results/opposite.csv||}}",
-             "Task=calibrate",
-             "Interface/Friction coefficient broken=<<0.4 in 0.1..1>>",
-             "Output/Directory=results/fit"}),
-    "scene.prm",
-    candidate);
-  std::cout << "an opposite one and a candidate\n";
-  print_warnings(candidate);
 }

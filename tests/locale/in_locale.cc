@@ -1,12 +1,10 @@
 // Runs scenes after a program has set its locale, as one that uses the library
 // may do: in_locale LOCALE SCENE.prm... What is said goes to said.txt.
 
-#include <debond/campaigns/calibration.h>
-#include <debond/campaigns/compare_results.h>
 #include <debond/campaigns/run_scene.h>
 #include <debond/campaigns/study.h>
 #include <debond/input/parameter_loop.h>
-#include <debond/output/report.h>
+#include <debond/output/result_files.h>
 #include <debond/scene/scene.h>
 #include <debond/support/runtime.h>
 
@@ -23,24 +21,17 @@ namespace
   run(const std::string &scene_file, std::ostream &said)
   {
     const auto entries = read_scene_file(scene_file);
-    if (is_calibration(entries))
-      {
-        check_calibration(entries, scene_file, said);
-        run_calibration(entries, scene_file, 2, true, said);
-        return;
-      }
     if (!varied_entries(entries).empty())
       {
         check_study(entries, scene_file, said);
         run_study(entries, scene_file, 1, true, said);
-        compare_results("ensemble", "input/measured.csv", {}, said);
         return;
       }
     const Scene scene = Scene::from_entries(entries, scene_file);
     run_scene(scene, nullptr, &said); // the plan
     print_parameters(said, &scene);
     run_scene(scene);
-    write_report(scene.output.directory);
+    write_page(scene.output.directory);
   }
 } // namespace
 

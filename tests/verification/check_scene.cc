@@ -10,16 +10,16 @@
 //   check_scene SCENE.prm DIRECTORY    results go there; exit code 0 only if
 //                                      all expectations are met
 
-#include <debond/campaigns/calibration.h>
 #include <debond/campaigns/run_scene.h>
 #include <debond/campaigns/study.h>
 #include <debond/input/parameter_loop.h>
 #include <debond/scene/scene.h>
+#include <debond/support/laboratory.h>
 #include <debond/support/runtime.h>
 
-#include <algorithm>
 #include <exception>
 #include <iostream>
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -56,14 +56,18 @@ namespace
       Debond::with_overrides(Debond::read_scene_file(scene_file),
                              overrides_of(scene_text)),
       more_overrides);
-    if (Debond::is_calibration(entries))
+    std::map<std::string, std::string> values;
+    for (const Debond::SceneEntry &entry : entries)
+      values[entry.full_name()] = entry.value;
+    if (values["Task"] == "calibrate")
       {
-        std::ostringstream log;
-        Debond::run_calibration(entries, scene_file, 2, true, log);
-        return {read_calibration(
-          std::find_if(entries.begin(), entries.end(), [](const auto &entry) {
-            return entry.full_name() == "Output / Directory";
-          })->value)};
+        std::vector<std::string> words{scene_file, "--threads=2", "--force"};
+        for (const Debond::SceneEntry &entry : entries)
+          words.push_back("--set=" + entry.full_name() + "=" + entry.value);
+        std::string said;
+        if (Debond::Laboratory::run("calibrate", words, said) != 0)
+          throw Debond::RunError("the calibration failed: " + said);
+        return {read_calibration(values["Output / Directory"])};
       }
     if (!Debond::varied_entries(entries).empty())
       {

@@ -84,8 +84,6 @@ namespace Debond
      *  moment instead of displacement or angle. */
     static std::string
     column_name(unsigned int component, bool of_load);
-    static Quantity
-    quantity(unsigned int component, bool of_load);
 
     void
     declare(EntryTable &table);

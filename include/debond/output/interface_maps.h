@@ -12,7 +12,8 @@
 namespace Debond
 {
   /**
-   * Pressure, sliding distance and friction coefficient on the contact face at
+   * Pressure, sliding distance, bond and friction coefficient on the contact
+   * face at
    * the rows where something happens: sliding begins, half and all of what is
    * in contact slides, half of the bond and all of it is broken, the load is
    * largest, the run ends. Written to maps.csv at the end, as values on a grid
@@ -29,9 +30,9 @@ namespace Debond
     void
     look(const TorqueRow &row, const Points &points);
 
-    /** Writes maps.csv, whose first columns are x_mm and y_mm; the others are
-     *  named "EVENT | ANGLE | TIME | QUANTITY", with the angle in degrees. nan
-     *  where there is no point. @p last_row and its @p points end the run. */
+    /** Writes maps.csv: for each event all places of the grid, with the values
+     *  of the nearest point; nan where there is none. @p last_row and its
+     *  @p points end the run. */
     void
     write(const ResultDirectory &directory,
           const TorqueRow       &last_row,

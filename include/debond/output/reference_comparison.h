@@ -1,6 +1,8 @@
 #ifndef debond_output_reference_comparison_h
 #define debond_output_reference_comparison_h
 
+#include <debond/scene/reference_data.h>
+
 #include <nlohmann/json_fwd.hpp>
 
 #include <map>
@@ -9,6 +11,11 @@
 namespace Debond
 {
   struct OutputParameters;
+
+  /** Writes the reference curve as it was read, in degrees and N mm, to
+   *  reference.csv. */
+  void
+  write_reference(const std::string &directory, const ReferenceCurve &curve);
 
   /** The content of the reference curve and profiles of a scene, see
    *  identity_of(): the member `reference_files` of a summary, whose distances

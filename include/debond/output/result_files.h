@@ -72,6 +72,12 @@ namespace Debond
   std::string
   finest_curve(const std::string &directory);
 
+  /** Writes report.html of the results in a directory, by Python; the first
+   *  rank does. Returns whether there is one; why there is none has been said.
+   *  Throws RunError if it cannot be written. */
+  bool
+  write_page(const std::string &directory);
+
   /** Writes a JSON object with its members in their order and every digit;
    *  what is not finite becomes `null`. Throws WriteError. */
   void

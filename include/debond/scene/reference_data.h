@@ -22,11 +22,6 @@ namespace Debond
   ReferenceCurve
   read_reference_curve(const std::string              &filename,
                        const std::vector<std::string> &columns = {});
-  /** The same for the command line, with the columns that were read. */
-  ReferenceCurve
-  read_curve_to_compare(const std::string              &filename,
-                        const std::vector<std::string> &columns,
-                        std::string                    &read_from);
 
   /** What a profiles.csv holds of one point, as far as it is compared. */
   struct ProfilePoint

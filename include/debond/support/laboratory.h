@@ -1,0 +1,34 @@
+#ifndef debond_support_laboratory_h
+#define debond_support_laboratory_h
+
+#include <string>
+#include <vector>
+
+namespace Debond
+{
+  /** The part of debond that is written in Python, `python3 -m debond COMMAND`:
+   *  fits, comparisons, tables of laboratories and pages of results. */
+  namespace Laboratory
+  {
+    /** Becomes that command: this process is Python from then on, with its exit
+     *  code. Throws InputError if Python cannot be started. */
+    [[noreturn]] void
+    become(const std::string &command, const std::vector<std::string> &words);
+
+    /** Runs that command and waits for its end; returns its exit code, or 127
+     *  if Python cannot be started. Its own words go where this process's go.
+     */
+    int
+    run(const std::string &command, const std::vector<std::string> &words);
+
+    /** The same, and what it has written to its standard output. */
+    int
+    run(const std::string              &command,
+        const std::vector<std::string> &words,
+        std::string                    &output);
+
+    /** What is missing if Python cannot be started. */
+    extern const char *const what_it_needs;
+  } // namespace Laboratory
+} // namespace Debond
+#endif

@@ -32,7 +32,12 @@ for reader in "${readers[@]}"; do
   seeds_of "$reader" | xargs -d '\n' cp -t "$corpus"
   options=(-max_total_time="$seconds" -timeout=60 -max_len=8192 -rss_limit_mb=4096 -print_final_stats=1
            -artifact_prefix="$work/findings/$reader-")
-  if [[ -e $here/$reader.dict ]]; then options+=(-dict="$here/$reader.dict"); fi
+  if [[ -e $here/$reader.dict ]]; then
+    cat "$here/$reader.dict" > "$work/$reader.dict"
+    # entries, choices and values
+    if [[ $reader == scene ]]; then grep -oE '`[^`"\\]+`' doc/parameters.md | sort -u | tr '`' '"' >> "$work/$reader.dict"; fi
+    options+=(-dict="$work/$reader.dict")
+  fi
   echo "== $reader"
   (cd "$work" && "tests/fuzz/fuzz_$reader" "${options[@]}" "$corpus") > "$work/$reader.log" 2>&1 || {
     failed=1

@@ -19,6 +19,10 @@
 #include <deal.II/base/mpi.h>
 
 #include <nlohmann/json.hpp>
+#include <boost/archive/archive_exception.hpp>
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -166,6 +170,13 @@ namespace
   {
     double begin = 0, end = 0, from = 0, to = 0; ///< times, values
 
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &begin &end &from &to;
+    }
+
     double
     operator()(const double time) const
     {
@@ -291,6 +302,45 @@ namespace
         for (unsigned int i = 0; i < n; ++i)
           columns[names[i]].push_back(point[i]);
       return arrays(columns);
+    }
+
+    /** The state, for a simulation of the same scene. */
+    py::bytes
+    save() const
+    {
+      std::ostringstream              bytes(std::ios::binary);
+      boost::archive::binary_oarchive archive(bytes);
+      archive << std::string(DEBOND_VERSION)
+              << simulation->scene.completed_parameters << *simulation;
+      for (const auto &[name, drive] : drives)
+        archive << *drive;
+      return bytes.str();
+    }
+
+    void
+    restore(const std::string &state)
+    {
+      std::string version, parameters;
+      try
+        {
+          std::istringstream              bytes(state, std::ios::binary);
+          boost::archive::binary_iarchive archive(bytes);
+          archive >> version >> parameters;
+          if (version == DEBOND_VERSION &&
+              parameters == simulation->scene.completed_parameters)
+            {
+              archive >> *simulation;
+              for (auto &[name, drive] : drives)
+                archive >> *drive;
+              return;
+            }
+        }
+      catch (const boost::archive::archive_exception &)
+        {}
+      throw InputError("this is no state of this scene that debond " +
+                       std::string(DEBOND_VERSION) +
+                       " has saved: expected what save() of a simulation of "
+                       "the same scene gave");
     }
 
     std::string
@@ -599,6 +649,8 @@ PYBIND11_MODULE(_debond, module)
          [](Run &run, const py::object &on_row) {
            work_together(run.team, [&] { run.run(on_row); });
          })
+    .def("save", &Run::save)
+    .def("restore", &Run::restore)
     .def("last_row", &Run::last_row)
     .def("points", &Run::points)
     .def("summary", &Run::summary)

@@ -68,7 +68,7 @@ Simulates the tangential debonding of an implant from bone as the scene file
 describes it, and writes torque curve, summary and fields into the directory
 that the scene names. A scene whose entries hold several values, {{a|b|c}}, is a
 study: all variants are run and gathered in study.csv. `mpirun -np N debond ...`
-deals a large bone, or the variants of a study, out among N processes.
+deals a large bone out among N processes.
 
   --set ENTRY=VALUE   override an entry of the scene; may be repeated
                       --set "Interface/Penalty stiffness=1800"
@@ -282,6 +282,10 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
   act_on_study(const std::vector<SceneEntry> &entries,
                const Arguments               &arguments)
   {
+    if (Ranks::number() > 1)
+      refuse_usage("the variants of a study are processes of one machine: leave "
+                   "out mpirun, or deal them out to many machines in Python "
+                   "(debond.run_many, doc/python.md)");
     // All variants are read before the first one runs, so that a mistake in the
     // last of them shows at once.
     if (arguments.check)

@@ -182,6 +182,7 @@ def calibrate(scene, threads: int = 1, force: bool = False, *, executor=None, sa
     """Finds the unknowns <<...>> of a scene with `Task = calibrate` from measured curves, writes into its directory as the
     program does, and returns what calibration.json holds. One that was interrupted goes on. executor: as of fit(). Raises
     SceneError, or RunError if nothing fits."""
+    scene = scene if isinstance(scene, Scene) else Scene(scene)
     problem = problem_of(scene)
     directory = problem.values["Output / Directory"]
     lock = _debond.claim_directory(problem.experiments[0].scene, _identity(scene, problem), force)

@@ -395,5 +395,8 @@ class Fit:
 
         calibrate.save(self, directory)
 
+    def __repr__(self) -> str:
+        return "Fit(" + ", ".join(f"{name} = {value:.5g}" for name, value in zip(self.names, self.values)) + ")"
+
     def _repr_html_(self) -> str:
         return self.table()._repr_html_()

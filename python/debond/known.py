@@ -89,7 +89,7 @@ def table_of(fit):
             other = numpy.where(problem.unknowns.logarithmic, numpy.exp(numpy.where(problem.unknowns.logarithmic, at + moved, 0)), at + moved)
             effect = numpy.where(usable & (fit.values != 0), 100 * (other / numpy.where(fit.values == 0, 1, fit.values) - 1), numpy.nan)
         table.append({"entry": entry, "value": value, "unit": unit, "change": change,
-                      "effect": {name: (float(x) if numpy.isfinite(x) else None) for name, x in zip(fit.names, effect)}})
+                      "effect": {name: (round(float(x), 2) if numpy.isfinite(x) else None) for name, x in zip(fit.names, effect)}})
     return table
 
 

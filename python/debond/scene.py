@@ -147,6 +147,9 @@ class Scene:
         """What is allowed in it, but likely to be a mistake."""
         return self._read(_team(None)).warnings
 
+    def __repr__(self) -> str:
+        return f"Scene({self._name!r}, {len(self._entries)} entries)"
+
     def run(self, on_row: Optional[Callable[[Dict[str, float]], None]] = None, *, comm=None) -> "Result":
         """Runs it in memory and returns its rows. on_row is called with each row of finite elements. comm: as of Simulation.
         Raises RunError."""
@@ -184,6 +187,9 @@ class Result:
 
     def __init__(self, rows, summary, warnings):
         self.rows, self.summary, self.warnings = rows, summary, warnings
+
+    def __repr__(self) -> str:
+        return f"Result({len(self.rows.get('time', ()))} rows, T_max {self.summary.get('T_max_Nmm', float('nan')):.4g} N mm)"
 
     def frame(self):
         """The rows as a pandas.DataFrame. Raises ImportError without pandas."""
@@ -259,6 +265,19 @@ class Simulation:
         (reference position), pressure_MPa, traction_MPa (tangential), slip_mm (accumulated), phi, mu, state (0 open, 1 stick,
         2 slip), area_mm2."""
         return self._run.points()
+
+    def save(self) -> bytes:
+        """The state in its newest row, drive included: see restore()."""
+        return self._run.save()
+
+    def restore(self, state: bytes) -> None:
+        """Goes to a state that save() of this simulation, or of another one of the same scene, gave; to the last bit. Raises
+        SceneError for any other."""
+        self._run.restore(state)
+
+    def __repr__(self) -> str:
+        row = self._run.rows().get("time", ())
+        return f"Simulation({self._scene!r}, {len(row)} rows{', finished' if self.is_finished else ''})"
 
     def result(self) -> Result:
         """All rows so far."""

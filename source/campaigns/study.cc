@@ -5,7 +5,6 @@
 #include <debond/campaigns/variant_queue.h>
 #include <debond/input/csv_table.h>
 #include <debond/input/parameter_loop.h>
-#include <debond/models/memory_estimate.h>
 #include <debond/output/curve_comparison.h>
 #include <debond/output/reference_comparison.h>
 #include <debond/output/result_files.h>
@@ -17,13 +16,10 @@
 #include <debond/support/provenance.h>
 #include <debond/support/ranks.h>
 #include <debond/support/written_files.h>
-#include <debond/system/coupled_system.h>
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
 
 #include <boost/algorithm/string/join.hpp>
-#include <boost/serialization/utility.hpp>
 
 #include <algorithm>
 #include <csignal>
@@ -75,7 +71,6 @@ namespace Debond
       std::vector<Variant>     variants;
       std::string              directory;
       unsigned int             reference  = 0; ///< number of a variant, 0: none
-      unsigned int             group_size = 1; ///< processes for a variant
       unsigned int             n_compared_anew = 0; ///< with references
       bool                     reports         = true;
       dealii::Timer            since_table;
@@ -99,9 +94,7 @@ namespace Debond
           Scene::from_entries(study_variants(entries)[0].entries, name);
         directory  = first.output.directory;
         reference  = first.study.reference_variant;
-        group_size = first.study.processes_per_variant;
         reports    = first.output.report;
-        check_ranks(first);
         auto combinations =
           study_variants(entries, first.study.factors_at_once);
         if (reference > combinations.size())
@@ -122,7 +115,6 @@ namespace Debond
                                             {"Study/Reference variant=0",
                                              "Study/Factors varied at once=0",
                                              "Study/Repetitions=1",
-                                             "Study/Processes per variant=1",
                                              "Output/Console=quiet",
                                              "Output/Report=false",
                                              "Output/Directory=" + directory +
@@ -136,26 +128,6 @@ namespace Debond
             next.scene.output.extendable = false;
             variants.push_back(std::move(next));
           }
-      }
-
-
-
-      void
-      check_ranks(const Scene &first) const
-      {
-        const unsigned int n      = Ranks::number();
-        const auto         refuse = [&](const std::string &entry,
-                                const std::string &why) {
-          throw first.with_place(EntryError("Study / " + entry, why));
-        };
-        if (n > 1 && n % group_size != 0)
-          refuse("Processes per variant",
-                 "mpirun has started " + std::to_string(n) +
-                   " processes, which are no groups of so many");
-        if (n > 1 && first.study.repetitions > 1)
-          refuse("Repetitions",
-                 "seconds of variants that run at the same time mean little: "
-                 "expected 1, or no mpirun");
       }
 
 
@@ -259,12 +231,7 @@ namespace Debond
               << n_compared_anew
               << (n_compared_anew == 1 ? " variant" : " variants")
               << " that had been done are computed anew" << std::endl;
-        if (Ranks::number() == 1)
-          run_variants(n_jobs, out);
-        else
-          run_in_groups(out);
-        if (!Ranks::is_first())
-          return;
+        run_variants(n_jobs, out);
         write_table();
         write_ensemble(out);
         name_best(out);
@@ -327,171 +294,23 @@ namespace Debond
             progress.show(std::to_string(running.size()) + " at work",
                           double(n_ended) / variants.size());
 
-            write_table_at_times([] {});
+            write_table_at_times();
           }
       }
 
 
 
       /** The table of a large study takes a while: most of the time is not to
-       *  go into it. @p prepare is called before. */
-      template <typename Prepare>
+       *  go into it. */
       void
-      write_table_at_times(const Prepare &prepare)
+      write_table_at_times()
       {
         if (since_table.wall_time() < time_between_tables)
           return;
         const dealii::Timer clock;
-        prepare();
         write_table();
         time_between_tables = std::max(2., 50. * clock.wall_time());
         since_table.restart();
-      }
-
-
-
-      /** Sends what is written to the console nowhere: the lines of a variant
-       *  are not those of the study. */
-      struct SilentConsole
-      {
-        Classic<std::ostringstream> unseen;
-        std::streambuf *const       console = std::cout.rdbuf(unseen.rdbuf());
-
-        ~SilentConsole()
-        {
-          std::cout.rdbuf(console);
-        }
-      };
-
-
-
-      /** Runs a variant in this group of ranks, with @p bodies or, if there are
-       *  none, new ones, which are left there if @p may_share. Returns why it
-       *  failed. */
-      static std::string
-      run_here(const Scene               &scene,
-               const bool                 may_share,
-               std::shared_ptr<BodyPair> &bodies)
-      {
-        const SilentConsole silent;
-        try
-          {
-            if (bodies)
-              bodies->return_to_rest();
-            else if (may_share)
-              {
-                require_memory(scene, false);
-                bodies = std::make_shared<BodyPair>(scene);
-              }
-            run_variant(scene, bodies);
-            return "";
-          }
-        catch (const std::exception &error)
-          {
-            bodies.reset();
-            // what one rank alone has met the others wait for in vain
-            if (!is_of_all_ranks(error) && Ranks::number() > 1)
-              throw;
-            return error.what();
-          }
-      }
-
-
-
-      /** A line on the console; of other groups than the first one, whose
-       *  std::cout is silent, past it. */
-      static void
-      say(const std::string &line, std::ostream *const out)
-      {
-        if (out != nullptr)
-          *out << line << std::endl;
-        else
-          dprintf(STDOUT_FILENO, "%s\n", line.c_str());
-      }
-
-
-
-      // Variants that share bodies follow each other, and a group keeps those
-      // of the last one. Who gets free takes the next one; what has been done
-      // is in the directories of the variants.
-      void
-      run_in_groups(std::ostream &out)
-      {
-        const std::string next  = directory + "/next-variant",
-                          ended = directory + "/ended-variants";
-        write_file(next, "0\n");
-        write_file(ended, std::to_string(n_done()) + "\n");
-        const bool is_first_of_all = Ranks::is_first();
-        Ranks::meet();
-
-        std::vector<std::pair<unsigned int, std::string>> failures;
-        {
-          const Ranks::Together group(Ranks::group_of(group_size));
-          // kinds of bodies depend on the number of ranks that solve for them
-          std::vector<std::pair<std::string, unsigned int>> order;
-          for (unsigned int i = 0; i < variants.size(); ++i)
-            if (!variants[i].done)
-              order.emplace_back(what_bodies_depend_on(variants[i].scene), i);
-          std::sort(order.begin(), order.end());
-          std::shared_ptr<BodyPair> bodies;
-          std::string               kind;
-          while (true)
-            {
-              double k = Ranks::is_first() ? take_number(next) : 0.;
-              Ranks::take_largest(&k, 1);
-              if (k >= order.size())
-                break;
-              const auto &[own_kind, number] = order[k];
-              Variant &variant               = variants[number];
-              if (own_kind != kind)
-                bodies.reset();
-              kind = own_kind;
-              const std::string why =
-                run_here(variant.scene, !kind.empty(), bodies);
-              if (!why.empty())
-                failures.emplace_back(number, why);
-              Ranks::meet();
-              variant.end_run(why);
-              if (Ranks::is_first()) // of its group
-                say(Text() << take_number(ended) + 1 << '/' << variants.size()
-                           << ' ' << variant.name << ": "
-                           << outcome_of(variant),
-                    is_first_of_all ? &out : nullptr);
-              if (is_first_of_all)
-                write_table_at_times([&] {
-                  for (Variant &other : variants)
-                    if (other.failure.empty())
-                      other.look_up();
-                });
-              if (interrupting_signal_of_any() != 0)
-                break;
-            }
-        }
-        Ranks::meet();
-        remove_file(next);
-        remove_file(ended);
-        collect(failures);
-      }
-
-
-
-      /** After all groups are done: what the first rank has to know. */
-      void
-      collect(const std::vector<std::pair<unsigned int, std::string>> &failures)
-      {
-        const auto all =
-          dealii::Utilities::MPI::gather(Ranks::communicator(), failures);
-        const int signal = interrupting_signal_of_any();
-        for (Variant &variant : variants)
-          variant.look_up();
-        for (const auto &of_rank : all)
-          for (const auto &[number, why] : of_rank)
-            {
-              variants[number].failure = why;
-              variants[number].done    = false;
-            }
-        if (signal != 0)
-          stop(signal);
       }
 
 
@@ -501,7 +320,7 @@ namespace Debond
       stop(const int signal)
       {
         write_table();
-        if (reports && Ranks::is_first())
+        if (reports)
           write_page(directory);
         throw Interrupted(signal,
                           Text()

@@ -91,12 +91,6 @@ namespace Debond
         "factors differ from their first value: 1 varies one factor at a "
         "time, 2 also every pair. A factor is an entry {{a|b|c}}, or all "
         "entries {{name: a|b|c}} with one name. 0: all combinations.");
-      table.add("Processes per variant",
-                study.processes_per_variant,
-                Allowed::whole_number(1, 100000),
-                "With mpirun: number of processes that solve a variant "
-                "together; those that there are form groups of so many, which "
-                "take variants as they get free.");
       table.add("Repetitions",
                 study.repetitions,
                 Allowed::whole_number(1, 1000),

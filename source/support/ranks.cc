@@ -152,16 +152,6 @@ namespace Debond
 
 
     TeamPointer
-    group_of(const unsigned int size)
-    {
-      MPI_Comm group;
-      MPI_Comm_split(communicator(), own() / size, own(), &group);
-      return std::make_shared<const Team>(group, number_on_this_machine());
-    }
-
-
-
-    TeamPointer
     team()
     {
       return at_work;

@@ -129,28 +129,6 @@ namespace Debond
 
 
 
-  unsigned int
-  take_number(const std::string &filename)
-  {
-    const int descriptor = open(filename.c_str(), O_RDWR | O_CLOEXEC);
-    // released by close(), and by the end of the process
-    if (descriptor < 0 || flock(descriptor, LOCK_EX) != 0)
-      fail(filename);
-    char               text[16]{};
-    const ssize_t      n      = pread(descriptor, text, sizeof(text) - 1, 0);
-    const unsigned int number = n > 0 ? std::strtoul(text, nullptr, 10) : 0;
-    const std::string  next   = std::to_string(number + 1) + "\n";
-    const bool         is_written =
-      n >= 0 && pwrite(descriptor, next.data(), next.size(), 0) ==
-                  static_cast<ssize_t>(next.size());
-    close(descriptor);
-    if (!is_written)
-      fail(filename);
-    return number;
-  }
-
-
-
   GrowingFile::GrowingFile(const std::string &filename, const std::string &text)
     : filename(filename)
   {

@@ -49,15 +49,18 @@ for locale in C $german; do
   mkdir "$locale/library" "$locale/python" "$locale/program"
   for part in library python program; do ln -s ../../input "$locale/$part/input"; done
   (cd "$locale/library"
-   "$in_locale" $locale input/everything.prm input/ensemble.prm input/expression.prm input/pattern.prm input/fit.prm \
-     input/closed.prm > ../number)
+   "$in_locale" $locale input/everything.prm input/ensemble.prm input/expression.prm input/pattern.prm input/closed.prm > ../number)
   if [ $# -gt 0 ]; then
     (cd "$locale/python" && "$@" "$here/in_locale.py" $locale input/rigid.prm > result 2> ../point)
   fi
   (cd "$locale/program"
    export LC_ALL=$locale
    "$debond" input/expression.prm --force > console
-   "$debond" --check input/everything.prm > check)
+   "$debond" --check input/everything.prm > check
+   if [ $# -gt 0 ]; then
+     "$debond" input/fit.prm --force > fit
+     "$debond" --compare ../library/ensemble input/measured.csv > compared
+   fi)
 done
 
 # The locale is one that would change numbers.

@@ -1,4 +1,4 @@
-"""Tables as laboratories write them, read by debond.measured: those in tests/lab_files with what a person reads in them, and
+"""Tables as laboratories write them, read by debond.measured: those in lab_files with what a person reads in them, and
 texts and workbooks that are written here; and what is said of files that cannot be understood.
 
     PYTHONPATH=python python3 tests/python/measured.py
@@ -19,7 +19,7 @@ from debond.errors import InputError
 from debond.measured import read_measured
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-LAB_FILES = os.path.join(HERE, "..", "lab_files")
+LAB_FILES = os.path.join(HERE, "lab_files")
 CURVE = ("angle_deg", "torque_Nmm")
 TWO_ROWS, THREE_ROWS = [[0.5, 1], [20, 50]], [[0.5, 1, 1.5], [20, 50, 45]]
 

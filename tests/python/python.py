@@ -226,7 +226,6 @@ def check_mistakes():
     check("  entry, value and place", (error.entry, error.value, error.place) == ("Interface / Sliding threshold", "-1", "entries"))
     mistake(lambda: debond.Scene("con.prm").run())
     mistake(lambda: debond.Simulation("coin.prm"))
-    mistake(lambda: debond.calibrate("coin.prm"))
     mistake(lambda: debond.Scene({"Interface/Sliding threshold": 0.02}))
     mistake(lambda: debond.Simulation(debond.Scene(text=coin)).advance({"Rotation z": 1}))
     mistake(lambda: debond.Simulation(debond.Scene(text=coin), drive={"Rotation": 0}))

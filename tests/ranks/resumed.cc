@@ -65,7 +65,7 @@ go_on_alone(const std::string &change)
 
   double difference = 0., largest = 0.;
   {
-    const Ranks::Together           alone(Ranks::group_of(1));
+    const Ranks::Together           alone(MPI_COMM_SELF);
     Simulation                      resumed(scene_of(change));
     std::istringstream              bytes(checkpoint, std::ios::binary);
     boost::archive::binary_iarchive archive(bytes);

@@ -103,7 +103,7 @@ compare(const std::string &name,
     rows_of(changes + Changes{"Bone/Bulk solver=multigrid"}, bone);
   std::vector<TorqueRow> direct;
   {
-    const Ranks::Together alone(Ranks::group_of(1));
+    const Ranks::Together alone(MPI_COMM_SELF);
     direct = rows_of(changes + Changes{"Bone/Bulk solver=direct"}, bone);
   }
   if (!Ranks::is_first())

@@ -50,7 +50,6 @@ namespace Debond
   {
     unsigned int reference_variant     = 0; ///< 0: none
     unsigned int factors_at_once       = 0; ///< 0: all combinations
-    unsigned int processes_per_variant = 1; ///< of mpirun
     unsigned int repetitions           = 1; ///< runs of each variant
   };
 

@@ -55,11 +55,6 @@ namespace Debond
       const TeamPointer before;
     };
 
-    /** Deals all ranks out in groups of @p size that follow each other, which
-     *  work together from then on. Collective. */
-    TeamPointer
-    group_of(unsigned int size);
-
     /** Whether this process is one of several that MPI has started. */
     bool
     are_launched();

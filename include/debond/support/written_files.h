@@ -46,12 +46,6 @@ namespace Debond
   void
   put_on_disk(const std::string &filename);
 
-  /** The number in a file, which is then one more: of all processes that ask,
-   *  on any machine that has the file, each gets another one. The first one is
-   *  what write_file() has left. Throws WriteError. */
-  unsigned int
-  take_number(const std::string &filename);
-
   /** A file that grows by whole texts. */
   class GrowingFile
   {

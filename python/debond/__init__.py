@@ -13,16 +13,31 @@ threads of Python go on; Ctrl-C stops a run after the row at work, which is kept
 """
 
 import importlib
+import sys
+import types
 
 # What is asked for is imported then: a page of results needs neither NumPy nor the compiled module.
 _homes = {
-    "scene": ("Scene", "Result", "Simulation", "sample_law", "set_number_of_threads", "__version__"),
+    "scene": ("Scene", "Result", "Simulation", "run_many", "sample_law", "set_number_of_threads", "__version__"),
     "errors": ("SceneError", "RunError"),
     "fit": ("fit", "Fit"),
     "calibrate": ("calibrate",),
+    "ensemble": ("ensemble",),
+    "specimens": ("fit_specimens",),
 }
 _home_of = {name: module for module, names in _homes.items() for name in names}
 __all__ = sorted(name for name in _home_of if not name.startswith("_"))
+
+
+class _Package(types.ModuleType):
+    """Python binds a module that is imported to its name in the package: debond.fit stays the function all the same."""
+
+    def __setattr__(self, name, value):
+        if not (name in _home_of and isinstance(value, types.ModuleType)):
+            super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package
 
 
 def __getattr__(name):

@@ -17,6 +17,7 @@ import _debond
 
 from . import intervals
 from .errors import InputError, RunError
+from .files import write_whole
 from .fit import fit, problem_of
 from .scene import Scene
 
@@ -69,21 +70,6 @@ def json_of(done) -> Dict[str, Any]:
         "optima": [{"cost": one.cost, "converged": one.converged, "unknowns": dict(zip(names, one.values))} for one in done.optima],
         "cannot_be_told": [intervals.text_of(direction, problem.unknowns) for direction in told.directions], "warnings": done.warnings,
         "candidates": [{"experiment": number + 1, "half_widths": dict(zip(names, widths * per_search))} for number, widths in done.candidates]})
-
-
-def write_whole(filename, text):
-    """Writes a text file, or nothing of it."""
-    part = filename + ".part"
-    try:
-        with open(part, "w", encoding="utf-8") as file:
-            file.write(text)
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(part, filename)
-    except OSError as error:
-        if os.path.exists(part):
-            os.remove(part)
-        raise RunError(f"{filename} cannot be written: {error.strerror}") from None
 
 
 def _csv(columns):
@@ -197,7 +183,7 @@ def calibrate(scene, threads: int = 1, force: bool = False, *, executor=None, sa
     done = fit(scene, executor=executor, threads=threads, evaluations=log, say=say)
     save(done, directory)
     if problem.values["Output / Report"] == "true":
-        _write_page(directory)
+        write_page(directory)
     for line in lines_of(done):
         say(line)
     say(f"Results are in {directory}/calibration.json, the fitted scene is {_numbered('fitted', '.prm', 0, len(problem.experiments))}")
@@ -212,12 +198,13 @@ def calibrate(scene, threads: int = 1, force: bool = False, *, executor=None, sa
     return json_of(done)
 
 
-def _write_page(directory):
+def write_page(directory) -> None:
+    """Writes report.html from the files in a directory, if there is Jinja2. Raises RunError."""
     try:
-        from . import page
+        from .page import write_page as write
     except ImportError:
         return
-    page.write_page(directory)
+    write(directory)
 
 
 def check_lines(problem):

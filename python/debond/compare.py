@@ -31,7 +31,7 @@ class Comparisons:
     text: str = ""
 
 
-def _curve_file(directory):
+def curve_file(directory):
     fine = directory + "/curve.csv"
     return fine if os.path.exists(fine) else directory + "/torque.csv"
 
@@ -49,7 +49,7 @@ def _compare_variants(directory, measured, found):
     rows, variants = _rows_of(directory + "/study.csv"), []
     for varied, row in rows:
         name = "variant-" + row["variant"].zfill(3)
-        curve = _curve_file(directory + "/" + name)
+        curve = curve_file(directory + "/" + name)
         if os.path.exists(curve):
             variants.append((name, varied, compare_curves(read_measured(curve, CURVE), measured)))
     # what is not a number comes last
@@ -82,7 +82,7 @@ def compare(directory, curve, columns=()) -> Comparisons:
     of that file, as of read_measured(). Raises InputError."""
     directory, curve, found = os.fspath(directory), os.fspath(curve), Comparisons()
     measured, said = read_measured_and_say(curve, CURVE, columns, "--compare", "--columns")
-    own, is_study = _curve_file(directory), os.path.exists(directory + "/study.csv")
+    own, is_study = curve_file(directory), os.path.exists(directory + "/study.csv")
     if not is_study and not os.path.exists(own):
         raise InputError(f"debond: --compare {directory}: there are no results in this directory, neither torque.csv nor "
                          "study.csv")

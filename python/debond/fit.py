@@ -391,9 +391,9 @@ class Fit:
 
     def save(self, directory) -> None:
         """Writes calibration.json, fit.csv, correlations.csv, fitted.prm and report.html into a directory."""
-        from . import calibrate
+        from .calibrate import save
 
-        calibrate.save(self, directory)
+        save(self, directory)
 
     def __repr__(self) -> str:
         return "Fit(" + ", ".join(f"{name} = {value:.5g}" for name, value in zip(self.names, self.values)) + ")"

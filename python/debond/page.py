@@ -8,6 +8,8 @@ import sys
 
 import jinja2
 
+from debond.errors import RunError
+from debond.files import write_whole
 from debond.page_campaigns import context_of_calibration, context_of_study
 from debond.page_data import NoResults, members, number, short, shown, split_unit, table_of, with_unit
 from debond.page_run import context_of_run
@@ -30,23 +32,8 @@ def page_of(directory):
     raise NoResults(f"there are no results in '{directory}' (summary.json, torque.csv, study.csv or calibration.json)")
 
 
-def write_whole(path, text):
-    """Writes a file whole or not at all."""
-    part = f"{path}.{os.getpid()}.part"
-    try:
-        with open(part, "w", encoding="utf-8") as file:
-            file.write(text)
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(part, path)
-    except OSError:
-        if os.path.exists(part):
-            os.remove(part)
-        raise
-
-
 def write_page(directory):
-    """Writes report.html into a directory of results."""
+    """Writes report.html into a directory of results. Raises NoResults, or RunError if it cannot be written."""
     write_whole(os.path.join(directory, "report.html"), page_of(directory))
 
 
@@ -63,8 +50,8 @@ def main(arguments):
         return 1
     try:
         write_whole(path, text)
-    except OSError as error:
-        print(f"debond.page: cannot write {path}: {error.strerror}", file=sys.stderr)
+    except RunError as error:
+        print(f"debond.page: {error}", file=sys.stderr)
         return 2
     return 0
 

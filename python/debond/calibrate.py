@@ -22,12 +22,12 @@ from .fit import fit, problem_of
 from .scene import Scene
 
 
-def _plain(value):
+def plain(value):
     """As JSON has it: null for what is not known."""
     if isinstance(value, dict):
-        return {name: _plain(item) for name, item in value.items()}
+        return {name: plain(item) for name, item in value.items()}
     if isinstance(value, (list, tuple, numpy.ndarray)):
-        return [_plain(item) for item in value]
+        return [plain(item) for item in value]
     if isinstance(value, (numpy.bool_, bool)):
         return bool(value)
     if isinstance(value, (float, numpy.floating)):
@@ -62,7 +62,7 @@ def json_of(done) -> Dict[str, Any]:
                "rows": s.slice.stop - s.slice.start, "effective_rows": (s.slice.stop - s.slice.start) / m.noise.rows_per_value}
               for m, s in zip(done.misfits, problem.series)]
     per_search = numpy.where(problem.unknowns.logarithmic, done.values, 1)
-    return _plain({
+    return plain({
         "title": problem.values["Title"], "version": _debond.version, "provenance": _debond.provenance(), "seconds": done.seconds,
         "evaluations": problem.runs.n_runs, "failures": problem.runs.n_failures, "last_failure": problem.runs.last_failure,
         "measured_values": len(problem.measured), "noise_is_known": problem.noise_is_known, "unknowns": unknowns, "rig": _rigs(done),
@@ -164,6 +164,19 @@ def _identity(scene, problem):
     return "\n".join(parts) + "\n"
 
 
+def why_it_does_not_fit(done) -> str:
+    """Text if a Fit is further from what was measured than its scene accepts; else none."""
+    problem = done.problem
+    largest = float(problem.values["Calibration / Largest misfit"])
+    if done.e_rel <= largest:
+        return ""
+    opposite = problem.measured @ done.optima[0].curve < 0
+    return (f"no parameters of this scene fit the measured curve: the best ones leave e_rel = {100 * done.e_rel:.3g} %, more than "
+            f"Calibration / Largest misfit, {100 * largest:.3g} %"
+            + ("; the measured values have the opposite sign: turn the load round, or the values by a minus before the unit, as "
+               "in Reference columns = 1 [deg], 2 [-N m]" if opposite else ""))
+
+
 def calibrate(scene, threads: int = 1, force: bool = False, *, executor=None, say=lambda text: None) -> Dict[str, Any]:
     """Finds the unknowns <<...>> of a scene with `Task = calibrate` from measured curves, writes into its directory as the
     program does, and returns what calibration.json holds. One that was interrupted goes on. executor: as of fit(). Raises
@@ -188,13 +201,9 @@ def calibrate(scene, threads: int = 1, force: bool = False, *, executor=None, sa
         say(line)
     say(f"Results are in {directory}/calibration.json, the fitted scene is {_numbered('fitted', '.prm', 0, len(problem.experiments))}")
     del lock
-    largest = float(problem.values["Calibration / Largest misfit"])
-    if done.e_rel > largest:
-        opposite = problem.measured @ done.optima[0].curve < 0
-        raise RunError(f"no parameters of this scene fit the measured curve: the best ones leave e_rel = {100 * done.e_rel:.3g} %, more than "
-                       f"Calibration / Largest misfit, {100 * largest:.3g} %"
-                       + ("; the measured values have the opposite sign: turn the load round, or the values by a minus before the unit, as "
-                          "in Reference columns = 1 [deg], 2 [-N m]" if opposite else ""))
+    why = why_it_does_not_fit(done)
+    if why:
+        raise RunError(why)
     return json_of(done)
 
 

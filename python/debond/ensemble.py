@@ -6,7 +6,6 @@ Reads study.csv, and summary.json and the curve of each variant; writes ensemble
 doc/results.md describes.
 """
 
-import csv
 import io
 import json
 import os
@@ -18,14 +17,15 @@ import numpy
 from .compare import CURVE, curve_file
 from .curve_comparison import torque_at
 from .errors import InputError, RunError
-from .files import write_whole
+from .files import csv_text, write_whole
 from .measured import options_of, read_measured
 from .page_data import n_rows, read_table, varied_in
 
 CHANCE = "Interface / Bonding / Seed"
 #: Members of summary.json, NAME + UNIT: their statistics are called NAME_mean + UNIT and so on.
-QUANTITIES = (("T_max", "_Nmm"), ("theta_max", "_deg"), ("theta_full", "_deg"), ("T_inf", "_Nmm"), ("E_deb", "_Nmm"), ("W_adh", "_Nmm"),
-              ("w_adh", "_N_per_m"), ("D_adh", "_Nmm"), ("initial_stiffness", "_Nmm_per_rad"), ("largest_bonded_patch", "_mm2"))
+QUANTITIES = (("T_max", "_Nmm"), ("theta_max", "_deg"), ("theta_full", "_deg"), ("T_inf", "_Nmm"), ("E_deb", "_Nmm"),
+              ("W_adh", "_Nmm"), ("w_adh", "_N_per_m"), ("D_adh", "_Nmm"), ("initial_stiffness", "_Nmm_per_rad"),
+              ("largest_bonded_patch", "_mm2"))
 STATISTICS = ("_mean", "_sd", "_p05", "_p50", "_p95")
 
 
@@ -37,26 +37,29 @@ class Ensemble(NamedTuple):
     notes: List[str]
 
 
-def statistics_of(values) -> numpy.ndarray:
-    """Mean, standard deviation (n - 1) and quantiles of 5, 50 and 95 % over the first axis (n, ...), without what is not finite:
-    an array (5, ...), NaN where too few are left. Quantiles are of type 7 of Hyndman and Fan, American Statistician 50 (1996)
-    361-365."""
-    values = numpy.atleast_1d(numpy.asarray(values, dtype=float))
-    flat = values.reshape(len(values), int(numpy.prod(values.shape[1:])))
-    result = numpy.full((5, flat.shape[1]), numpy.nan)
-    for column, own in zip(result.T, flat.T):
+def statistics_of(values: numpy.ndarray) -> numpy.ndarray:
+    """Mean, standard deviation (n - 1) and quantiles of 5, 50 and 95 % of each column of values (n, columns), without what is
+    not finite: an array (5, columns), NaN where too few are left. Quantiles are of type 7 of Hyndman and Fan, American
+    Statistician 50 (1996) 361-365."""
+    result = numpy.full((5, values.shape[1]), numpy.nan)
+    for column, own in zip(result.T, values.T):
         own = numpy.sort(own[numpy.isfinite(own)])
         if len(own):
             apart = own - own[0]  # values that are equal have no scatter, not even by rounding
-            column[:] = (own[0] + apart.mean(), apart.std(ddof=1) if len(own) > 1 else numpy.nan, *numpy.quantile(own, (0.05, 0.5, 0.95)))
-    return result.reshape(5, *values.shape[1:])
+            column[:] = (own[0] + apart.mean(), apart.std(ddof=1) if len(own) > 1 else numpy.nan,
+                         *numpy.quantile(own, (0.05, 0.5, 0.95)))
+    return result
+
+
+def _rounding_of(angles):
+    return 1e-9 * max(1.0, numpy.ptp(angles))
 
 
 def ascending(curve):
-    """A curve (2, rows) as one whose angles rise, with the last of rows that share an angle; without rows if nothing turns, None
-    if it turns back. Also its tolerance: what angles differ by for rounding [deg]."""
-    tolerance = 1e-9 * max(1.0, numpy.ptp(curve[0])) if curve.size else 0.0
+    """A curve (2, rows) as one whose angles rise, with the last of rows that share an angle, but for rounding; without rows if
+    nothing turns, None if it turns back."""
     rows: List[List[float]] = []
+    tolerance = _rounding_of(curve[0])
     for angle, torque in curve.T.tolist():
         if rows and abs(angle - rows[-1][0]) <= tolerance:
             rows[-1][1] = torque
@@ -65,32 +68,30 @@ def ascending(curve):
     result = numpy.array(rows).T.reshape(2, -1)
     steps = numpy.diff(result[0])
     if steps.size == 0:
-        return numpy.empty((2, 0)), tolerance
-    return (result if (steps > 0).all() else result[:, ::-1] if (steps < 0).all() else None), tolerance
+        return numpy.empty((2, 0))
+    return result if (steps > 0).all() else result[:, ::-1] if (steps < 0).all() else None
 
 
 def band_of(curves):
     """Angles (n) of the curve with most rows, how many curves cover each (n), their statistics there (5, n), and how many of
     `curves`, arrays (2, rows), are left out since they turn back."""
-    pairs = [(*ascending(curve), curve[0, 0] > curve[0, -1]) for curve in curves if curve.size]
+    pairs = [(ascending(curve), curve[0, 0] > curve[0, -1]) for curve in curves]
     used = [pair for pair in pairs if pair[0] is not None and pair[0].size]
-    n_left_out = sum(pair[0] is None for pair in pairs)
     if not used:
-        return numpy.empty(0), numpy.empty(0, dtype=int), numpy.empty((5, 0)), n_left_out
-    longest, _, falls = max(used, key=lambda pair: pair[0].shape[1])  # the first of several
+        return numpy.empty(0), numpy.empty(0, dtype=int), numpy.empty((5, 0)), sum(pair[0] is None for pair in pairs)
+    longest, falls = max(used, key=lambda pair: pair[0].shape[1])  # the first of several
     angles = longest[0, ::-1] if falls else longest[0]
-    tolerance = 1e-9 * max(1.0, numpy.ptp(angles))
-    torques = numpy.array([torque_at(curve, angles, tolerance) for curve, _, _ in used])
-    return angles, numpy.isfinite(torques).sum(axis=0), statistics_of(torques), n_left_out
+    torques = numpy.array([torque_at(curve, angles, _rounding_of(angles)) for curve, _ in used])
+    return angles, numpy.isfinite(torques).sum(axis=0), statistics_of(torques), sum(pair[0] is None for pair in pairs)
 
 
 def _members(directory, over):
-    """Names of the varied entries but `over`, and the members of each group: {values: [(summary, curve) or None: failed]}."""
+    """Names of the varied entries but `over`, and the members of each group: {values: [(summary, curve), None if it failed]}."""
     table = read_table(os.path.join(directory, "study.csv"))
     if not n_rows(table):
         raise InputError(f"{directory}: there is no study in this directory, no study.csv with rows")
     if over not in table:
-        raise InputError(f"{directory}/study.csv: this study does not vary {over}; it varies {', '.join(varied_in(table)) or 'nothing'}")
+        raise InputError(f"{directory}/study.csv: this study varies {', '.join(varied_in(table)) or 'nothing'}, not {over}")
     entries, groups = [name for name in varied_in(table) if name != over], {}
     for i, number in enumerate(table["variant"]):
         member, place = None, os.path.join(directory, f"variant-{int(number):03d}")
@@ -101,36 +102,15 @@ def _members(directory, over):
     return entries, groups
 
 
-def _text(value):
-    return f"{value:.12g}" if isinstance(value, float) else str(value)
-
-
-def _write(filename, header, rows):
-    stream = io.StringIO()
-    csv.writer(stream, lineterminator="\n").writerows([header, *([_text(item) for item in row] for row in rows)])
-    write_whole(filename, stream.getvalue())
-
-
-def _frame(header, rows, entries):
-    import pandas
-
-    frame = pandas.DataFrame(rows, columns=header)
-    for name in entries:  # numbers, if all are
-        try:
-            frame[name] = pandas.to_numeric(frame[name])
-        except ValueError:
-            pass
-    return frame
-
-
 def _tables(directory, over):
-    """Names of the varied entries but `over`; header and rows of ensemble.csv, those of ensemble_summary.csv; notes."""
+    """Header and rows of ensemble.csv, those of ensemble_summary.csv, and notes."""
     try:
         entries, groups = _members(directory, over)
     except (OSError, ValueError) as error:
         raise error if isinstance(error, InputError) else InputError(f"{directory}: {error}") from None
     names = [name + kind + unit for name, unit in QUANTITIES for kind in STATISTICS]
-    curves = [*entries, "angle_deg", "members", *("torque" + kind + "_Nmm" for kind in STATISTICS)], []
+    torques = ["torque" + kind + "_Nmm" for kind in STATISTICS]
+    curves = [*entries, "angle_deg", "members", *torques], []
     summary, notes = ([*entries, "members", "failed", *names], []), []
     for values, members in groups.items():
         done = [member for member in members if member]
@@ -141,17 +121,17 @@ def _tables(directory, over):
         curves[1].extend([*values, *row] for row in zip(angles.tolist(), n.tolist(), *torques.tolist()))
         if n_left_out:
             which = "; ".join(f"{name} = {text}" for name, text in zip(entries, values))
-            notes.append(f"ensemble.csv leaves out {n_left_out} of {len(done)} members{which and ' of ' + which}: their rotation reverses, "
-                         "so that an angle has more than one torque")
-    return entries, curves, summary, notes
+            notes.append(f"ensemble.csv leaves out {n_left_out} of {len(done)} members{which and ' of ' + which}: their rotation "
+                         "reverses, so that an angle has more than one torque")
+    return curves, summary, notes
 
 
 def write_ensemble(directory, over: str = CHANCE) -> List[str]:
     """Writes ensemble.csv and ensemble_summary.csv into the directory of a finished study; returns what had to be left out, for
     people. Raises as ensemble(), and RunError if a file cannot be written."""
-    _, curves, summary, notes = _tables(directory, over)
-    _write(os.path.join(directory, "ensemble.csv"), *curves)
-    _write(os.path.join(directory, "ensemble_summary.csv"), *summary)
+    curves, summary, notes = _tables(directory, over)
+    for name, table in (("ensemble.csv", curves), ("ensemble_summary.csv", summary)):
+        write_whole(os.path.join(directory, name), csv_text(*table, digits=12))
     return notes
 
 
@@ -159,14 +139,16 @@ def ensemble(directory, over: str = CHANCE) -> Ensemble:
     """Statistics over the members of each group of a finished study: variants that agree in all varied entries but `over`.
     Units are those in the names of columns. Writes nothing: write_ensemble() does. Raises InputError if there is no such study
     or a file of it cannot be read, ImportError without pandas."""
-    entries, curves, summary, notes = _tables(os.fspath(directory), over)
-    return Ensemble(_frame(*curves, entries), _frame(*summary, entries), notes)
+    import pandas
+
+    *tables, notes = _tables(os.fspath(directory), over)
+    return Ensemble(*(pandas.read_csv(io.StringIO(csv_text(*table)), float_precision="round_trip") for table in tables), notes)
 
 
 def main(arguments) -> int:
     """The command; returns the exit code: 1 if there is no such study, 2 if the files cannot be written."""
     try:
-        (directory,), options = options_of(arguments, 1, {"--over": CHANCE}, "DIR [--over ENTRY], the directory of a finished study")
+        (directory,), options = options_of(arguments, 1, {"--over": CHANCE}, "DIR [--over ENTRY], a finished study")
         for note in write_ensemble(directory, options["--over"]):
             print(note)
         print(f"Statistics are in {directory}/ensemble.csv and ensemble_summary.csv")

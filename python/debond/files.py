@@ -1,5 +1,7 @@
 """Files of results, which other programs may read at any time."""
 
+import csv
+import io
 import os
 
 from .errors import RunError
@@ -19,3 +21,17 @@ def write_whole(path, text: str) -> None:
         if os.path.exists(part):
             os.remove(part)
         raise RunError(f"cannot write {path}: {error.strerror}") from None
+
+
+def csv_text(header, rows, digits: int = 17) -> str:
+    """Text of a table as debond has them: numbers with so many digits at most (17 give them back exactly), nan for what is not
+    known, true and false."""
+
+    def text_of(item):
+        if isinstance(item, bool):
+            return "true" if item else "false"
+        return f"{item:.{digits}g}" if isinstance(item, float) and digits < 17 else str(item)
+
+    stream = io.StringIO()
+    csv.writer(stream, lineterminator="\n").writerows([header, *(map(text_of, row) for row in rows)])
+    return stream.getvalue()

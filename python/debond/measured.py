@@ -68,7 +68,7 @@ def _recognised_column(table, name, quantity, example, columns_entry):
 
 
 def _text_of(content, refuse):
-    """The text of a file of bytes, with plain marks and ends of lines."""
+    """The text of a file of bytes, with plain ends of lines."""
     zeros = [byte == 0 for byte in content[:4]]
     if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
         encodings = ["utf-16"]
@@ -86,7 +86,7 @@ def _text_of(content, refuse):
         refuse(f"this text begins as {encodings[0].upper()}, but is none")
     if re.search("[\0-\x08\x0b\x0e-\x1f\x7f]", text):
         refuse("this is not a text file")
-    return with_plain_marks(text.replace("\r\n", "\n").replace("\r", "\n"))
+    return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
 def _sheets_of(content, refuse):
@@ -121,12 +121,18 @@ def _read_bytes(filename, refuse):
     return content
 
 
+def texts_of(filename, refuse) -> List[Tuple[str, str]]:
+    """(name, text) of each sheet of a workbook, with tabs between cells; of any other file ("", text). refuse: raises InputError
+    with what is wrong with the file."""
+    content = _read_bytes(filename, refuse)
+    return _sheets_of(content, refuse) if content.startswith(b"PK\x03\x04") else [("", _text_of(content, refuse))]
+
+
 def _read_table(filename, refuse):
     """The table in a file, and the sheet that it is in, "sheet 'A', " or nothing."""
-    content = _read_bytes(filename, refuse)
-    if not content.startswith(b"PK\x03\x04"):
-        return Table(_text_of(content, refuse), refuse), ""
-    sheets = [(name, with_plain_marks(text)) for name, text in _sheets_of(content, refuse)]
+    sheets = [(name, with_plain_marks(text)) for name, text in texts_of(filename, refuse)]
+    if [name for name, _ in sheets] == [""]:
+        return Table(sheets[0][1], refuse), ""
     name, text = ([sheet for sheet in sheets if Table.has_rows(sheet[1], "\t")] or sheets or [("", "")])[0]
     return Table(text, lambda why: refuse(f"sheet '{name}': {why}"), "\t"), f"sheet '{name}', "
 

@@ -1,0 +1,167 @@
+"""Fits of many specimens with one template: the same scene with unknowns, a table with a row for each.
+
+    import debond
+    found = debond.fit_specimens("template.prm", "specimens.csv", jobs=2)
+    found.parameters, found.pooled, found.failures
+
+    python3 -m debond.specimens TEMPLATE.prm TABLE [--out DIR] [--jobs N]
+
+specimen_table.py says what the table holds, pooling.py what a mean over specimens is. DIR gets parameters.csv, pooled.csv,
+specimens.json and report.html; DIR/NAME what a fit leaves. Those that are finished, with the same row, curve and template, are
+kept. The command ends with 2 if a specimen failed, and with 1 if the table or the template is wrong.
+"""
+
+import json
+import math
+import os
+import sys
+from typing import Dict
+
+import _debond
+
+from .calibrate import write_page
+from .errors import InputError, RunError
+from .executors import results_of
+from .files import csv_text, write_whole
+from .measured import options_of
+from .pooling import pool
+from .scene import Scene
+from .specimen_fit import finished, fit_one, task_of
+from .specimen_table import ALL, read_specimens
+
+PARAMETERS = ("specimen", "group", "curve", "unknown", "value", "lower_95", "upper_95", "unit", "told", "at_bound", "logarithmic",
+              "fits", "e_rel", "reason")
+POOLED = ("unknown", "group", "specimens", "left_out", "mean", "lower_95", "upper_95", "sd_between", "unit", "scale", "tau")
+
+
+class Specimens:
+    """What fit_specimens() finds. failures: {specimen: why it failed}; directory: where the results are."""
+
+    def __init__(self, parameters, pooled, failures: Dict[str, str], directory: str):
+        self._parameters, self._pooled, self.failures, self.directory = parameters, pooled, failures, directory
+
+    @property
+    def parameters(self):
+        """parameters.csv as a pandas.DataFrame: a row for each specimen and unknown. Raises ImportError without pandas."""
+        import pandas
+
+        return pandas.DataFrame(self._parameters, columns=PARAMETERS)
+
+    @property
+    def pooled(self):
+        """pooled.csv: a row for each unknown and group, and one for all."""
+        import pandas
+
+        return pandas.DataFrame(self._pooled, columns=POOLED)
+
+
+def _searched(row, name):
+    return math.log(row[name]) if row["logarithmic"] else row[name]
+
+
+def _pooled_row(unknown, group, rows):
+    """The mean of an unknown over the specimens of a group, from their rows of specimen.json."""
+    used = [row for row in rows if row["told"] and not row["at_bound"] and row["sd"]]
+    first = rows[0]
+    mean = pool([_searched(row, "value") for row in used], [row["sd"] for row in used])
+    places, sd = (mean.mean, mean.lower, mean.upper), mean.tau
+    if first["logarithmic"]:
+        places = tuple(map(math.exp, places))
+        # of a logarithmic normal distribution
+        sd = places[0] * math.exp(mean.tau**2 / 2) * math.sqrt(math.expm1(mean.tau**2))
+    return [unknown, group, mean.n, len(rows) - mean.n, *map(float, places), float(sd), first["unit"],
+            "logarithm" if first["logarithmic"] else "value", float(mean.tau)]
+
+
+def _tables(specimens, results):
+    """Rows of parameters.csv and of pooled.csv."""
+    parameters, of_unknowns = [], {}
+    for specimen in specimens:
+        result, head = results[specimen.name], [specimen.name, specimen.group, specimen.curve]
+        if "reason" in result:
+            parameters.append([*head, "", *[math.nan] * 3, *[""] * 4, False, math.nan, result["reason"]])
+        for row in result.get("rows", []):
+            numbers = [math.nan if row[name] is None else row[name] for name in ("value", "lower_95", "upper_95")]
+            parameters.append([*head, row["unknown"], *numbers, row["unit"], row["told"], row["at_bound"], row["logarithmic"],
+                               result["fits"], result["e_rel"], ""])
+            of_unknowns.setdefault(row["unknown"], []).append((specimen.group, row))
+    pooled = []
+    for unknown, pairs in of_unknowns.items():
+        groups = list(dict.fromkeys(group for group, _ in pairs))
+        for group in groups if len(groups) > 1 else []:
+            pooled.append(_pooled_row(unknown, group, [row for own, row in pairs if own == group]))
+        pooled.append(_pooled_row(unknown, ALL, [row for _, row in pairs]))
+    return parameters, pooled
+
+
+def fit_specimens(template, table, directory=None, *, executor=None, jobs: int = 1, say=lambda text: None) -> Specimens:
+    """Fits every specimen of a table (specimen_table.py) with the unknowns of a template, a Scene or the name of a file, and
+    writes all results into a directory, that of the template if none is given.
+
+    executor: of concurrent.futures, which makes the fits: one of processes, mpi4py.futures.MPIPoolExecutor, or get_executor() of
+    a client of Dask. jobs: processes, if there is none. say: a function that is told what is going on. Units are those of the
+    entries. Raises InputError if template or table are wrong, RunError if results cannot be written. What is wrong with one
+    specimen is in `failures`."""
+    scene = template if isinstance(template, Scene) else Scene(template)
+    table = os.fspath(table)
+    specimens = read_specimens(table, scene._entries)
+    said = {entry.name: entry.value for entry in scene._entries}
+    directory = os.fspath(directory or said.get("Output / Directory") or "output/specimens")
+    results = _fit_all(specimens, scene, table, directory, executor, jobs, say)
+    parameters, pooled = _tables(specimens, results)
+    failures = {name: result["reason"] for name, result in results.items() if "reason" in result}
+    about = {"title": said.get("Title", ""), "table": table, "specimens": len(specimens), "failures": failures, "version": _debond.version,
+             "provenance": _debond.provenance()}
+    for name, text in (("parameters.csv", csv_text(PARAMETERS, parameters)), ("pooled.csv", csv_text(POOLED, pooled)),
+                       ("specimens.json", json.dumps(about, indent=2, ensure_ascii=False) + "\n")):
+        write_whole(os.path.join(directory, name), text)
+    write_page(directory)
+    return Specimens(parameters, pooled, failures, directory)
+
+
+def _fit_all(specimens, scene, table, directory, executor, n_jobs, say):
+    """{name: result} of all specimens, in the order of the table."""
+    try:
+        os.makedirs(directory, exist_ok=True)
+    except OSError as error:
+        raise RunError(f"cannot write {directory}: {error.strerror}") from None
+    tasks = {specimen.name: task_of(specimen, scene._entries, table, directory) for specimen in specimens}
+    results = {name: finished(task) for name, task in tasks.items()}
+    left = {name: task for name, task in tasks.items() if not results[name]}
+    n_done = len(tasks) - len(left)
+    say(f"{len(tasks)} specimens" + f", {n_done} of them done already" * (n_done > 0))
+
+    def plain_result(result):
+        return {"reason": f"{type(result).__name__}: {result}"} if isinstance(result, Exception) else result
+
+    results.update(results_of(fit_one, left, executor, n_jobs,
+                              lambda name, result: say(f"{name}: {plain_result(result).get('reason', 'done')}")))
+    return {name: plain_result(result) for name, result in results.items()}
+
+
+def main(arguments) -> int:
+    """The command; returns the exit code."""
+    try:
+        files, options = options_of(arguments, 2, {"--out": "", "--jobs": str(os.cpu_count())},
+                                    "TEMPLATE.prm TABLE [--out DIR] [--jobs N]")
+        if not options["--jobs"].isdigit() or int(options["--jobs"]) < 1:
+            raise InputError(f"--jobs {options['--jobs']}: expected a number of processes from 1 on")
+        found = fit_specimens(*files, options["--out"] or None, jobs=int(options["--jobs"]),
+                              say=lambda text: print(text, flush=True))
+    except InputError as error:
+        print(f"debond.specimens: {error}", file=sys.stderr)
+        return 1
+    except RunError as error:
+        print(f"debond.specimens: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("interrupted: the same command goes on", file=sys.stderr)
+        return 130
+    print(f"Results are in {found.directory}/parameters.csv, pooled.csv and report.html")
+    for name, why in found.failures.items():
+        print(f"{name} failed: {why}", file=sys.stderr)
+    return 2 if found.failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -47,15 +47,17 @@ class Experiment:
         """Experiment `number` of `unknowns`; `measured`: a Measurement that has been read. Raises SceneError."""
         self.unknowns, self.number, self.given = unknowns, number, entries
         entries = _debond.changed(entries, [f"{entry}={value}" for entry, value in unknowns.entries(number, unknowns.starts).items()])
-        self.scene = _debond.Scene(entries, name, _debond.Team(0))
-        self.entries, self.name = entries, name
+        # runs read no measured curve; the file is read once, by this module
+        without = _debond.changed(entries, ["Output/Reference curve=", "Output/Reference columns="])
+        self.scene = _debond.Scene(entries if measured is None else without, name, _debond.Team(0))
+        self.name = name
         self.values = self.scene.values
         self.columns = [measurement.curve_column(self.scene, column.strip(), "Calibration / Curves")
                         for column in self.values["Calibration / Curves"].split(",")]
         self.over = measurement.curve_column(self.scene, self.values["Calibration / Over"], "Calibration / Over")
         self.measured = measured or measurement.read(self.scene, self.values, self.columns, self.over, self._largest_shift())
-        self.text = _debond.text_of(entries)
-        self.curve = _debond.VaryingCurve(entries, name)
+        self.text = _debond.text_of(without)
+        self.curve = _debond.VaryingCurve(without, name)
         self.is_finite_elements = self.values["Model"] == "finite elements"
         self._find_changes()
         self.why_no_closed_form = self._find_why_no_closed_form()

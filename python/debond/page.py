@@ -13,9 +13,11 @@ from debond.files import write_whole
 from debond.page_campaigns import context_of_calibration, context_of_study
 from debond.page_data import NoResults, members, number, short, shown, split_unit, table_of, with_unit
 from debond.page_run import context_of_run
+from debond.page_specimens import context_of_specimens
 
 #: What a directory of each kind holds, its template and what fills that.
 KINDS = (("study.csv", "study.html", context_of_study), ("calibration.json", "calibration.html", context_of_calibration),
+         ("specimens.json", "specimens.html", context_of_specimens),
          ("summary.json", "run.html", context_of_run), ("torque.csv", "run.html", context_of_run))
 
 
@@ -29,7 +31,8 @@ def page_of(directory):
             environment.globals.update(members=members, number=number, short=short, shown=shown, split_unit=split_unit,
                                        table_of=table_of, with_unit=with_unit)
             return environment.get_template(template).render(context(directory))
-    raise NoResults(f"there are no results in '{directory}' (summary.json, torque.csv, study.csv or calibration.json)")
+    raise NoResults(f"there are no results in '{directory}' (summary.json, torque.csv, study.csv, calibration.json or "
+                    "specimens.json)")
 
 
 def write_page(directory):

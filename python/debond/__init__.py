@@ -18,11 +18,12 @@ import types
 
 # What is asked for is imported then: a page of results needs neither NumPy nor the compiled module.
 _homes = {
-    "scene": ("Scene", "Result", "Simulation", "run_many", "sample_law", "set_number_of_threads", "__version__"),
+    "scene": ("Scene", "Result", "Simulation", "sample_law", "set_number_of_threads", "__version__"),
     "errors": ("SceneError", "RunError"),
     "fit": ("fit", "Fit"),
     "calibrate": ("calibrate",),
     "ensemble": ("ensemble",),
+    "executors": ("run_many",),
     "specimens": ("fit_specimens",),
 }
 _home_of = {name: module for module, names in _homes.items() for name in names}

@@ -86,7 +86,7 @@ def band_of(curves):
 
 
 def _members(directory, over):
-    """Names of the varied entries but `over`, and the members of each group: {values: [(summary, curve), None if it failed]}."""
+    """Names of the varied entries but `over`; of each group the members, {values: [(summary, curve), None if it failed]}."""
     table = read_table(os.path.join(directory, "study.csv"))
     if not n_rows(table):
         raise InputError(f"{directory}: there is no study in this directory, no study.csv with rows")
@@ -121,8 +121,9 @@ def _tables(directory, over):
         curves[1].extend([*values, *row] for row in zip(angles.tolist(), n.tolist(), *torques.tolist()))
         if n_left_out:
             which = "; ".join(f"{name} = {text}" for name, text in zip(entries, values))
-            notes.append(f"ensemble.csv leaves out {n_left_out} of {len(done)} members{which and ' of ' + which}: their rotation "
-                         "reverses, so that an angle has more than one torque")
+            which = f"{len(done)} members{which and ' of ' + which}"
+            notes.append(f"ensemble.csv leaves out {n_left_out} of {which}: their rotation reverses, so that an angle has more "
+                         "than one torque")
     return curves, summary, notes
 
 

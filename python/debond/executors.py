@@ -1,7 +1,14 @@
 """Work for executors of concurrent.futures, whichever they are: threads or processes here, mpi4py.futures, Dask."""
 
 import multiprocessing
+import os
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor, as_completed
+from typing import List, Union
+
+import _debond
+
+from .errors import InputError
+from .scene import Result, Scene
 
 DIED = "the process that worked on it died"
 
@@ -54,3 +61,28 @@ def results_of(function, tasks, executor=None, n_jobs=1, say=lambda name, result
             if name not in results:
                 _with_own_processes(function, {name: task}, 1, results, say)
     return {name: results.get(name, RuntimeError(DIED)) for name in tasks}
+
+
+def _run_text(task):
+    """Rows of a scene that is given as a text, and where its files are."""
+    text, work = task
+    if os.getcwd() != work:
+        os.chdir(work)
+    return Scene(None, text=text).run()
+
+
+def run_many(scenes, executor=None, *, base=None, jobs: int = 1) -> List[Union[Result, Exception]]:
+    """Runs many scenes: of each its Result, or the SceneError or RunError that it failed with, in their order.
+
+    scenes: Scene objects, or entries {"Subsection/Entry": value} that change `base`, the name of a scene; without it the
+    defaults. executor: of concurrent.futures; jobs: processes, if there is none."""
+    scenes = list(scenes)  # they keep tables of laws
+    results, tasks = {}, {}
+    for i, one in enumerate(scenes):
+        try:
+            scene = one if isinstance(one, Scene) else Scene(base, one)
+            scenes[i], tasks[i] = scene, (_debond.text_of(scene._entries), os.getcwd())
+        except InputError as error:
+            results[i] = error
+    results.update(results_of(_run_text, tasks, executor, jobs))
+    return [results[i] for i in range(len(scenes))]

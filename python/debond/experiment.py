@@ -6,6 +6,7 @@ next. The rig stands between both,
 """
 
 import functools
+import os
 import threading
 
 import numpy
@@ -38,6 +39,13 @@ def run_task(task):
     except (RunError, SceneError) as error:
         return str(error)
     return {column: rows[column] for column in columns}
+
+
+def run_task_in(directory, task):
+    """The same in a process that may have been started elsewhere: files are named relative to `directory`."""
+    if os.getcwd() != directory:
+        os.chdir(directory)
+    return run_task(task)
 
 
 class Experiment:

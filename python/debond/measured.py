@@ -122,8 +122,8 @@ def _read_bytes(filename, refuse):
 
 
 def texts_of(filename, refuse) -> List[Tuple[str, str]]:
-    """(name, text) of each sheet of a workbook, with tabs between cells; of any other file ("", text). refuse: raises InputError
-    with what is wrong with the file."""
+    """(name, text) of each sheet of a workbook, with tabs between cells; of any other file ("", text). refuse: raises
+    InputError with what is wrong with the file."""
     content = _read_bytes(filename, refuse)
     return _sheets_of(content, refuse) if content.startswith(b"PK\x03\x04") else [("", _text_of(content, refuse))]
 

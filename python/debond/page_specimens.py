@@ -96,9 +96,12 @@ def context_of_specimens(directory):
         rows.append({"name": name, "link": link, "group": own[0]["group"], "values": values, "state": state,
                      "e_rel": short(100 * number(own[0]["e_rel"]), 3)})
     title, n = about.get("title", ""), len(names)
+    units = {row["unknown"]: row["unit"] for row in parameters}
     return {"title": f"{title}: {n} specimens" if title else f"{n} specimens in {directory}", "finished": not failed,
-            "reason": f"{n - len(failed)} of {n} specimens are fitted", "warnings": [f"{name}: {why}" for name, why in failed.items()],
-            "specimens": rows, "unknowns": [(name, next(row["unit"] for row in parameters if row["unknown"] == name)) for name in unknowns],
+            "reason": f"{n - len(failed)} of {n} specimens are fitted",
+            "warnings": [f"{name}: {why}" for name, why in failed.items()],
+            "specimens": rows, "unknowns": [(name, units[name]) for name in unknowns],
             "forests": list(filter(None, (forest_of(unknown, parameters, pooled) for unknown in unknowns))),
             "pooled": pooled, "n_left_out": sum(int(row["left_out"]) for row in pooled if row["group"] == ALL),
-            "has_groups": n_rows(tables[0]) > 0 and any(tables[0]["group"]), "origin": origin_of(about), "files": files_of(directory)}
+            "has_groups": n_rows(tables[0]) > 0 and any(tables[0]["group"]),
+            "origin": origin_of(about), "files": files_of(directory)}

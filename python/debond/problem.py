@@ -4,6 +4,7 @@ Least squares divides by the noise that was stated, or by the largest value of e
 the noise hangs together; intervals do (noise.py). Runs are made by an executor of concurrent.futures, whichever it is.
 """
 
+import functools
 import hashlib
 import json
 import os
@@ -15,7 +16,7 @@ from scipy import optimize
 from scipy.stats import qmc
 
 from .errors import RunError, SceneError
-from .experiment import Experiment, run_task
+from .experiment import Experiment, run_task, run_task_in
 
 SMOOTH = 1e-3  # below this difference magnitudes are smoothed, for the measures e_mp and e_rel
 
@@ -47,16 +48,22 @@ class Runs:
         """Of each task its rows, or text: why there are none. Tasks that are new run at the same time."""
         keys = [self.key(task) for task in tasks]
         new = {key: task for key, task in zip(keys, tasks) if key not in self.known}
-        if len(new) == 1 or (self.executor is None and self.threads == 1):
-            results = map(run_task, new.values())
-        elif self.executor is None:
-            self.executor = ThreadPoolExecutor(self.threads)
-            results = self.executor.map(run_task, new.values())
+        if len(new) < 2 or (self.executor is None and self.threads == 1):
+            for key, task in new.items():
+                self._remember(key, run_task(task))
         else:
-            results = self.executor.map(run_task, new.values())
-        for key, rows in zip(new, results):
-            self._remember(key, rows)
+            self._run_elsewhere(new)
         return [self.known[key] for key in keys]
+
+    def _run_elsewhere(self, tasks):
+        if self.executor is None:
+            self.executor = ThreadPoolExecutor(self.threads)
+        try:
+            results = self.executor.map(functools.partial(run_task_in, os.getcwd()), tasks.values())
+            for key, rows in zip(tasks, results):
+                self._remember(key, rows)
+        except Exception as error:  # a worker that has died, say: the runs before are remembered
+            raise RunError(f"the executor failed: {type(error).__name__}: {error}") from error
 
     def _remember(self, key, rows):
         self.n_runs += 1

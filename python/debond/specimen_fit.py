@@ -57,8 +57,8 @@ def _rows_of(done):
     lower, upper = unknowns.to_search(done.lower), unknowns.to_search(done.upper)
     with numpy.errstate(invalid="ignore"):
         sd = (upper - lower) / (2 * told.quantiles)
-    return [{"unknown": one.name, "value": done.values[j], "lower_95": done.lower[j], "upper_95": done.upper[j], "unit": one.unit,
-             "told": done.is_told[j], "at_bound": not told.free[j], "logarithmic": one.logarithmic, "sd": sd[j]}
+    return [{"unknown": one.name, "value": done.values[j], "lower_95": done.lower[j], "upper_95": done.upper[j],
+             "unit": one.unit, "told": done.is_told[j], "at_bound": not told.free[j], "logarithmic": one.logarithmic, "sd": sd[j]}
             for j, one in enumerate(unknowns.list)]
 
 
@@ -67,7 +67,7 @@ def fit_one(task):
     of any kind calls."""
     text, directory, identity, work = task
     try:
-        if os.getcwd() != work:  # of a process elsewhere, which works for nobody else
+        if os.getcwd() != work:  # of a process that was started elsewhere
             os.chdir(work)
         os.makedirs(directory, exist_ok=True)
         if os.path.exists(_result_file(directory)):
@@ -79,8 +79,8 @@ def fit_one(task):
         why = why_it_does_not_fit(done)
         if why:
             return {"reason": why}
-        result = plain({"identity": identity, "fits": not any(misfit.does_not_fit for misfit in done.misfits), "e_rel": done.e_rel,
-                        "rows": _rows_of(done)})
+        fits = not any(misfit.does_not_fit for misfit in done.misfits)
+        result = plain({"identity": identity, "fits": fits, "e_rel": done.e_rel, "rows": _rows_of(done)})
         write_whole(_result_file(directory), json.dumps(result, indent=2) + "\n")
         if os.path.exists(runs):
             os.remove(runs)

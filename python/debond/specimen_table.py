@@ -71,7 +71,8 @@ def _column_of(name, known, place):
     if entry not in known or entry in _NOT_HERE:
         close = difflib.get_close_matches(entry, known, 1, 0.5)
         like = f", as {close[0]}" if close and close[0] not in _NOT_HERE else ""
-        raise InputError(f"{place}: column '{shortened(name)}': expected specimen, curve, group, or an entry of the scene{like}")
+        raise InputError(f"{place}: column '{shortened(name)}': expected specimen, curve, group, or an entry of the "
+                         f"scene{like}")
     needed = _debond.unit_of(entry)
     if unit and unit.replace(" ", "") != needed.replace(" ", ""):
         raise InputError(f"{place}: column '{shortened(name)}': expected the unit of the entry, {needed or 'none'}")
@@ -85,8 +86,8 @@ def _columns_of(names, known, place):
             raise InputError(f"{place}: column '{column}': there are two of them, expected one")
     for column in OWN[:2]:
         if column not in columns:
-            raise InputError(f"{place}: column '{column}' is missing: read {', '.join(map(repr, names))}; expected specimen, curve, "
-                             "and if need be group and entries of the scene")
+            raise InputError(f"{place}: column '{column}' is missing: read {', '.join(map(repr, names))}; expected specimen, "
+                             "curve, and if need be group and entries of the scene")
     return columns
 
 

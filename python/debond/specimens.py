@@ -29,8 +29,8 @@ from .scene import Scene
 from .specimen_fit import finished, fit_one, task_of
 from .specimen_table import ALL, read_specimens
 
-PARAMETERS = ("specimen", "group", "curve", "unknown", "value", "lower_95", "upper_95", "unit", "told", "at_bound", "logarithmic",
-              "fits", "e_rel", "reason")
+PARAMETERS = ("specimen", "group", "curve", "unknown", "value", "lower_95", "upper_95", "unit", "told", "at_bound",
+              "logarithmic", "fits", "e_rel", "reason")
 POOLED = ("unknown", "group", "specimens", "left_out", "mean", "lower_95", "upper_95", "sd_between", "unit", "scale", "tau")
 
 
@@ -98,9 +98,9 @@ def fit_specimens(template, table, directory=None, *, executor=None, jobs: int =
     """Fits every specimen of a table (specimen_table.py) with the unknowns of a template, a Scene or the name of a file, and
     writes all results into a directory, that of the template if none is given.
 
-    executor: of concurrent.futures, which makes the fits: one of processes, mpi4py.futures.MPIPoolExecutor, or get_executor() of
-    a client of Dask. jobs: processes, if there is none. say: a function that is told what is going on. Units are those of the
-    entries. Raises InputError if template or table are wrong, RunError if results cannot be written. What is wrong with one
+    executor: of concurrent.futures, which makes the fits: one of processes, mpi4py.futures.MPIPoolExecutor, or get_executor()
+    of a client of Dask. jobs: processes, if there is none. say: a function that is told what is going on. Units are those of
+    the entries. Raises InputError if template or table are wrong, RunError if results cannot be written. What is wrong with one
     specimen is in `failures`."""
     scene = template if isinstance(template, Scene) else Scene(template)
     table = os.fspath(table)
@@ -110,8 +110,8 @@ def fit_specimens(template, table, directory=None, *, executor=None, jobs: int =
     results = _fit_all(specimens, scene, table, directory, executor, jobs, say)
     parameters, pooled = _tables(specimens, results)
     failures = {name: result["reason"] for name, result in results.items() if "reason" in result}
-    about = {"title": said.get("Title", ""), "table": table, "specimens": len(specimens), "failures": failures, "version": _debond.version,
-             "provenance": _debond.provenance()}
+    about = {"title": said.get("Title", ""), "table": table, "specimens": len(specimens), "failures": failures,
+             "version": _debond.version, "provenance": _debond.provenance()}
     for name, text in (("parameters.csv", csv_text(PARAMETERS, parameters)), ("pooled.csv", csv_text(POOLED, pooled)),
                        ("specimens.json", json.dumps(about, indent=2, ensure_ascii=False) + "\n")):
         write_whole(os.path.join(directory, name), text)

@@ -1,5 +1,5 @@
-# Pictures of a calibration. DIR/fit.png: what has been measured, the fit with its 95 % band, and below it the residuals, of
-# all experiments that have been done. DIR/correlations.png: which unknowns can stand in for each other.
+# Picture of a calibration, DIR/fit.png: what has been measured, the fit with its 95 % band, and below it the residuals, of
+# all experiments that have been done. doc/pictures.sh calibration uses it.
 #
 #   gnuplot -e "dir='output/calibrate/data_set_1'" doc/plot_calibration.gp
 #
@@ -70,24 +70,3 @@ set xzeroaxis linetype 1 linecolor rgb "#08519c"
 plot for [i = 1:words(files)] data(i) using over:(column(measured) - column(fitted)) \
        with points pointtype 6 pointsize 0.7 linecolor rgb points_of[colour(i)] notitle
 unset multiplot
-
-reset
-matrix = dir . "/correlations.csv"
-n = int(system("tail -n +2 '" . matrix . "' | wc -l"))
-if (n > 1) {
-  set datafile separator comma
-  longest = int(system("head -1 '" . matrix . "' | tr , '\\n' | wc -L"))
-  set terminal pngcairo size 250 + 110 * n + 8 * longest, 200 + 100 * n + 4 * longest enhanced font "Sans,16"
-  set bmargin 3 + 0.25 * longest
-  set output dir . "/correlations.png"
-  set title "Correlations of unknowns"
-  set palette defined (-1 "#2166ac", 0 "#f7f7f7", 1 "#b2182b")
-  set cbrange [-1:1]
-  set xrange [-0.5:n - 0.5]
-  set yrange [n - 0.5:-0.5]
-  set xtics rotate by 30 right noenhanced
-  set ytics noenhanced
-  unset key
-  plot matrix matrix rowheaders columnheaders using 1:2:3 with image, \
-       "" matrix rowheaders columnheaders using 1:2:(sprintf("%.2f", $3)) with labels
-}

@@ -301,8 +301,8 @@ namespace Debond
                 output.report,
                 Allowed::choice("false | true"),
                 "Write report.html, a page with curve, maps of the interface, "
-                "results in words and warnings, its pictures torque.svg and "
-                "torque.png, and maps.csv. Variants of a study write none.");
+                "results in words and warnings, and maps.csv. Variants of a "
+                "study write none.");
       table.add(
         "Published values",
         output.published,

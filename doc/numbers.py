@@ -1107,18 +1107,6 @@ def multigrid_large():
 
 
 @numbers('minutes')
-def study_on_ranks():
-    directories = [directory_of('prm/studies/ensemble.prm', ('ranks=%d' % ranks,)) for ranks in (1, 2)]
-    seconds = []
-    for ranks, directory in zip((1, 2), directories):
-        start = time.monotonic()
-        debond('prm/studies/ensemble.prm', directory, ranks=ranks)
-        seconds.append(time.monotonic() - start)
-    return '\nAn ensemble of 200 members (`prm/studies/ensemble.prm`), a thread in each process: %.0f s on one, %.0f s on two processes, %.2f of the time.\n' % (
-        *seconds, seconds[1] / seconds[0])
-
-
-@numbers('minutes')
 def multigrid_model():
     """Seconds of a whole curve on P processes: what is dealt out, what all of them do, and messages of an assumed network."""
     measured = run_on(1, 'Bone/Cells=75, 75, 15', 'Bone/Bulk solver=multigrid', *CURVE, *VARIES)

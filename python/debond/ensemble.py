@@ -152,7 +152,8 @@ def main(arguments) -> int:
         (directory,), options = options_of(arguments, 1, {"--over": CHANCE}, "DIR [--over ENTRY], a finished study")
         for note in write_ensemble(directory, options["--over"]):
             print(note)
-        print(f"Statistics are in {directory}/ensemble.csv and ensemble_summary.csv")
+        over = "all seeds" if options["--over"] == CHANCE else "all of " + options["--over"]
+        print(f"Statistics over {over} are in {directory}/ensemble.csv and ensemble_summary.csv")
     except (InputError, RunError) as error:
         print(f"debond.ensemble: {error}", file=sys.stderr)
         return 2 if isinstance(error, RunError) else 1

@@ -137,6 +137,15 @@ class Scene:
     def _read(self, team):
         return _debond.Scene(self._entries, self._name, team)
 
+    def variants(self) -> List["Scene"]:
+        """Of a study, whose entries hold several values {{a|b}}: the scenes of its variants, for run_many()."""
+        result = []
+        for entries, _ in _debond.variants(self._entries):
+            variant = Scene()
+            variant._entries, variant._name, variant._tables = entries, self._name, self._tables
+            result.append(variant)
+        return result
+
     @property
     def parameters(self) -> str:
         """All entries with their values, as the text of a scene."""

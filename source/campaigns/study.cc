@@ -1,4 +1,3 @@
-#include <debond/campaigns/ensemble.h>
 #include <debond/campaigns/run_scene.h>
 #include <debond/campaigns/study.h>
 #include <debond/campaigns/variant.h>
@@ -8,9 +7,9 @@
 #include <debond/output/curve_comparison.h>
 #include <debond/output/reference_comparison.h>
 #include <debond/output/result_files.h>
-#include <debond/output/variant_names.h>
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
+#include <debond/support/laboratory.h>
 #include <debond/support/number_text.h>
 #include <debond/support/progress.h>
 #include <debond/support/provenance.h>
@@ -105,7 +104,7 @@ namespace Debond
         std::vector<std::vector<std::string>> values;
         for (const StudyVariant &combination : combinations)
           values.push_back(combination.values);
-        const VariantNames names(varied, values);
+        const auto names = names_of_variants(varied, values);
         for (StudyVariant &combination : combinations)
           {
             const std::string directory_name =
@@ -120,7 +119,7 @@ namespace Debond
                                              "Output/Directory=" + directory +
                                                "/" + directory_name});
             Variant    next;
-            next.name   = directory_name + ": " + names.full(variants.size());
+            next.name   = directory_name + ": " + names[variants.size()];
             next.values = combination.values;
             next.n_repetitions = first.study.repetitions;
             next.scene         = Scene::from_entries(own, name);
@@ -424,27 +423,12 @@ namespace Debond
               remove_file(directory + name);
             return;
           }
-        const auto without_seed = [&](std::vector<std::string> items) {
-          items.erase(items.begin() + (seed - varied.begin()));
-          return items;
-        };
-        std::vector<EnsembleMember> members;
-        for (const Variant &variant : variants)
-          {
-            const std::string curve =
-              finest_curve(variant.scene.output.directory);
-            members.push_back(
-              {without_seed(variant.values),
-               variant.done,
-               variant.summary,
-               read_reference_curve(variant.done ? curve : "")});
-          }
-        const Ensemble ensemble(without_seed(varied), members);
-        write_file(directory + "/ensemble.csv", ensemble.curves);
-        write_file(directory + "/ensemble_summary.csv", ensemble.summary);
-        out << ensemble.notes << "Statistics over all seeds are in "
-            << directory << "/ensemble.csv and ensemble_summary.csv"
-            << std::endl;
+        if (const int code = Laboratory::run("ensemble", {directory}); code == 127)
+          out << "There are no statistics over all seeds: "
+              << Laboratory::what_it_needs << std::endl;
+        else if (code != 0)
+          throw RunError("the statistics over all seeds in " + directory +
+                         " could not be made");
       }
     };
   } // namespace

@@ -13,32 +13,47 @@
 
 namespace Debond
 {
-  SampleStatistics
-  sample_statistics(std::vector<double> values)
+  namespace
   {
-    boost::remove_erase_if(values,
-                           [](const double x) { return !std::isfinite(x); });
-    std::sort(values.begin(), values.end());
+    /** Of those that are known; NaN of none. */
+    double
+    median_of(std::vector<double> values)
+    {
+      boost::remove_erase_if(values,
+                             [](const double x) { return !std::isfinite(x); });
+      return values.empty() ? unknown : boost::math::statistics::median(values);
+    }
+  } // namespace
 
-    SampleStatistics result;
-    result.n = values.size();
-    if (result.n == 0)
-      return result;
-    result.mean = boost::math::statistics::mean(values);
-    if (result.n > 1)
-      result.sd = std::sqrt(boost::math::statistics::sample_variance(values));
 
-    const auto quantile = [&values](const double p) {
-      const double      position = p * (values.size() - 1);
-      const std::size_t below    = std::floor(position);
-      const std::size_t above    = std::min(below + 1, values.size() - 1);
-      return values[below] +
-             (position - below) * (values[above] - values[below]);
-    };
-    result.p05 = quantile(0.05);
-    result.p50 = quantile(0.50);
-    result.p95 = quantile(0.95);
-    return result;
+
+  std::vector<std::string>
+  names_of_variants(const std::vector<std::string>              &entries,
+                    const std::vector<std::vector<std::string>> &values)
+  {
+    constexpr std::size_t many         = 4;
+    std::size_t           most_changes = 0;
+    for (const auto &row : values)
+      {
+        std::size_t n = 0;
+        for (std::size_t e = 0; e < entries.size(); ++e)
+          n += row[e] != values[0][e];
+        most_changes = std::max(most_changes, n);
+      }
+    const bool only_changes =
+      most_changes > 0 &&
+      (entries.size() >= many || most_changes < entries.size());
+    std::vector<std::string> names;
+    for (const auto &row : values)
+      {
+        std::string text;
+        for (std::size_t e = 0; e < entries.size(); ++e)
+          if (!only_changes || row[e] != values[0][e])
+            text += (text.empty() ? "" : "; ") + entries[e] + " = " + row[e];
+        names.push_back(text.empty() && !entries.empty() ? "first values" :
+                                                           text);
+      }
+    return names;
   }
 
 
@@ -49,7 +64,7 @@ namespace Debond
     const auto found = summary.find(name);
     return found != summary.end() && found->is_number() ?
              found->get<double>() :
-             SampleStatistics::undefined;
+             unknown;
   }
 
 
@@ -102,7 +117,7 @@ namespace Debond
           std::vector<double> seconds;
           for (const auto &repetition : repetitions)
             seconds.push_back(number_in(repetition, member.key()));
-          member.value() = sample_statistics(std::move(seconds)).p50;
+          member.value() = median_of(std::move(seconds));
         }
     done = done && repetitions.size() == n_repetitions;
   }

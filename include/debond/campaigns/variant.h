@@ -12,30 +12,22 @@
 
 namespace Debond
 {
-  /** What a sample amounts to, in the unit of its values. */
-  struct SampleStatistics
-  {
-    static constexpr double undefined =
-      std::numeric_limits<double>::quiet_NaN();
-
-    unsigned int n    = 0;
-    double       mean = undefined;
-    double       sd   = undefined; ///< with n - 1; NaN below two values
-    double       p05 = undefined, p50 = undefined, p95 = undefined;
-  };
-
-  /** Leaves out values that are not finite. A quantile p is linear between the
-   *  order statistics: the smallest value belongs to p = 0, the largest to 1,
-   *  and those between to equal distances (type 7 of Hyndman and Fan, American
-   *  Statistician 50 (1996) 361-365; the default of R and NumPy). */
-  SampleStatistics
-  sample_statistics(std::vector<double> values);
+  /** A number that is not known. */
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 
 
   /** A number of a summary; NaN if there is none of this name. */
   double
   number_in(const nlohmann::ordered_json &summary, const std::string &name);
+
+  /** What tells the variants of a study apart: the @p values of all varied
+   *  @p entries, a row for each variant, as "Bone / Size = 8; ...". Where these
+   *  are many, or no variant changes all of them, only those that differ from
+   *  the values of the first variant. */
+  std::vector<std::string>
+  names_of_variants(const std::vector<std::string>              &entries,
+                    const std::vector<std::vector<std::string>> &values);
 
   /** A variant of a study, and what its directory holds. */
   struct Variant

@@ -15,6 +15,7 @@
 #include <debond/support/provenance.h>
 #include <debond/support/ranks.h>
 #include <debond/support/runtime.h>
+#include <debond/support/serialization.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -162,8 +162,7 @@ namespace Debond
                 Allowed::list(Allowed::number_from(0, ""), 1, 0),
                 "Standard deviation of what is measured, relative to the "
                 "largest value of the curve: of each curve, or one for all. 0: "
-                "unknown, the same for all curves and taken from what the fit "
-                "leaves.");
+                "unknown, and taken from what the fit leaves of each curve.");
       table.add("Noise columns",
                 calibration.noise_columns,
                 Allowed::text("columns of the file"),

@@ -1,19 +1,16 @@
 #!/bin/bash
-# package.sh BUILD           makes the packages of a build, looks into them, and runs the program
-# package.sh BUILD EXAMPLE   makes a Debian like this one, installs the packages there, runs the first scene as a user,
-#                            and builds a program of one's own; needs root, debootstrap and 4 GB
+# package.sh PACKAGES           looks into the packages in this directory, and runs the program
+# package.sh PACKAGES EXAMPLE   makes a Debian like this one, installs the packages there, runs the first scene as a user,
+#                               and builds a program of one's own; needs root, debootstrap and 4 GB
 # Prints what must be so.
 set -eu
 here=$(dirname "$(realpath "$0")")
-build=$1 example=${2:-} links=$here/../install/links.pl
+packages=$1 example=${2:-} links=$here/../install/links.pl
 . "$here/tree.sh"
 # what is mounted is gone with this process
 if [[ -n $example && -z ${DEBOND_UNSHARED:-} ]]; then DEBOND_UNSHARED=1 exec unshare --mount "$0" "$@"; fi
 mkdir work && cd work # ctest writes into a file output
-mkdir packages
-cpack --config "$build/CPackConfig.cmake" -B "$PWD/packages" > log 2>&1 || { cat log && exit 1; }
-rm -r packages/_CPack_Packages
-program=$(ls "$PWD"/packages/debond_*.deb) library=$(ls "$PWD"/packages/libdebond-dev_*.deb)
+program=$(ls "$packages"/debond_*.deb) library=$(ls "$packages"/libdebond-dev_*.deb)
 
 if [[ -z $example ]]; then
   dpkg-deb -f "$program" Package Recommends

@@ -34,7 +34,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME debond)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "${summary}
 ${description}This package has the program, its scenes in /usr/share/debond/prm and its\npages.")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS python3-debond)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3-jinja2, python3-debond")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "openmpi-bin, paraview, libdebond-dev")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libdebond-dev)
@@ -52,10 +52,10 @@ if(TARGET debond_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-debond)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-      "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Python_VERSION_MAJOR}.${next_minor}), python3-numpy, python3-scipy, python3-jinja2")
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas, python3-openpyxl, debond")
+      "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Python_VERSION_MAJOR}.${next_minor}), python3-numpy, python3-scipy, debond (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas, python3-openpyxl")
   set(CPACK_DEBIAN_PYTHON_DESCRIPTION "${summary} (Python)
-${description}This package has the module, import debond, which also makes the pages of\nresults and the fits of the program.")
+${description}This package has the compiled module of import debond, which fits need.")
 endif()
 
 # What Debian wants beside the files that are installed is added to each package.

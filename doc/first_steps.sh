@@ -51,7 +51,7 @@ say "1. Install"
 has_module=true
 if [[ -z $packages && $source == /usr/share/doc/debond ]]; then
   scenes=/usr/share/debond/prm
-  [[ -e /usr/lib/python3/dist-packages/debond/__init__.py ]] || has_module=false
+  compgen -G "/usr/lib/python3/dist-packages/_debond*.so" > /dev/null || has_module=false
   unset PYTHONPATH
 elif [[ -z $packages ]]; then
   [[ -x $build/debond ]] || fail "$build/debond is missing: build it (README.md), or name a directory with packages"

@@ -42,6 +42,7 @@ namespace
 {
   using Columns = std::map<std::string, std::vector<double>>;
   using Values  = std::map<std::string, double>;
+  using Texts   = std::map<std::string, std::string>; ///< by full names
 
 
 
@@ -151,15 +152,28 @@ namespace
 
 
 
-  /** What a script says it has said itself: no "--set" in messages. */
+  /** What a script says it has said itself: no "--set" in messages, but those
+   *  of a command line. */
   std::vector<SceneEntry>
   changed(std::vector<SceneEntry>         entries,
-          const std::vector<std::string> &overrides)
+          const std::vector<std::string> &overrides,
+          const std::string              &place)
   {
     entries = with_overrides(std::move(entries), overrides);
     for (SceneEntry &entry : entries)
       if (entry.place == "--set")
-        entry.place = "entries";
+        entry.place = place;
+    return entries;
+  }
+
+  /** Entries with other values, in the places where they stand. */
+  std::vector<SceneEntry>
+  with_values(std::vector<SceneEntry> entries, const Texts &values)
+  {
+    for (SceneEntry &entry : entries)
+      if (const auto value = values.find(entry.full_name());
+          value != values.end())
+        entry.value = value->second;
     return entries;
   }
 
@@ -531,7 +545,12 @@ PYBIND11_MODULE(_debond, module)
     .def("refuse", &SceneEntry::refuse);
   module.def("read_file", read_scene_file);
   module.def("read_text", read_scene_text);
-  module.def("changed", changed);
+  module.def("changed",
+             changed,
+             py::arg("entries"),
+             py::arg("overrides"),
+             py::arg("place") = "entries");
+  module.def("with_values", with_values);
   module.def("text_of", scene_text);
   module.def("variants", variants);
   module.def("expression", [](const std::string &names,
@@ -569,7 +588,7 @@ PYBIND11_MODULE(_debond, module)
     .def("prescribed", prescribed)
     .def_property_readonly("values",
                            [](const Scene &s) {
-                             std::map<std::string, std::string> values;
+                             Texts values;
                              for (const SceneEntry &entry :
                                   read_scene_text(s.completed_parameters, ""))
                                values[entry.full_name()] = entry.value;
@@ -671,7 +690,7 @@ PYBIND11_MODULE(_debond, module)
   });
   module.def("closed_form", closed_form);
   module.def("provenance", [] {
-    std::map<std::string, std::string> texts;
+    Texts texts;
     for (const auto &[name, text] : provenance())
       texts[name] = text;
     return texts;

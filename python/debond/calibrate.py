@@ -92,8 +92,7 @@ def interval_text(done, j):
 
 def _fitted_scene(done, experiment, directory, n):
     """A scene that runs, with what has been found. A run has no rig: where the fit has one, the title tells them apart."""
-    found = [f"{name}={text}" for name, text in done.problem.unknowns.entries(experiment.number, done.values).items()]
-    entries = _debond.changed(experiment.given, found)
+    entries = _debond.with_values(experiment.given, done.problem.unknowns.entries(experiment.number, done.values))
     values = _debond.Scene(entries, "fitted.prm", _debond.Team(0)).values
     more = ["Task=simulate", "Output/Directory=" + os.path.join(directory, _numbered("fitted", "", experiment.number, n))]
     if any(experiment.changes(done.values)[1].values()):
@@ -125,6 +124,8 @@ def save(done, directory):
                     column.append(item)
         write_whole(os.path.join(directory, "profile.csv"), _csv(columns))
     write_whole(os.path.join(directory, "calibration.json"), json.dumps(json_of(done), indent=2, ensure_ascii=False) + "\n")
+    if problem.values["Output / Report"] == "true":
+        _write_page(directory)
 
 
 def lines_of(done):
@@ -247,7 +248,7 @@ def main(arguments) -> int:
     options = parser.parse_args(arguments)
     try:
         scene = Scene(options.scene)
-        scene._entries = _debond.changed(scene._entries, options.set)
+        scene._entries = _debond.changed(scene._entries, options.set, "--set")
         if options.check:
             for line in check_lines(problem_of(scene)):
                 print(line)

@@ -54,7 +54,7 @@ class Experiment:
     def __init__(self, unknowns, number, entries, name, measured=None):
         """Experiment `number` of `unknowns`; `measured`: a Measurement that has been read. Raises SceneError."""
         self.unknowns, self.number, self.given = unknowns, number, entries
-        entries = _debond.changed(entries, [f"{entry}={value}" for entry, value in unknowns.entries(number, unknowns.starts).items()])
+        entries = _debond.with_values(entries, unknowns.entries(number, unknowns.starts))
         # runs read no measured curve; the file is read once, by this module
         without = _debond.changed(entries, ["Output/Reference curve=", "Output/Reference columns="])
         self.scene = _debond.Scene(entries if measured is None else without, name, _debond.Team(0))
@@ -134,6 +134,8 @@ class Experiment:
                 try:
                     self.curve.check(list(self.unknowns.entries(self.number, values).items()))
                 except SceneError as error:
+                    if error.entry == unknown.entry.name and error.value is not None:  # a value that is not allowed there
+                        raise SceneError(f"{unknown.entry.place}: {error}") from None
                     unknown.entry.refuse(f"at the bound {bound:.6g}: {error}")
 
     def settle(self, values):

@@ -32,7 +32,9 @@ MISFIT_F = 5.0  # of noise.lack_of_fit(): beyond it noise is no explanation (8 w
 def problem_of(scene, runs=None):
     """The Problem of a scene with unknowns. Raises SceneError."""
     scene = scene if isinstance(scene, Scene) else Scene(scene)
-    entries = _debond.changed(scene._entries, ["Task=calibrate"])
+    entries = scene._entries
+    if not any(entry.name == "Task" and entry.value == "calibrate" for entry in entries):
+        entries = _debond.changed(entries, ["Task=calibrate"])
     variants = _debond.variants(entries)
     for entry in entries:
         if entry.name == "Output / Directory" and "{{" in entry.value:

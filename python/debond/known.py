@@ -30,15 +30,16 @@ def _changes(fit):
     if _BONDING not in held and values.get(_BONDING) == "1":
         result.append((_BONDING, "1", "", "-10 %", "0.9"))
     curve = fit._best.curve[problem.series[0].slice]
-    peak = numpy.argmax(abs(curve))
-    angle, torque = experiment.measured.over[peak], curve[peak]
+    torque = curve[numpy.argmax(abs(curve))]
+    half = numpy.argmax(abs(curve) >= 0.5 * abs(torque))  # on the way up, where angles matter
+    angle = experiment.measured.over[half]
     if experiment.over.is_angle and problem.series[0].column.is_torque and torque != 0:
-        for key, size in (("angle_offset", 0.1 * angle), ("slack", abs(0.1 * angle)), ("compliance", abs(0.1 * angle / torque)),
+        for key, size in (("angle_offset", 0.1 * angle), ("slack", abs(0.1 * angle)), ("compliance", abs(0.2 * angle / torque)),
                           ("torque_offset", 0.01 * torque), ("drift", 0.01 * torque)):
             entry = "Calibration / " + RIG[key]
             if entry not in held:
                 unit, now = _debond.unit_of(entry), float(values[entry])
-                part = "1 % of the largest torque" if "orque" in entry else "10 % of the angle of the largest torque"
+                part = "1 % of the largest torque" if "orque" in entry else "10 % of the angle at half the largest torque"
                 result.append((entry, values[entry], unit, f"+{size:.2g} {unit}, {part}", repr(now + float(size))))
     return result
 

@@ -7,6 +7,7 @@ import numpy
 import _debond
 
 from . import measured
+from .errors import InputError
 
 ENTRY = "Output / Reference curve"
 
@@ -173,7 +174,7 @@ def read(scene, values, columns, over, largest_shift):
     file = values[ENTRY]
     if not file:
         return _proposed(scene, columns, over, least_turn)
-    table = measured.read_measured(file, [column.name for column in (over, *columns)], values["Output / Reference columns"]).T
+    table = _read(scene, file, [column.name for column in (over, *columns)], values["Output / Reference columns"])
     branch = branches_of(table[:, 0], least_turn)
     used, window = _used_rows(scene, values, columns, over, table, branch, largest_shift)
     scale = numpy.abs(table[:, 1:]).max(axis=0)  # of the whole file, so that a window changes no weight
@@ -186,6 +187,16 @@ def read(scene, values, columns, over, largest_shift):
                        used / max(1, len(table) - 1), len(table) - len(used))
 
 
+def _read(scene, file, names, columns, columns_entry="Output / Reference columns"):
+    """Columns of a measured file (rows x columns); what is wrong is said with the place of its entry."""
+    try:
+        return measured.read_measured(file, names, columns, columns_entry=columns_entry).T
+    except InputError as error:
+        if error.why is None:
+            raise
+        scene.refuse(error.entry, error.why)
+
+
 def _stated_noise(scene, values, columns, used, scale):
     """Standard deviations as the scene states them (n x curves), or None."""
     choice, entry = _list_of(values["Calibration / Noise columns"]), "Calibration / Noise columns"
@@ -194,7 +205,7 @@ def _stated_noise(scene, values, columns, used, scale):
         return numpy.tile(noise * scale, (len(used), 1)) if noise[0] > 0 else None
     if len(choice) != len(columns):
         scene.refuse(entry, "expected one for each of Curves")
-    sd = measured.read_measured(values[ENTRY], [column.name for column in columns], choice, columns_entry=entry).T[used]
+    sd = _read(scene, values[ENTRY], [column.name for column in columns], choice, entry)[used]
     for row, c in numpy.argwhere(~(sd > 0))[:1]:
         scene.refuse(entry, f"{values[ENTRY]}: the standard deviation of {columns[c].name} in row {used[row] + 1} is "
                             f"{sd[row, c]:.4g}: expected a number above 0")

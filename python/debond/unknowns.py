@@ -23,6 +23,11 @@ def _short(text):
     return text if len(text) <= 60 else text[:57] + "..."
 
 
+def _exact(number):
+    text = repr(number)
+    return text[:-2] if text.endswith(".0") else text
+
+
 def _number(text):
     try:
         value = float(text)
@@ -167,10 +172,11 @@ class Unknowns:
                     number = mark[1](named)
                     if not math.isfinite(number):
                         place = ", ".join(f"{name} = {values[i]:.6g}" for i, name in self._named.items())
-                        entry.refuse(f"<<{mark[0]}>> has no finite value at {place}")
+                        entry.refuse(f"<<{mark[0]}>> has no finite value at {place}; if(condition, a, b) leaves out "
+                                     "what has none")
                 else:
                     number = float(values[mark])
                 # in an expression of the scene a minus may stand before it
-                text += (repr(number) if alone or number >= 0 else f"({number!r})") + after
+                text += (_exact(number) if alone or number >= 0 else f"({_exact(number)})") + after
             result[entry.name] = text
         return result

@@ -361,8 +361,8 @@ namespace Debond
                          variant.values.end());
               for (const auto &[name, value] : summary.items())
                 {
-                  if (value.is_object()) // of the program, not of the variant
-                    continue;
+                  if (value.is_object() || name == "changed_entries")
+                    continue; // not of the variant alone
                   const std::size_t column =
                     column_of.emplace(name, header.size()).first->second;
                   header.resize(std::max(header.size(), column + 1), name);

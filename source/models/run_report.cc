@@ -12,6 +12,7 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <set>
 
 namespace Debond
 {
@@ -101,13 +102,23 @@ namespace Debond
     changed_entries(const Scene &scene)
     {
       Scene      defaults;
-      EntryTable table; // for units
+      EntryTable table;
       defaults.declare(table);
+      std::set<std::string> as_ever{"Output / Directory"};
+      const auto            add = [&](const SceneEntry &entry) {
+        as_ever.insert(entry.full_name() + " = " + entry.value);
+      };
+      for (const SceneEntry &entry : read_scene_text(table.text(), ""))
+        add(entry);
       nlohmann::ordered_json list = nlohmann::ordered_json::array();
-      for (const SceneEntry &entry : scene.changed_entries)
-        list.push_back({{"entry", entry.full_name()},
-                        {"value", entry.value},
-                        {"unit", table.unit_of(entry.full_name())}});
+      for (const SceneEntry &entry :
+           read_scene_text(scene.completed_parameters, ""))
+        if (const std::string name = entry.full_name();
+            as_ever.count(name) == 0 &&
+            as_ever.count(name + " = " + entry.value) == 0)
+          list.push_back({{"entry", name},
+                          {"value", entry.value},
+                          {"unit", table.unit_of(name)}});
       return list;
     }
   } // namespace

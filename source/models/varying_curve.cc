@@ -37,7 +37,7 @@ namespace Debond
     if (given.model == ModelKind::automatic)
       throw given.with_place(
         EntryError("Model",
-                   "curves are compared with those of one model: choose it"));
+                   "a calibration compares curves of one model: choose it"));
   }
 
 

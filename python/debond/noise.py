@@ -116,7 +116,10 @@ def _criterion(partial, residuals, derivatives, parts):
     phi = _coefficients(numpy.tanh(partial))
     n, k = derivatives.shape
     both = numpy.column_stack([derivatives, residuals])
-    done = [whitened(both[part], phi) for part in parts]
+    try:
+        done = [whitened(both[part], phi) for part in parts]
+    except numpy.linalg.LinAlgError:  # so near to what never ends that rounding decides
+        return 1e300, numpy.nan, phi
     triangle = numpy.abs(numpy.diag(numpy.linalg.qr(numpy.concatenate([rows for rows, _ in done]), mode="r")))
     freedom = n - k
     variance = max(triangle[-1] ** 2 / freedom, 1e-300)

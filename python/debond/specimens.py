@@ -129,7 +129,7 @@ def _fit_all(specimens, scene, table, directory, executor, n_jobs, say):
     results = {name: finished(task) for name, task in tasks.items()}
     left = {name: task for name, task in tasks.items() if not results[name]}
     n_done = len(tasks) - len(left)
-    say(f"{len(tasks)} specimens" + f", {n_done} of them done already" * (n_done > 0))
+    say(f"{len(tasks)} specimen" + "s" * (len(tasks) != 1) + f", {n_done} of them done already" * (n_done > 0))
 
     def plain_result(result):
         return {"reason": f"{type(result).__name__}: {result}"} if isinstance(result, Exception) else result

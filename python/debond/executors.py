@@ -2,6 +2,7 @@
 
 import multiprocessing
 import os
+import signal
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor, as_completed
 from typing import List, Union
 
@@ -33,8 +34,8 @@ def _collect(executor, function, tasks, results, say):
 
 
 def _with_own_processes(function, tasks, n, results, say):
-    # a process that has computed with threads cannot be copied safely: new ones are begun
-    processes = ProcessPoolExecutor(n, mp_context=multiprocessing.get_context("spawn"))
+    # a process that has computed with threads cannot be copied safely: new ones are begun; Ctrl-C ends them without a word
+    processes = ProcessPoolExecutor(n, multiprocessing.get_context("spawn"), signal.signal, (signal.SIGINT, signal.SIG_DFL))
     try:
         _collect(processes, function, tasks, results, say)
     finally:

@@ -64,6 +64,16 @@ def fit(executor=None):
     return [found.values.tolist(), found.lower.tolist(), found.upper.tolist(), found.n_runs]
 
 
+def specimens(directory, executor=None):
+    """Whole fits by an executor: one that works, and one that does not."""
+    import debond
+
+    found = debond.fit_specimens(debond.Scene(None, text=COIN), "specimens.csv", directory, executor=executor)
+    check(list(found.failures) == ["B"] and "none.csv" in found.failures["B"], f"specimens: {found.failures}")
+    with open(directory + "/parameters.csv", encoding="utf-8") as file:
+        return file.read()
+
+
 def failing(task):
     raise ZeroDivisionError("that is a mistake")
 
@@ -75,7 +85,7 @@ def dying(task):
     return task
 
 
-def check_fits(expected):
+def check_fits(expected, expected_table):
     spawn, fork = (multiprocessing.get_context(kind) for kind in ("spawn", "fork"))
     elsewhere = {"initializer": os.chdir, "initargs": ("/",)}
     for name, executor in (("threads", ThreadPoolExecutor(2)),
@@ -83,7 +93,9 @@ def check_fits(expected):
                            ("forked processes", ProcessPoolExecutor(2, fork))):
         with executor:
             found = fit(executor)
+            table = specimens("in " + name, executor)
         check(found == expected, f"{name}: {found}, without an executor {expected}")
+        check(table == expected_table, f"{name}: specimens {table}, without an executor {expected_table}")
         print(f"{name}: the same digits", flush=True)
 
 
@@ -151,7 +163,7 @@ def under_mpi(expected):
 
     with MPIPoolExecutor() as executor:
         ranks = set(executor.map(rank, range(20)))
-        found = fit(executor)
+        found = [fit(executor), specimens("in mpi4py", executor)]
     check(0 not in ranks, f"ranks that worked: {ranks}")
     check(repr(found) == expected, f"mpi4py: {found}, alone {expected}")
     print("mpi4py: the same digits")
@@ -170,7 +182,7 @@ def check_dask(expected):
         return print("no dask.distributed: left out")
     with LocalCluster(2, threads_per_worker=1, dashboard_address=None, local_directory=os.getcwd()) as cluster:
         with Client(cluster) as client:
-            found = fit(client.get_executor())
+            found = [fit(client.get_executor()), specimens("in Dask", client.get_executor())]
     check(found == expected, f"Dask: {found}, without {expected}")
     print("Dask: the same digits", flush=True)
 
@@ -188,11 +200,14 @@ def main():
         numpy.savetxt("measured.csv", columns, "%.17g", ",", header="angle_deg,torque_Nmm", comments="")
         expected = fit()
         check(max(abs(numpy.array(expected[0]) / [0.58, 0.022] - 1)) < 1e-3, f"unknowns: {expected[0]}")
-        check_fits(expected)
+        with open("specimens.csv", "w", encoding="utf-8") as file:
+            file.write("specimen,curve,Bone/Young modulus\nA,measured.csv,17000\nB,none.csv,16000\n")
+        expected_table = specimens("alone")
+        check_fits(expected, expected_table)
         check_mistakes()
         check_run_many()
-        check_dask(expected)
-        check_mpi(expected)
+        check_dask([expected, expected_table])
+        check_mpi([expected, expected_table])
         os.chdir("/")
 
 

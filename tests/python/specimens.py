@@ -80,6 +80,17 @@ def check_pooling():
     check(math.isnan(pool([], []).mean) and pool([2.0], [0.1]).mean == 2, "none, or one value")
 
 
+def check_what_is_pooled():
+    """What is not told, or ends at a bound, has no error that could weigh it."""
+    row = {"told": True, "at_bound": False, "logarithmic": True, "unit": "mm", "value": 2.0, "sd": 0.1}
+    rows = [row, {**row, "value": 8.0}, {**row, "told": False}, {**row, "at_bound": True}, {**row, "sd": None}, {**row, "sd": 0.0}]
+    unknown, group, n, left_out, mean, lower, upper, sd, unit, scale, tau = module._pooled_row("a", "g", rows)
+    check((n, left_out, unit, scale) == (2, 4, "mm", "logarithm") and abs(mean - 4) < 1e-12, f"{n}, {left_out}, mean {mean}")
+    check(abs(tau**2 - (math.log(4) ** 2 / 2 - 0.01)) < 1e-12 and abs(lower * upper - 16) < 1e-9, f"tau {tau}, {lower} to {upper}")
+    drawn = 4 * numpy.exp(tau * numpy.random.default_rng(1).standard_normal(10**6))
+    check(abs(sd / numpy.std(drawn) - 1) < 0.02, f"standard deviation {sd}, of values that were drawn {numpy.std(drawn)}")
+
+
 def truth_of(curve):
     line = text_of(os.path.join(example, curve)).splitlines()[0]
     return dict(zip(("mu_ub", "a_s"), map(float, re.findall("= ([0-9.]+)", line))))
@@ -222,6 +233,7 @@ def main():
     os.makedirs(scratch)
     os.chdir(scratch)
     check_pooling()
+    check_what_is_pooled()
     check_example()
     check_going_on()
     check_failures()

@@ -125,7 +125,7 @@ def save(done, directory):
         write_whole(os.path.join(directory, "profile.csv"), _csv(columns))
     write_whole(os.path.join(directory, "calibration.json"), json.dumps(json_of(done), indent=2, ensure_ascii=False) + "\n")
     if problem.values["Output / Report"] == "true":
-        _write_page(directory)
+        write_page(directory)
 
 
 def lines_of(done):
@@ -196,8 +196,6 @@ def calibrate(scene, threads: int = 1, force: bool = False, *, executor=None, sa
     say(f"{len(problem.measured)} measured values, {len(problem.unknowns.list)} unknowns")
     done = fit(scene, executor=executor, threads=threads, evaluations=log, say=say)
     save(done, directory)
-    if problem.values["Output / Report"] == "true":
-        write_page(directory)
     for line in lines_of(done):
         say(line)
     say(f"Results are in {directory}/calibration.json, the fitted scene is {_numbered('fitted', '.prm', 0, len(problem.experiments))}")

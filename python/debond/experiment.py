@@ -56,7 +56,7 @@ class Experiment:
         self.unknowns, self.number, self.given = unknowns, number, entries
         entries = _debond.with_values(entries, unknowns.entries(number, unknowns.starts))
         # runs read no measured curve; the file is read once, by this module
-        without = _debond.changed(entries, ["Output/Reference curve=", "Output/Reference columns="])
+        without = _debond.changed(entries, ["Output/Reference curve=", "Output/Reference columns="], "--set")
         self.scene = _debond.Scene(entries if measured is None else without, name, _debond.Team(0))
         self.name = name
         self.values = self.scene.values

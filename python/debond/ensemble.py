@@ -109,8 +109,7 @@ def _tables(directory, over):
     except (OSError, ValueError) as error:
         raise error if isinstance(error, InputError) else InputError(f"{directory}: {error}") from None
     names = [name + kind + unit for name, unit in QUANTITIES for kind in STATISTICS]
-    torques = ["torque" + kind + "_Nmm" for kind in STATISTICS]
-    curves = [*entries, "angle_deg", "members", *torques], []
+    curves = [*entries, "angle_deg", "members", *(f"torque{kind}_Nmm" for kind in STATISTICS)], []
     summary, notes = ([*entries, "members", "failed", *names], []), []
     for values, members in groups.items():
         done = [member for member in members if member]
@@ -120,10 +119,9 @@ def _tables(directory, over):
         angles, n, torques, n_left_out = band_of([curve for _, curve in done])
         curves[1].extend([*values, *row] for row in zip(angles.tolist(), n.tolist(), *torques.tolist()))
         if n_left_out:
-            which = "; ".join(f"{name} = {text}" for name, text in zip(entries, values))
-            which = f"{len(done)} members{which and ' of ' + which}"
-            notes.append(f"ensemble.csv leaves out {n_left_out} of {which}: their rotation reverses, so that an angle has more "
-                         "than one torque")
+            which = " of " * bool(values) + "; ".join(f"{name} = {text}" for name, text in zip(entries, values))
+            notes.append(f"ensemble.csv leaves out {n_left_out} of {len(done)} members{which}: their rotation reverses, so that "
+                         "an angle has more than one torque")
     return curves, summary, notes
 
 

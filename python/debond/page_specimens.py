@@ -15,16 +15,21 @@ def _rows_of(table):
     return [dict(zip(table, fields)) for fields in zip(*table.values())]
 
 
-def _axis(values, is_logarithmic):
-    """Limits that hold these values, and a function from a value to its place from 0 to 1."""
-    low, high = min(values), max(values)
-    if is_logarithmic:
-        room = 1.05 * (high / low) ** 0.05
-        low, high = low / room, high * room
-        return (low, high), lambda value: math.log(value / low) / math.log(high / low)
-    room = 0.06 * (high - low) or 0.1 * abs(high) or 1.0
-    low, high = low - room, high + room
-    return (low, high), lambda value: (value - low) / (high - low)
+def _axis(values, ends_of_means, is_logarithmic):
+    """Limits that hold all values, and ends of means as far as they let the values be seen; a function from a value to its
+    place from 0 to 1; and round numbers between the limits with their texts."""
+    to, back = (math.log, math.exp) if is_logarithmic else (float, float)
+    low, high = to(min(values)), to(max(values))
+    span = high - low or 0.1 * abs(high) or 1.0
+    places = [low, high, *(min(max(to(value), low - span), high + span) for value in ends_of_means)]
+    low, high = min(places) - 0.06 * span, max(places) + 0.06 * span
+    if is_logarithmic and high - low > math.log(6):
+        marks = [mantissa * 10.0**decade for decade in range(-30, 31) for mantissa in (1, 2, 5)]
+        marks = [(mark, f"{mark:g}") for mark in marks if low < math.log(mark) < high]
+        marks = marks[::-(-len(marks) // 6)]
+    else:
+        marks = ticks(back(low), back(high), most=5)
+    return lambda value: (to(value) - low) / (high - low), marks
 
 
 def _line(row, place, at, text, kind):
@@ -46,14 +51,16 @@ def forest_of(unknown, parameters, pooled):
     own = [row for row in parameters if row["unknown"] == unknown]
     means = {row["group"]: row for row in pooled if row["unknown"] == unknown}
     told = [row for row in own if row["told"] == "true"]
-    ends = [number(row["value"]) for row in own]
-    ends += [number(row[name]) for row in told for name in ("lower_95", "upper_95")]
-    ends += [number(row[name]) for row in means.values() for name in ("mean", "lower_95", "upper_95")]
     is_logarithmic = own[0]["logarithmic"] == "true"
-    ends = [value for value in ends if math.isfinite(value) and (value > 0 or not is_logarithmic)]
+
+    def drawable(rows, *names):
+        values = [number(row[name]) for row in rows for name in names]
+        return [value for value in values if math.isfinite(value) and (value > 0 or not is_logarithmic)]
+
+    ends = drawable(own, "value") + drawable(told, "lower_95", "upper_95")
     if not ends:
         return None
-    limits, share = _axis(ends, is_logarithmic)
+    share, marks = _axis(ends, drawable(means.values(), "mean", "lower_95", "upper_95"), is_logarithmic)
 
     def place(value):
         return round(LEFT + (RIGHT - LEFT) * min(1.0, max(0.0, share(value))), 1)
@@ -69,7 +76,7 @@ def forest_of(unknown, parameters, pooled):
     bottom = TOP + len(lines) * ROW
     return {"unknown": unknown, "unit": own[0]["unit"], "lines": lines, "is_logarithmic": is_logarithmic,
             "size": (WIDTH, bottom + 30), "box": (LEFT, RIGHT, TOP, bottom),
-            "ticks": [(place(value), text) for value, text in ticks(*limits, most=5)]}
+            "ticks": [(place(value), text) for value, text in marks]}
 
 
 def _values(row):

@@ -43,12 +43,12 @@ def tau_squared_of(y, variance) -> float:
 
 
 def pool(y, sd) -> Pooled:
-    """Of values (n) and the standard deviations of their errors (n), all above 0. One value is its own mean, with the interval
-    of a normal distribution."""
+    """Of values (n) and the standard deviations of their errors (n), all above 0. One specimen does not tell how they scatter,
+    and so not how far the mean of all is from it."""
     y, variance = numpy.asarray(y, dtype=float), numpy.asarray(sd, dtype=float) ** 2
     n = len(y)
     if n < 2:
-        return Pooled(n, *(y[0] + 1.959963984540054 * sd[0] * numpy.array([0, -1, 1]))) if n else Pooled()
+        return Pooled(n, y[0]) if n else Pooled()
     tau_squared = tau_squared_of(y, variance)
     w, mu = _weighted(y, variance, tau_squared)
     scatter = w @ (y - mu) ** 2 / (n - 1)

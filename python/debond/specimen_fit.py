@@ -58,7 +58,8 @@ def _rows_of(done):
     with numpy.errstate(invalid="ignore"):
         sd = (upper - lower) / (2 * told.quantiles)
     return [{"unknown": one.name, "value": done.values[j], "lower_95": done.lower[j], "upper_95": done.upper[j],
-             "unit": one.unit, "told": done.is_told[j], "at_bound": not told.free[j], "logarithmic": one.logarithmic, "sd": sd[j]}
+             "unit": one.unit, "told": done.is_told[j], "at_bound": not told.free[j], "logarithmic": one.logarithmic,
+             "sd": sd[j]}
             for j, one in enumerate(unknowns.list)]
 
 

@@ -99,7 +99,7 @@ def _specimen(place, fields, known, has_decimal_commas, directory):
 
     name, group = fields["specimen"], fields.get("group", "")
     if not _NAME.fullmatch(name) or name.endswith("."):
-        refuse("specimen", "a name for a directory: first a letter or a digit, nowhere / \\ : * ? \" < > |, at most 100")
+        refuse("specimen", "a name for a directory: a letter or a digit, then at most 99 signs but / \\ : * ? \" < > |")
     if not fields["curve"]:
         refuse("curve", "the file of a measured curve")
     if group.lower() == ALL:

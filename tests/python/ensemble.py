@@ -1,5 +1,5 @@
-"""ensemble.py DEBOND SCRATCH: statistics of a study over random patterns, against the files of its variants and, where the
-program writes them itself, against those; against numbers worked out by hand for curves that are made up.
+"""ensemble.py DEBOND SCRATCH: statistics of a study over random patterns, as the program has them made, against the files of
+its variants; against numbers worked out by hand for curves that are made up.
 
 Ends with 1 and a message at the first thing that is wrong. Needs NumPy; with pandas it looks at the frames, too.
 """
@@ -49,6 +49,8 @@ def quantile(values, share):
 
 def expected_of(values):
     """Mean, sd and quantiles by name."""
+    if not values:
+        return dict.fromkeys(("mean", "sd", *PERCENT), math.nan)
     n, mean = len(values), math.fsum(values) / len(values)
     sd = math.sqrt(math.fsum((value - mean) ** 2 for value in values) / (n - 1)) if n > 1 else math.nan
     return {"mean": mean, "sd": sd, **{name: quantile(values, share) for name, share in PERCENT.items()}}
@@ -80,8 +82,8 @@ def check_band():
 
 def run_study():
     command = [program, scene]
-    for setting in ("Interface/Bonding/Pattern=random", "Interface/Bonding/Seed={{1..5}}", "Interface/Bonding/Bonded fraction={{0.3|0.70}}",
-                    "Output/Directory=study"):
+    for setting in ("Interface/Bonding/Pattern=random", "Interface/Bonding/Seed={{1..5}}",
+                    "Interface/Bonding/Bonded fraction={{0.3|0.70}}", "Output/Directory=study"):
         command += ["--set", setting]
     done = subprocess.run(command, capture_output=True, text=True)
     check(done.returncode == 0, f"{command}: {done.stdout}{done.stderr}")
@@ -99,9 +101,9 @@ def check_summary(directory, fractions, left_out=()):
                 summaries.append(json.load(file))
         for name, unit in QUANTITIES:
             values = [one[name + unit] for one in summaries if one.get(name + unit) is not None]
-            for kind, expected in (expected_of(values) if values else dict.fromkeys(("mean", "sd", *PERCENT), math.nan)).items():
-                field = row[f"{name}_{kind}{unit}"]
-                check(same(field, expected, abs(max(values, default=1.0))), f"{fraction}: {name}_{kind}{unit} {field}, {expected}")
+            for kind, expected in expected_of(values).items():
+                field = f"{name}_{kind}{unit}"
+                check(same(row[field], expected, abs(max(values, default=1.0))), f"{fraction}: {field} {row[field]}, {expected}")
 
 
 def check_curves(directory):
@@ -112,7 +114,8 @@ def check_curves(directory):
         for row in study:
             if row[FRACTION] == fraction and row["converged"] == "true":
                 rows = table(f"{directory}/variant-{int(row['variant']):03d}/torque.csv")
-                curves.append(dict((float(one["angle_deg"]), float(one["torque_Nmm"])) for one in rows))  # the last one at an angle
+                # the last one at an angle
+                curves.append(dict((float(one["angle_deg"]), float(one["torque_Nmm"])) for one in rows))
         band = [row for row in bands if row[FRACTION] == fraction]
         check([float(row["angle_deg"]) for row in band] == list(max(curves, key=len)), f"{fraction}: angles of the band")
         for row in band:
@@ -125,7 +128,7 @@ def check_curves(directory):
 
 def check_study():
     run_study()
-    by_program = {name: table(f"study/{name}") for name in ("ensemble.csv", "ensemble_summary.csv") if os.path.exists(f"study/{name}")}
+    by_program = {name: table(f"study/{name}") for name in ("ensemble.csv", "ensemble_summary.csv")}
     check(write_ensemble("study") == [], "something is left out")
     for name, rows in by_program.items():
         again = table(f"study/{name}")
@@ -150,8 +153,8 @@ def check_study():
     with open("some/variant-004/torque.csv", "w", encoding="utf-8") as file:
         file.writelines(lines[:20])
     done = subprocess.run([sys.executable, "-m", "debond.ensemble", "some"], capture_output=True, text=True)
-    check(done.returncode == 0 and f"ensemble.csv leaves out 1 of 4 members of {FRACTION} = 0.3: their rotation reverses" in done.stdout,
-          f"what is left out: {done}")
+    words = f"ensemble.csv leaves out 1 of 4 members of {FRACTION} = 0.3: their rotation reverses"
+    check(done.returncode == 0 and words in done.stdout, f"what is left out: {done}")
     first, second = table("some/ensemble_summary.csv")
     check((first["members"], first["failed"], second["failed"]) == ("4", "1", "0"), f"{first}")
     check_summary("some", ("0.3", "0.70"), left_out=("2",))
@@ -164,7 +167,8 @@ def check_frames_and_mistakes():
         import pandas  # noqa: F401
 
         found = debond.ensemble("study", FRACTION)
-        check(list(found.summary[SEED]) == [1, 2, 3, 4, 5] and (found.summary["members"] == 2).all(), f"over the fraction: {found.summary}")
+        check(list(found.summary[SEED]) == [1, 2, 3, 4, 5], f"over the fraction: {found.summary}")
+        check((found.summary["members"] == 2).all(), f"over the fraction: {found.summary}")
         check(len(debond.ensemble("study").curves) == len(table("study/ensemble.csv")), "frames")
     except ImportError:
         print("no pandas: frames are left out")

@@ -1,7 +1,7 @@
-"""Fits, specimens and studies by executors of concurrent.futures: threads, processes, those of mpi4py and Dask. Digits are those
-of a fit without any; what goes wrong in a worker is said; a worker that dies ends a fit, and spoils no other specimen.
+"""Fits, specimens and studies by executors of concurrent.futures: threads, processes, those of mpi4py and Dask. Digits are
+those of a fit without any; what goes wrong in a worker is said; a worker that dies ends a fit, and spoils no other specimen.
 
-Ends with 1 and a message at the first thing that is wrong. Needs NumPy and SciPy; what needs mpi4py or Dask is left out without.
+Ends with 1 and a message at the first thing that is wrong. Needs NumPy and SciPy; without mpi4py or Dask it leaves them out.
 """
 
 import multiprocessing
@@ -130,7 +130,8 @@ def check_run_many():
     good = debond.Scene(None, TRUTH, text=text)
     bad = debond.Scene(None, {**TRUTH, "Bone/Cells": "no"}, text=text)
     alone = good.run().rows["torque_Nmm"]
-    entries = {"Model": "foundation", "Chuck/Rotation z/Value": "max(t - 1, 0)", "Chuck/Translation z/Value": "-0.005 * min(t, 1)"}
+    entries = {"Model": "foundation", "Chuck/Rotation z/Value": "max(t - 1, 0)",
+               "Chuck/Translation z/Value": "-0.005 * min(t, 1)"}
     with ProcessPoolExecutor(2, multiprocessing.get_context("spawn")) as executor:
         for one in (None, executor):
             found = debond.run_many([good, bad, entries, {"No/Entry": 1}], one)

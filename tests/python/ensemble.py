@@ -103,7 +103,8 @@ def check_summary(directory, fractions, left_out=()):
             values = [one[name + unit] for one in summaries if one.get(name + unit) is not None]
             for kind, expected in expected_of(values).items():
                 field = f"{name}_{kind}{unit}"
-                check(same(row[field], expected, abs(max(values, default=1.0))), f"{fraction}: {field} {row[field]}, {expected}")
+                scale = abs(max(values, default=1.0))
+                check(same(row[field], expected, scale), f"{fraction}: {field} {row[field]}, {expected}")
 
 
 def check_curves(directory):

@@ -52,8 +52,8 @@ def check_pooling():
     # vaccine against tuberculosis: ill and well of those vaccinated, of the others (Colditz et al., JAMA 271 (1994) 698-702)
     a, b, c, d = numpy.array([
         (4, 119, 11, 128), (6, 300, 29, 274), (3, 228, 11, 209), (62, 13536, 248, 12619), (33, 5036, 47, 5761),
-        (180, 1361, 372, 1079), (8, 2537, 10, 619), (505, 87886, 499, 87892), (29, 7470, 45, 7232), (17, 1699, 65, 1600), (186, 50448, 141, 27197),
-        (5, 2493, 3, 2338), (27, 16886, 29, 17825)], dtype=float).T
+        (180, 1361, 372, 1079), (8, 2537, 10, 619), (505, 87886, 499, 87892), (29, 7470, 45, 7232), (17, 1699, 65, 1600),
+        (186, 50448, 141, 27197), (5, 2493, 3, 2338), (27, 16886, 29, 17825)], dtype=float).T
     y, variance = numpy.log(a / (a + b) * (c + d) / c), 1 / a - 1 / (a + b) + 1 / c - 1 / (c + d)
     found = pool(y, numpy.sqrt(variance))
     # as metafor of R prints them (Viechtbauer, J. Stat. Software 36(3) (2010)): REML, and test="knha"
@@ -84,7 +84,8 @@ def check_pooling():
 def check_what_is_pooled():
     """What is not told, or ends at a bound, has no error that could weigh it."""
     row = {"told": True, "at_bound": False, "logarithmic": True, "unit": "mm", "value": 2.0, "sd": 0.1}
-    rows = [row, *({**row, **other} for other in ({"value": 8.0}, {"told": False}, {"at_bound": True}, {"sd": None}, {"sd": 0.0}))]
+    others = {"value": 8.0}, {"told": False}, {"at_bound": True}, {"sd": None}, {"sd": 0.0}
+    rows = [row, *({**row, **other} for other in others)]
     unknown, group, n, left_out, mean, lower, upper, sd, unit, scale, tau = module._pooled_row("a", "g", rows)
     check((n, left_out, unit, scale) == (2, 4, "mm", "logarithm") and abs(mean - 4) < 1e-12, f"{n}, {left_out}, mean {mean}")
     check(abs(tau**2 - (math.log(4) ** 2 / 2 - 0.01)) < 1e-12, f"tau {tau}")

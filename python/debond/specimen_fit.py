@@ -8,7 +8,7 @@ import numpy
 
 import _debond
 
-from .calibrate import plain, save, why_it_does_not_fit, write_page
+from .calibrate import plain, save, why_it_does_not_fit
 from .errors import InputError, RunError
 from .files import write_whole
 from .fit import fit
@@ -76,7 +76,6 @@ def fit_one(task):
         runs = os.path.join(directory, "evaluations.jsonl")
         done = fit(Scene(None, text=text), evaluations=runs)
         save(done, directory)
-        write_page(directory)
         why = why_it_does_not_fit(done)
         if why:
             return {"reason": why}

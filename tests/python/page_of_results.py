@@ -335,7 +335,7 @@ def test_calibration():
     seen, one = words(text), results["unknowns"]["a_s"]
     for said in ("A <coin> & bone: calibration", "Output / Reference curve run/torque.csv",
                  f"a_s {one['value']:.5g} {one['lower_95']:.5g} to {one['upper_95']:.5g} mm",
-                 "Angle offset 0.001 deg given", f"{results['correlations']['mu_b | a_s']:.3g}"):
+                 "Angle offset 0.001 deg given", f"{results['correlations']['mu_b | a_s']:.2g}"):
         check(said in seen, f"the page of a calibration does not say: {said}")
     fit = table("calibration/fit.csv")
     data, rest = curves(text)

@@ -323,7 +323,7 @@ namespace
     py::bytes
     save() const
     {
-      std::ostringstream              bytes(std::ios::binary);
+      Classic<std::ostringstream>     bytes(std::ios::binary);
       boost::archive::binary_oarchive archive(bytes);
       archive << std::string(DEBOND_VERSION)
               << simulation->scene.completed_parameters << *simulation;
@@ -338,7 +338,7 @@ namespace
       std::string version, parameters;
       try
         {
-          std::istringstream              bytes(state, std::ios::binary);
+          Classic<std::istringstream>     bytes(state, std::ios::binary);
           boost::archive::binary_iarchive archive(bytes);
           archive >> version >> parameters;
           if (version == DEBOND_VERSION &&

@@ -58,7 +58,7 @@ for locale in C $german; do
    "$debond" input/expression.prm --force > console
    "$debond" --check input/everything.prm > check
    if [ $# -gt 0 ]; then
-     "$debond" input/fit.prm --force > fit
+     "$debond" input/fit.prm --force > fit-console
      "$debond" --compare ../library/ensemble input/measured.csv > compared
    fi)
 done

@@ -222,7 +222,7 @@ def full_disk():
 @case
 def too_late():
     from mpi4py import MPI
-    import debond
+    import debond.scene
 
     MPI.Finalize()
     return [refusal(lambda: coin().run()), forces(coin(DIRECT).run())]

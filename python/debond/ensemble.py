@@ -120,8 +120,8 @@ def _tables(directory, over):
         curves[1].extend([*values, *row] for row in zip(angles.tolist(), n.tolist(), *torques.tolist()))
         if n_left_out:
             which = " of " * bool(values) + "; ".join(f"{name} = {text}" for name, text in zip(entries, values))
-            notes.append(f"ensemble.csv leaves out {n_left_out} of {len(done)} members{which}: their rotation reverses, so that "
-                         "an angle has more than one torque")
+            notes.append(f"ensemble.csv leaves out {n_left_out} of {len(done)} members{which}: their rotation reverses, so "
+                         "that an angle has more than one torque")
     return curves, summary, notes
 
 

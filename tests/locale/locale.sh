@@ -34,11 +34,11 @@ awk 'BEGIN {
 # Without what tells of the run and not of the result: when, for how long, by which command, in how much memory. Of
 # checkpoints, which hold seconds, the lines at their beginning.
 plain() {
-  find "$1" -type f ! -name 'checkpoint-*' ! -name study.csv -exec sed -i -E '/Written by|run time|<td>date<|seconds?,/d
+  find "$1" -type f ! -name 'checkpoint-*' ! -name study.csv -exec sed -i -E '/Written by|run time|<td>date<|seconds?,|<td>[a-zA-Z_]*(second|memory)/d
     s/"[a-z_]*(second|memory)[A-Za-z_]*": [^,}]*//g; s/"(date|command|host)": "[^"]*"//g; s/, [0-9.e-]+ s$//; /^[0-9.]+ (s|min), /d' {} +
   find "$1" -type f -name 'checkpoint-*' -exec sed -i -nE '/^(format|program|step|parameters|state) [0-9.]*$/p' {} +
   (cd "$1/library/ensemble"
-   sed -i -E 's/<td>[0-9.e-]+<\/td><\/tr>$//' report.html # seconds of each variant
+   sed -i -E 's/<td class="short">[0-9.e-]+<\/td><\/tr>$//' report.html # seconds of each variant
    awk -F, -v OFS=, '{ gsub(/"[^"]*"/, "") }
      NR == 1 { for (i = 1; i <= NF; ++i) of_run[i] = $i ~ /seconds|memory/ }
      { for (i = 1; i <= NF; ++i) if (of_run[i]) $i = ""; print }' study.csv > plain_study.csv

@@ -151,11 +151,13 @@ def check_reference_curve():
 
     # the page shows the curve that its distances belong to
     call('scene.prm', *plain)
+    call('--report', 'results')
     page = contents('results/report.html')
     multiple(curve, 3, 'measured.csv', 3000)
     call('--report', 'results')
     expect(contents('results/report.html') == page, 'the page with another reference curve')
     call('scene.prm', *plain)
+    call('--report', 'results')
     expect(contents('results/report.html') != page, 'the page of the run made again')
 
 

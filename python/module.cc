@@ -20,7 +20,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <nlohmann/json.hpp>
-#include <boost/archive/archive_exception.hpp>
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
 
@@ -335,27 +334,28 @@ namespace
     void
     restore(const std::string &state)
     {
-      std::string version, parameters;
+      const std::string           wrong =
+        "this is no state of this scene that debond " DEBOND_VERSION
+        " has saved: expected what save() of a simulation of the same scene "
+        "gave";
+      Classic<std::istringstream> bytes(state, std::ios::binary);
+      std::string                 version, parameters;
+      std::unique_ptr<boost::archive::binary_iarchive> archive;
       try
         {
-          Classic<std::istringstream>     bytes(state, std::ios::binary);
-          boost::archive::binary_iarchive archive(bytes);
-          archive >> version >> parameters;
-          if (version == DEBOND_VERSION &&
-              parameters == simulation->scene.completed_parameters)
-            {
-              archive >> *simulation;
-              for (auto &[name, drive] : drives)
-                archive >> *drive;
-              return;
-            }
+          archive = std::make_unique<boost::archive::binary_iarchive>(bytes);
+          *archive >> version >> parameters;
         }
-      catch (const boost::archive::archive_exception &)
-        {}
-      throw InputError("this is no state of this scene that debond " +
-                       std::string(DEBOND_VERSION) +
-                       " has saved: expected what save() of a simulation of "
-                       "the same scene gave");
+      catch (const std::exception &) // lengths that make no sense, too
+        {
+          throw InputError(wrong);
+        }
+      if (version != DEBOND_VERSION ||
+          parameters != simulation->scene.completed_parameters)
+        throw InputError(wrong);
+      *archive >> *simulation;
+      for (auto &[name, drive] : drives)
+        *archive >> *drive;
     }
 
     std::string

@@ -179,6 +179,15 @@ def check_more():
     simulation.run()
     check("to the same end", simulation.row["torque_Nmm"] == debond.Scene(text=coin).run().rows["torque_Nmm"][-1])
 
+    simulation = debond.Simulation(debond.Scene(text=coin), drive={"Rotation z": 0})
+    turn = [simulation.advance({"Rotation z": 0.1 * i}) or simulation.save() for i in range(12)]
+    at_end, other = simulation.result().rows, debond.Simulation(debond.Scene(text=coin), drive={"Rotation z": 0})
+    other.restore(turn[5])
+    for i in range(6, 12):
+        other.advance({"Rotation z": 0.1 * i})
+    check("a state that was saved goes on to the last bit", all((other.result().rows[name] == at_end[name]).all()
+                                                               for name in ("torque_Nmm", "phi_mean", "chuck_Fz_N")))
+
     # the interpreter takes the lock from nobody within a minute: who counts got it from a run that gave it back
     others, done, counted, interval = [], threading.Event(), 0, sys.getswitchinterval()
     sys.setswitchinterval(60)
@@ -232,6 +241,7 @@ def check_mistakes():
     mistake(lambda: debond.Simulation(debond.Scene(text=coin), drive={"Rotation z": "fast"}))
     mistake(lambda: debond.Simulation(debond.Scene(text=coin, entries={"Load steps/Adaptive": True}), drive={"Rotation z": 0}))
     mistake(lambda: debond.Simulation(debond.Scene(text=coin)).row)
+    mistake(lambda: debond.Simulation(debond.Scene(text=coin)).restore(b"no state"))
     mistake(lambda: debond.Scene(text=coin, law=(0.022, 0.74)))
     mistake(lambda: debond.Scene(text=coin, law=(lambda slip: 1 + slip, 0.1)))
     mistake(lambda: debond.Scene(text=coin, law=(lambda slip: 0.5, 0.1)))

@@ -57,7 +57,7 @@ def json_of(done) -> Dict[str, Any]:
                 for u, value, lower, upper, is_told, free in zip(problem.unknowns.list, done.values, done.lower, done.upper, done.is_told, told.free)}
     correlations = {f"{names[i]} | {names[j]}": told.correlations[i, j] for j in range(len(names)) for i in range(j)}
     curves = [{"curve": m.name, "e_mp": m.e_mp, "e_rel": m.e_rel, "rms_over_largest": m.rms, "smooth_misfit_over_largest": m.smooth,
-               "fits": not m.does_not_fit} for m in done.misfits]
+               "F_of_misfit": m.F, "chance_of_F": m.chance, "fits": not m.does_not_fit} for m in done.misfits]
     noises = [{"curve": m.name, "model": m.noise.name, "sd_over_largest": m.noise_over_largest, "correlation_of_neighbours": m.noise.correlation,
                "rows": s.slice.stop - s.slice.start, "effective_rows": (s.slice.stop - s.slice.start) / m.noise.rows_per_value}
               for m, s in zip(done.misfits, problem.series)]
@@ -83,11 +83,10 @@ def _numbered(name, ending, i, n):
 
 
 def interval_text(done, j):
-    if not done.told.free[j]:
-        return "at its bound"
     if not math.isfinite(done.upper[j] - done.lower[j]):
         return "cannot be told"
-    return f"{done.lower[j]:.5g} to {done.upper[j]:.5g}" + ("" if done.is_told[j] else ", most of its bounds")
+    return (f"{done.lower[j]:.5g} to {done.upper[j]:.5g}" + ("" if done.is_told[j] else ", most of its bounds")
+            + ("" if done.told.free[j] else ", at its bound"))
 
 
 def _fitted_scene(done, experiment, directory, n):

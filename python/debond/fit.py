@@ -25,8 +25,8 @@ from .scene import Scene
 from .unknowns import Unknowns
 
 FOLLOWED, FOLLOWED_SLOWLY = 5, 2  # of the starts: runs take longer than closed forms
-FEWEST_ROWS = 20  # independent ones: what hangs together over more of a curve is taken for a misfit
-MISFIT_F = 5.0  # of noise.lack_of_fit(): beyond it noise is no explanation (8 waves, 0.02 % of curves that fit)
+FEWEST_ROWS = 20  # independent ones: with fewer a misfit looks like noise
+UNLIKELY = 1e-6  # of noise.lack_of_fit(): then noise is no explanation
 
 
 def problem_of(scene, runs=None):
@@ -143,11 +143,17 @@ class Misfit:
     effective_rows: float  # independent values that tell as much of a mean
     noise_over_largest: float
     F: float  # of noise.lack_of_fit()
+    chance: float  # of so large an F if the model is right
     smooth: float  # root mean square, over the largest value, of what does not change from row to row of the residuals
 
     @property
     def does_not_fit(self):
-        return (self.F > MISFIT_F or self.effective_rows < FEWEST_ROWS) and self.smooth > 1e-5
+        return self.chance < UNLIKELY and self.smooth > 1e-5
+
+    @property
+    def is_ambiguous(self):
+        """Whether what is left hangs together over so much of the curve that noise and a wrong model cannot be told apart."""
+        return not self.does_not_fit and self.effective_rows < FEWEST_ROWS and len(self.noise.phi) > 0 and self.smooth > 1e-5
 
 
 def fit(scene, *, executor=None, threads: int = 1, evaluations: str = None, say=lambda text: None) -> "Fit":
@@ -207,13 +213,17 @@ class Fit:
             finite = numpy.isfinite(told.half_widths)
             told.lower, told.upper = (numpy.where(finite, at + end, one) for end, one in zip(ends, (told.lower, told.upper)))
         else:
-            intervals.profile_ends(problem, told, intervals.nearby_curves(problem, self._best, self.closed), self._best)
+            cheap = self.closed or not problem.why_no_closed_form
+            curves = intervals.nearby_curves(problem, self._best, self.closed)
+            for j in intervals.profile_ends(problem, told, curves, self._best, 80 if cheap else 12):
+                self.warnings.append(f"{self.names[j]}: an end of its interval was not found along the curve, and is that of a linear "
+                                     "one")
         logarithmic = problem.unknowns.logarithmic
         with numpy.errstate(over="ignore"):
             self.lower, self.upper = (numpy.where(logarithmic, numpy.exp(numpy.where(logarithmic, end, 0)), end)
                                       for end in (told.lower, told.upper))
         span = problem.unknowns.to_search(problem.unknowns.upper) - problem.unknowns.to_search(problem.unknowns.lower)
-        self.is_told = numpy.isfinite(told.half_widths) & (told.upper - told.lower < 0.9 * span) | ~told.free
+        self.is_told = numpy.isfinite(told.half_widths) & (told.upper - told.lower < 0.9 * span)
 
     def _misfit(self, series, own):
         measured, curve = self.problem.measured[series.slice], self._best.curve[series.slice]
@@ -221,12 +231,12 @@ class Fit:
         sd = numpy.inf if series.experiment.measured.sd is None else 1 / self.problem.weights[series.slice]
         used = (abs(measured) > 0.01 * series.scale) & ((sd <= series.scale) | numpy.isinf(sd))
         n, rms = max(1, used.sum()), numpy.sqrt(numpy.mean(difference**2)) / series.scale
-        F = noise.lack_of_fit(difference / series.scale, self.told.derivatives[series.slice], series.experiment.measured.parts)
+        F, chance = noise.lack_of_fit(difference / series.scale, self.told.derivatives[series.slice], series.experiment.measured.parts)
         to_scale = numpy.median(1 / self.problem.weights[series.slice]) / series.scale
         smooth = numpy.sqrt(max(0, rms**2 - own.variance * to_scale**2))
         return Misfit(series.name, numpy.sum(abs(difference[used] / measured[used])) / n,
                       numpy.sum(abs(difference[used])) / series.scale / n, rms, own, len(measured) / own.rows_per_value,
-                      own.sd * to_scale, F, smooth)
+                      own.sd * to_scale, F, chance, smooth)
 
     @property
     def e_rel(self):
@@ -239,7 +249,7 @@ class Fit:
             self.warnings.append("the search has not converged: it ended after 150 steps with closed forms, 40 with runs, or where no "
                                  "step helped")
         for j, unknown in enumerate(problem.unknowns.list):
-            if not self.told.free[j]:
+            if not self.told.free[j] and self.is_told[j]:
                 self.warnings.append(f"{unknown.name} ends at one of its bounds: the best value may lie beyond")
         self.warnings += [intervals.text_of(direction, problem.unknowns) for direction in self.told.directions]
         named = " ".join(self.warnings)
@@ -250,6 +260,10 @@ class Fit:
                 self.warnings.append(f"the model does not fit {misfit.name}: beyond the noise the residuals have a smooth part of "
                                      f"{100 * misfit.smooth:.2g} % of the largest value (root mean square). The intervals take it for "
                                      "noise; they do not hold if the model is wrong")
+            elif misfit.is_ambiguous:
+                self.warnings.append(f"neighbouring residuals of {misfit.name} hang together so far that only {misfit.effective_rows:.2g} "
+                                     "independent values are left: noise and a model that is wrong cannot be told apart, and the "
+                                     "intervals may be too narrow")
         self._warn_of_noise()
 
     def _warn_of_noise(self):
@@ -305,8 +319,7 @@ class Fit:
         """Of each experiment that has been done its columns: what it is drawn over, and of each curve NAME_measured,
         NAME_fitted, NAME_lower_95 and NAME_upper_95, the band that the unknowns leave."""
         problem, result = self.problem, []
-        told = numpy.isfinite(self.told.half_widths)
-        C = numpy.where(numpy.outer(told, told), self.told.covariance, 0)
+        C = self.told.covariance_told
         sd = numpy.sqrt(numpy.maximum(0, numpy.einsum("ij,jk,ik->i", self.told.derivatives, C, self.told.derivatives)))
         band = numpy.median(self.told.quantiles) * sd / problem.weights
         for experiment in problem.done:
@@ -322,8 +335,8 @@ class Fit:
 
     def profiles(self, n: int = 11) -> Dict[str, Dict[str, numpy.ndarray]]:
         """Fits in which one unknown is held at `n` values, two interval widths to both sides: {unknown: {"value",
-        "chi_squared" (n), "unknowns" (n x k)}}. chi_squared is the growth of the sum of squares, over what it grows by for one
-        standard deviation, squared: below 3.84 is the 95 % interval."""
+        "chi_squared" (n), "unknowns" (n x k)}}. chi_squared is the growth of the sum of squares, such
+        that it is 3.84 at the ends of the 95 % interval."""
         problem, told, result = self.problem, self.told, {}
         unknowns = problem.unknowns
         at, lower, upper = (unknowns.to_search(v) for v in (self.values, unknowns.lower, unknowns.upper))
@@ -331,7 +344,7 @@ class Fit:
             if not told.free[j] or not numpy.isfinite(told.half_widths[j]):
                 continue
             _, finite, _ = intervals._inverse(told.derivatives)
-            unit = (told.half_widths[j] / told.quantiles[j]) ** 2 / finite[j, j]
+            unit = (told.half_widths[j] / 1.96) ** 2 / finite[j, j]
             rows = []
             for place in numpy.linspace(max(lower[j], 2 * told.lower[j] - at[j]), min(upper[j], 2 * told.upper[j] - at[j]), n):
                 start = at.copy()

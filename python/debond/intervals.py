@@ -15,6 +15,7 @@ import numpy
 from scipy import stats
 
 from . import noise
+from .problem import SMOOTH
 
 CONFIDENCE = 0.95
 _NEVER = 1e-7  # of the largest singular value: what is less is rounding
@@ -26,8 +27,9 @@ class Told:
 
     derivatives: numpy.ndarray  # N x k, weighted
     noises: list  # a Noise for each series, of weighted residuals
-    free: numpy.ndarray  # k: not held at a bound
+    free: numpy.ndarray  # k: not at a bound that the curves push it against
     covariance: numpy.ndarray  # k x k; of what cannot be told as large as rounding lets it be
+    covariance_told: numpy.ndarray  # k x k; without what cannot be told
     half_widths: numpy.ndarray  # k: t sqrt(C_jj), infinite if nothing tells it
     quantiles: numpy.ndarray  # k: t
     lower: numpy.ndarray = None  # k: ends of the intervals
@@ -70,7 +72,11 @@ def noises_of(problem, residuals, J):
     """A Noise for each series, of residuals over their weights. If the scene states the noise its size is that."""
     result = []
     for series in problem.series:
-        own = noise.estimate(residuals[series.slice], J[series.slice], series.experiment.measured.parts)
+        rows, parts = J[series.slice], series.experiment.measured.parts
+        if problem.noise_is_known and len(rows) - rows.shape[1] < 8:  # too few to tell whether they hang together
+            own = noise.Noise(numpy.zeros(0), 1.0, parts, 1e6, numpy.full((1, 1), 0.5), numpy.zeros(0))
+        else:
+            own = noise.estimate(residuals[series.slice], rows, parts)
         if problem.noise_is_known:
             own.variance = own.variance / own.sd**2
         result.append(own)
@@ -82,9 +88,11 @@ def tell(problem, best, derivatives):
     unknowns = problem.unknowns
     at, lower, upper = (unknowns.to_search(values) for values in (best.values, unknowns.lower, unknowns.upper))
     residuals = problem.weights * (best.curve - problem.measured)
-    slope, near = derivatives.T @ residuals, 1e-6 * (upper - lower)
+    misfit = problem.residuals(best.curve)  # of the measure, which may be a sum of magnitudes
+    psi = misfit if problem.measure == "least squares" else misfit / numpy.hypot(misfit, SMOOTH)
+    slope, near = derivatives.T @ (problem.weights_of_measure / problem.weights * psi), 1e-6 * (upper - lower)
     pushed = ((at - lower < near) & (slope > 0)) | ((upper - at < near) & (slope < 0))
-    J = numpy.where(pushed, 0, derivatives)
+    J = derivatives  # those of unknowns at bounds, too: they may go back from there as others change
     noises = noises_of(problem, residuals, J)
     inverse, finite, told = _inverse(J)
     k, parts = len(at), _sandwich(problem, J, finite, noises)
@@ -93,12 +101,10 @@ def tell(problem, best, derivatives):
     for j in range(k):
         freedom = _freedom(problem, J, finite[:, j], noises, [part[j, j] for part in parts])
         quantiles[j] = stats.t.ppf(0.5 + CONFIDENCE / 2, freedom)
-        if pushed[j]:
-            half_widths[j] = 0  # it is at its bound, and no more is said
-        elif told[j]:
+        if told[j]:
             half_widths[j] = quantiles[j] * numpy.sqrt(max(0, variance[j, j]))
     whole = variance + numpy.median([own.variance for own in noises]) * (inverse - finite)
-    result = Told(J, noises, ~pushed, whole, half_widths, quantiles, at - half_widths, at + half_widths)
+    result = Told(J, noises, ~pushed, whole, variance, half_widths, quantiles, at - half_widths, at + half_widths)
     _find_directions(problem, result, best.values, at, residuals)
     return result
 
@@ -112,6 +118,8 @@ def _freedom(problem, J, row, noises, variances):
         if part > 1e-3 * total:
             direction = J[series.slice] @ row
             freedom = noise.freedom_of(own, lambda n: direction @ n.covariance_times(direction[:, None])[:, 0])
+            # no more than independent values are left, wherever the search for the noise has ended
+            freedom = min(freedom, max(1, len(direction) / own.rows_per_value - numpy.count_nonzero(J.any(axis=0))))
             spread += (part / total) ** 2 * 2 / freedom
     return 2 / max(spread, 2e-6)
 
@@ -164,7 +172,7 @@ class _End:
 
     def __init__(self, j, sign, start, target, limit):
         self.j, self.sign, self.target, self.limit = j, sign, target, limit
-        self.root, self.place = 0.0, 0.0  # of the step before: sqrt of the growth over its target, distance
+        self.inside, self.beyond = (0.0, 0.0), None  # (distance, sqrt of the growth over its target) below and above 1
         self.at, self.distance = start, 0.0
         self.best = numpy.inf
         self.done = False
@@ -188,15 +196,16 @@ def nearby_curves(problem, best, closed):
     return curves
 
 
-def profile_ends(problem, told, curves, best, rounds=12):
+def profile_ends(problem, told, curves, best, rounds):
     """Ends of the intervals along the curve that is not linear in the unknowns, found from those of the linear one. `curves`:
-    see nearby_curves(). All ends go on at once, so that their runs are made at the same time."""
+    see nearby_curves(). All ends go on at once, so that their runs are made at the same time. Returns the indices of the unknowns
+    that have an end of the linear curve, as the other one was not found in so many rounds."""
     unknowns = problem.unknowns
     centre, lower, upper = (unknowns.to_search(v) for v in (best.values, unknowns.lower, unknowns.upper))
     J = told.derivatives
     _, finite, _ = _inverse(J)
     ends = []
-    for j in numpy.flatnonzero(told.free & numpy.isfinite(told.half_widths) & (told.half_widths > 0)):
+    for j in numpy.flatnonzero(numpy.isfinite(told.half_widths) & (told.half_widths > 0)):
         growth = told.half_widths[j] ** 2 / finite[j, j]  # of the sum of squares at the end
         for sign in (-1, 1):
             limit = (upper[j] - centre[j]) if sign > 0 else (centre[j] - lower[j])
@@ -212,6 +221,7 @@ def profile_ends(problem, told, curves, best, rounds=12):
     for end in ends:
         if end.done:
             (told.lower if end.sign < 0 else told.upper)[end.j] = centre[end.j] + end.sign * end.distance
+    return sorted({end.j for end in ends if not end.done})
 
 
 def _move(end, distance, centre, finite, lower, upper):
@@ -227,38 +237,45 @@ def _advance(problem, best, J, ends, frame, nearby):
     centre, finite, lower, upper = frame
     curves = nearby([problem.unknowns.from_search(end.at) for end in ends])
     for end, curve in zip(ends, curves):
-        if curve is None:
-            end.done = True  # the linear one has to do
-            end.distance = min(end.distance, end.limit)
+        if curve is None:  # there is none so far away
+            end.beyond = (end.distance, numpy.inf)
+            _move(end, 0.5 * (end.inside[0] + end.distance), *frame)
             continue
         residuals = problem.weights * (curve - problem.measured)
         squares = residuals @ residuals
-        others = numpy.setdiff1d(numpy.arange(len(centre)), [end.j])
-        step = -numpy.linalg.lstsq(J[:, others], residuals, rcond=_NEVER)[0]
-        gain = -(residuals @ (J[:, others] @ step))
-        growth = min(squares, end.best) - squares_of(problem, best)
-        if squares < end.best and gain > 0.03 * end.target:
-            end.best = squares
+        slope = J.T @ residuals
+        held = ((end.at <= lower) & (slope > 0)) | ((end.at >= upper) & (slope < 0))  # at bounds: they cannot follow
+        held[end.j] = True
+        step = -numpy.linalg.lstsq(J[:, ~held], residuals, rcond=_NEVER)[0]
+        gain = -(residuals @ (J[:, ~held] @ step)) if squares < end.best else 0
+        end.best = min(end.best, squares)
+        if gain > 0.03 * end.target:
             end.at = end.at.copy()
-            end.at[others] = numpy.clip(end.at[others] + step, lower[others], upper[others])
+            end.at[~held] = numpy.clip(end.at[~held] + step, lower[~held], upper[~held])
             continue
-        _judge(end, max(growth - gain * (squares <= end.best), 1e-12 * end.target), (centre, finite, lower, upper))
+        _judge(end, max(end.best - squares_of(problem, best) - gain, 1e-12 * end.target), frame)
 
 
 def _judge(end, growth, frame):
-    """The square root of the growth is nearly linear in the distance: a secant finds where it is that of the target."""
+    """The square root of the growth is nearly linear in the distance: a secant finds where it is that of the target, between the
+    last places on either side."""
     root = numpy.sqrt(growth / end.target)
     if abs(root - 1) < 0.03 or (end.distance >= end.limit and root < 1):
         end.done = True
-        end.distance = min(end.distance / root, end.limit) if root >= 1 or end.distance < end.limit else end.limit
+        end.distance = min(end.distance / root, end.limit) if end.distance < end.limit or root > 1 else end.limit
         return
-    slope = (root - end.root) / (end.distance - end.place) if end.distance != end.place else root / end.distance
-    if not slope > 0:
-        slope = root / end.distance
-    target = end.distance + (1 - root) / slope
-    target = numpy.clip(target, 0.3 * end.distance, 2.5 * end.distance)
-    end.root, end.place = root, end.distance
-    _move(end, min(target, end.limit), *frame)
+    if root < 1:
+        end.inside = max(end.inside, (end.distance, root))
+    else:
+        end.beyond = (end.distance, root) if end.beyond is None else min(end.beyond, (end.distance, root))
+    (a, root_a), b = end.inside, end.beyond
+    if b is None:
+        target = min(a * numpy.clip(1 / root_a, 1.1, 2.5), end.limit)
+    elif numpy.isfinite(b[1]):  # never so close to an end that it does not move
+        target = numpy.clip(a + (1 - root_a) / (b[1] - root_a) * (b[0] - a), 0.9 * a + 0.1 * b[0], 0.1 * a + 0.9 * b[0])
+    else:
+        target = 0.5 * (a + b[0])
+    _move(end, target, *frame)
 
 
 def bootstrap(problem, best, derivatives, generator, n_samples=200, n_iterations=30):
@@ -267,12 +284,14 @@ def bootstrap(problem, best, derivatives, generator, n_samples=200, n_iterations
     solution before."""
     weights = problem.weights_of_measure
     residuals, J = weights * (problem.measured - best.curve), (weights / problem.weights)[:, None] * derivatives
-    samples = numpy.empty((n_samples, J.shape[1]))
+    samples, n = numpy.empty((n_samples, J.shape[1])), numpy.count_nonzero(weights)
+    residuals *= numpy.sqrt(n / max(1, n - J.shape[1]))  # what the fit has taken with it
     for sample in range(n_samples):
         drawn = numpy.zeros(len(residuals))
         for series in problem.series:
             rows = numpy.arange(series.slice.start, series.slice.stop)[weights[series.slice] > 0]
-            length = max(1, round(len(rows) ** (1 / 3)))
+            own = noise.estimate(residuals[rows], J[rows], [slice(0, len(rows))])
+            length = min(len(rows), max(1, round(len(rows) ** (1 / 3)), round(2 * own.rows_per_value)))
             firsts = generator.integers(0, len(rows) - length + 1, -(-len(rows) // length))
             drawn[rows] = residuals[rows[(firsts[:, None] + numpy.arange(length)).ravel()[:len(rows)]]]
         change = numpy.zeros(J.shape[1])
@@ -287,7 +306,7 @@ def with_test(problem, told, derivatives):
     """Half widths (k) if a test with these derivatives (rows x k), over its noise, were done as well: with the noise that the
     fit leaves, as far as it hangs together."""
     scales = [own.sd * numpy.sqrt(own.rows_per_value) for own in told.noises]
-    rows = [told.derivatives[series.slice] / scale for series, scale in zip(problem.series, scales)]
+    rows = [numpy.where(told.free, told.derivatives[series.slice], 0) / scale for series, scale in zip(problem.series, scales)]
     rows.append(numpy.where(told.free, derivatives, 0) / numpy.sqrt(numpy.mean(numpy.square(scales))))
     _, finite, known = _inverse(numpy.vstack(rows))
     return numpy.where(told.free, numpy.where(known, told.quantiles * numpy.sqrt(numpy.diag(finite)), numpy.inf), 0)

@@ -9,7 +9,7 @@ intervals too narrow. p is the one of least BIC.
 from dataclasses import dataclass
 
 import numpy
-from scipy import linalg, optimize, signal
+from scipy import linalg, optimize, signal, stats
 
 LARGEST_ORDER = 4
 LONGEST = 0.1  # of a curve: what hangs together over more is no noise, but what the model misses
@@ -123,8 +123,13 @@ def _criterion(partial, residuals, derivatives, parts):
     triangle = numpy.abs(numpy.diag(numpy.linalg.qr(numpy.concatenate([rows for rows, _ in done]), mode="r")))
     freedom = n - k
     variance = max(triangle[-1] ** 2 / freedom, 1e-300)
-    too_long = max(0, numpy.log(rows_per_value(phi) / max(2, LONGEST * n)))
-    return (1e4 * too_long**2 + freedom * numpy.log(variance) + sum(log for _, log in done) + 2 * numpy.log(triangle[:-1]).sum(), variance, phi)
+    return (freedom * numpy.log(variance) + sum(log for _, log in done) + 2 * numpy.log(triangle[:-1]).sum(), variance, phi)
+
+
+def _limited(partial, residuals, derivatives, parts):
+    """The same, and a wall where noise would hang together over too much of the curve."""
+    value, _, phi = _criterion(partial, residuals, derivatives, parts)
+    return value + 1e4 * max(0, numpy.log(rows_per_value(phi) / max(2, LONGEST * len(residuals)))) ** 2
 
 
 def estimate(residuals, derivatives, parts, largest_order=LARGEST_ORDER):
@@ -134,6 +139,8 @@ def estimate(residuals, derivatives, parts, largest_order=LARGEST_ORDER):
     basis, sizes, _ = linalg.svd(derivatives, full_matrices=False)
     derivatives = basis[:, sizes > 1e-9 * max(sizes.max(initial=0), 1e-300)]
     k = derivatives.shape[1]
+    if n - k < 1:  # nothing is left that could tell
+        return Noise(numpy.zeros(0), max(residuals @ residuals / n, 1e-300), parts, 1, numpy.full((1, 1), 0.5), numpy.zeros(0))
     best = None
     shortest = min(part.stop - part.start for part in parts)
     for order in range(max(0, min(largest_order, (n - k) // 8, shortest // 2)) + 1):
@@ -143,12 +150,12 @@ def estimate(residuals, derivatives, parts, largest_order=LARGEST_ORDER):
             if order == 1:
                 lagged = sum(residuals[part][1:] @ residuals[part][:-1] for part in parts)
                 start[0] = numpy.arctanh(numpy.clip(lagged / max(residuals @ residuals, 1e-300), -0.9, 1 - 4 / n))
-            found = optimize.minimize(lambda z: _criterion(z, residuals, derivatives, parts)[0], start, method="Nelder-Mead",
+            found = optimize.minimize(lambda z: _limited(z, residuals, derivatives, parts), start, method="Nelder-Mead",
                                       options={"xatol": 1e-3, "fatol": 1e-3, "initial_simplex": _simplex(start)}).x
         else:
             found = start
-        value, variance, phi = _criterion(found, residuals, derivatives, parts)
-        bic = value + numpy.log(n) * order
+        _, variance, phi = _criterion(found, residuals, derivatives, parts)
+        bic = _limited(found, residuals, derivatives, parts) + numpy.log(n) * order
         if best is None or bic < best[0]:
             best = (bic, found, variance, phi)
         elif order > len(best[1]) + 1:
@@ -194,12 +201,14 @@ def freedom_of(noise, quantity):
 
 
 def lack_of_fit(residuals, derivatives, parts, n_waves=8):
-    """F of the question whether residuals hold a smooth part that noise does not explain: about 1 if the model is right. The
+    """F of the question whether residuals hold a smooth part that noise does not explain, about 1 if the model is right, and
+    how likely so large an F is then. The
     part is the best sum of `n_waves` cosines along the rows; the noise is estimated from what they leave, so that what the model
     misses is not taken for noise. Not a number for few rows."""
     n = len(residuals)
-    if n < 6 * n_waves:
-        return numpy.nan
+    n_waves = min(n_waves, n // 6)
+    if n_waves < 2:
+        return numpy.nan, numpy.nan
     place = (numpy.arange(n) + 0.5) / n
     waves = numpy.cos(numpy.pi * place[:, None] * numpy.arange(1, n_waves + 1))
     basis, sizes, _ = linalg.svd(derivatives, full_matrices=False)
@@ -212,4 +221,6 @@ def lack_of_fit(residuals, derivatives, parts, n_waves=8):
         return numpy.sum((white[:, -1] - columns @ numpy.linalg.lstsq(columns, white[:, -1], rcond=1e-10)[0]) ** 2)
 
     with_waves = squares(white[:, :-1])
-    return (squares(white[:, :k]) - with_waves) / n_waves / (with_waves / (n - k - n_waves))
+    freedom = n - k - n_waves
+    F = max(0, (squares(white[:, :k]) - with_waves) / n_waves / max(with_waves / freedom, 1e-300))
+    return F, float(stats.f.sf(F, n_waves, freedom))

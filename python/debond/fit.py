@@ -214,8 +214,8 @@ class Fit:
             told.lower, told.upper = (numpy.where(finite, at + end, one) for end, one in zip(ends, (told.lower, told.upper)))
         else:
             cheap = self.closed or not problem.why_no_closed_form
-            curves = intervals.nearby_curves(problem, self._best, self.closed)
-            for j in intervals.profile_ends(problem, told, curves, self._best, 80 if cheap else 12):
+            nearby = intervals.nearby_curves(problem, self._best, self.closed)
+            for j in intervals.profile_ends(problem, told, nearby, self._best, 40 if cheap else 12):
                 self.warnings.append(f"{self.names[j]}: an end of its interval was not found along the curve, and is that of a linear "
                                      "one")
         logarithmic = problem.unknowns.logarithmic

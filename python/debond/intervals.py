@@ -15,6 +15,7 @@ import numpy
 from scipy import stats
 
 from . import noise
+from .errors import RunError
 from .problem import SMOOTH
 
 CONFIDENCE = 0.95
@@ -179,10 +180,11 @@ class _End:
 
 
 def nearby_curves(problem, best, closed):
-    """A function of places (values of the unknowns) that gives curves there. Runs are replaced by the closed form where there is
-    one: what it says is not linear is added to the line through the best fit."""
+    """Two functions: of places (values of the unknowns), which gives curves there, and of one place, which gives derivatives; None
+    if these are too dear. Runs are replaced by the closed form where there is one: what it says is not linear is added to the line
+    through the best fit."""
     if closed or problem.why_no_closed_form:
-        return lambda places: problem.curves(places, closed)
+        return lambda places: problem.curves(places, closed), (lambda place: problem.derivatives(place, True)) if closed else None
     at = problem.unknowns.to_search(best.values)
     base, slopes = problem.curves([best.values], True)[0], problem.derivatives(best.values, True)
 
@@ -193,11 +195,11 @@ def nearby_curves(problem, best, closed):
             result.append(None if curve is None else best.curve + best.derivatives @ moved + curve - base - slopes @ moved)
         return result
 
-    return curves
+    return curves, lambda place: best.derivatives + problem.derivatives(place, True) - slopes
 
 
-def profile_ends(problem, told, curves, best, rounds):
-    """Ends of the intervals along the curve that is not linear in the unknowns, found from those of the linear one. `curves`:
+def profile_ends(problem, told, nearby, best, rounds):
+    """Ends of the intervals along the curve that is not linear in the unknowns, found from those of the linear one. `nearby`:
     see nearby_curves(). All ends go on at once, so that their runs are made at the same time. Returns the indices of the unknowns
     that have an end of the linear curve, as the other one was not found in so many rounds."""
     unknowns = problem.unknowns
@@ -216,7 +218,10 @@ def profile_ends(problem, told, curves, best, rounds):
         active = [end for end in ends if not end.done]
         if not active:
             break
-        _advance(problem, best, J, active, (centre, finite, lower, upper), curves)
+        if nearby[1] is None:
+            _advance(problem, best, J, active, (centre, finite, lower, upper), nearby[0])
+        for end in active if nearby[1] is not None else ():
+            _advance_closely(problem, best, end, (centre, finite, lower, upper), nearby)
     told.lower, told.upper = centre - told.half_widths, centre + told.half_widths
     for end in ends:
         if end.done:
@@ -230,6 +235,44 @@ def _move(end, distance, centre, finite, lower, upper):
     end.at = numpy.clip(end.at + column * end.sign * (distance - end.distance), lower, upper)
     end.at[end.j] = centre[end.j] + end.sign * distance
     end.distance, end.best = distance, numpy.inf
+
+
+def _advance_closely(problem, best, end, frame, nearby):
+    """One round: the others go to where the squares are least, with derivatives that are taken anew on the way."""
+    centre, _, lower, upper = frame
+    curves, slopes = nearby
+
+    def residuals_at(place):
+        curve = curves([problem.unknowns.from_search(place)])[0]
+        return None if curve is None else problem.weights * (curve - problem.measured)
+
+    residuals = residuals_at(end.at)
+    if residuals is None:  # there is no curve so far away
+        end.beyond = (end.distance, numpy.inf)
+        _move(end, 0.5 * (end.inside[0] + end.distance), *frame)
+        return
+    for _ in range(10):
+        squares = residuals @ residuals
+        try:
+            J = problem.weights[:, None] * slopes(problem.unknowns.from_search(end.at))
+        except RunError:
+            break
+        slope = J.T @ residuals
+        held = ((end.at <= lower) & (slope > 0)) | ((end.at >= upper) & (slope < 0))  # at bounds: they cannot follow
+        held[end.j] = True
+        step = -numpy.linalg.lstsq(J[:, ~held], residuals, rcond=_NEVER)[0]
+        if -(residuals @ (J[:, ~held] @ step)) < 0.03 * end.target:
+            break
+        for share in (1, 0.25, 0.06, 0.015):
+            place = end.at.copy()
+            place[~held] = numpy.clip(place[~held] + share * step, lower[~held], upper[~held])
+            others = residuals_at(place)
+            if others is not None and others @ others < squares:
+                end.at, residuals = place, others
+                break
+        else:
+            break
+    _judge(end, max(residuals @ residuals - squares_of(problem, best), 1e-12 * end.target), frame)
 
 
 def _advance(problem, best, J, ends, frame, nearby):

@@ -632,16 +632,11 @@ PYBIND11_MODULE(_debond, module)
             const Changes               &changes,
             const std::array<double, 2> &compliance,
             const std::vector<double>   &angles) {
-           const auto rows =
+           const auto found =
              curve.by_foundation(entries_of(changes), compliance, angles);
-           std::vector<double> torque;
-           for (const TorqueRow &row : rows)
-             torque.push_back(row.torque_Nmm);
-           return std::make_pair(
-             py::array_t<double>(torque.size(), torque.data()),
-             rows.empty() ?
-               0. :
-               rows.front().chuck_reaction[ChuckComponent::translation_z]);
+           return std::make_pair(py::array_t<double>(found.torque.size(),
+                                                     found.torque.data()),
+                                 found.force);
          })
     .def("by_scene",
          [](VaryingCurve                           &curve,

@@ -1,6 +1,5 @@
 #include <debond/campaigns/run_scene.h>
 #include <debond/campaigns/study.h>
-#include <debond/input/allowed_values.h>
 #include <debond/input/parameter_loop.h>
 #include <debond/models/debonding_problem.h>
 #include <debond/models/memory_estimate.h>

@@ -17,8 +17,9 @@ import _debond
 
 from . import intervals
 from .errors import InputError, RunError
-from .files import write_whole
-from .fit import fit, problem_of
+from .files import csv_text, write_whole
+from .fit import fit_problem, problem_of
+from .problem import Runs
 from .scene import Scene
 
 
@@ -59,7 +60,7 @@ def json_of(done) -> Dict[str, Any]:
     curves = [{"curve": m.name, "e_mp": m.e_mp, "e_rel": m.e_rel, "rms_over_largest": m.rms, "smooth_misfit_over_largest": m.smooth,
                "F_of_misfit": m.F, "chance_of_F": m.chance, "fits": not m.does_not_fit} for m in done.misfits]
     noises = [{"curve": m.name, "model": m.noise.name, "sd_over_largest": m.noise_over_largest, "correlation_of_neighbours": m.noise.correlation,
-               "rows": s.slice.stop - s.slice.start, "effective_rows": (s.slice.stop - s.slice.start) / m.noise.rows_per_value}
+               "rows": s.slice.stop - s.slice.start, "effective_rows": m.effective_rows}
               for m, s in zip(done.misfits, problem.series)]
     per_search = numpy.where(problem.unknowns.logarithmic, done.values, 1)
     return plain({
@@ -73,9 +74,7 @@ def json_of(done) -> Dict[str, Any]:
 
 
 def _csv(columns):
-    rows = [",".join(columns)]
-    rows += [",".join(item if isinstance(item, str) else repr(float(item)) for item in row) for row in zip(*columns.values())]
-    return "\n".join(rows) + "\n"
+    return csv_text(columns, zip(*columns.values()))
 
 
 def _numbered(name, ending, i, n):
@@ -193,7 +192,8 @@ def calibrate(scene, threads: int = 1, force: bool = False, *, executor=None, sa
             say(f"{experiment.measured.n_left_out} rows of {experiment.measured.file} are not in the windows, stay where the row before "
                 "was, or are beyond what the scene comes to")
     say(f"{len(problem.measured)} measured values, {len(problem.unknowns.list)} unknowns")
-    done = fit(scene, executor=executor, threads=threads, evaluations=log, say=say)
+    problem.runs = Runs(executor, threads, log)
+    done = fit_problem(problem, say)
     save(done, directory)
     for line in lines_of(done):
         say(line)

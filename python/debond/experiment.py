@@ -69,7 +69,7 @@ class Experiment:
         self.is_finite_elements = self.values["Model"] == "finite elements"
         self._find_changes()
         self.why_no_closed_form = self._find_why_no_closed_form()
-        self._centre = None
+        self._centre, self._settled = None, {}
 
     @property
     def is_done(self):
@@ -140,7 +140,15 @@ class Experiment:
 
     def settle(self, values):
         """Makes the closed form exact in stiffness at these unknowns: what the bodies add to the compliance of the interface
-        changes slowly, and is linear (by its logarithm) in the unknowns nearby."""
+        changes slowly, and is linear (by its logarithm) in the unknowns nearby. Searches begin at the same place again and
+        again."""
+        key = values.tobytes()
+        if key not in self._settled:
+            self._settled[key] = self._compliance_near(values)
+        self._centre = self._settled[key]
+
+    def _compliance_near(self, values):
+        """These values, the compliance of the bodies there [mm/MPa], and the slopes of its logarithm by the unknowns."""
         compliance = numpy.array(self.curve.compliance_of_bodies(list(self.changes(values)[0])))
         slopes = numpy.zeros((2, len(values)))
         for j, unknown in enumerate(self.unknowns.list):
@@ -150,7 +158,7 @@ class Experiment:
                 other[j] += h if values[j] + h <= unknown.upper else -h
                 there = numpy.array(self.curve.compliance_of_bodies(list(self.changes(other)[0])))
                 slopes[:, j] = numpy.log(there / compliance) / (other[j] - values[j])
-        self._centre = (values.copy(), compliance, slopes)
+        return values.copy(), compliance, slopes
 
     def by_closed_form(self, values):
         """The disk on a foundation, where something has been measured (curves x n). Raises SceneError."""

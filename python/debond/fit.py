@@ -20,6 +20,7 @@ import _debond
 from . import intervals, known, noise
 from .errors import RunError
 from .experiment import Experiment
+from .measurement import numbers_of
 from .problem import Optimum, Problem, Runs
 from .scene import Scene
 from .unknowns import Unknowns
@@ -163,11 +164,13 @@ def fit(scene, *, executor=None, threads: int = 1, evaluations: str = None, say=
     scene: a Scene or the name of a file. executor: of concurrent.futures, which makes the runs: processes here, or those of
     mpi4py.futures or Dask. threads: without an executor. evaluations: a file that keeps the runs, so that a fit that was
     interrupted goes on. say: a function that is told what is going on. Raises SceneError, or RunError if nothing fits."""
+    return fit_problem(problem_of(scene, Runs(executor, threads, evaluations)), say)
+
+
+def fit_problem(problem, say=lambda text: None) -> "Fit":
+    """The same of what has been read."""
     clock = time.time()
-    runs = Runs(executor, threads, evaluations)
-    problem = problem_of(scene, runs)
-    optima, closed = find_optima(problem, say)
-    return Fit(problem, optima, closed, clock)
+    return Fit(problem, *find_optima(problem, say), clock)
 
 
 class Fit:
@@ -218,10 +221,7 @@ class Fit:
             for j in intervals.profile_ends(problem, told, nearby, self._best, 40 if cheap else 12):
                 self.warnings.append(f"{self.names[j]}: an end of its interval was not found along the curve, and is that of a linear "
                                      "one")
-        logarithmic = problem.unknowns.logarithmic
-        with numpy.errstate(over="ignore"):
-            self.lower, self.upper = (numpy.where(logarithmic, numpy.exp(numpy.where(logarithmic, end, 0)), end)
-                                      for end in (told.lower, told.upper))
+        self.lower, self.upper = (problem.unknowns.values_of(end) for end in (told.lower, told.upper))
         span = problem.unknowns.to_search(problem.unknowns.upper) - problem.unknowns.to_search(problem.unknowns.lower)
         self.is_told = numpy.isfinite(told.half_widths) & (told.upper - told.lower < 0.9 * span)
 
@@ -246,8 +246,7 @@ class Fit:
     def _warn(self):
         problem = self.problem
         if not self._best.converged:
-            self.warnings.append("the search has not converged: it ended after 150 steps with closed forms, 40 with runs, or where no "
-                                 "step helped")
+            self.warnings.append("the search has not converged: it ended after as many steps as it may take, or where none helped")
         for j, unknown in enumerate(problem.unknowns.list):
             if not self.told.free[j] and self.is_told[j]:
                 self.warnings.append(f"{unknown.name} ends at one of its bounds: the best value may lie beyond")
@@ -274,8 +273,7 @@ class Fit:
         if self.problem.noise_is_known:
             residuals = self.problem.weights * (self._best.curve - self.problem.measured)
             n = len(residuals) - self.told.free.sum()
-            n_independent = sum(n / own.rows_per_value * (s.slice.stop - s.slice.start) / len(residuals)
-                                for s, own in zip(self.problem.series, self.told.noises))
+            n_independent = n * sum(misfit.effective_rows for misfit in self.misfits) / len(residuals)
             ratio = numpy.sqrt(residuals @ residuals / max(1, n))
             if abs(ratio**2 - 1) > 3.3 * numpy.sqrt(2 / max(1, n_independent)):
                 self.warnings.append(f"the residuals are {ratio:.3g} times the noise that Calibration / Noise states: "
@@ -300,7 +298,7 @@ class Fit:
                 continue
             derivatives = own.derivatives(self.values, closed)
             scales = abs(curve.reshape(len(experiment.columns), -1)).max(axis=1)
-            stated = numpy.array([float(item) for item in experiment.values["Calibration / Noise"].split(",")])
+            stated = numpy.array(numbers_of(experiment.values, "Noise"))
             sd = numpy.repeat(scales * numpy.where(stated > 0, stated, 1), len(experiment.measured.over))
             result.append((experiment.number, intervals.with_test(problem, self.told, derivatives / sd[:, None])))
         return result
@@ -335,15 +333,15 @@ class Fit:
 
     def profiles(self, n: int = 11) -> Dict[str, Dict[str, numpy.ndarray]]:
         """Fits in which one unknown is held at `n` values, two interval widths to both sides: {unknown: {"value",
-        "chi_squared" (n), "unknowns" (n x k)}}. chi_squared is the growth of the sum of squares, such
-        that it is 3.84 at the ends of the 95 % interval."""
+        "chi_squared" (n), "unknowns" (n x k)}}. chi_squared is the growth of the sum of squares, such that it is 3.84 at the
+        ends of the 95 % interval."""
         problem, told, result = self.problem, self.told, {}
         unknowns = problem.unknowns
         at, lower, upper = (unknowns.to_search(v) for v in (self.values, unknowns.lower, unknowns.upper))
+        _, finite, _ = intervals.inverse(told.derivatives)
         for j, name in enumerate(self.names):
             if not told.free[j] or not numpy.isfinite(told.half_widths[j]):
                 continue
-            _, finite, _ = intervals._inverse(told.derivatives)
             unit = (told.half_widths[j] / 1.96) ** 2 / finite[j, j]
             rows = []
             for place in numpy.linspace(max(lower[j], 2 * told.lower[j] - at[j]), min(upper[j], 2 * told.upper[j] - at[j]), n):

@@ -45,7 +45,7 @@ class Told:
         return result
 
 
-def _inverse(J, scale_limit=1e-10):
+def inverse(J, scale_limit=1e-10):
     """(J'J)^-1, with what nothing tells very large, and the columns that it tells."""
     size = numpy.linalg.norm(J, axis=0)
     size[size == 0] = 1
@@ -95,7 +95,7 @@ def tell(problem, best, derivatives):
     pushed = ((at - lower < near) & (slope > 0)) | ((upper - at < near) & (slope < 0))
     J = derivatives  # those of unknowns at bounds, too: they may go back from there as others change
     noises = noises_of(problem, residuals, J)
-    inverse, finite, told = _inverse(J)
+    unlimited, finite, told = inverse(J)
     k, parts = len(at), _sandwich(problem, J, finite, noises)
     quantiles, half_widths = numpy.empty(k), numpy.full(k, numpy.inf)
     variance = sum(parts)
@@ -104,7 +104,7 @@ def tell(problem, best, derivatives):
         quantiles[j] = stats.t.ppf(0.5 + CONFIDENCE / 2, freedom)
         if told[j]:
             half_widths[j] = quantiles[j] * numpy.sqrt(max(0, variance[j, j]))
-    whole = variance + numpy.median([own.variance for own in noises]) * (inverse - finite)
+    whole = variance + numpy.median([own.variance for own in noises]) * (unlimited - finite)
     result = Told(J, noises, ~pushed, whole, variance, half_widths, quantiles, at - half_widths, at + half_widths)
     _find_directions(problem, result, best.values, at, residuals)
     return result
@@ -205,7 +205,7 @@ def profile_ends(problem, told, nearby, best, rounds):
     unknowns = problem.unknowns
     centre, lower, upper = (unknowns.to_search(v) for v in (best.values, unknowns.lower, unknowns.upper))
     J = told.derivatives
-    _, finite, _ = _inverse(J)
+    _, finite, _ = inverse(J)
     ends = []
     for j in numpy.flatnonzero(numpy.isfinite(told.half_widths) & (told.half_widths > 0)):
         growth = told.half_widths[j] ** 2 / finite[j, j]  # of the sum of squares at the end
@@ -351,5 +351,5 @@ def with_test(problem, told, derivatives):
     scales = [own.sd * numpy.sqrt(own.rows_per_value) for own in told.noises]
     rows = [numpy.where(told.free, told.derivatives[series.slice], 0) / scale for series, scale in zip(problem.series, scales)]
     rows.append(numpy.where(told.free, derivatives, 0) / numpy.sqrt(numpy.mean(numpy.square(scales))))
-    _, finite, known = _inverse(numpy.vstack(rows))
+    _, finite, known = inverse(numpy.vstack(rows))
     return numpy.where(told.free, numpy.where(known, told.quantiles * numpy.sqrt(numpy.diag(finite)), numpy.inf), 0)

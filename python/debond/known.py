@@ -86,8 +86,8 @@ def table_of(fit):
         moved = numpy.zeros(len(fit.values))
         moved[usable] = numpy.linalg.lstsq(told.derivatives[:, usable], -problem.weights * change_of_curve, rcond=1e-7)[0]
         at = problem.unknowns.to_search(fit.values)
+        other = problem.unknowns.values_of(at + moved)
         with numpy.errstate(over="ignore"):
-            other = numpy.where(problem.unknowns.logarithmic, numpy.exp(numpy.where(problem.unknowns.logarithmic, at + moved, 0)), at + moved)
             effect = numpy.where(usable & (fit.values != 0), 100 * (other / numpy.where(fit.values == 0, 1, fit.values) - 1), numpy.nan)
         table.append({"entry": entry, "value": value, "unit": unit, "change": change,
                       "effect": {name: (round(float(x), 2) if numpy.isfinite(x) else None) for name, x in zip(fit.names, effect)}})

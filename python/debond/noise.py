@@ -132,12 +132,17 @@ def _limited(partial, residuals, derivatives, parts):
     return value + 1e4 * max(0, numpy.log(rows_per_value(phi) / max(2, LONGEST * len(residuals)))) ** 2
 
 
+def _basis(derivatives):
+    """Orthonormal columns that span those of `derivatives`, without what says nothing."""
+    basis, sizes, _ = linalg.svd(derivatives, full_matrices=False)
+    return basis[:, sizes > 1e-9 * max(sizes.max(initial=0), 1e-300)]
+
+
 def estimate(residuals, derivatives, parts, largest_order=LARGEST_ORDER):
     """The Noise of `residuals` (n), what a fit has left, whose curve has these `derivatives` (n x k) by what was fitted.
     `parts`: slices of rows without a gap. Columns that say nothing may be there."""
     n = len(residuals)
-    basis, sizes, _ = linalg.svd(derivatives, full_matrices=False)
-    derivatives = basis[:, sizes > 1e-9 * max(sizes.max(initial=0), 1e-300)]
+    derivatives = _basis(derivatives)
     k = derivatives.shape[1]
     if n - k < 1:  # nothing is left that could tell
         return Noise(numpy.zeros(0), max(residuals @ residuals / n, 1e-300), parts, 1, numpy.full((1, 1), 0.5), numpy.zeros(0))
@@ -202,17 +207,16 @@ def freedom_of(noise, quantity):
 
 def lack_of_fit(residuals, derivatives, parts, n_waves=8):
     """F of the question whether residuals hold a smooth part that noise does not explain, about 1 if the model is right, and
-    how likely so large an F is then. The
-    part is the best sum of `n_waves` cosines along the rows; the noise is estimated from what they leave, so that what the model
-    misses is not taken for noise. Not a number for few rows."""
+    how likely so large an F is then. The part is the best sum of `n_waves` cosines along the rows, of fewer for less than six
+    rows for each; the noise is estimated from what they leave, so that what the model misses is not taken for noise. Not a number
+    for fewer than 12 rows."""
     n = len(residuals)
     n_waves = min(n_waves, n // 6)
     if n_waves < 2:
         return numpy.nan, numpy.nan
     place = (numpy.arange(n) + 0.5) / n
     waves = numpy.cos(numpy.pi * place[:, None] * numpy.arange(1, n_waves + 1))
-    basis, sizes, _ = linalg.svd(derivatives, full_matrices=False)
-    basis = basis[:, sizes > 1e-9 * max(sizes.max(initial=0), 1e-300)]
+    basis = _basis(derivatives)
     k = basis.shape[1]
     noise = estimate(residuals, numpy.column_stack([basis, waves]), parts)
     white, _ = noise.whitened(numpy.column_stack([basis, waves, residuals]))

@@ -154,10 +154,14 @@ class Unknowns:
         """What a search takes: numbers, or their logarithms."""
         return numpy.where(self.logarithmic, numpy.log(numpy.where(self.logarithmic, values, 1)), values)
 
-    def from_search(self, searched):
+    def values_of(self, searched):
+        """The opposite of to_search(), also beyond the bounds."""
         with numpy.errstate(over="ignore"):
-            values = numpy.where(self.logarithmic, numpy.exp(numpy.where(self.logarithmic, searched, 0)), searched)
-        return numpy.clip(values, self.lower, self.upper)  # rounding must not lead over a bound
+            return numpy.where(self.logarithmic, numpy.exp(numpy.where(self.logarithmic, searched, 0)), searched)
+
+    def from_search(self, searched):
+        """The same within the bounds, over which rounding must not lead."""
+        return numpy.clip(self.values_of(searched), self.lower, self.upper)
 
     def entries(self, experiment, values):
         """The entries of an experiment that hold unknowns, as {full name: text}. Raises SceneError where an expression has no

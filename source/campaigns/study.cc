@@ -13,7 +13,6 @@
 #include <debond/support/number_text.h>
 #include <debond/support/progress.h>
 #include <debond/support/provenance.h>
-#include <debond/support/ranks.h>
 #include <debond/support/written_files.h>
 
 #include <deal.II/base/timer.h>
@@ -22,9 +21,7 @@
 
 #include <algorithm>
 #include <csignal>
-#include <cstdio>
 #include <filesystem>
-#include <iostream>
 #include <ostream>
 #include <set>
 #include <sstream>

@@ -12,7 +12,6 @@ namespace Debond
   namespace
   {
     constexpr double degree = M_PI / 180.;
-    constexpr auto   push   = ChuckComponent::translation_z;
     constexpr auto   twist  = ChuckComponent::rotation_z;
 
 
@@ -108,7 +107,7 @@ namespace Debond
 
 
 
-  std::vector<TorqueRow>
+  VaryingCurve::ByFoundation
   VaryingCurve::by_foundation(const std::vector<SceneEntry> &changed,
                               const std::array<double, 2>   &compliance,
                               const std::vector<double>     &angles)
@@ -132,16 +131,8 @@ namespace Debond
     std::vector<double> radians;
     for (const double angle : angles)
       radians.push_back(angle * degree);
-    const Eigen::VectorXd  torque = torsion_curve(disk, radians);
-    std::vector<TorqueRow> rows(angles.size());
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      {
-        rows[i].chuck_reaction[push] =
-          -disk.pressure * M_PI * disk.radius * disk.radius;
-        rows[i].chuck_reaction[twist] = rows[i].torque_Nmm = torque[i];
-        rows[i].chuck_position[twist] = rows[i].angle_deg = angles[i];
-      }
-    return rows;
+    return {torsion_curve(disk, radians),
+            -disk.pressure * M_PI * disk.radius * disk.radius};
   }
 
 

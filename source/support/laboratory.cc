@@ -62,6 +62,8 @@ namespace Debond
           pointers.push_back(nullptr);
         }
 
+        CommandLine(const CommandLine &) = delete; ///< it points into itself
+
         /** That for which the module was built, if it is there. */
         static std::string
         python()
@@ -78,7 +80,7 @@ namespace Debond
       /** Starts it, with its standard output into a descriptor if there is one.
        */
       std::optional<pid_t>
-      start(CommandLine command, const int output = -1)
+      start(const CommandLine &command, const int output = -1)
       {
         say_where_the_package_is();
         posix_spawn_file_actions_t actions;

@@ -4,6 +4,8 @@
 #include <debond/output/torque_curve.h>
 #include <debond/scene/varying_scene.h>
 
+#include <Eigen/Core>
+
 #include <array>
 #include <memory>
 #include <string>
@@ -43,10 +45,15 @@ namespace Debond
     std::array<double, 2>
     compliance_of_bodies(const std::vector<SceneEntry> &changed);
 
-    /** A row of the closed form `foundation` at each of these angles [deg]:
-     *  angles, torque, axial force. The bodies have this compliance. Throws
-     *  EntryError. */
-    std::vector<TorqueRow>
+    /** The closed form `foundation`, whose bodies have this compliance: the
+     *  torque [N mm] at each of these angles [deg]. */
+    struct ByFoundation
+    {
+      Eigen::VectorXd torque;
+      double          force; ///< along z [N]
+    };
+    /** Throws EntryError. */
+    ByFoundation
     by_foundation(const std::vector<SceneEntry> &changed,
                   const std::array<double, 2>   &compliance,
                   const std::vector<double>     &angles);

@@ -13,11 +13,10 @@ namespace Debond
 {
   /**
    * Pressure, sliding distance, bond and friction coefficient on the contact
-   * face at
-   * the rows where something happens: sliding begins, half and all of what is
-   * in contact slides, half of the bond and all of it is broken, the load is
-   * largest, the run ends. Written to maps.csv at the end, as values on a grid
-   * of 48 x 48 places for pictures.
+   * face at the rows where something happens: sliding begins, half and all of
+   * what is in contact slides, half of the bond and all of it is broken, the
+   * load is largest, the run ends. Written to maps.csv at the end, as values on
+   * a grid of 48 x 48 places for pictures.
    */
   class InterfaceMaps
   {

@@ -7,6 +7,7 @@
 #include <debond/models/closed_form_solution.h>
 #include <debond/models/simulation.h>
 #include <debond/models/varying_curve.h>
+#include <debond/output/body_points.h>
 #include <debond/output/profile_output.h>
 #include <debond/output/result_files.h>
 #include <debond/support/input_error.h>
@@ -19,10 +20,11 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <nlohmann/json.hpp>
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
 
+#include <nlohmann/json.hpp>
+#include <pybind11/eigen.h>
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -318,6 +320,19 @@ namespace
       return arrays(columns);
     }
 
+    /** Displacements (3 x n) and stresses (9 x n). */
+    std::pair<Eigen::Matrix3Xd, Eigen::MatrixXd>
+    bulk(const bool of_implant, const Eigen::Matrix3Xd &X) const
+    {
+      const auto      &system = simulation->system();
+      const BodyPoints at(*system.body[of_implant], system.chuck, X);
+      Eigen::MatrixXd  stress(9, X.cols());
+      for (unsigned int p = 0; p < X.cols(); ++p)
+        stress.col(p) =
+          Eigen::Map<const Eigen::Matrix<double, 9, 1>>(at.stress[p].data());
+      return {at.displacement, stress};
+    }
+
     /** The state, for a simulation of the same scene. */
     py::bytes
     save() const
@@ -334,7 +349,7 @@ namespace
     void
     restore(const std::string &state)
     {
-      const std::string           wrong =
+      const std::string wrong =
         "this is no state of this scene that debond " DEBOND_VERSION
         " has saved: expected what save() of a simulation of the same scene "
         "gave";
@@ -393,9 +408,7 @@ namespace
   {
     const py::gil_scoped_release others_go_on;
     scene.output.overwrite_other_results = force;
-    work_together(team.pointer, [&] {
-      run_scene(scene);
-    });
+    work_together(team.pointer, [&] { run_scene(scene); });
   }
 
 
@@ -553,10 +566,9 @@ PYBIND11_MODULE(_debond, module)
   module.def("with_values", with_values);
   module.def("text_of", scene_text);
   module.def("variants", variants);
-  module.def("expression", [](const std::string &names,
-                              const std::string &text) -> Expression {
-    return read_expression(names, text, 0.);
-  });
+  module.def("expression",
+             [](const std::string &names, const std::string &text)
+               -> Expression { return read_expression(names, text, 0.); });
   py::class_<Team>(module, "Team")
     .def(py::init<std::uintptr_t>())
     .def("gather", &Team::gather);
@@ -668,6 +680,13 @@ PYBIND11_MODULE(_debond, module)
     .def("restore", &Run::restore)
     .def("last_row", &Run::last_row)
     .def("points", &Run::points)
+    .def("bulk",
+         [](const Run &run, const bool of_implant, const Eigen::Matrix3Xd &X) {
+           return work_together(run.team, [&] {
+             const py::gil_scoped_release others_go_on;
+             return run.bulk(of_implant, X);
+           });
+         })
     .def("summary", &Run::summary)
     .def("rows", [](const Run &run) { return arrays(run.simulation->rows()); })
     .def_property_readonly("is_finished",

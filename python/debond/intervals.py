@@ -6,7 +6,8 @@ With derivatives J (N x k), weighted, and residuals of covariance V the least sq
 
 whether the noise is white or not. V is estimated from the residuals (noise.py). An interval ends where the sum of squares, with
 the other unknowns at their best, has grown by t^2 C_jj/(J'J)^-1_jj, t of Student's distribution: for a curve that is linear in
-the unknowns that is +- t sqrt(C_jj). Degrees of freedom are Satterthwaite's.
+the unknowns that is +- t sqrt(C_jj). Where it is not, J is that of the end: the question is what the noise would do if the truth
+were there. Degrees of freedom are Satterthwaite's.
 """
 
 from dataclasses import dataclass, field
@@ -167,6 +168,17 @@ def squares_of(problem, best):
     return residuals @ residuals
 
 
+def _growth_at_end(problem, told, J, j):
+    """What the sum of squares has grown by where the interval of the unknown `j` ends, with derivatives J there; 0 if nothing
+    tells it there."""
+    _, finite, _ = inverse(J)
+    if not finite[j, j] > 0:
+        return 0
+    directions = [J[series.slice] @ finite[:, j] for series in problem.series]
+    variance = sum(direction @ own.covariance_times(direction[:, None])[:, 0] for direction, own in zip(directions, told.noises))
+    return told.quantiles[j] ** 2 * variance / finite[j, j]
+
+
 class _End:
     """An end of the interval of one unknown that is being looked for: the sum of squares as a function of that unknown, the
     others following."""
@@ -208,7 +220,7 @@ def profile_ends(problem, told, nearby, best, rounds):
     _, finite, _ = inverse(J)
     ends = []
     for j in numpy.flatnonzero(numpy.isfinite(told.half_widths) & (told.half_widths > 0)):
-        growth = told.half_widths[j] ** 2 / finite[j, j]  # of the sum of squares at the end
+        growth = _growth_at_end(problem, told, J, j)
         for sign in (-1, 1):
             limit = (upper[j] - centre[j]) if sign > 0 else (centre[j] - lower[j])
             end = _End(j, sign, centre, growth, limit)
@@ -221,7 +233,7 @@ def profile_ends(problem, told, nearby, best, rounds):
         if nearby[1] is None:
             _advance(problem, best, J, active, (centre, finite, lower, upper), nearby[0])
         for end in active if nearby[1] is not None else ():
-            _advance_closely(problem, best, end, (centre, finite, lower, upper), nearby)
+            _advance_closely(problem, told, best, end, (centre, finite, lower, upper), nearby)
     told.lower, told.upper = centre - told.half_widths, centre + told.half_widths
     for end in ends:
         if end.done:
@@ -237,7 +249,7 @@ def _move(end, distance, centre, finite, lower, upper):
     end.distance, end.best = distance, numpy.inf
 
 
-def _advance_closely(problem, best, end, frame, nearby):
+def _advance_closely(problem, told, best, end, frame, nearby):
     """One round: the others go to where the squares are least, with derivatives that are taken anew on the way."""
     centre, _, lower, upper = frame
     curves, slopes = nearby
@@ -257,6 +269,7 @@ def _advance_closely(problem, best, end, frame, nearby):
             J = problem.weights[:, None] * slopes(problem.unknowns.from_search(end.at))
         except RunError:
             break
+        end.target = _growth_at_end(problem, told, J, end.j) or end.target
         slope = J.T @ residuals
         held = ((end.at <= lower) & (slope > 0)) | ((end.at >= upper) & (slope < 0))  # at bounds: they cannot follow
         held[end.j] = True

@@ -275,6 +275,21 @@ class Simulation:
         2 slip), area_mm2."""
         return self._run.points()
 
+    def bulk(self, body: str, points) -> Dict[str, numpy.ndarray]:
+        """What `body`, "bone" or "implant", shows in the newest row at `points` (n x 3) of its reference configuration [mm]:
+        displacement_mm (n x 3) and stress_MPa (n x 3 x 3, Cauchy, in space), as in bulk.pvd; not a number where the body is
+        not."""
+
+        def check():
+            places = numpy.asarray(points, dtype=float)
+            if body not in ("bone", "implant") or places.ndim != 2 or places.shape[1] != 3:
+                raise SceneError(f"bulk({body!r:.20}, points of shape {places.shape}): expected 'bone' or 'implant', and n x 3")
+            return body, places.tolist()
+
+        _agreed(self._team, check)
+        displacement, stress = self._run.bulk(body == "implant", numpy.asarray(points, dtype=float).T)
+        return {"displacement_mm": displacement.T, "stress_MPa": stress.T.reshape(-1, 3, 3)}
+
     def save(self) -> bytes:
         """The state in its newest row, drive included: see restore()."""
         return self._run.save()

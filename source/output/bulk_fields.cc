@@ -1,6 +1,6 @@
 #include <debond/bulk/body.h>
 #include <debond/bulk/bulk_space.h>
-#include <debond/bulk/chuck.h>
+#include <debond/output/body_points.h>
 #include <debond/output/bulk_fields.h>
 #include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
@@ -28,9 +28,8 @@ namespace Debond
   class BulkFields::FieldsInSpace : public dealii::DataPostprocessor<3>
   {
   public:
-    /** Null: the frame is that of space. */
-    explicit FieldsInSpace(const Chuck *chuck)
-      : chuck(chuck)
+    explicit FieldsInSpace(const BodyFrame &frame)
+      : frame(frame)
     {}
 
     void
@@ -38,23 +37,18 @@ namespace Debond
       const dealii::DataPostprocessorInputs::Vector<3> &inputs,
       std::vector<dealii::Vector<double>>              &fields) const override
     {
-      const Eigen::Matrix3d Q =
-        chuck ? chuck->rotation() : Eigen::Matrix3d::Identity();
       for (unsigned int p = 0; p < fields.size(); ++p)
         {
           const dealii::Vector<double> &values = inputs.solution_values[p];
           const Eigen::Map<const Eigen::Vector3d> v(values.begin());
           const Eigen::Map<const Eigen::Matrix3d> sigma(values.begin() + 3);
           const dealii::Point<3>     &point = inputs.evaluation_points[p];
-          const Eigen::Vector3d       X(point[0], point[1], point[2]);
           Eigen::Map<Eigen::Vector3d> displacement(&fields[p][0]),
             displacement_in_frame(&fields[p][3]);
           Eigen::Map<Eigen::Matrix3d> stress(&fields[p][6]);
           displacement_in_frame = v;
-          displacement          = v;
-          if (chuck)
-            displacement = chuck->map(X, v) - X;
-          stress        = Q * sigma * Q.transpose();
+          displacement  = frame.displacement({point[0], point[1], point[2]}, v);
+          stress        = frame.stress(sigma);
           fields[p][15] = von_mises(sigma);
         }
     }
@@ -88,7 +82,7 @@ namespace Debond
     }
 
   private:
-    const Chuck *const chuck;
+    const BodyFrame frame;
   };
 
 
@@ -133,7 +127,7 @@ namespace Debond
       , fe(dealii::FE_DGQ<3>(degree), 3, dealii::FE_DGQ<3>(1), 9)
       , dofs(triangulation)
       , mapping(degree)
-      , fields(space.side() == Side::implant ? &chuck : nullptr)
+      , fields(BodyFrame(body, chuck))
     {
       make_mesh();
     }

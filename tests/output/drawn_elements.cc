@@ -1,10 +1,12 @@
-// What VTU files hold of bodies of all elements, against closed forms: both are
-// uniformly strained, the modulus of the bone is linear in x, y and z, and so
-// is its stress, which all elements have exactly; the frame of the coin has
-// turned, and its stress with it.
+// What VTU files hold of bodies of all elements, and what bodies show at points
+// that are asked for, against closed forms: both are uniformly strained, the
+// modulus of the bone is linear in x, y and z, and so is its stress, which all
+// elements have exactly; the frame of the coin has turned, and its stress with
+// it.
 
 #include <debond/bulk/body.h>
 #include <debond/bulk/chuck.h>
+#include <debond/output/body_points.h>
 #include <debond/output/bulk_fields.h>
 
 #include <algorithm>
@@ -77,6 +79,48 @@ modulus_of_cell(const BodyParameters &bone, const Eigen::Vector3d &point)
     }
   centre[2] = -(layer + 0.5) * bone.thickness() / n_bone[2];
   return modulus(centre);
+}
+
+
+
+/** At points on the faces, on the rim and inside, and where the body is not.
+ *  @p E: of a point [MPa]. */
+template <typename Modulus>
+void
+check_points(const std::string &name,
+             const Body        &body,
+             const Chuck       &chuck,
+             const Modulus     &E)
+{
+  const BodyParameters &parameters = body.mesh().parameters();
+  const bool            is_coin    = body.mesh().side() == Side::implant;
+  const double depth = is_coin ? parameters.height : -parameters.thickness(),
+               half  = is_coin ? parameters.radius : 0.5 * parameters.width(0);
+  Eigen::Matrix3Xd points(3, 6);
+  points << 0., half, 0.31 * half, -0.17 * half, -0.4 * half, 0., //
+    0., 0., -0.42 * half, 0.53 * half, 0.1 * half, 0.,            //
+    0.5 * depth, 0., 0., 0.31 * depth, depth, 1.01 * depth;
+  const BodyPoints      at(body, chuck, points);
+  const Eigen::Matrix3d Q =
+    is_coin ? chuck.rotation() : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+  double displacement = 0., stress = 0.;
+  for (unsigned int p = 0; p < 5; ++p)
+    {
+      const Eigen::Vector3d X = points.col(p), v = uniform_gradient * X;
+      const Eigen::Matrix3d own =
+        hooke_stress(NeoHookean::from_young(E(X), parameters.poisson_ratio),
+                     uniform_gradient);
+      grow(
+        displacement,
+        (at.displacement.col(p) - (is_coin ? chuck.map(X, v) - X : v)).norm());
+      grow(stress,
+           (at.stress[p] - Q * own * Q.transpose()).norm() / own.norm());
+    }
+  report("  displacement at points of the " + name + " [mm]",
+         displacement,
+         1e-9);
+  report("  stress there, relative", stress, 1e-9);
+  std::cout << "  beyond: " << at.displacement.col(5).transpose() << std::endl;
 }
 
 
@@ -156,6 +200,10 @@ check(const std::string &name, const ElementKind element, const bool coarser)
   report("  stress, relative", stress, 1e-5);
   report("  stress of von Mises, relative", mises, 1e-5);
   report("  modulus, relative", moduli, 1e-6);
+  check_points("bone", *body_of_bone, chuck, modulus);
+  check_points("coin", *body_of_coin, chuck, [&](const Eigen::Vector3d &) {
+    return coin.young_modulus;
+  });
 }
 
 

@@ -119,6 +119,19 @@ def check_drive():
           (points["slip_mm"] < points["r_mm"] * math.radians(row["angle_deg"])).all()
           and points["slip_mm"].max() > 0.9 * 2.5 * math.radians(row["angle_deg"]))
 
+    # sides of the bone slide along themselves: each cross section carries the force
+    n, width, depth = 60, 12.5, 5.0
+    at = (numpy.arange(n) + 0.5) / n * width - width / 2
+    x, y = (one.ravel() for one in numpy.meshgrid(at, at))
+    stress = simulation.bulk("bone", numpy.column_stack([x, y, numpy.full(n * n, -depth / 2)]))["stress_MPa"]
+    check("a cross section of the bone carries the force, to 1 %",
+          abs(-stress[:, 2, 2].sum() * (width / n) ** 2 / row["force_N"] - 1) < 0.01)
+    moved = simulation.bulk("implant", [[2.4, 0, 2.0], [0, 2.4, 2.0], [9, 9, 9]])["displacement_mm"]
+    cosine, sine = math.cos(math.radians(5)), math.sin(math.radians(5))
+    turned = 2.4 * numpy.array([[cosine - 1, sine], [-sine, cosine - 1]])
+    check("the implant turns with the chuck, to 1 um", abs(moved[:2, :2] - turned).max() < 1e-3)
+    check("and is not elsewhere", numpy.isnan(moved[2]).all())
+
     # a force that depends on what the run has answered
     force = {"Chuck/Translation z/Control": "force", "Load steps/Times": [0, 1], "Load steps/Steps": 20}
     simulation = debond.Simulation(debond.Scene(text=coin, entries=force), drive={"Translation z": -50, "Rotation z": 0})

@@ -1,0 +1,154 @@
+#include <debond/bulk/body.h>
+#include <debond/bulk/bulk_space.h>
+#include <debond/bulk/chuck.h>
+#include <debond/output/body_points.h>
+#include <debond/support/ranks.h>
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/fe/fe_q.h>
+
+#include <limits>
+
+namespace Debond
+{
+  BodyFrame::BodyFrame(const Body &body, const Chuck &chuck)
+    : chuck(body.mesh().side() == Side::implant ? &chuck : nullptr)
+  {}
+
+
+
+  Eigen::Vector3d
+  BodyFrame::displacement(const Eigen::Vector3d &X,
+                          const Eigen::Vector3d &v) const
+  {
+    return chuck ? Eigen::Vector3d(chuck->map(X, v) - X) : v;
+  }
+
+
+
+  Eigen::Matrix3d
+  BodyFrame::stress(const Eigen::Matrix3d &in_frame) const
+  {
+    if (!chuck)
+      return in_frame;
+    const Eigen::Matrix3d Q = chuck->rotation();
+    return Q * in_frame * Q.transpose();
+  }
+
+
+
+  namespace
+  {
+    dealii::Point<3>
+    as_point(const Eigen::Vector3d &x)
+    {
+      return {x[0], x[1], x[2]};
+    }
+
+
+
+    /** A box around a cell. Its faces may be curved a little. */
+    dealii::BoundingBox<3>
+    box_around(const CellFunctions &functions)
+    {
+      std::vector<dealii::Point<3>> points;
+      for (const auto &corner : dealii::FE_Q<3>(2).get_unit_support_points())
+        points.push_back(as_point(functions.position(corner)));
+      dealii::BoundingBox<3> box(points);
+      double                 size = 0.;
+      for (unsigned int d = 0; d < 3; ++d)
+        size = std::max(size, box.side_length(d));
+      box.extend(0.05 * size);
+      return box;
+    }
+
+
+
+    /** The point of the unit cell that lies at @p X, by Newton's method. False
+     *  if there is none. */
+    bool
+    find_in_cell(const BulkSpace       &space,
+                 const BulkSpace::Cell &cell,
+                 const CellFunctions   &functions,
+                 const Eigen::Vector3d &X,
+                 dealii::Point<3>      &unit)
+    {
+      constexpr double tolerance = 1e-8;
+      unit                       = dealii::Point<3>(0.5, 0.5, 0.5);
+      for (unsigned int iteration = 0; iteration < 20; ++iteration)
+        {
+          const ShapeValues N          = functions.at(unit);
+          Eigen::Vector3d   difference = X;
+          Eigen::Matrix3d   slope      = Eigen::Matrix3d::Zero();
+          for (unsigned int a = 0; a < N.rows(); ++a)
+            {
+              const Eigen::Vector3d &node =
+                space.reference_position(cell.nodes[a]);
+              difference -= N(a, 0) * node;
+              slope += node * N.block<1, 3>(a, 1);
+            }
+          const Eigen::Vector3d step = slope.partialPivLu().solve(difference);
+          for (unsigned int d = 0; d < 3; ++d)
+            unit[d] += step[d];
+          if (!(step.norm() < 10.))
+            return false;
+          if (step.norm() < tolerance)
+            return dealii::GeometryInfo<3>::is_inside_unit_cell(unit, 1e-6);
+        }
+      return false;
+    }
+  } // namespace
+
+
+
+  // Cells of several ranks: what none has stays at minus infinity.
+  BodyPoints::BodyPoints(const Body             &body,
+                         const Chuck            &chuck,
+                         const Eigen::Matrix3Xd &points)
+  {
+    constexpr double      none  = -std::numeric_limits<double>::infinity();
+    const BulkSpace      &space = body.mesh();
+    const BodyFrame       frame(body, chuck);
+    const Eigen::VectorXd v     = body.full_displacement();
+    const auto            sigma = body.vertex_stress(v);
+    Eigen::MatrixXd values = Eigen::MatrixXd::Constant(12, points.cols(), none);
+    for (const BulkSpace::Cell &cell : space.cells())
+      {
+        const CellFunctions functions(space, cell);
+        const auto          box = box_around(functions);
+        for (unsigned int p = 0; p < points.cols(); ++p)
+          {
+            dealii::Point<3>      unit;
+            const Eigen::Vector3d X = points.col(p);
+            if (values(0, p) != none || !box.point_inside(as_point(X)) ||
+                !find_in_cell(space, cell, functions, X, unit))
+              continue;
+            Eigen::Vector3d   moved  = Eigen::Vector3d::Zero();
+            Eigen::Matrix3d   stress = Eigen::Matrix3d::Zero();
+            const ShapeValues N      = functions.at(unit);
+            for (unsigned int a = 0; a < N.rows(); ++a)
+              moved += N(a, 0) * v.segment<3>(3 * cell.nodes[a]);
+            for (const unsigned int a :
+                 dealii::GeometryInfo<3>::vertex_indices())
+              stress +=
+                dealii::GeometryInfo<3>::d_linear_shape_function(unit, a) *
+                sigma[cell.vertices[a]];
+            values.col(p).head<3>() = frame.displacement(X, moved);
+            Eigen::Map<Eigen::Matrix3d>(&values(3, p)) = frame.stress(stress);
+          }
+      }
+    dealii::Utilities::MPI::max(
+      dealii::ArrayView<const double>(values.data(), values.size()),
+      Ranks::communicator(),
+      dealii::ArrayView<double>(values.data(), values.size()));
+    displacement.resize(3, points.cols());
+    for (unsigned int p = 0; p < points.cols(); ++p)
+      {
+        if (values(0, p) == none)
+          values.col(p).setConstant(std::numeric_limits<double>::quiet_NaN());
+        displacement.col(p) = values.col(p).head<3>();
+        stress.emplace_back(Eigen::Map<Eigen::Matrix3d>(&values(3, p)));
+      }
+  }
+} // namespace Debond

@@ -156,6 +156,39 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
 
 
+  // What makes no sense together is refused, not ignored. A run that goes on is
+  // what it was: its scene may not change, and so its checks are done. --force
+  // would remove the very checkpoint that is to be used, and --jobs is for
+  // studies, which are not resumed but run again: what is done in them is kept.
+  void
+  refuse_combinations(const Arguments &arguments, const std::size_t n_words)
+  {
+    const bool resumes = !arguments.directory_to_resume.empty();
+    if (resumes && (arguments.check || arguments.print_parameters ||
+                    arguments.force || arguments.n_jobs > 0))
+      refuse_usage("--resume goes with SCENE.prm, --set and --threads only");
+    const bool compares = !arguments.directory_to_compare.empty();
+    if (compares && (resumes || arguments.check || arguments.print_parameters ||
+                     arguments.force || !arguments.overrides.empty()))
+      refuse_usage("--compare goes with a curve and --columns only");
+    if (compares && arguments.scene_file.empty())
+      refuse_usage("--compare needs a measured curve: --compare DIR CURVE.csv");
+    const bool reports = !arguments.directory_to_report.empty();
+    if (reports && n_words != 2)
+      refuse_usage("--report goes with nothing else");
+    if (!compares && !arguments.columns.empty())
+      refuse_usage("--columns is for --compare; a scene has Output / Reference "
+                   "columns");
+    // With --print-parameters alone the defaults are printed.
+    const bool needs_no_scene =
+      resumes || reports || arguments.help || arguments.version ||
+      (arguments.print_parameters && arguments.overrides.empty());
+    if (arguments.scene_file.empty() && !needs_no_scene)
+      refuse_usage("no scene file is given");
+  }
+
+
+
   // Options are few, so that tables of their names and a loop over the words
   // read them. What has no dash in front is the scene file.
   //
@@ -219,33 +252,7 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
           arguments.scene_file = option;
       }
 
-    // What makes no sense together is refused, not ignored. A run that goes on
-    // is what it was: its scene may not change, and so its checks are done.
-    // --force would remove the very checkpoint that is to be used, and --jobs
-    // is for studies, which are not resumed but run again: what is done in them
-    // is kept.
-    const bool resumes = !arguments.directory_to_resume.empty();
-    if (resumes && (arguments.check || arguments.print_parameters ||
-                    arguments.force || arguments.n_jobs > 0))
-      refuse_usage("--resume goes with SCENE.prm, --set and --threads only");
-    const bool compares = !arguments.directory_to_compare.empty();
-    if (compares && (resumes || arguments.check || arguments.print_parameters ||
-                     arguments.force || !arguments.overrides.empty()))
-      refuse_usage("--compare goes with a curve and --columns only");
-    if (compares && arguments.scene_file.empty())
-      refuse_usage("--compare needs a measured curve: --compare DIR CURVE.csv");
-    const bool reports = !arguments.directory_to_report.empty();
-    if (reports && words.size() != 2)
-      refuse_usage("--report goes with nothing else");
-    if (!compares && !arguments.columns.empty())
-      refuse_usage("--columns is for --compare; a scene has Output / Reference "
-                   "columns");
-    // With --print-parameters alone the defaults are printed.
-    const bool needs_no_scene =
-      resumes || reports || arguments.help || arguments.version ||
-      (arguments.print_parameters && arguments.overrides.empty());
-    if (arguments.scene_file.empty() && !needs_no_scene)
-      refuse_usage("no scene file is given");
+    refuse_combinations(arguments, words.size());
     return arguments;
   }
 
@@ -282,9 +289,10 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
                const Arguments               &arguments)
   {
     if (Ranks::number() > 1)
-      refuse_usage("the variants of a study are processes of one machine: leave "
-                   "out mpirun, or deal them out to many machines in Python "
-                   "(debond.run_many, doc/python.md)");
+      refuse_usage(
+        "the variants of a study are processes of one machine: leave "
+        "out mpirun, or deal them out to many machines in Python "
+        "(debond.run_many, doc/python.md)");
     // All variants are read before the first one runs, so that a mistake in the
     // last of them shows at once.
     if (arguments.check)
@@ -315,9 +323,9 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
   [[noreturn]] void
   become_calibration(const Arguments &arguments)
   {
-    std::vector<std::string> words{
-      arguments.scene_file,
-      "--threads=" + std::to_string(or_processors(arguments.n_threads))};
+    std::vector<std::string> words{arguments.scene_file,
+                                   "--threads=" + std::to_string(or_processors(
+                                                    arguments.n_threads))};
     for (const std::string &text : arguments.overrides)
       words.push_back("--set=" + text);
     if (arguments.force)

@@ -87,6 +87,25 @@ namespace Debond
                   ", the checkpoint's " + shown(value[1]);
       return list;
     }
+
+
+
+    /** A run that goes on stays in its directory: which of the overrides would
+     *  move it. */
+    std::string
+    what_moves(const std::vector<std::string> &overrides,
+               const ResultDirectory          &results)
+    {
+      for (const std::string &text : overrides)
+        if (const SceneEntry entry = read_override(text);
+            entry.full_name() == "Output / Directory" &&
+            fs::weakly_canonical(ResultDirectory(entry.value).path()) !=
+              fs::weakly_canonical(results.path()))
+          return "--set '" + text +
+                 "' names another directory, but a run goes on in the "
+                 "directory of its results";
+      return "";
+    }
   } // namespace
 
 
@@ -119,17 +138,8 @@ namespace Debond
     ResumedRun run;
     run.directory = std::make_shared<const ResultDirectory>(directory);
     const ResultDirectory &results = *run.directory;
-    // The results of the run that goes on stay where they are.
-    for (const std::string &text : overrides)
-      {
-        const SceneEntry entry = read_override(text);
-        refuse_if(entry.full_name() == "Output / Directory" &&
-                    fs::weakly_canonical(ResultDirectory(entry.value).path()) !=
-                      fs::weakly_canonical(results.path()),
-                  "--set '" + text +
-                    "' names another directory, but a run goes on in the "
-                    "directory of its results");
-      }
+    const std::string      moves   = what_moves(overrides, results);
+    refuse_if(!moves.empty(), moves);
     const bool is_finished =
       read_json(results.file("summary.json"))["converged"] == true;
     if (is_finished && scene_file.empty() && overrides.empty())

@@ -18,6 +18,23 @@ namespace Debond
 {
   namespace
   {
+    std::string
+    loads_in_words(const TorqueRow &end)
+    {
+      // sideways it is often nothing but rounding
+      const auto  &f = end.chuck_reaction;
+      const double largest =
+        std::max({std::abs(f[0]), std::abs(f[1]), std::abs(f[2])});
+      const auto force = [&](const unsigned int k) {
+        return to_text(std::abs(f[k]) < 1e-9 * largest ? 0. : f[k], 6);
+      };
+      return "At the end: torque " + to_text(end.torque_Nmm, 6) +
+             " N mm, force " + force(0) + ", " + force(1) + ", " + force(2) +
+             " N";
+    }
+
+
+
     /** What a run has found, for the console; what is not known is left out. */
     std::vector<std::string>
     findings(const nlohmann::ordered_json &summary,
@@ -51,16 +68,7 @@ namespace Debond
             (std::isfinite(theta_full) ?
                ", 99.9 % of it up to " + number(theta_full) + " deg" :
                ""));
-      // sideways it is often nothing but rounding
-      const auto  &f = end.chuck_reaction;
-      const double largest =
-        std::max({std::abs(f[0]), std::abs(f[1]), std::abs(f[2])});
-      const auto force = [&](const unsigned int k) {
-        return number(std::abs(f[k]) < 1e-9 * largest ? 0. : f[k]);
-      };
-      lines.push_back("At the end: torque " + number(end.torque_Nmm) +
-                      " N mm, force " + force(0) + ", " + force(1) + ", " +
-                      force(2) + " N");
+      lines.push_back(loads_in_words(end));
       if (const double pressure = value("pressure_MPa"); pressure > 0.)
         lines.push_back("Pressure before turning " + number(pressure) + " MPa");
       add(stiffness,

@@ -122,13 +122,10 @@ namespace Debond
 
 
 
-  void
-  InterfaceMaps::write(const ResultDirectory &directory,
-                       const TorqueRow       &last_row,
-                       const Points          &points)
+  // Several events of one step are one snapshot.
+  std::vector<InterfaceMaps::Snapshot>
+  InterfaceMaps::in_order(const TorqueRow &last_row, const Points &points) const
   {
-    if (!wanted || n_rows == 0)
-      return;
     std::vector<Snapshot> all = snapshots;
     if (largest_load > 0.)
       all.push_back(largest);
@@ -144,31 +141,41 @@ namespace Debond
         }
       else
         ++i;
+    return all;
+  }
 
-    std::string  table = csv_line({"event",
-                                   "step",
-                                   "time",
-                                   "angle_deg",
-                                   "x_mm",
-                                   "y_mm",
-                                   "pressure_MPa",
-                                   "slip_mm",
-                                   "phi",
-                                   "mu"});
+
+
+  void
+  InterfaceMaps::write(const ResultDirectory &directory,
+                       const TorqueRow       &last_row,
+                       const Points          &points)
+  {
+    if (!wanted || n_rows == 0)
+      return;
+    const std::vector<Snapshot> all   = in_order(last_row, points);
+    std::string                 table = csv_line({"event",
+                                                  "step",
+                                                  "time",
+                                                  "angle_deg",
+                                                  "x_mm",
+                                                  "y_mm",
+                                                  "pressure_MPa",
+                                                  "slip_mm",
+                                                  "phi",
+                                                  "mu"});
     const double dx = 2. * half_x / n_across, dy = 2. * half_y / n_across;
     for (const Snapshot &one : all)
       {
-        const auto  tree = tree_of(one.points);
+        const auto        tree = tree_of(one.points);
         const std::string of_event =
           one.events + "," + std::to_string(one.step) + "," +
-                    to_text(one.time, 6) + "," +
-          to_text(one.angle_deg, 6) + ",";
+          to_text(one.time, 6) + "," + to_text(one.angle_deg, 6) + ",";
         const double reach =
-          is_mesh ? std::max({dx,
-                              dy,
-                              std::sqrt(4. * half_x * half_y /
-                                        one.points.size())}) :
-                    std::numeric_limits<double>::infinity();
+          is_mesh ?
+            std::max(
+              {dx, dy, std::sqrt(4. * half_x * half_y / one.points.size())}) :
+            std::numeric_limits<double>::infinity();
         for (unsigned int j = 0; j < n_across; ++j)
           for (unsigned int i = 0; i < n_across; ++i)
             {
@@ -178,10 +185,9 @@ namespace Debond
                 is_round && place.norm() > half_x ?
                        nullptr :
                        closest(one.points, tree, place, reach);
-              table += of_event + to_text(place[0], 6) + "," +
-                       to_text(place[1], 6);
-              for (const unsigned int q :
-                   {of_pressure, of_slip, of_phi, of_mu})
+              table +=
+                of_event + to_text(place[0], 6) + "," + to_text(place[1], 6);
+              for (const unsigned int q : {of_pressure, of_slip, of_phi, of_mu})
                 table += "," + (point ? to_text((*point)[q], 4) : "nan");
               table += "\n";
             }

@@ -494,6 +494,46 @@ namespace Debond
 
 
 
+  namespace
+  {
+    /** Stiffness, and between which rows the bond begins to break. */
+    void
+    measure_beginning(const Rows                   &rows,
+                      const std::vector<TorqueRow> &steps,
+                      const Rotation               &rotation,
+                      const CurveSettings          &settings,
+                      Measures                     &measures)
+    {
+      const TorqueRow &first  = rows[rotation.first_row],
+                      &before = rows[rotation.first_row - 1];
+      measures["initial_stiffness_Nmm_per_rad"] =
+        (first.torque_Nmm - before.torque_Nmm) /
+        radians(first.angle_deg - before.angle_deg);
+      // the stiffness of a face that sticks is asked for
+      const TorqueRow &end_of_step =
+        *std::find_if(steps.begin(), steps.end(), [&](const TorqueRow &row) {
+          return row.time >= first.time;
+        });
+      if (end_of_step.share_slip - before.share_slip > 0.1)
+        measures["remarks"].push_back(
+          "initial_stiffness_Nmm_per_rad is too small: " +
+          to_text(100. * end_of_step.share_slip, 2) +
+          " % of the face slides in the first row that has turned");
+      // The bonding state is not known between them.
+      const auto breaks =
+        std::find_if(steps.begin(), steps.end(), [&](const TorqueRow &row) {
+          return row.phi_mean < steps.front().phi_mean * (1. - 1e-12);
+        });
+      if (settings.is_bonded && breaks != steps.end())
+        {
+          measures["theta_bonded_deg"]    = std::prev(breaks)->angle_deg;
+          measures["theta_debonding_deg"] = breaks->angle_deg;
+        }
+    }
+  } // namespace
+
+
+
   nlohmann::ordered_json
   measure_torque_curve(const std::vector<TorqueRow> &steps,
                        const CurveSettings          &settings)
@@ -531,31 +571,7 @@ namespace Debond
     if (rotation.direction != 0. && !rotation.reverses)
       {
         measures["theta_max_deg"] = peak->angle_deg;
-        const TorqueRow &first    = rows[rotation.first_row],
-                        &before   = rows[rotation.first_row - 1];
-        measures["initial_stiffness_Nmm_per_rad"] =
-          (first.torque_Nmm - before.torque_Nmm) /
-          radians(first.angle_deg - before.angle_deg);
-        // the stiffness of a face that sticks is asked for
-        const TorqueRow &end_of_step =
-          *std::find_if(steps.begin(), steps.end(), [&](const TorqueRow &row) {
-            return row.time >= first.time;
-          });
-        if (end_of_step.share_slip - before.share_slip > 0.1)
-          measures["remarks"].push_back(
-            "initial_stiffness_Nmm_per_rad is too small: " +
-            to_text(100. * end_of_step.share_slip, 2) +
-            " % of the face slides in the first row that has turned");
-        // The bonding state is not known between them.
-        const auto breaks =
-          std::find_if(steps.begin(), steps.end(), [&](const TorqueRow &row) {
-            return row.phi_mean < steps.front().phi_mean * (1. - 1e-12);
-          });
-        if (settings.is_bonded && breaks != steps.end())
-          {
-            measures["theta_bonded_deg"]    = std::prev(breaks)->angle_deg;
-            measures["theta_debonding_deg"] = breaks->angle_deg;
-          }
+        measure_beginning(rows, steps, rotation, settings, measures);
         measure_energies(rows, rotation, settings, T_max, measures);
         if (!settings.reference.empty()) // Eqs. (19) and (50)
           CurveComparison(angles_and_torques(rows), settings.reference)

@@ -135,6 +135,25 @@ namespace Debond
 
 
     void
+    declare_noise(CalibrationParameters &calibration, EntryTable &table)
+    {
+      table.add("Noise",
+                calibration.noise,
+                Allowed::list(Allowed::number_from(0, ""), 1, 0),
+                "Standard deviation of what is measured, relative to the "
+                "largest value of the curve: of each curve, or one for all. 0: "
+                "unknown, and taken from what the fit leaves of each curve.");
+      table.add("Noise columns",
+                calibration.noise_columns,
+                Allowed::text("columns of the file"),
+                "Columns of the measured file, by name or number, that hold "
+                "the standard deviation of each row, one for each of Curves; "
+                "instead of Noise.");
+    }
+
+
+
+    void
     declare_calibration(CalibrationParameters &calibration, EntryTable &table)
     {
       table.enter_subsection("Calibration");
@@ -157,18 +176,7 @@ namespace Debond
                 Allowed::list(Allowed::number(""), 0, 0),
                 "Parts of the measured curves that are fitted, as pairs of "
                 "bounds in Over: 0, 0.13, 9, 10. Empty: all.");
-      table.add("Noise",
-                calibration.noise,
-                Allowed::list(Allowed::number_from(0, ""), 1, 0),
-                "Standard deviation of what is measured, relative to the "
-                "largest value of the curve: of each curve, or one for all. 0: "
-                "unknown, and taken from what the fit leaves of each curve.");
-      table.add("Noise columns",
-                calibration.noise_columns,
-                Allowed::text("columns of the file"),
-                "Columns of the measured file, by name or number, that hold "
-                "the standard deviation of each row, one for each of Curves; "
-                "instead of Noise.");
+      declare_noise(calibration, table);
       declare_rig(calibration, table);
       table.add("Measure",
                 calibration.measure,
@@ -232,23 +240,8 @@ namespace Debond
 
 
     void
-    declare_output(OutputParameters &output, EntryTable &table)
+    declare_measures(OutputParameters &output, EntryTable &table)
     {
-      table.enter_subsection("Output");
-      table.add(
-        "Directory",
-        output.directory,
-        Allowed::directory(),
-        "Directory for the results, relative to the working directory; "
-        "created if missing. One that holds results of another scene is "
-        "refused without --force.");
-      table.add(
-        "Fields every",
-        output.fields_every,
-        Allowed::whole_number(0, std::numeric_limits<int>::max()),
-        "Planned steps between VTU files, counted from the beginning of "
-        "each phase, whose end is always written; 0: no VTU files.");
-      declare_references(output, table);
       table.add(
         "Curve at",
         output.curve_at,
@@ -269,18 +262,13 @@ namespace Debond
                 Allowed::number_between(0, 1, ""),
                 "Observed mean phi_0 that w_adh refers to, Eq. (21); 0: that "
                 "of the scene.");
-      table.add(
-        "Profile angles",
-        output.profile_angles,
-        Allowed::list(Allowed::number_above(0, "deg"), 0, 0),
-        "Angles [deg] at which local values of all points of the interface "
-        "are written into profiles.csv, each at the first planned step that "
-        "reaches it; empty: none.");
-      table.add("Friction law curve",
-                output.friction_law_curve,
-                Allowed::choice("false | true"),
-                "Write phi and mu over the sliding distance g_s into "
-                "friction_law.csv.");
+    }
+
+
+
+    void
+    declare_checkpoints(OutputParameters &output, EntryTable &table)
+    {
       table.add(
         "Checkpoint every",
         output.checkpoint_every,
@@ -296,6 +284,42 @@ namespace Debond
         "Time [min] after which the next row leaves a checkpoint, beside "
         "those of Checkpoint every. 0: none. For Model = finite "
         "elements.");
+    }
+
+
+
+    void
+    declare_output(OutputParameters &output, EntryTable &table)
+    {
+      table.enter_subsection("Output");
+      table.add(
+        "Directory",
+        output.directory,
+        Allowed::directory(),
+        "Directory for the results, relative to the working directory; "
+        "created if missing. One that holds results of another scene is "
+        "refused without --force.");
+      table.add(
+        "Fields every",
+        output.fields_every,
+        Allowed::whole_number(0, std::numeric_limits<int>::max()),
+        "Planned steps between VTU files, counted from the beginning of "
+        "each phase, whose end is always written; 0: no VTU files.");
+      declare_references(output, table);
+      declare_measures(output, table);
+      table.add(
+        "Profile angles",
+        output.profile_angles,
+        Allowed::list(Allowed::number_above(0, "deg"), 0, 0),
+        "Angles [deg] at which local values of all points of the interface "
+        "are written into profiles.csv, each at the first planned step that "
+        "reaches it; empty: none.");
+      table.add("Friction law curve",
+                output.friction_law_curve,
+                Allowed::choice("false | true"),
+                "Write phi and mu over the sliding distance g_s into "
+                "friction_law.csv.");
+      declare_checkpoints(output, table);
       table.add("Report",
                 output.report,
                 Allowed::choice("false | true"),

@@ -3,7 +3,7 @@
 // with a file.
 
 #include <debond/shapes/boundary.h>
-#include <debond/shapes/mesh_file.h>
+#include <debond/shapes/mesh_builder.h>
 #include <debond/shapes/mesh_formats.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>

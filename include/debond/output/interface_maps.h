@@ -65,6 +65,8 @@ namespace Debond
     snapshot(const std::string &event,
              const TorqueRow   &row,
              const Points      &points);
+    std::vector<Snapshot>
+    in_order(const TorqueRow &last_row, const Points &points) const;
 
     const bool   wanted;
     const double radius; ///< R [mm], of a torque's force

@@ -5,6 +5,7 @@
 #include <deal.II/base/point.h>
 #include <deal.II/grid/tria.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <memory>
@@ -47,13 +48,17 @@ namespace Debond
     std::map<Vertices, dealii::Point<3>> middles;
   };
 
-  /**
-   * Reads a mesh of Gmsh (.msh), Abaqus (.inp) or VTK (.vtk), with the names of
-   * its groups of faces. Throws an EntryError of @p entry, "Bone / Mesh file",
-   * that says what is wrong with the file: what the bulk cannot be made of is
-   * refused here.
-   */
-  std::shared_ptr<const FileMesh>
-  read_mesh_file(const std::string &filename, const std::string &entry);
+  /** Of the corners @p numbers of a cell with these vertices. */
+  template <typename Cell>
+  FileMesh::Vertices
+  vertices_of(const std::vector<unsigned int> &numbers, const Cell &vertex)
+  {
+    FileMesh::Vertices result;
+    result.fill(dealii::numbers::invalid_unsigned_int);
+    for (unsigned int i = 0; i < numbers.size(); ++i)
+      result[i] = vertex(numbers[i]);
+    std::sort(result.begin(), result.end());
+    return result;
+  }
 } // namespace Debond
 #endif

@@ -27,6 +27,11 @@ namespace Debond
   const std::vector<unsigned int> &
   common_places();
 
+  /** Corners of the edge, the face or the cell that each of the places in a
+   *  hexahedron is the middle of. */
+  const std::vector<std::vector<unsigned int>> &
+  corners_of_places();
+
   /** What a file of a mesh says. */
   struct StoredMesh
   {
@@ -62,5 +67,9 @@ namespace Debond
    *  quadrilaterals, the boundary ids. */
   StoredMesh
   read_vtk_mesh(const std::string &filename, const FileRefusal &refuse);
+
+  /** One of these, by the name of the file. */
+  StoredMesh
+  read_stored_mesh(const std::string &filename, const FileRefusal &refuse);
 } // namespace Debond
 #endif

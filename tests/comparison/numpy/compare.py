@@ -34,7 +34,13 @@ def arguments():
                         'group of columns (default: %(default)g)')
     parser.add_argument('--dissipation-within', type=float, help='another tolerance for the dissipation')
     parser.add_argument('--csv', metavar='FILE', help='write the rows of this solver')
+    parser.add_argument('--rows', metavar='FILE', help='take the rows that --csv has written instead of solving again')
     return parser.parse_args()
+
+
+def read(path):
+    with open(path, encoding='utf-8') as lines:
+        return [{name: float(value) for name, value in row.items()} for row in csv.DictReader(lines)]
 
 
 def run_debond(program, scene, changes):
@@ -47,15 +53,14 @@ def run_debond(program, scene, changes):
         run = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
         if run.returncode:
             sys.exit('%s\nFAILED: debond ended with exit code %d' % (run.stdout, run.returncode))
-        with open(os.path.join(result, 'torque.csv'), encoding='utf-8') as lines:
-            return [{name: float(value) for name, value in row.items()} for row in csv.DictReader(lines)]
+        return read(os.path.join(result, 'torque.csv'))
 
 
 def write(path, rows):
     with open(path, 'w', encoding='utf-8', newline='') as lines:
-        table = csv.DictWriter(lines, rows[0].keys())
+        table = csv.DictWriter(lines, ['time', *COLUMNS], lineterminator='\n')
         table.writeheader()
-        table.writerows(rows)
+        table.writerows({name: '%.13g' % row[name] for name in table.fieldnames} for row in rows)
 
 
 def compare(ours, theirs, within, others):
@@ -79,7 +84,7 @@ def compare(ours, theirs, within, others):
 
 def main():
     options = arguments()
-    rows = list(scene_file.Scene(options.scene, options.set).run())
+    rows = read(options.rows) if options.rows else list(scene_file.Scene(options.scene, options.set).run())
     if options.csv:
         write(options.csv, rows)
     if options.debond:

@@ -1,0 +1,206 @@
+#include <debond/bulk/bulk_space.h>
+
+#include <deal.II/dofs/dof_tools.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+// What of a body is held, and which nodes follow others.
+namespace Debond
+{
+  namespace
+  {
+    const std::array<std::pair<dealii::types::boundary_id, unsigned int>, 3>
+      supports{{{Boundary::held, 7}, // bit c: component c
+                {Boundary::slides_x, 1},
+                {Boundary::slides_y, 2}}};
+  } // namespace
+
+
+
+  // What does not move at all is held at the far face and, of the bone, normal
+  // to its sides. Nodes of FE_Q on the contact face follow the control points;
+  // deal.II's make_zero_boundary_constraints() knows nothing of these, so that
+  // all functions that do not vanish on a held face are held here.
+  void
+  BulkSpace::make_constraints()
+  {
+    fixed.assign(3 * n_nodes(), false);
+    tied.assign(n_nodes(), false);
+    if (has_splines())
+      hold_splines();
+    else
+      hold_and_tie_cells();
+    tie_hanging_nodes();
+    follow.close();
+    hold_followed_nodes();
+    for (const Cell &cell : bulk_cells)
+      followers_in_cells =
+        followers_in_cells ||
+        std::any_of(cell.nodes.begin(),
+                    cell.nodes.end(),
+                    [&](const unsigned int node) { return tied[node]; });
+    for (unsigned int dof = 0; dof < fixed.size(); ++dof)
+      if (fixed[dof])
+        all_constraints.add_line(dof);
+    all_constraints.merge(follow);
+    all_constraints.close();
+  }
+
+
+
+  void
+  BulkSpace::hold_splines()
+  {
+    const auto &n       = body_parameters.cells;
+    const bool  is_bone = body_side == Side::bone;
+    for (const Cell &cell : bulk_cells)
+      {
+        const unsigned int i = cell.surface_element % n[0],
+                           j = cell.surface_element / n[0];
+        for (const auto &[is_there, face, components] :
+             {std::make_tuple(cell.layer == n[2] - 1, is_bone ? 4 : 5, 7),
+              std::make_tuple(is_bone && i == 0, 0, 1),
+              std::make_tuple(is_bone && i == n[0] - 1, 1, 1),
+              std::make_tuple(is_bone && j == 0, 2, 2),
+              std::make_tuple(is_bone && j == n[1] - 1, 3, 2)})
+          if (is_there)
+            hold(cell, face, components);
+      }
+  }
+
+
+
+  void
+  BulkSpace::hold_and_tie_cells()
+  {
+    for (const auto &cell : dofs.active_cell_iterators())
+      {
+        if (!cell->at_boundary())
+          continue;
+        const Cell &info = bulk_cells[cell->active_cell_index()];
+        for (const unsigned int f : cell->face_indices())
+          for (const auto &[id, components] : supports)
+            if (cell->at_boundary(f) && cell->face(f)->boundary_id() == id)
+              hold(info, f, components);
+        if (info.enriched)
+          tie(info, nodes_of_fe(cell));
+      }
+  }
+
+
+
+  // A node on the contact face that is held by a cell beside: what it follows
+  // is. It has been found by its own cell, and functions are not negative.
+  void
+  BulkSpace::hold_followed_nodes()
+  {
+    for (const auto &line : follow.get_lines())
+      if (fixed[line.index])
+        {
+          fixed[line.index] = false;
+          for (const auto &[other, weight] : line.entries)
+            fixed[other] = true;
+        }
+  }
+
+
+
+  void
+  BulkSpace::tie_hanging_nodes()
+  {
+    if (!body_parameters.coarser_below)
+      return;
+    dealii::AffineConstraints<double> hanging;
+    dealii::DoFTools::make_hanging_node_constraints(dofs, hanging);
+    hanging.close();
+    for (const auto &line : hanging.get_lines())
+      {
+        // where it is, it follows them, too: cells fit together
+        const unsigned int node = line.index / 3;
+        if (!tied[node])
+          {
+            tied[node]                = true;
+            reference_positions[node] = Eigen::Vector3d::Zero();
+            for (const auto &[other, weight] : line.entries)
+              reference_positions[node] +=
+                weight * reference_positions[other / 3];
+          }
+        if (fixed[line.index])
+          continue; // and so are those that it would follow
+        follow.add_line(line.index);
+        follow.add_entries(line.index, line.entries);
+      }
+  }
+
+
+
+  // Functions that do not vanish on a face have no zero at a point of it that
+  // is nothing special to them.
+  void
+  BulkSpace::hold(const Cell        &cell,
+                  const unsigned int face,
+                  const unsigned int components)
+  {
+    dealii::Point<3> point(0.3, 0.3, 0.3);
+    point[face / 2]     = face % 2;
+    const ShapeValues N = CellFunctions(*this, cell).at(point);
+    for (unsigned int a = 0; a < N.rows(); ++a)
+      for (unsigned int c = 0; c < 3; ++c)
+        if (std::abs(N(a, 0)) > 1e-12 && (components >> c & 1) != 0)
+          fixed[3 * cell.nodes[a] + c] = true;
+  }
+
+
+
+  void
+  BulkSpace::tie(const Cell &cell, const std::vector<unsigned int> &nodes_of_fe)
+  {
+    for (unsigned int a = 0; a < scalar_fe.n_dofs_per_cell(); ++a)
+      if (const unsigned int node = nodes_of_fe[a];
+          scalar_fe.has_support_on_face(a, cell.face.number) && !tied[node])
+        {
+          tied[node] = true;
+          const ShapeValues N =
+            CellFunctions(*this, cell).at(scalar_fe.unit_support_point(a));
+          for (unsigned int c = 0; c < 3; ++c)
+            {
+              follow.add_line(3 * node + c);
+              for (unsigned int b = 0; b < N.rows(); ++b)
+                if (N(b, 0) != 0.)
+                  follow.add_entry(3 * node + c,
+                                   3 * cell.nodes[b] + c,
+                                   N(b, 0));
+            }
+        }
+  }
+
+
+
+  void
+  BulkSpace::distribute(Eigen::VectorXd &v) const
+  {
+    for (const auto &line : follow.get_lines())
+      {
+        v[line.index] = 0.;
+        for (const auto &[other, weight] : line.entries)
+          v[line.index] += weight * v[other];
+      }
+  }
+
+
+
+  void
+  BulkSpace::condense(Eigen::VectorXd &force) const
+  {
+    if (!cells_have_followers())
+      return;
+    for (const auto &line : follow.get_lines())
+      {
+        for (const auto &[other, weight] : line.entries)
+          force[other] += weight * force[line.index];
+        force[line.index] = 0.;
+      }
+  }
+} // namespace Debond

@@ -1,0 +1,242 @@
+#include <debond/geometry/nurbs_surface.h>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+// Refinement, and the faces that are made by it.
+namespace Debond
+{
+  namespace
+  {
+    /** The surface with weights 1 and the control points position(u_i, v_j).
+     */
+    template <typename Position>
+    NurbsSurface
+    unweighted(const KnotVector          &knots_1,
+               const KnotVector          &knots_2,
+               const std::vector<double> &u,
+               const std::vector<double> &v,
+               const Position            &position)
+    {
+      ControlNet net(3, u.size() * v.size());
+      for (unsigned int j = 0; j < v.size(); ++j)
+        for (unsigned int i = 0; i < u.size(); ++i)
+          net.col(j * u.size() + i) = position(u[i], v[j]);
+      return NurbsSurface(knots_1,
+                          knots_2,
+                          net,
+                          std::vector<double>(net.cols(), 1.));
+    }
+  } // namespace
+
+
+
+  NurbsSurface
+  NurbsSurface::insert_knot(const unsigned int direction,
+                            const double       knot) const
+  {
+    if (direction > 1 || !(knot > 0. && knot < 1.))
+      throw std::invalid_argument(
+        "A knot is inserted in direction 0 or 1, strictly between 0 and 1.");
+
+    const std::vector<double> &U = knot_vectors[direction].knots();
+    std::vector<double>        refined(U);
+    refined.insert(std::upper_bound(refined.begin(), refined.end(), knot),
+                   knot);
+    std::array<KnotVector, 2> new_knots = knot_vectors;
+    new_knots[direction]                = KnotVector(degree(), refined);
+
+    const unsigned int  old_n = knot_vectors[0].n_basis_functions();
+    const unsigned int  n_1   = new_knots[0].n_basis_functions();
+    const unsigned int  n_2   = new_knots[1].n_basis_functions();
+    ControlNet          new_points(3, n_1 * n_2);
+    std::vector<double> new_weights(n_1 * n_2);
+
+    // Rational surfaces are B-splines in the coordinates (w x, w). Boehm's
+    // ratio says where the new coefficient lies between two old ones, of which
+    // the one with no share need not exist.
+    for (unsigned int j = 0; j < n_2; ++j)
+      for (unsigned int i = 0; i < n_1; ++i)
+        {
+          const unsigned int to = j * n_1 + i, d = direction == 0 ? i : j;
+          const double       end     = U[d + degree()];
+          const double       alpha   = end <= knot  ? 1. :
+                                       U[d] >= knot ? 0. :
+                                                      (knot - U[d]) / (end - U[d]);
+          const unsigned int step    = (direction == 0 ? 1 : old_n);
+          const unsigned int a       = j * old_n + i - (alpha < 1. ? step : 0);
+          const unsigned int b       = j * old_n + i - (alpha > 0. ? 0 : step);
+          const double       share_a = (1. - alpha) * weight[a];
+          const double       share_b = alpha * weight[b];
+          const double       w       = share_a + share_b;
+          new_weights[to]            = w;
+          new_points.col(to) =
+            share_a / w * points.col(a) + share_b / w * points.col(b);
+        }
+    return NurbsSurface(new_knots[0], new_knots[1], new_points, new_weights);
+  }
+
+
+
+  NurbsSurface
+  NurbsSurface::refine_uniformly(const unsigned int n1,
+                                 const unsigned int n2) const
+  {
+    if (n_elements() != 1 || n1 == 0 || n2 == 0)
+      throw std::invalid_argument(
+        "Uniform refinement starts from one element and makes one at least.");
+
+    NurbsSurface result = *this;
+    for (const auto &[direction, n] : {std::pair(0U, n1), std::pair(1U, n2)})
+      for (unsigned int i = 1; i < n; ++i)
+        result = result.insert_knot(direction, static_cast<double>(i) / n);
+    return result;
+  }
+
+
+
+  NurbsSurface
+  NurbsSurface::disk(const double R, const unsigned int n)
+  {
+    if (!(R > 0. && std::isfinite(R)) || n == 0)
+      throw std::invalid_argument(
+        "A disk needs a positive radius and one element at least.");
+
+    // Each edge is a quarter circle: middle weight cos(45 degrees), middle
+    // control point where the tangents of its ends meet.
+    const double s = std::sqrt(0.5), c = R * s, t = R / s;
+    ControlNet   net(3, 9);
+    net.row(0) << -c, 0, c, -t, 0, t, -c, 0, c;
+    net.row(1) << -c, -t, -c, 0, 0, 0, c, t, c;
+    net.row(2).setZero();
+    const std::vector<double> w = {1, s, 1, s, 1, s, 1, s, 1};
+
+    const KnotVector one_span = KnotVector::graded(2, 1);
+    return NurbsSurface(one_span, one_span, net, w).refine_uniformly(n, n);
+  }
+
+
+
+  double
+  height_on_sphere(const double r, const double sphere_radius)
+  {
+    return r * r /
+           (sphere_radius + std::sqrt(sphere_radius * sphere_radius - r * r));
+  }
+
+
+
+  // With W the sum of all w_A N_A, the products W x and W z are B-splines whose
+  // coefficients are w_A x_A and w_A z_A: the interpolation is a tensor product
+  // although the weights are none.
+  NurbsSurface
+  NurbsSurface::cap(const double       R,
+                    const double       cap_radius,
+                    const unsigned int n)
+  {
+    if (!(cap_radius > R && std::isfinite(cap_radius)))
+      throw std::invalid_argument("A cap is part of a larger sphere.");
+
+    NurbsSurface              result = disk(R, n);
+    const KnotVector         &knots  = result.knot_vectors[0];
+    const std::vector<double> u      = knots.greville_abscissae();
+    const unsigned int        size   = u.size();
+    Eigen::MatrixXd           B      = Eigen::MatrixXd::Zero(size, size);
+    for (unsigned int i = 0; i < size; ++i)
+      {
+        const unsigned int    span   = knots.span_of(u[i]);
+        const BernsteinValues values = knots.evaluate(span, u[i]);
+        for (unsigned int k = 0; k <= knots.degree(); ++k)
+          B(i, knots.first_basis_function(span) + k) = values.B[k];
+      }
+
+    using Table = Eigen::ArrayXXd; // of all control points or abscissae
+    using Map   = Eigen::Map<const Table>;
+    const Map  w(result.weight.data(), size, size);
+    const auto interpolant = [&B](const Table &coefficients) -> Table {
+      return (B * coefficients.matrix() * B.transpose()).array();
+    };
+    const Eigen::VectorXd x = result.points.row(0), y = result.points.row(1);
+    const Table           W = interpolant(w);
+    const Table           r_squared =
+      (interpolant(w * Map(x.data(), size, size)) / W).square() +
+      (interpolant(w * Map(y.data(), size, size)) / W).square();
+    const Table height = r_squared.unaryExpr([&](const double r2) {
+      return height_on_sphere(std::min(R, std::sqrt(r2)), cap_radius);
+    });
+    const Eigen::PartialPivLU<Eigen::MatrixXd> solver(B);
+    const Eigen::MatrixXd columns = solver.solve((W * height).matrix());
+    const Table z = solver.solve(columns.transpose()).transpose().array() / w;
+    result.points.row(2) = z.reshaped().transpose();
+    return result;
+  }
+
+
+
+  NurbsSurface
+  NurbsSurface::rectangle(const double      lx,
+                          const double      ly,
+                          const KnotVector &knots_1,
+                          const KnotVector &knots_2)
+  {
+    if (!(lx > 0. && ly > 0. && std::isfinite(lx) && std::isfinite(ly)))
+      throw std::invalid_argument("A rectangle needs positive edge lengths.");
+
+    return unweighted(knots_1,
+                      knots_2,
+                      knots_1.greville_abscissae(),
+                      knots_2.greville_abscissae(),
+                      [&](const double u, const double v) {
+                        return Eigen::Vector3d((u - 0.5) * lx,
+                                               (v - 0.5) * ly,
+                                               0.);
+                      });
+  }
+
+
+
+  NurbsSurface
+  NurbsSurface::rectangle(const double       lx,
+                          const double       ly,
+                          const unsigned int n1,
+                          const unsigned int n2,
+                          const unsigned int degree,
+                          const double       grading)
+  {
+    return rectangle(lx,
+                     ly,
+                     KnotVector::graded(degree, n1, grading),
+                     KnotVector::graded(degree, n2, grading));
+  }
+
+
+
+  NurbsSurface
+  NurbsSurface::bilinear_interpolant() const
+  {
+    const auto &u = knot_vectors[0].breakpoints(),
+               &v = knot_vectors[1].breakpoints();
+    return unweighted(KnotVector::from_breakpoints(1, u),
+                      KnotVector::from_breakpoints(1, v),
+                      u,
+                      v,
+                      [&](const double u, const double v) {
+                        return point(Eigen::Vector2d(u, v));
+                      });
+  }
+
+
+
+  Eigen::Vector3d
+  interpolate(const SurfaceBasis &basis, const ControlNet &control_points)
+  {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (unsigned int a = 0; a < basis.size; ++a)
+      sum += basis.N[a] * control_points.col(basis.control_point[a]);
+    return sum;
+  }
+} // namespace Debond

@@ -1,0 +1,222 @@
+#include <debond/interface/contact_interface.h>
+#include <debond/interface/rigid_motion.h>
+#include <debond/interface/slip_problem.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+// Works of the points in a step, for the balances of energy.
+namespace Debond
+{
+  namespace
+  {
+    /** A point that is lifted, until it opens. */
+    struct Lifting
+    {
+      Eigen::Vector3d gap;       ///< of its tangential spring [mm]
+      Eigen::Vector3d motion;    ///< of what holds that spring [mm]
+      double          pressure;  ///< at the beginning; falls evenly to 0 [MPa]
+      double          stiffness; ///< of the spring [MPa/mm]
+      double          viscosity; ///< [MPa per speed]
+    };
+
+
+
+    // The law of the interface in small parts of the way: the spring follows
+    // the motion, and slides by what friction does not hold any more. What is
+    // dissipated is a trapezoid as that of a step [N/mm]: doc/theory.md,
+    // Energies.
+    double
+    friction_until_open(const Lifting     &lifting,
+                        const FrictionLaw &law,
+                        FrictionState      state)
+    {
+      constexpr unsigned int n = 200;
+      state.duration /= n;
+      // each distance is held back by this much of itself
+      const double viscous =
+        state.duration > 0. ?
+          lifting.viscosity / state.duration / lifting.stiffness :
+          0.;
+      Eigen::Vector3d gap = lifting.gap;
+      double          mu = law.coefficient(state, 0.).mu, lost = 0.;
+      for (unsigned int i = 1; i <= n; ++i)
+        {
+          const Eigen::Vector3d trial  = gap + lifting.motion / n;
+          const double          length = trial.norm();
+          const auto            slides = [&] {
+            const double pressure = lifting.pressure * (n - i) / n;
+            return std::max(0., length - mu * pressure / lifting.stiffness) /
+                   (1. + viscous);
+          };
+          mu               = std::max(0., law.coefficient(state, slides()).mu);
+          const double way = slides();
+          if (way > 0.)
+            {
+              const Eigen::Vector3d next = (1. - way / length) * trial;
+              lost += 0.5 * lifting.stiffness * way / length *
+                      (gap + next).dot(trial);
+              gap = next;
+            }
+          else
+            gap = trial;
+          state.internal = law.advance(state, way);
+          state.slip += way;
+        }
+      // what viscosity holds until it opens
+      return lost + 0.5 * lifting.stiffness * gap.squaredNorm();
+    }
+  } // namespace
+
+
+
+  // While a point slides it dissipates t_t . dy, taken as a trapezoid between
+  // the accepted and the trial traction, of which the accepted one was kept in
+  // the frame of the master. With the trapezoid of the chuck's work that makes
+  // the balance of energies an identity, but for turns and for points that open
+  // or close. Beside that stands the work that the law itself allows for this
+  // slip, with the exact integral of mu over the distance: a step in which the
+  // state jumps cannot dissipate more.
+  void
+  InterfaceWork::add(const SlavePoint       &point,
+                     const FrictionLaw      &law,
+                     const ContactPointMode &mode,
+                     const Eigen::Matrix3d  &frame)
+  {
+    const ContactPointResult &trial        = point.trial;
+    const Eigen::Vector3d     slip         = point.JxW * trial.slip_increment;
+    const Eigen::Vector3d     old_traction = frame * point.accepted_traction;
+    // Both are in space. xi_hat follows the slave point, and t_t, of the sign
+    // of the gap x - y(xi_hat), points from it to the point: the product is
+    // positive where sliding costs energy [N mm]. With the tractions at the end
+    // alone it is negative only where points slide along their traction, which
+    // no law of friction does.
+    step_dissipation += trial.tangential_traction.dot(slip);
+    dissipation += 0.5 * (old_traction + trial.tangential_traction).dot(slip);
+    // The viscous traction is anything between its two ends. It stands in both
+    // balances, of which the second takes the law for the rest.
+    const double viscous_part =
+      0.5 * (frame * point.accepted_viscous_traction + trial.viscous_traction)
+              .dot(slip);
+    for (double *work : {&viscous, &friction, &friction_bound})
+      *work += viscous_part;
+    if (mode.frictionless)
+      return;
+    // The law is integrated over the distance that the point slides, from its
+    // accepted state, with the pressure between its two ends. Pressures times
+    // mm are works per area. Of the friction the bond has its part, int (mu -
+    // mu_b) dg_s: D_adh, which tells what the adhesion costs without reading it
+    // off the torque curve as Eq. (20) does.
+    const FrictionState start =
+      friction_state(point.accepted, point.phi_0, mode.duration);
+    const double distance = trial.state.slip - point.accepted.slip;
+    const double p        = point.accepted.pressure,
+                 mean     = 0.5 * (p + trial.state.pressure);
+    const double per_pressure =
+      point.JxW * law.friction_strength(start, distance);
+    adhesive += point.JxW * mean * law.adhesive_strength(start, distance);
+    friction += mean * per_pressure;
+    // What the mean pressure can be wrong by, and a speed that changes within
+    // the step. The bound keeps a fast but stable fall from being reported as a
+    // jump.
+    friction_bound += 0.5 * std::abs(p - trial.state.pressure) * per_pressure +
+                      mean * point.JxW * law.strength_bound(start, distance);
+  }
+
+
+
+  // How a point has let go: where it was, its slave was at @p before.
+  OpeningMotion
+  ContactInterface::opening_motion(const SlavePoint             &point,
+                                   const InterfaceConfiguration &configuration,
+                                   const RigidMotion            &chuck,
+                                   const ControlNet             &before) const
+  {
+    const MasterSurface surface = master(configuration);
+    SurfaceBasis        basis;
+    SurfaceGeometry     geometry;
+    surface.surface->evaluate(point.accepted.xi, basis, false);
+    contract(basis, *surface.positions, false, geometry);
+    return {MasterNormal(geometry, surface.outward_sign).n,
+            interpolate(point.basis, configuration.side[slave].positions) -
+              geometry.y,
+            chuck.over_master(interpolate(point.basis, before), slave)};
+  }
+
+
+
+  // A point that opens loses all that its tangential spring has stored, and
+  // what friction takes of its motion before. Its normal spring gives back to
+  // the chuck what it has stored, unless the point leaves over the edge while
+  // it is still pressed: then that is lost, too. g_s stays.
+  void
+  InterfaceWork::add_opening(const SlavePoint       &point,
+                             const ContactPointLaw  &law,
+                             const ContactPointMode &mode,
+                             const Eigen::Matrix3d  &frame,
+                             const OpeningMotion    &motion)
+  {
+    const ContactPointResult &trial = point.trial;
+    const double  p = point.accepted.pressure, g_n = trial.normal_gap;
+    FrictionState start =
+      friction_state(point.accepted, point.phi_0, mode.duration);
+    const Eigen::Vector3d &n          = motion.normal;
+    const auto             tangential = [&n](const Eigen::Vector3d &v) {
+      return Eigen::Vector3d(v - n.dot(v) * n);
+    };
+    const double          eps_t        = law.tangential_penalty;
+    const Eigen::Vector3d old_traction = frame * point.accepted_traction,
+                          gap          = old_traction / eps_t;
+    const double penetration           = p / law.normal->initial_stiffness();
+    // Unloaded, the bodies move as well: while the point is closed.
+    const Eigen::Vector3d by_bodies =
+      motion.gap - (gap - penetration * n) - motion.by_chuck;
+    const bool over_edge = g_n < -mode.touch_tolerance;
+    double     lost = 0., of_springs = 0.; // per area [N/mm]
+    if (over_edge)
+      {
+        // rubbed on the way there, at a pressure that is known at the beginning
+        // only
+        if (!mode.frictionless)
+          lost = p * law.friction->friction_strength(start, trial.path_to_edge);
+        friction_bound += 0.5 * point.JxW * lost;
+        lost += std::max(0., 0.5 * old_traction.dot(gap + by_bodies));
+        of_springs = -0.5 * p * g_n;
+      }
+    else if (!mode.frictionless && p > 0.)
+      {
+        // How compliant the bodies are, over the springs: along the pressure,
+        // and along the traction where there is one worth asking.
+        const double rises = std::max(0., -n.dot(by_bodies)),
+                     limit =
+                       law.friction->coefficient(start, 0.).mu * p / eps_t,
+                     little     = 1e-4 * limit * limit,
+                     compliance = std::max(0.,
+                                           (by_bodies.dot(gap) +
+                                            little * rises / penetration) /
+                                             (gap.squaredNorm() + little));
+        // it is closed until the chuck has used up the penetration of both
+        const double closed =
+          (penetration + rises) / (penetration + rises + std::max(0., g_n));
+        start.duration *= closed;
+        lost = friction_until_open({(1. + compliance) * gap,
+                                    closed * tangential(motion.by_chuck) +
+                                      tangential(by_bodies) - compliance * gap,
+                                    p,
+                                    eps_t / (1. + compliance),
+                                    law.viscosity},
+                                   *law.friction,
+                                   start);
+      }
+    // as the trapezoid of the chuck's work has it, with a traction that falls
+    // evenly to zero over the whole step
+    const double as_trapezoid = 0.5 * old_traction.dot(motion.gap);
+    const double bound        = point.JxW * std::abs(lost - as_trapezoid);
+    dissipation += point.JxW * (lost + of_springs);
+    friction += point.JxW * (lost + of_springs);
+    dissipation_bound += bound;
+    friction_bound += bound;
+  }
+} // namespace Debond

@@ -1,0 +1,201 @@
+#include <debond/shapes/mesh_builder.h>
+
+#include <boost/algorithm/string/case_conv.hpp>
+
+#include <locale>
+#include <numeric>
+#include <set>
+
+// The faces of a mesh from a file: who has them, their names, and that they and
+// the cells hang together.
+namespace Debond
+{
+  namespace
+  {
+    /** Which of so many things are connected. */
+    class Pieces
+    {
+    public:
+      explicit Pieces(const unsigned int n)
+        : next(n)
+      {
+        std::iota(next.begin(), next.end(), 0);
+      }
+      unsigned int
+      of(unsigned int i)
+      {
+        while (next[i] != i)
+          i = next[i] = next[next[i]];
+        return i;
+      }
+      void
+      join(const unsigned int i, const unsigned int j)
+      {
+        next[of(i)] = of(j);
+      }
+      unsigned int
+      number() const
+      {
+        unsigned int n = 0;
+        for (unsigned int i = 0; i < next.size(); ++i)
+          n += next[i] == i;
+        return n;
+      }
+
+    private:
+      std::vector<unsigned int> next;
+    };
+
+
+
+    /** Names differ neither by case nor by what stands between words. */
+    dealii::types::boundary_id
+    id_of_name(std::string name)
+    {
+      static const std::map<std::string, dealii::types::boundary_id> ids{
+        {"contact", Boundary::contact},
+        {"held", Boundary::held},
+        {"slides x", Boundary::slides_x},
+        {"slides y", Boundary::slides_y}};
+      boost::to_lower(name, std::locale::classic());
+      std::replace(name.begin(), name.end(), '_', ' ');
+      std::replace(name.begin(), name.end(), '-', ' ');
+      const auto found = ids.find(name);
+      return found == ids.end() ? Boundary::free : found->second;
+    }
+  } // namespace
+
+
+
+  void
+  MeshBuilder::find_faces()
+  {
+    for (unsigned int cell = 0; cell < cells.size(); ++cell)
+      for (unsigned int p = 20; p < 26; ++p)
+        {
+          Face &face  = faces[vertices(cell, p)];
+          face.cell   = cell;
+          face.centre = points[cell][p];
+          if (++face.n_cells > 2)
+            refuse("the face " + at_place(face.centre) +
+                   " is one of three hexahedra: expected two at most");
+        }
+  }
+
+
+
+  void
+  MeshBuilder::name_face(const std::array<unsigned int, 4> &corners,
+                         const dealii::types::boundary_id   id,
+                         const std::string                 &name)
+  {
+    std::vector<unsigned int> numbers;
+    Point                     centre;
+    for (unsigned int c = 0; c < 4 && corners[c] != StoredMesh::none; ++c)
+      {
+        numbers.push_back(c);
+        centre += stored.nodes[corners[c]];
+      }
+    centre /= numbers.size();
+    const auto found =
+      faces.find(vertices_of(numbers, [&](const unsigned int c) {
+        return vertex[corners[c]];
+      }));
+    if (found == faces.end())
+      refuse("a face named '" + name + "', " + at_place(centre) +
+             ", is no face of a hexahedron");
+    else if (found->second.n_cells > 1)
+      refuse("a face named '" + name + "', " + at_place(centre) +
+             ", is between two hexahedra: expected one of the boundary");
+    else if (found->second.id != Boundary::free && found->second.id != id)
+      refuse("the face " + at_place(centre) + " is doubly named, '" + name +
+             "' the second time: expected one of the names");
+    else
+      found->second.id = id;
+  }
+
+
+
+  void
+  MeshBuilder::name_faces()
+  {
+    std::string                          names;
+    std::set<dealii::types::boundary_id> given;
+    for (const auto &[name, group] : stored.groups)
+      {
+        names += (names.empty() ? "'" : ", '") + name + "'";
+        const auto id = id_of_name(name);
+        if (id == Boundary::free)
+          continue;
+        for (const auto &corners : group)
+          {
+            name_face(corners, id, name);
+            given.insert(id);
+          }
+      }
+    for (const auto &[id, name] : {std::pair{Boundary::contact, "contact"},
+                                   std::pair{Boundary::held, "held"}})
+      if (given.count(id) == 0)
+        refuse(std::string("no face is named ") + name + ": expected " +
+               "groups of faces named contact and held, and slides x, "
+               "slides y if needed; there is " +
+               (names.empty() ? "none" : names));
+  }
+
+
+
+  void
+  MeshBuilder::check_pieces()
+  {
+    Pieces pieces(cells.size());
+    for (unsigned int cell = 0; cell < cells.size(); ++cell)
+      for (unsigned int p = 20; p < 26; ++p)
+        pieces.join(cell, faces.at(vertices(cell, p)).cell);
+    if (pieces.number() > 1)
+      refuse("its hexahedra are in " + std::to_string(pieces.number()) +
+             " pieces that have no face in common: expected one body");
+  }
+
+
+
+  void
+  MeshBuilder::check_contact_face() const
+  {
+    std::map<Vertices, std::vector<unsigned int>> faces_at_edge;
+    unsigned int                                  n_faces = 0;
+    for (unsigned int cell = 0; cell < cells.size(); ++cell)
+      {
+        unsigned int n_of_cell = 0;
+        for (unsigned int p = 20; p < 26; ++p)
+          if (faces.at(vertices(cell, p)).id == Boundary::contact)
+            {
+              ++n_of_cell;
+              for (unsigned int e = 8; e < 20; ++e)
+                if (std::includes(corners_of_places()[p].begin(),
+                                  corners_of_places()[p].end(),
+                                  corners_of_places()[e].begin(),
+                                  corners_of_places()[e].end()))
+                  faces_at_edge[vertices(cell, e)].push_back(n_faces);
+              ++n_faces;
+            }
+        if (n_of_cell > 1)
+          refuse("the hexahedron " + at_place(points[cell][26]) + " has " +
+                 std::to_string(n_of_cell) +
+                 " faces named contact: expected one at most; cut it, or "
+                 "name one of them otherwise");
+      }
+    Pieces pieces(n_faces);
+    for (const auto &[edge, beside] : faces_at_edge)
+      {
+        if (beside.size() > 2)
+          refuse(
+            "more than two faces named contact meet at the edge " +
+            at_place(0.5 * (vertex_points[edge[0]] + vertex_points[edge[1]])) +
+            ": expected a surface");
+        pieces.join(beside.front(), beside.back());
+      }
+    if (pieces.number() > 1)
+      refuse("its contact face is in " + std::to_string(pieces.number()) +
+             " pieces that have no edge in common: expected one");
+  }
+} // namespace Debond

@@ -1,0 +1,105 @@
+#include <debond/shapes/mesh_formats.h>
+
+#include <deal.II/fe/fe_q.h>
+
+#include <boost/algorithm/string/case_conv.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <locale>
+
+namespace Debond
+{
+  const std::vector<dealii::Point<3>> &
+  places_in_hexahedron()
+  {
+    static const std::vector<dealii::Point<3>> places =
+      dealii::FE_Q<3>(2).get_unit_support_points();
+    return places;
+  }
+
+
+
+  const std::vector<unsigned int> &
+  common_places()
+  {
+    static const std::vector<unsigned int> all = []() {
+      const std::vector<unsigned int> corners{0, 1, 3, 2, 4, 5, 7, 6};
+      std::vector<unsigned int>       places = corners;
+      for (const auto &[a, b] : std::vector<std::pair<int, int>>{{0, 1},
+                                                                 {1, 2},
+                                                                 {2, 3},
+                                                                 {3, 0},
+                                                                 {4, 5},
+                                                                 {5, 6},
+                                                                 {6, 7},
+                                                                 {7, 4},
+                                                                 {0, 4},
+                                                                 {1, 5},
+                                                                 {2, 6},
+                                                                 {3, 7}})
+        for (unsigned int p = 8; p < 20; ++p)
+          if ((places_in_hexahedron()[corners[a]] +
+               places_in_hexahedron()[corners[b]])
+                .distance(2. * places_in_hexahedron()[p]) < 0.1)
+            places.push_back(p);
+      return places;
+    }();
+    return all;
+  }
+
+
+
+  void
+  StoredMesh::add_hexahedron(const std::vector<unsigned int> &nodes,
+                             const std::vector<unsigned int> &places)
+  {
+    nodes_per_hexahedron.insert(nodes.size());
+    hexahedra.emplace_back();
+    hexahedra.back().fill(StoredMesh::none);
+    for (unsigned int n = 0; n < nodes.size(); ++n)
+      hexahedra.back()[places[n]] = nodes[n];
+  }
+
+
+
+  const std::vector<std::vector<unsigned int>> &
+  corners_of_places()
+  {
+    static const auto corners = []() {
+      std::vector<std::vector<unsigned int>> result;
+      for (const dealii::Point<3> &place : places_in_hexahedron())
+        {
+          result.emplace_back();
+          for (unsigned int c = 0; c < 8; ++c)
+            {
+              const auto from = places_in_hexahedron()[c] - place;
+              if (std::max(
+                    {std::abs(from[0]), std::abs(from[1]), std::abs(from[2])}) <
+                  0.6)
+                result.back().push_back(c);
+            }
+        }
+      return result;
+    }();
+    return corners;
+  }
+
+
+
+  StoredMesh
+  read_stored_mesh(const std::string &filename, const FileRefusal &refuse)
+  {
+    const std::string ending =
+      boost::to_lower_copy(std::filesystem::path(filename).extension().string(),
+                           std::locale::classic());
+    if (ending == ".inp")
+      return read_abaqus_mesh(filename, refuse);
+    if (ending == ".vtk")
+      return read_vtk_mesh(filename, refuse);
+    if (ending != ".msh")
+      refuse("expected a file .msh of Gmsh, .inp of Abaqus or .vtk of VTK");
+    return read_gmsh_mesh(filename, refuse);
+  }
+} // namespace Debond

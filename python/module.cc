@@ -8,6 +8,7 @@
 #include <debond/models/simulation.h>
 #include <debond/models/varying_curve.h>
 #include <debond/output/body_points.h>
+#include <debond/output/curve_comparison.h>
 #include <debond/output/profile_output.h>
 #include <debond/output/result_files.h>
 #include <debond/support/input_error.h>
@@ -44,6 +45,7 @@ namespace
   using Columns = std::map<std::string, std::vector<double>>;
   using Values  = std::map<std::string, double>;
   using Texts   = std::map<std::string, std::string>; ///< by full names
+  using Curve   = std::array<std::vector<double>, 2>; ///< angles, torques
 
 
 
@@ -124,6 +126,17 @@ namespace
         columns[name].push_back(value);
       });
     return arrays(columns);
+  }
+
+
+
+  ReferenceCurve
+  curve_of(const Curve &columns)
+  {
+    ReferenceCurve curve;
+    for (std::size_t i = 0; i < columns[0].size(); ++i)
+      curve.emplace_back(columns[0][i], columns[1].at(i));
+    return curve;
   }
 
 
@@ -617,6 +630,19 @@ PYBIND11_MODULE(_debond, module)
     .def_property_readonly("warnings", [](const Scene &s) {
       return texts_of(s.warnings());
     });
+  py::class_<CurveComparison>(module, "CurveComparison")
+    .def(py::init([](const Curve &computed, const Curve &measured) {
+      return CurveComparison(curve_of(computed), curve_of(measured));
+    }))
+    .def_readonly("rows_used", &CurveComparison::rows_used)
+    .def_readonly("e_mp", &CurveComparison::e_mp)
+    .def_readonly("e_rel", &CurveComparison::e_rel)
+    .def_readonly("difference_mean", &CurveComparison::difference_mean)
+    .def_readonly("difference_max", &CurveComparison::difference_max)
+    .def_readonly("angle_of_max_deg", &CurveComparison::angle_of_max_deg)
+    .def_readonly("remarks", &CurveComparison::remarks)
+    .def_readonly("why_none", &CurveComparison::why_none)
+    .def("text", &CurveComparison::text);
   using Free = py::call_guard<py::gil_scoped_release>;
   py::class_<VaryingCurve>(module, "VaryingCurve")
     .def(py::init<const std::vector<SceneEntry> &, const std::string &>(),
@@ -697,10 +723,18 @@ PYBIND11_MODULE(_debond, module)
       return texts_of(run.simulation->warnings());
     });
   module.def("unit_of", [](const std::string &name) {
-    Scene      defaults;
-    EntryTable table;
-    defaults.declare(table);
-    return table.unit_of(name);
+    struct Entries // of all of them, made once
+    {
+      Entries()
+      {
+        scene.declare(table);
+      }
+
+      Scene      scene;
+      EntryTable table;
+    };
+    static const Entries entries;
+    return entries.table.unit_of(name);
   });
   module.def("closed_form", closed_form);
   module.def("provenance", [] {

@@ -19,6 +19,7 @@ from . import intervals
 from .errors import InputError, RunError
 from .files import csv_text, write_whole
 from .fit import fit_problem, problem_of
+from .page import write_page_if_possible
 from .problem import Runs
 from .scene import Scene
 
@@ -123,7 +124,7 @@ def save(done, directory):
         write_whole(os.path.join(directory, "profile.csv"), _csv(columns))
     write_whole(os.path.join(directory, "calibration.json"), json.dumps(json_of(done), indent=2, ensure_ascii=False) + "\n")
     if problem.values["Output / Report"] == "true":
-        write_page(directory)
+        write_page_if_possible(directory)
 
 
 def lines_of(done):
@@ -203,15 +204,6 @@ def calibrate(scene, threads: int = 1, force: bool = False, *, executor=None, sa
     if why:
         raise RunError(why)
     return json_of(done)
-
-
-def write_page(directory) -> None:
-    """Writes report.html from the files in a directory, if there is Jinja2. Raises RunError."""
-    try:
-        from .page import write_page as write
-    except ImportError:
-        return
-    write(directory)
 
 
 def check_lines(problem):

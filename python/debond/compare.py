@@ -6,7 +6,6 @@
     python3 -m debond.compare DIR CURVE [--columns LIST]
 """
 
-import csv
 import os
 import sys
 from dataclasses import dataclass, field
@@ -14,11 +13,12 @@ from typing import Dict
 
 import numpy
 
-from .curve_comparison import CurveComparison, compare_curves, torque_at
+from _debond import CurveComparison
+
+from .ensemble import CURVE, torques_at
 from .errors import InputError
 from .measured import options_of, read_measured, read_measured_and_say
-
-CURVE = ("angle_deg", "torque_Nmm")
+from .page_data import curve_file, read_table, rows_of, varied_in
 
 
 @dataclass
@@ -31,27 +31,20 @@ class Comparisons:
     text: str = ""
 
 
-def curve_file(directory):
-    fine = directory + "/curve.csv"
-    return fine if os.path.exists(fine) else directory + "/torque.csv"
-
-
-def _rows_of(filename):
+def _table(filename):
     """Rows {column: text} of a table of a study or an ensemble, each behind what is varied: "Bone / Size = 8; ..."."""
-    with open(filename, encoding="utf-8", newline="") as file:
-        header, *rows = list(csv.reader(line for line in file if line.strip() and line[0] != "#")) or [[]]
-    return [("; ".join(f"{name} = {text}" for name, text in zip(header, row) if " / " in name), dict(zip(header, row)))
-            for row in rows]
+    table = read_table(filename)
+    return [("; ".join(f"{name} = {row[name]}" for name in varied_in(table)), row) for row in rows_of(table)]
 
 
 def _compare_variants(directory, measured, found):
     """Lines on the variants of a study."""
-    rows, variants = _rows_of(directory + "/study.csv"), []
+    rows, variants = _table(directory + "/study.csv"), []
     for varied, row in rows:
         name = "variant-" + row["variant"].zfill(3)
         curve = curve_file(directory + "/" + name)
         if os.path.exists(curve):
-            variants.append((name, varied, compare_curves(read_measured(curve, CURVE), measured)))
+            variants.append((name, varied, CurveComparison(read_measured(curve, CURVE), measured)))
     # what is not a number comes last
     variants.sort(key=lambda variant: numpy.nan_to_num(variant[2].difference_mean, nan=numpy.inf))
     found.runs.update((name, comparison) for name, _, comparison in variants)
@@ -64,14 +57,14 @@ def _compare_variants(directory, measured, found):
 def _compare_band(directory, measured, found):
     """Lines on the mean curve of each group of an ensemble, and how much of the measured one lies between its quantiles."""
     bands, lines = {}, []
-    for varied, row in _rows_of(directory + "/ensemble.csv"):
+    for varied, row in _table(directory + "/ensemble.csv"):
         bands.setdefault(varied, []).append(
             [float(row[name]) for name in ("angle_deg", "torque_mean_Nmm", "torque_p05_Nmm", "torque_p95_Nmm")])
     for varied, rows in bands.items():
         angles, mean, *quantiles = numpy.array(rows).T
-        low, high = (torque_at(numpy.array([angles, quantile]), measured[0]) for quantile in quantiles)
+        low, high = (torques_at(numpy.array([angles, quantile]), measured[0]) for quantile in quantiles)
         n, n_inside = numpy.isfinite(low + high).sum(), ((low <= measured[1]) & (measured[1] <= high)).sum()
-        found.means[varied] = compare_curves(numpy.array([angles, mean]), measured)
+        found.means[varied] = CurveComparison(numpy.array([angles, mean]), measured)
         lines.append(f"{found.means[varied].text()}: mean of the ensemble{varied and ', ' + varied}; {n_inside} of {n} rows "
                      "lie between the quantiles of 5 and 95 %")
     return lines
@@ -94,7 +87,7 @@ def compare(directory, curve, columns=()) -> Comparisons:
         if os.path.exists(directory + "/ensemble.csv"):
             lines += _compare_band(directory, measured, found)
     else:
-        run = found.runs[""] = compare_curves(read_measured(own, CURVE), measured)
+        run = found.runs[""] = CurveComparison(read_measured(own, CURVE), measured)
         numbers = f" ({run.rows_used} rows; e_mp {100 * run.e_mp:.3g} %, e_rel {100 * run.e_rel:.3g} %)"
         lines += [f"{directory}: {run.text()}{numbers if run.rows_used else ''}"] + ["warning: " + text for text in run.remarks]
     found.text = "\n".join(lines) + "\n"

@@ -14,13 +14,12 @@ from typing import Any, List, NamedTuple
 
 import numpy
 
-from .compare import CURVE, curve_file
-from .curve_comparison import torque_at
 from .errors import InputError, RunError
 from .files import csv_text, write_whole
 from .measured import options_of, read_measured
-from .page_data import n_rows, read_table, varied_in
+from .page_data import curve_file, n_rows, read_table, varied_in
 
+CURVE = ("angle_deg", "torque_Nmm")
 CHANCE = "Interface / Bonding / Seed"
 #: Members of summary.json, NAME + UNIT: their statistics are called NAME_mean + UNIT and so on.
 QUANTITIES = (("T_max", "_Nmm"), ("theta_max", "_deg"), ("theta_full", "_deg"), ("T_inf", "_Nmm"), ("E_deb", "_Nmm"),
@@ -55,6 +54,13 @@ def _rounding_of(angles):
     return 1e-9 * max(1.0, numpy.ptp(angles))
 
 
+def torques_at(curve, angles):
+    """Torques at `angles`, linear between the rows of a curve (2, rows) whose angles rise; NaN beside it, but for rounding."""
+    rounding = _rounding_of(angles)
+    is_beside = (angles < curve[0, 0] - rounding) | (angles > curve[0, -1] + rounding)
+    return numpy.where(is_beside, numpy.nan, numpy.interp(angles, *curve))
+
+
 def ascending(curve):
     """A curve (2, rows) as one whose angles rise, with the last of rows that share an angle, but for rounding; without rows if
     nothing turns, None if it turns back."""
@@ -81,7 +87,7 @@ def band_of(curves):
         return numpy.empty(0), numpy.empty(0, dtype=int), numpy.empty((5, 0)), sum(pair[0] is None for pair in pairs)
     longest, falls = max(used, key=lambda pair: pair[0].shape[1])  # the first of several
     angles = longest[0, ::-1] if falls else longest[0]
-    torques = numpy.array([torque_at(curve, angles, _rounding_of(angles)) for curve, _ in used])
+    torques = numpy.array([torques_at(curve, angles) for curve, _ in used])
     return angles, numpy.isfinite(torques).sum(axis=0), statistics_of(torques), sum(pair[0] is None for pair in pairs)
 
 

@@ -6,8 +6,6 @@ A page needs no other file and no network. It is written whole or not at all. Ne
 import os
 import sys
 
-import jinja2
-
 from debond.errors import RunError
 from debond.files import write_whole
 from debond.page_campaigns import context_of_calibration, context_of_study
@@ -22,7 +20,9 @@ KINDS = (("study.csv", "study.html", context_of_study), ("calibration.json", "ca
 
 
 def page_of(directory):
-    """The text of the page of a directory of results. Raises NoResults if it has none."""
+    """The text of the page of a directory of results. Raises NoResults if it has none, ImportError without Jinja2."""
+    import jinja2
+
     for file, template, context in KINDS:
         if os.path.exists(os.path.join(directory, file)):
             templates = jinja2.FileSystemLoader(os.path.join(os.path.dirname(__file__), "templates"))
@@ -36,8 +36,16 @@ def page_of(directory):
 
 
 def write_page(directory):
-    """Writes report.html into a directory of results. Raises NoResults, or RunError if it cannot be written."""
+    """Writes report.html into a directory of results. Raises NoResults, or RunError if it cannot be written, or ImportError."""
     write_whole(os.path.join(directory, "report.html"), page_of(directory))
+
+
+def write_page_if_possible(directory):
+    """The same at the end of a run, which does not fail because Jinja2 is missing."""
+    try:
+        write_page(directory)
+    except ImportError:
+        pass
 
 
 def main(arguments):
@@ -45,17 +53,11 @@ def main(arguments):
     if len(arguments) != 1:
         print("usage: python3 -m debond.page DIR", file=sys.stderr)
         return 1
-    path = os.path.join(arguments[0], "report.html")
     try:
-        text = page_of(arguments[0])
-    except (NoResults, OSError) as error:
+        write_page(arguments[0])
+    except (NoResults, OSError, RunError) as error:
         print(f"debond.page: {error}", file=sys.stderr)
-        return 1
-    try:
-        write_whole(path, text)
-    except RunError as error:
-        print(f"debond.page: {error}", file=sys.stderr)
-        return 2
+        return 2 if isinstance(error, RunError) else 1
     return 0
 
 

@@ -4,8 +4,8 @@ import os
 import re
 
 from debond.page_curve import Plot, colour
-from debond.page_data import number, numbers, n_rows, read_entries, read_json, read_table, split_unit, unique, varied_in
-from debond.page_run import TORQUE, axes_of, curve_table, files_of, origin_of, reference_of
+from debond.page_data import curve_file, numbers, n_rows, read_entries, read_json, read_table, split_unit, unique, varied_in
+from debond.page_run import TORQUE, axes_of, files_of, origin_of, reference_of
 
 MOST_CURVES = 40    # more would hide each other, and make the page large
 MOST_BANDS = 8      # that can still be told apart
@@ -40,7 +40,7 @@ def curves_of_study(directory, curves):
     """The curves of variants, given as directories and names."""
     some, plot = chosen(curves), None
     for i, (variant, name) in enumerate(some):
-        table = curve_table(variant)
+        table = read_table(curve_file(variant))
         if plot is None:
             axes = axes_of(table)
             plot = Plot(*axes[2:], "curves of the variants")
@@ -142,28 +142,13 @@ def fits_of(directory):
     return pictures
 
 
-def correlations_of(names, pairs):
-    """For each unknown a row of its correlations, each with the colour of its field: red where both grow together, blue where
-    one makes up for the other."""
-    rows = []
-    for a in names:
-        values = [1. if a == b else number(pairs.get(f"{a} | {b}", pairs.get(f"{b} | {a}"))) for b in names]
-        colours = [f"rgba({'192,48,40' if value > 0 else '42,120,176'},{0.6 * abs(value):.2f})" for value in values]
-        rows.append([(value, shade if a != b and value == value else "") for value, shade, b in zip(values, colours, names)])
-    return rows
-
-
 def context_of_calibration(directory):
     """What the template calibration.html shows."""
     json = read_json(os.path.join(directory, "calibration.json"))
-    n, failed, names = json.get("evaluations") or 0, json.get("failures") or 0, list(json.get("unknowns") or {})
-    texts = [(json.get("misfit") or {}).get("text"), *(json.get("cannot_be_told") or []), *(json.get("warnings") or [])]
-    title = json.get("title", "")
-    reason = f"{json.get('measured_values', 0)} measured values, " + (f"{n} evaluations" if n else "closed form")
+    title, n, failed = json["title"], json["evaluations"], json["failures"]
+    reason = f"{json['measured_values']} measured values, " + (f"{n} evaluations" if n else "closed form")
     return {"title": f"{title}: calibration" if title else f"Calibration in {directory}", "finished": True,
             "reason": reason + f", {failed} evaluations failed" * bool(failed),
-            "warnings": unique(filter(None, texts)), "json": json, "names": names,
-            "correlations": correlations_of(names, json.get("correlations") or {}), "fits": fits_of(directory),
-            "origin": origin_of(json, json.get("seconds")),
-            "entries": {**read_entries(os.path.join(directory, "parameters.prm")), **(json.get("entries") or {})},
-            "files": files_of(directory)}
+            "warnings": unique([*json["cannot_be_told"], *json["warnings"]]), "json": json, "names": list(json["unknowns"]),
+            "fits": fits_of(directory), "origin": origin_of(json, json["seconds"]),
+            "entries": read_entries(os.path.join(directory, "parameters.prm")), "files": files_of(directory)}

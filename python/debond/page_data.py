@@ -20,12 +20,9 @@ def read_json(path):
         return {}
     try:
         with open(path, encoding="utf-8") as file:
-            content = json.load(file)
+            return json.load(file)
     except ValueError as error:
         raise NoResults(f"{path} cannot be read: {error}") from None
-    if not isinstance(content, dict):
-        raise NoResults(f"{path} cannot be read: expected an object")
-    return content
 
 
 def read_table(path):
@@ -42,8 +39,18 @@ def read_table(path):
     return dict(zip(names, map(list, zip(*rows)))) if rows else {name: [] for name in names}
 
 
+def curve_file(directory):
+    """The curve between the rows if there is one, otherwise the rows."""
+    fine = os.path.join(directory, "curve.csv")
+    return fine if os.path.exists(fine) else os.path.join(directory, "torque.csv")
+
+
 def n_rows(table):
     return len(next(iter(table.values()), []))
+
+
+def rows_of(table):
+    return [dict(zip(table, fields)) for fields in zip(*table.values())]
 
 
 def number(text):
@@ -55,10 +62,7 @@ def number(text):
 
 
 def numbers(texts):
-    try:
-        return list(map(float, texts))
-    except ValueError:
-        return [number(text) for text in texts]
+    return list(map(number, texts))
 
 
 def read_entries(path):

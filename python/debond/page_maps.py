@@ -7,31 +7,13 @@ import math
 import struct
 import zlib
 
-from debond.page_data import number, numbers, read_table, short, with_unit
+from debond.page_data import n_rows, number, numbers, read_table, short, with_unit
 
 QUANTITIES = (("pressure_MPa", "Pressure", "MPa"), ("slip_mm", "Sliding distance g_s", "mm"), ("phi", "Bonding state phi", ""),
               ("mu", "Friction coefficient mu", ""))
 COLOURS = ((44, 30, 92), (208, 74, 98), (251, 233, 160))    # of the lowest, the middle and the highest value
 FINER = 2                                                   # pixels of a place of the grid, along each side
 SAME = 1e-3                                                 # what differs by less of the largest value is not told apart
-
-
-def columns_of_events(table):
-    """Of maps.csv: the places, and for each event its name, angle, time and columns. The file has rows for each event
-    (a column `event`), or columns for each event, named "EVENT | ANGLE | TIME | QUANTITY"."""
-    events, places = {}, slice(None)
-    if "event" in table:
-        keys = list(zip(table["event"], table["angle_deg"], table["time"]))
-        places = slice(0, keys.index(next((key for key in keys if key != keys[0]), None)) if len(set(keys)) > 1 else len(keys))
-        for key in dict.fromkeys(keys):
-            first = keys.index(key)
-            events[key] = {name: table[name][first:first + places.stop] for name, _, _ in QUANTITIES if name in table}
-    else:
-        for name in table:
-            words = name.split(" | ")
-            if len(words) == 4:
-                events.setdefault(tuple(words[:3]), {})[words[3]] = table[name]
-    return numbers(table.get("x_mm", [])[places]), numbers(table.get("y_mm", [])[places]), events
 
 
 class Grid:
@@ -115,22 +97,24 @@ def png(width, lines):
 
 
 def maps_of(path):
-    """What the page shows of maps.csv: for each quantity its pictures, and in words the maps that need none."""
-    xs, ys, events = columns_of_events(read_table(path))
-    if not events or len(set(xs)) < 2 or len(set(ys)) < 2:
+    """What the page shows of maps.csv, which has rows for each event: for each quantity its pictures, and in words the maps
+    that need none."""
+    table = read_table(path)
+    if not n_rows(table):
         return []
-    grid = Grid(xs, ys)
+    events = list(dict.fromkeys(zip(table["event"], table["angle_deg"], table["time"])))
+    size = n_rows(table) // len(events)
+    grid = Grid(*(numbers(table[name][:size]) for name in ("x_mm", "y_mm")))
     turns = any(number(angle) for _, angle, _ in events)
     places = [(f"{short(angle, 3)}°" if turns else f"time {short(time)}", event) for event, angle, time in events]
-    quantities = [(words, unit, [numbers(columns[name]) for columns in events.values()])
-                  for name, words, unit in QUANTITIES if all(name in columns for columns in events.values())]
-    widths = widths_of(grid, [values for _, _, maps in quantities for values in maps])
-    return [maps_of_quantity(grid, places, maps, widths, words, unit) for words, unit, maps in quantities]
+    quantities = [[numbers(table[name][k * size:(k + 1) * size]) for k in range(len(events))] for name, _, _ in QUANTITIES]
+    widths = widths_of(grid, [values for maps in quantities for values in maps])
+    return [maps_of_quantity(grid, places, maps, widths, words, unit) for maps, (_, words, unit) in zip(quantities, QUANTITIES)]
 
 
 def maps_of_quantity(grid, places, maps, widths, words, unit):
     """The pictures of one quantity at all events, without those that are all of one value or the same as the one before."""
-    figures, notes, before = [], [], None
+    figures, notes, before = [], {}, None
     for (place, event), values in zip(places, maps):
         known = [value for value in values if value == value]
         if not known:
@@ -138,21 +122,16 @@ def maps_of_quantity(grid, places, maps, widths, words, unit):
         low, high = min(known), max(known)
         largest = max(abs(low), abs(high))
         if high - low <= SAME * largest:
-            text = f"is {with_unit(high, unit)} everywhere"
+            notes.setdefault(f"is {with_unit(high, unit)} everywhere", []).append(place)
         elif before and all(abs(a - b) <= SAME * largest for a, b in zip(before[1], values) if a == a and b == b):
-            text = f"is the same, to 0.1 %, as at {before[0]}"
+            notes.setdefault(f"is the same, to 0.1 %, as at {before[0]}", []).append(place)
         else:
             before, is_round = (place, values), grid.is_round(values)
             figures.append({"place": place, "event": event, "low": short(low, 3), "high": short(high, 3), "unit": unit,
                             "round": is_round, "image": picture(grid, values, low, high, widths, is_round)})
-            continue
-        if notes and notes[-1][1] == text:
-            notes[-1][0].append(place)
-        else:
-            notes.append(([place], text))
     if len(notes) == 1 and not figures:
-        notes = [f"It {notes[0][1]}{' at all of these times' * (len(maps) > 1)}."]
+        notes = [f"It {text}{' at all of these times' * (len(maps) > 1)}." for text in notes]
     else:
-        notes = [f"At {', '.join(at)} it {text}." for at, text in notes]
+        notes = [f"At {', '.join(at)} it {text}." for text, at in notes.items()]
     return {"words": words, "unit": unit, "figures": figures, "notes": notes, "ratio": f"{grid.half_x:.6g} / {grid.half_y:.6g}",
             "events": [f"{place}: {event}" for place, event in places]}

@@ -3,7 +3,7 @@
 import os
 
 from debond.page_curve import Plot, at
-from debond.page_data import number, numbers, n_rows, read_entries, read_json, read_table, short, unique, with_unit
+from debond.page_data import curve_file, number, numbers, read_entries, read_json, read_table, short, unique, with_unit
 from debond.page_maps import maps_of
 
 #: What is drawn over what: columns, and their words and units. First the torque of an implant that turns.
@@ -13,12 +13,6 @@ COMPONENTS = [(f"chuck_{way}{axis}_{way_end}", f"chuck_{load}{axis}_{load_end}",
               for way, way_end, words, unit, load, load_end, load_words, load_unit in
               (("u", "mm", "Displacement along", "mm", "F", "N", "Force along", "N"),
                ("r", "deg", "Rotation about", "°", "M", "Nmm", "Moment about", "N mm")) for axis in "xyz"]
-
-
-def curve_table(directory):
-    """The curve between the rows if there is one, otherwise the rows."""
-    table = read_table(os.path.join(directory, "curve.csv"))
-    return table if n_rows(table) else read_table(os.path.join(directory, "torque.csv"))
 
 
 def axes_of(table):
@@ -54,7 +48,7 @@ def add_marks_of_torque(plot, xs, ys, summary, published):
 
 def curve_of(directory, summary, entries):
     """The curve of a run with its marks and the reference; None without rows."""
-    table = curve_table(directory)
+    table = read_table(curve_file(directory))
     x, y, x_label, y_label = axes_of(table)
     plot, xs, ys = Plot(x_label, y_label, "curve of the run"), numbers(table.get(x, [])), numbers(table.get(y, []))
     if x == TORQUE[0]:

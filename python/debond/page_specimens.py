@@ -4,15 +4,10 @@ import math
 import os
 
 from debond.page_curve import ticks
-from debond.page_data import n_rows, number, read_json, read_table, short
+from debond.page_data import number, read_json, read_table, rows_of
 from debond.page_run import files_of, origin_of
 
-WIDTH, LEFT, RIGHT, TOP, ROW = 560, 132, 548, 10, 24  # of the viewBox, as that of curves: text has 17 units
 ALL = "all"
-
-
-def _rows_of(table):
-    return [dict(zip(table, fields)) for fields in zip(*table.values())]
 
 
 def _axis(values, ends_of_means, is_logarithmic):
@@ -32,19 +27,6 @@ def _axis(values, ends_of_means, is_logarithmic):
     return lambda value: (to(value) - low) / (high - low), marks
 
 
-def _line(row, place, at, text, kind):
-    """One line of the picture: text, dot and interval, as far as they are known."""
-    value, low, high = (number(row[name]) for name in ("value" if kind == "one" else "mean", "lower_95", "upper_95"))
-    is_told = row.get("told", "true") == "true" and math.isfinite(low) and math.isfinite(high)
-    y = TOP + (at + 0.5) * ROW
-    line = {"text": text, "y": y, "kind": kind, "title": f"{text}: {short(value, 5)}"
-            + (f" ({short(low, 5)} to {short(high, 5)})" if is_told else ", not told")}
-    if math.isfinite(value):
-        line["x"] = place(value)
-        line["ends"] = [place(low), place(high)] if is_told and high > low else None
-    return line
-
-
 def forest_of(unknown, parameters, pooled):
     """What the template draws of an unknown: a line for each specimen with its interval, by group, and below each group and
     below all their means. None without a value."""
@@ -62,53 +44,41 @@ def forest_of(unknown, parameters, pooled):
         return None
     share, marks = _axis(ends, drawable(means.values(), "mean", "lower_95", "upper_95"), is_logarithmic)
 
-    def place(value):
-        return round(LEFT + (RIGHT - LEFT) * min(1.0, max(0.0, share(value))), 1)
+    def place(text):
+        """From 0 to 1; None of what is not known."""
+        return min(1.0, max(0.0, share(number(text)))) if math.isfinite(number(text)) else None
 
-    lines, groups = [], list(dict.fromkeys(row["group"] for row in own))
-    for group in groups:
-        lines += [_line(row, place, len(lines) + i, row["specimen"], "one")
-                  for i, row in enumerate(row for row in own if row["group"] == group)]
-        if group in means:
-            lines.append(_line(means[group], place, len(lines), group or "no group", "mean"))
-    if ALL in means:
-        lines.append(_line(means[ALL], place, len(lines), ALL, "mean"))
-    bottom = TOP + len(lines) * ROW
+    def line(name, row, kind):
+        value, is_told = row["value" if kind == "one" else "mean"], row.get("told", "true") == "true"
+        ends = [place(row[end]) if is_told else None for end in ("lower_95", "upper_95")]
+        return {"text": name, "kind": kind, "value": value, "at": place(value), "row": row,
+                "ends": None if None in ends or ends[0] == ends[1] else ends}
+
+    lines = []
+    for group in dict.fromkeys(row["group"] for row in own):
+        lines += [line(row["specimen"], row, "one") for row in own if row["group"] == group]
+        lines += [line(group or "no group", row, "mean") for name, row in means.items() if name == group]
+    lines += [line(ALL, row, "mean") for name, row in means.items() if name == ALL]
     return {"unknown": unknown, "unit": own[0]["unit"], "lines": lines, "is_logarithmic": is_logarithmic,
-            "size": (WIDTH, bottom + 30), "box": (LEFT, RIGHT, TOP, bottom),
-            "ticks": [(place(value), text) for value, text in marks]}
-
-
-def _values(row):
-    low, high = short(row["lower_95"], 4), short(row["upper_95"], 4)
-    return f"{low} to {high}" if low and high else "cannot be told"
+            "ticks": [(share(value), text) for value, text in marks]}
 
 
 def context_of_specimens(directory):
     """What the template specimens.html shows."""
-    tables = [read_table(os.path.join(directory, name)) for name in ("parameters.csv", "pooled.csv")]
-    parameters, pooled = map(_rows_of, tables)
+    parameters, pooled = (rows_of(read_table(os.path.join(directory, name))) for name in ("parameters.csv", "pooled.csv"))
     about = read_json(os.path.join(directory, "specimens.json"))
     names, failed = list(dict.fromkeys(row["specimen"] for row in parameters)), about.get("failures") or {}
     unknowns = list(dict.fromkeys(row["unknown"] for row in parameters if row["unknown"]))
-    # a row of the table for each specimen: of each unknown value and interval
-    rows = []
-    for name in names:
-        own = [row for row in parameters if row["specimen"] == name]
-        by_unknown = {row["unknown"]: row for row in own}
-        values = [text for unknown in unknowns for row in [by_unknown.get(unknown)]
-                  for text in ((short(row["value"]), _values(row)) if row else ("", ""))]
-        state = failed.get(name) and "failed" or ("" if own[0]["fits"] == "true" else "the model does not fit")
-        link = "" if not os.path.exists(os.path.join(directory, name, "report.html")) else f"{name}/report.html"
-        rows.append({"name": name, "link": link, "group": own[0]["group"], "values": values, "state": state,
-                     "e_rel": short(100 * number(own[0]["e_rel"]), 3)})
+    of_specimens = {name: [row for row in parameters if row["specimen"] == name] for name in names}
     title, n = about.get("title", ""), len(names)
     units = {row["unknown"]: row["unit"] for row in parameters}
     return {"title": f"{title}: {n} specimens" if title else f"{n} specimens in {directory}", "finished": not failed,
             "reason": f"{n - len(failed)} of {n} specimens are fitted",
             "warnings": [f"{name}: {why}" for name, why in failed.items()],
-            "specimens": rows, "unknowns": [(name, units[name]) for name in unknowns],
+            "specimens": of_specimens, "failed": failed,
+            "with_page": [name for name in names if os.path.exists(os.path.join(directory, name, "report.html"))],
+            "unknowns": [(name, units[name]) for name in unknowns],
             "forests": list(filter(None, (forest_of(unknown, parameters, pooled) for unknown in unknowns))),
             "pooled": pooled, "n_left_out": sum(int(row["left_out"]) for row in pooled if row["group"] == ALL),
-            "has_groups": n_rows(tables[0]) > 0 and any(tables[0]["group"]),
+            "has_groups": any(row["group"] for row in parameters),
             "origin": origin_of(about), "files": files_of(directory)}

@@ -11,6 +11,7 @@ import numpy
 import _debond
 
 from .errors import SceneError
+from .page import write_page_if_possible
 
 __version__ = _debond.version
 
@@ -182,11 +183,7 @@ class Scene:
         scene = _debond.Scene(entries, self._name, team)
         _debond.run_into_directory(scene, force, team)
         if scene.has_page and (comm is None or comm.rank == 0):
-            try:
-                from . import page
-            except ImportError:  # a run does not fail because Jinja2 is missing
-                return scene.directory
-            page.write_page(scene.directory)
+            write_page_if_possible(scene.directory)
         return scene.directory
 
 

@@ -19,11 +19,11 @@ from typing import Dict
 
 import _debond
 
-from .calibrate import write_page
 from .errors import InputError, RunError
 from .executors import results_of
 from .files import csv_text, write_whole
 from .measured import options_of
+from .page import write_page_if_possible
 from .pooling import pool
 from .scene import Scene
 from .specimen_fit import finished, fit_one, task_of
@@ -115,7 +115,7 @@ def fit_specimens(template, table, directory=None, *, executor=None, jobs: int =
     for name, text in (("parameters.csv", csv_text(PARAMETERS, parameters)), ("pooled.csv", csv_text(POOLED, pooled)),
                        ("specimens.json", json.dumps(about, indent=2, ensure_ascii=False) + "\n")):
         write_whole(os.path.join(directory, name), text)
-    write_page(directory)
+    write_page_if_possible(directory)
     return Specimens(parameters, pooled, failures, directory)
 
 

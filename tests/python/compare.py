@@ -15,8 +15,8 @@ import tempfile
 
 import numpy
 
+from _debond import CurveComparison
 from debond.compare import compare, main
-from debond.curve_comparison import compare_curves, torque_at
 from debond.errors import InputError
 
 debond = os.path.abspath(sys.argv[1]) if sys.argv[1:] else None
@@ -102,19 +102,17 @@ def check_measures():
     difference, T_measured = numpy.array([2.5, 4, 0, 10]), numpy.array([20, 44, 45, 60])
     for direction in (1, -1):
         signs = [[direction], [1]]
-        found = compare_curves(numpy.array([angles, torques]) * signs, measured * signs)
+        found = CurveComparison(numpy.array([angles, torques]) * signs, measured * signs)
         expect("rows", 4, found.rows_used)
         expect_close("e_mp", numpy.mean(difference / T_measured), found.e_mp)
         expect_close("e_rel", numpy.mean(difference) / 50, found.e_rel)
         expect_close("differences", [numpy.mean(difference) / 70, 10 / 70], [found.difference_mean, found.difference_max])
         expect_close("where", 4 * direction, found.angle_of_max_deg)
         expect("remarks", [], found.remarks)
-    rest = numpy.array([[0.0, 0, 0, 1], [3, 7, 1e17, 1]])
-    expect_close("torques from rest", [1e17, 1], torque_at(rest, numpy.array([0, 1])))
-    # an angle that stays has the torques before the jump and behind it
+    # an angle that stays has the torque before the jump; ends are met but for rounding
     jump = numpy.array([[0.0, 1, 1, 2], [0, 10, 4, 6]])
-    expect_close("torques", [numpy.nan, 0, 10, 5, 6, numpy.nan], torque_at(jump, numpy.array([-1e-9, 0, 1, 1.5, 2, 2 + 1e-9])))
-    expect_close("torques at the ends", [0, 6], torque_at(jump, numpy.array([-1e-10, 2 + 1e-10]), 1e-9))
+    found = CurveComparison(jump, numpy.array([[1, 1.5, 2 + 1e-9, 2 + 1e-8], [10, 5, 6, 9]]))
+    expect("rows at a jump", (3, 0), (found.rows_used, found.difference_max))
 
 
 def check_remarks():
@@ -126,15 +124,15 @@ def check_remarks():
             ("N um", up, one * [[1], [1000]], "is 4e+04 and that of the run 60 N mm: is it in N mm?"),
             ("N m", up, one / [[1], [1000]], "is 0.04 and that of the run 60 N mm: is it in N mm?"),
             ("unloading", up, numpy.array([[2.0, 4, 3], [20, 40, 30]]), "turn back: loading and unloading")):
-        remarks = compare_curves(computed, measured).remarks
+        remarks = CurveComparison(computed, measured).remarks
         assert len(remarks) == 1 and words in remarks[0], f"{what}: expected {words}, got {remarks}"
     noisy = numpy.array([[2.0, 2.999, 2.96, 4], [20, 30, 30, 40]])
-    expect("angles with noise", [], compare_curves(up, noisy).remarks)
+    expect("angles with noise", [], CurveComparison(up, noisy).remarks)
     for what, computed, measured, words in (
             ("turns back", numpy.array([[0.0, 2, 1], [0, 1, 2]]), one, "the run turns back"),
             ("rounding errors", numpy.array([[0.0, 1e-10, -1e-10], [0, 1, 2]]), one, "nothing has rotated in the run"),
             ("elsewhere", up, one * [[-1], [1]], "the run turns from 0 to 10 deg, and the curve from -2 to -4 deg")):
-        found = compare_curves(computed, measured)
+        found = CurveComparison(computed, measured)
         expect(what, (0, words, "not compared: " + words), (found.rows_used, found.why_none, found.text()))
 
 

@@ -230,12 +230,14 @@ class Fit:
         difference = curve - measured
         sd = numpy.inf if series.experiment.measured.sd is None else 1 / self.problem.weights[series.slice]
         used = (abs(measured) > 0.01 * series.scale) & ((sd <= series.scale) | numpy.isinf(sd))
-        n, rms = max(1, used.sum()), numpy.sqrt(numpy.mean(difference**2)) / series.scale
+        n, rms = used.sum(), numpy.sqrt(numpy.mean(difference**2)) / series.scale
+        # row by row: whatever a curve is drawn over, it is compared as one that turns on
+        row = numpy.arange(n + 1)
+        compared = _debond.CurveComparison([row, numpy.r_[0, curve[used]]], [row[1:], measured[used]])
         F, chance = noise.lack_of_fit(difference / series.scale, self.told.derivatives[series.slice], series.experiment.measured.parts)
         to_scale = numpy.median(1 / self.problem.weights[series.slice]) / series.scale
         smooth = numpy.sqrt(max(0, rms**2 - own.variance * to_scale**2))
-        return Misfit(series.name, numpy.sum(abs(difference[used] / measured[used])) / n,
-                      numpy.sum(abs(difference[used])) / series.scale / n, rms, own, len(measured) / own.rows_per_value,
+        return Misfit(series.name, compared.e_mp, compared.e_rel, rms, own, len(measured) / own.rows_per_value,
                       own.sd * to_scale, F, chance, smooth)
 
     @property
@@ -398,8 +400,7 @@ class Fit:
             return self.log_likelihood(unknowns.from_search(searched)) if inside else -numpy.inf
 
         sampler = emcee.EnsembleSampler(walkers, k, likelihood)
-        sampler._random.seed(seed)
-        sampler.run_mcmc(start, steps)
+        sampler.run_mcmc(emcee.State(start, random_state=numpy.random.RandomState(seed).get_state()), steps)
         return numpy.array([unknowns.from_search(sample) for sample in sampler.get_chain(discard=steps // 2, flat=True)])
 
     def save(self, directory) -> None:

@@ -17,6 +17,7 @@ import _debond
 
 from . import intervals
 from .errors import InputError, RunError
+from .experiment import RIG
 from .files import csv_text, write_whole
 from .fit import fit_problem, problem_of
 from .page import write_page_if_possible
@@ -26,21 +27,11 @@ from .scene import Scene
 
 def plain(value):
     """As JSON has it: null for what is not known."""
-    if isinstance(value, dict):
-        return {name: plain(item) for name, item in value.items()}
-    if isinstance(value, (list, tuple, numpy.ndarray)):
-        return [plain(item) for item in value]
-    if isinstance(value, (numpy.bool_, bool)):
-        return bool(value)
-    if isinstance(value, (float, numpy.floating)):
-        return float(value) if math.isfinite(value) else None
-    return int(value) if isinstance(value, numpy.integer) else value
+    return json.loads(json.dumps(value, default=lambda item: item.tolist()), parse_constant=lambda name: None)
 
 
 def _rigs(done):
     """What the rig shows besides the implant, at the best fit: number, unit, and whether that is fitted."""
-    from .experiment import RIG
-
     problem, result = done.problem, []
     for experiment in problem.experiments:
         rig, held = experiment.changes(done.values)[1], problem.unknowns.entries(experiment.number, done.values)
@@ -53,29 +44,30 @@ def _rigs(done):
 
 def json_of(done) -> Dict[str, Any]:
     """What calibration.json holds of a Fit."""
-    problem, told, names = done.problem, done.told, done.names
-    unknowns = {u.name: {"value": value, "unit": u.unit, "lower_95": lower, "upper_95": upper, "told": is_told, "at_bound": not free,
-                         "start": u.start, "bounds": [u.lower, u.upper], "logarithmic": u.logarithmic}
-                for u, value, lower, upper, is_told, free in zip(problem.unknowns.list, done.values, done.lower, done.upper, done.is_told, told.free)}
+    problem, told, names, runs = done.problem, done.told, done.names, done.problem.runs
+    unknowns = {u.name: {"value": done.values[j], "unit": u.unit, "lower_95": done.lower[j], "upper_95": done.upper[j],
+                         "told": done.is_told[j], "at_bound": not told.free[j], "start": u.start, "bounds": [u.lower, u.upper],
+                         "logarithmic": u.logarithmic} for j, u in enumerate(problem.unknowns.list)}
     correlations = {f"{names[i]} | {names[j]}": told.correlations[i, j] for j in range(len(names)) for i in range(j)}
-    curves = [{"curve": m.name, "e_mp": m.e_mp, "e_rel": m.e_rel, "rms_over_largest": m.rms, "smooth_misfit_over_largest": m.smooth,
-               "F_of_misfit": m.F, "chance_of_F": m.chance, "fits": not m.does_not_fit} for m in done.misfits]
-    noises = [{"curve": m.name, "model": m.noise.name, "sd_over_largest": m.noise_over_largest, "correlation_of_neighbours": m.noise.correlation,
-               "rows": s.slice.stop - s.slice.start, "effective_rows": m.effective_rows}
-              for m, s in zip(done.misfits, problem.series)]
+    curves = [{"curve": m.name, "e_mp": m.e_mp, "e_rel": m.e_rel, "rms_over_largest": m.rms,
+               "smooth_misfit_over_largest": m.smooth, "F_of_misfit": m.F, "chance_of_F": m.chance,
+               "fits": not m.does_not_fit} for m in done.misfits]
+    noises = [{"curve": m.name, "model": m.noise.name, "sd_over_largest": m.noise_over_largest,
+               "correlation_of_neighbours": m.noise.correlation, "rows": s.slice.stop - s.slice.start,
+               "effective_rows": m.effective_rows} for m, s in zip(done.misfits, problem.series)]
     per_search = numpy.where(problem.unknowns.logarithmic, done.values, 1)
     return plain({
-        "title": problem.values["Title"], "version": _debond.version, "provenance": _debond.provenance(), "seconds": done.seconds,
-        "evaluations": problem.runs.n_runs, "failures": problem.runs.n_failures, "last_failure": problem.runs.last_failure,
-        "measured_values": len(problem.measured), "noise_is_known": problem.noise_is_known, "unknowns": unknowns, "rig": _rigs(done),
-        "correlations": correlations, "curves": curves, "noise": noises, "taken_as_known": done.taken_as_known,
-        "optima": [{"cost": one.cost, "converged": one.converged, "unknowns": dict(zip(names, one.values))} for one in done.optima],
-        "cannot_be_told": [intervals.text_of(direction, problem.unknowns) for direction in told.directions], "warnings": done.warnings,
-        "candidates": [{"experiment": number + 1, "half_widths": dict(zip(names, widths * per_search))} for number, widths in done.candidates]})
-
-
-def _csv(columns):
-    return csv_text(columns, zip(*columns.values()))
+        "title": problem.values["Title"], "version": _debond.version, "provenance": _debond.provenance(),
+        "seconds": done.seconds, "evaluations": runs.n_runs, "failures": runs.n_failures, "last_failure": runs.last_failure,
+        "measured_values": len(problem.measured), "noise_is_known": problem.noise_is_known, "unknowns": unknowns,
+        "rig": _rigs(done), "correlations": correlations, "curves": curves, "noise": noises,
+        "taken_as_known": done.taken_as_known,
+        "optima": [{"cost": one.cost, "converged": one.converged, "unknowns": dict(zip(names, one.values))}
+                   for one in done.optima],
+        "cannot_be_told": [intervals.text_of(direction, problem.unknowns) for direction in told.directions],
+        "warnings": done.warnings,
+        "candidates": [{"experiment": number + 1, "half_widths": dict(zip(names, widths * per_search))}
+                       for number, widths in done.candidates]})
 
 
 def _numbered(name, ending, i, n):
@@ -96,9 +88,10 @@ def _fitted_scene(done, experiment, directory, n):
     more = ["Task=simulate", "Output/Directory=" + os.path.join(directory, _numbered("fitted", "", experiment.number, n))]
     if any(experiment.changes(done.values)[1].values()):
         more.append(f"Title={values['Title'] or 'Fit to ' + values['Output / Reference curve']}, without the rig")
-    comment = [f"Fitted by debond {_debond.version}"]
-    comment += [f"  {name} = {value:.6g} (95 %: {interval_text(done, j)})" for j, (name, value) in enumerate(zip(done.names, done.values))]
-    comment.append(f"to {experiment.measured.file}" if experiment.is_done else "not measured yet")
+    found = (f"  {name} = {value:.6g} (95 %: {interval_text(done, j)})"
+             for j, (name, value) in enumerate(zip(done.names, done.values)))
+    comment = [f"Fitted by debond {_debond.version}", *found,
+               f"to {experiment.measured.file}" if experiment.is_done else "not measured yet"]
     return "".join(f"# {line}\n" for line in comment) + _debond.text_of(_debond.changed(entries, more))
 
 
@@ -108,20 +101,17 @@ def save(done, directory):
     os.makedirs(directory, exist_ok=True)
     problem, n = done.problem, len(done.problem.experiments)
     for experiment, columns in zip(problem.done, done.curves):
-        write_whole(os.path.join(directory, _numbered("fit", ".csv", experiment.number, n)), _csv(columns))
-    correlations = {"unknown": done.names}
-    correlations.update({name: [f"{value:.4g}" for value in column] for name, column in zip(done.names, done.told.correlations.T)})
-    write_whole(os.path.join(directory, "correlations.csv"), _csv(correlations))
+        write_whole(os.path.join(directory, _numbered("fit", ".csv", experiment.number, n)),
+                    csv_text(columns, zip(*columns.values())))
+    rows = ([name, *(f"{value:.4g}" for value in row)] for name, row in zip(done.names, done.told.correlations))
+    write_whole(os.path.join(directory, "correlations.csv"), csv_text(["unknown", *done.names], rows))
     for experiment in problem.experiments:
         write_whole(os.path.join(directory, _numbered("fitted", ".prm", experiment.number, n)),
                     _fitted_scene(done, experiment, directory, n))
     if problem.values["Calibration / Profiles"] == "true":
-        profiles, columns = done.profiles(), {name: [] for name in ("unknown", "value", "chi_squared", *done.names)}
-        for name, profile in profiles.items():
-            for value, chi_squared, unknowns in zip(profile["value"], profile["chi_squared"], profile["unknowns"]):
-                for column, item in zip(columns.values(), (name, value, chi_squared, *unknowns)):
-                    column.append(item)
-        write_whole(os.path.join(directory, "profile.csv"), _csv(columns))
+        rows = ([name, value, chi_squared, *unknowns] for name, profile in done.profiles().items()
+                for value, chi_squared, unknowns in zip(*profile.values()))
+        write_whole(os.path.join(directory, "profile.csv"), csv_text(["unknown", "value", "chi_squared", *done.names], rows))
     write_whole(os.path.join(directory, "calibration.json"), json.dumps(json_of(done), indent=2, ensure_ascii=False) + "\n")
     if problem.values["Output / Report"] == "true":
         write_page_if_possible(directory)
@@ -134,17 +124,19 @@ def lines_of(done):
     for j, (name, value) in enumerate(zip(done.names, done.values)):
         yield f"{name:{width}}  {value:<10.6g}  {interval_text(done, j)}"
     for m in done.misfits:
-        yield (f"{m.name}: e_mp {100 * m.e_mp:.3g} %, e_rel {100 * m.e_rel:.3g} %, residuals {100 * m.rms:.3g} % of the largest value; "
-               + (f"noise {m.noise.name}, neighbours correlated by {m.noise.correlation:.2g}" if len(m.noise.phi) else "noise white"))
+        correlated = f", neighbours correlated by {m.noise.correlation:.2g}" if len(m.noise.phi) else ""
+        yield (f"{m.name}: e_mp {100 * m.e_mp:.3g} %, e_rel {100 * m.e_rel:.3g} %, residuals {100 * m.rms:.3g} % of the "
+               f"largest value; noise {m.noise.name}{correlated}")
     if len(done.optima) > 1:
         first, second = done.optima[:2]
         values = ", ".join(f"{name} = {value:.5g}" for name, value in zip(done.names, second.values))
-        yield (f"{len(done.optima)} different optima were found; the next one has {math.sqrt(second.cost / max(first.cost, 1e-300)):.3g} "
-               f"times the residuals: {values}")
+        ratio = math.sqrt(second.cost / max(first.cost, 1e-300))
+        yield f"{len(done.optima)} different optima were found; the next one has {ratio:.3g} times the residuals: {values}"
     yield from ("warning: " + text for text in done.warnings)
     runs = done.problem.runs
     if runs.n_failures:
-        yield f"{runs.n_failures} curves that were tried could not be computed, which the search went around; the last for: {runs.last_failure}"
+        yield (f"{runs.n_failures} curves that were tried could not be computed, which the search went around; the last for: "
+               + runs.last_failure)
     for number, widths in done.candidates:
         parts = []
         for j, (name, then) in enumerate(zip(done.names, widths)):
@@ -171,10 +163,10 @@ def why_it_does_not_fit(done) -> str:
     if done.e_rel <= largest:
         return ""
     opposite = problem.measured @ done.optima[0].curve < 0
-    return (f"no parameters of this scene fit the measured curve: the best ones leave e_rel = {100 * done.e_rel:.3g} %, more than "
-            f"Calibration / Largest misfit, {100 * largest:.3g} %"
-            + ("; the measured values have the opposite sign: turn the load round, or the values by a minus before the unit, as "
-               "in Reference columns = 1 [deg], 2 [-N m]" if opposite else ""))
+    return (f"no parameters of this scene fit the measured curve: the best ones leave e_rel = {100 * done.e_rel:.3g} %, more "
+            f"than Calibration / Largest misfit, {100 * largest:.3g} %"
+            + ("; the measured values have the opposite sign: turn the load round, or the values by a minus before the unit, "
+               "as in Reference columns = 1 [deg], 2 [-N m]" if opposite else ""))
 
 
 def calibrate(scene, threads: int = 1, force: bool = False, *, executor=None, say=lambda text: None) -> Dict[str, Any]:
@@ -190,15 +182,16 @@ def calibrate(scene, threads: int = 1, force: bool = False, *, executor=None, sa
         os.remove(log)
     for experiment in problem.done:
         if experiment.measured.n_left_out:
-            say(f"{experiment.measured.n_left_out} rows of {experiment.measured.file} are not in the windows, stay where the row before "
-                "was, or are beyond what the scene comes to")
+            say(f"{experiment.measured.n_left_out} rows of {experiment.measured.file} are not in the windows, stay where the "
+                "row before was, or are beyond what the scene comes to")
     say(f"{len(problem.measured)} measured values, {len(problem.unknowns.list)} unknowns")
     problem.runs = Runs(executor, threads, log)
     done = fit_problem(problem, say)
     save(done, directory)
     for line in lines_of(done):
         say(line)
-    say(f"Results are in {directory}/calibration.json, the fitted scene is {_numbered('fitted', '.prm', 0, len(problem.experiments))}")
+    fitted = _numbered("fitted", ".prm", 0, len(problem.experiments))
+    say(f"Results are in {directory}/calibration.json, the fitted scene is {fitted}")
     del lock
     why = why_it_does_not_fit(done)
     if why:
@@ -209,21 +202,22 @@ def calibrate(scene, threads: int = 1, force: bool = False, *, executor=None, sa
 def check_lines(problem):
     """What would be done."""
     for u in problem.unknowns.list:
-        yield f"{u.name}: from {u.start:.6g}, between {u.lower:.6g} and {u.upper:.6g}{', by its logarithm' if u.logarithmic else ''}"
+        by = ", by its logarithm" if u.logarithmic else ""
+        yield f"{u.name}: from {u.start:.6g}, between {u.lower:.6g} and {u.upper:.6g}{by}"
     for experiment in problem.experiments:
         measured, over = experiment.measured, experiment.over
         if not experiment.is_done:
             yield "A candidate without a measured curve"
             continue
         ranges = "".join(f"{column.name} from {values.min():.6g} to {values.max():.6g} {column.unit}; "
-                         for column, values in zip(experiment.columns, measured.values.T))
-        yield (f"{measured.file}: {len(measured.over)} rows, {over.name} from {measured.over.min():.6g} to {measured.over.max():.6g} {over.unit}; "
-               + ranges + (f"no closed form: {experiment.why_no_closed_form}" if experiment.why_no_closed_form
-                           else "searched with the closed form first"))
+                         for column, values in zip((over, *experiment.columns), (measured.over, *measured.values.T)))
+        why_not = experiment.why_no_closed_form
+        yield (f"{measured.file}: {len(measured.over)} rows, {ranges}"
+               + (f"no closed form: {why_not}" if why_not else "searched with the closed form first"))
         if over.is_angle and any(column.is_torque and numpy.sum(values) * experiment.last_angle < 0
                                  for column, values in zip(experiment.columns, measured.values.T)):
-            yield (f"warning: {measured.file}: the torques of the reference curve have the opposite sign: a minus before the unit turns "
-                   "it, as in Reference columns = 1 [deg], 2 [-N m]")
+            yield (f"warning: {measured.file}: the torques of the reference curve have the opposite sign: a minus before the "
+                   "unit turns it, as in Reference columns = 1 [deg], 2 [-N m]")
 
 
 def main(arguments) -> int:

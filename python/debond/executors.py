@@ -67,8 +67,7 @@ def results_of(function, tasks, executor=None, n_jobs=1, say=lambda name, result
 def _run_text(task):
     """Rows of a scene that is given as a text, and where its files are."""
     text, work = task
-    if os.getcwd() != work:
-        os.chdir(work)
+    os.chdir(work)
     return Scene(None, text=text).run()
 
 

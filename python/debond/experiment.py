@@ -7,6 +7,7 @@ next. The rig stands between both,
 
 import functools
 import os
+import re
 import threading
 
 import numpy
@@ -21,13 +22,9 @@ RIG = {"angle_offset": "Angle offset", "slack": "Slack", "compliance": "Machine 
 
 
 @functools.lru_cache(maxsize=16)
-def _curve_of_thread(text, name, _thread):
-    return _debond.VaryingCurve(_debond.read_text(text, name), name)
-
-
-def curve_of(text, name):
+def _curve_of(text, name, _thread):
     """The curve of the scene `text`, one for each thread: what it keeps is not for several at a time."""
-    return _curve_of_thread(text, name, threading.get_ident())
+    return _debond.VaryingCurve(_debond.read_text(text, name), name)
 
 
 def run_task(task):
@@ -35,7 +32,7 @@ def run_task(task):
     the scene, changes as pairs (full name, value), ends of steps of each phase, columns that are wanted."""
     text, name, changes, steps, columns = task
     try:
-        rows = curve_of(text, name).by_scene(list(changes), [list(ends) for ends in steps])
+        rows = _curve_of(text, name, threading.get_ident()).by_scene(list(changes), [list(ends) for ends in steps])
     except (RunError, SceneError) as error:
         return str(error)
     return {column: rows[column] for column in columns}
@@ -43,8 +40,7 @@ def run_task(task):
 
 def run_task_in(directory, task):
     """The same in a process that may have been started elsewhere: files are named relative to `directory`."""
-    if os.getcwd() != directory:
-        os.chdir(directory)
+    os.chdir(directory)
     return run_task(task)
 
 
@@ -67,7 +63,9 @@ class Experiment:
         self.text = _debond.text_of(without)
         self.curve = _debond.VaryingCurve(without, name)
         self.is_finite_elements = self.values["Model"] == "finite elements"
-        self._find_changes()
+        self._held_in = [self._entries_with(j) for j in range(len(unknowns.list))]
+        # others change what the rig shows
+        self.changes_model = [any(not name.startswith("Calibration / ") for name in names) for names in self._held_in]
         self.why_no_closed_form = self._find_why_no_closed_form()
         self._centre, self._settled = None, {}
 
@@ -75,49 +73,34 @@ class Experiment:
     def is_done(self):
         return bool(self.measured.file)
 
-    @property
-    def size(self):
-        """Number of measured values."""
-        return self.measured.values.size
-
     @functools.cached_property
     def last_angle(self):
         """To which the scene turns the chuck [deg]; 0 if it prescribes a moment."""
         return self.scene.prescribed([self.scene.sample_times[-1]]).get("chuck_rz_deg", numpy.zeros(1))[0]
 
     def changes(self, values):
-        """Entries of the scene but for those of the subsection Calibration, as pairs (full name, text), and the rig's numbers."""
+        """Entries of the scene but for those of Calibration, as pairs (full name, text), and the rig's numbers."""
         entries = self.unknowns.entries(self.number, values)
-        rig = {key: float(entries.get("Calibration / " + name, self.values["Calibration / " + name])) for key, name in RIG.items()}
+        every = {**self.values, **entries}
+        rig = {key: float(every["Calibration / " + name]) for key, name in RIG.items()}
         return tuple((name, text) for name, text in entries.items() if not name.startswith("Calibration / ")), rig
 
     def _largest_shift(self):
-        ends = [self.unknowns.entries(self.number, values) for values in (self.unknowns.lower, self.unknowns.upper)]
+        rigs = [self.changes(values)[1] for values in (self.unknowns.lower, self.unknowns.upper)]
+        return sum(max(rig[key] for rig in rigs) for key in ("angle_offset", "slack"))
 
-        def largest(name):
-            return max(float(entries.get("Calibration / " + name, self.values["Calibration / " + name])) for entries in ends)
-
-        return largest("Angle offset") + largest("Slack")
-
-    def _find_changes(self):
-        """What an unknown changes shows in the entries that hold it: the model, or the rig alone; the bodies' compliance."""
-        starts, before = self.unknowns.starts, self.unknowns.entries(self.number, self.unknowns.starts)
-        self.changes_model, self.changes_stiffness = [], []
-        self._vary = set()
-        for j, unknown in enumerate(self.unknowns.list):
-            other = starts.copy()
-            other[j] = 0.5 * (starts[j] + (unknown.upper if starts[j] < unknown.upper else unknown.lower))
-            after = self.unknowns.entries(self.number, other)
-            names = {name for name in before if before[name] != after[name]}
-            self._vary |= names
-            self.changes_model.append(any(not name.startswith("Calibration / ") for name in names))
-            self.changes_stiffness.append(any(name.startswith(("Bone / ", "Implant / ")) or "enalty stiffness" in name for name in names))
+    def _entries_with(self, j):
+        """Names of the entries that hold an unknown."""
+        other, unknown = self.unknowns.starts.copy(), self.unknowns.list[j]
+        other[j] = 0.5 * (other[j] + (unknown.upper if other[j] < unknown.upper else unknown.lower))
+        before, after = (self.unknowns.entries(self.number, values) for values in (self.unknowns.starts, other))
+        return {name for name in before if before[name] != after[name]}
 
     def _find_why_no_closed_form(self):
         why = self.curve.why_no_closed_form
         if why:
             return why
-        if "Implant / Radius" in self._vary:
+        if any("Implant / Radius" in names for names in self._held_in):
             return "the radius is an unknown"
         if not self.over.is_angle:
             return "closed forms know curves over the angle"
@@ -129,7 +112,7 @@ class Experiment:
         """Values that are not allowed within the bounds show now, and not in the middle of a search. Raises SceneError."""
         for j, unknown in enumerate(self.unknowns.list):
             for bound in (unknown.lower, unknown.upper):
-                values = self.unknowns.starts
+                values = self.unknowns.starts.copy()
                 values[j] = bound
                 try:
                     self.curve.check(list(self.unknowns.entries(self.number, values).items()))
@@ -152,7 +135,8 @@ class Experiment:
         compliance = numpy.array(self.curve.compliance_of_bodies(list(self.changes(values)[0])))
         slopes = numpy.zeros((2, len(values)))
         for j, unknown in enumerate(self.unknowns.list):
-            if self.changes_stiffness[j] and compliance.all():
+            of_bodies = any(re.match("Bone / |Implant / |.*enalty stiffness", name) for name in self._held_in[j])
+            if of_bodies and compliance.all():
                 other = values.copy()
                 h = 1e-2 * max(abs(values[j]), 1e-2 * (unknown.upper - unknown.lower))
                 other[j] += h if values[j] + h <= unknown.upper else -h
@@ -195,7 +179,7 @@ class Experiment:
         x = rows[self.over.key]
         if self.over.is_angle:
             x = x + rig["angle_offset"] + numpy.where(torque >= 0, rig["slack"], 0) + rig["compliance"] * torque
-        branch = branches_or_one(x, measured.least_turn)
+        branch = measurement.branches_of(x, measured.least_turn)
         if len(measured.branch) and branch[-1] < measured.branch[-1]:
             raise RunError(f"{measured.file} turns back {measured.branch[-1]} times, the computed curve {branch[-1]} times")
         result = numpy.empty((len(self.columns), len(measured.over)))
@@ -212,14 +196,6 @@ class Experiment:
         if not numpy.isfinite(result).all():
             raise RunError("the computed curve has no values where something has been measured")
         return result.ravel()
-
-
-def branches_or_one(x, least_turn):
-    """As measurement.branches_of(); quickly for curves that do not turn back."""
-    steps = numpy.diff(x)
-    if (steps >= 0).all() or (steps <= 0).all():
-        return numpy.zeros(len(x), dtype=int)
-    return measurement.branches_of(x, least_turn)
 
 
 def _neighbours(x, places):
@@ -243,7 +219,8 @@ def _with_rows_without_torque(rows):
     """Where the torque changes its sign the slack is passed at rest: adds a row just before and one just after."""
     torque = rows["torque_Nmm"]
     rounding = 1e-9 * abs(torque).max(initial=0)
-    before = numpy.flatnonzero((torque[:-1] * torque[1:] < 0) & (abs(torque[:-1]) > 2 * rounding) & (abs(torque[1:]) > 2 * rounding))
+    is_some = abs(torque) > 2 * rounding
+    before = numpy.flatnonzero((torque[:-1] * torque[1:] < 0) & is_some[:-1] & is_some[1:])
     share = torque[before] / (torque[before] - torque[before + 1])
     result = {}
     for name, values in rows.items():

@@ -1,13 +1,14 @@
 """The table in a text of an instrument or a spreadsheet: where it begins, what separates its items, how its columns are
 called. measured.py says what is understood."""
 
+import csv
 import re
 import sys
-from typing import NamedTuple
 
 from .errors import shortened
 from .units import find_unit, unit_in, why_ambiguous
 
+csv.field_size_limit(sys.maxsize)  # with a wrong separator a line is one long item
 # blanks of any width; what is not seen; dashes and minus signs, also Windows' dash where Latin-1 has nothing; signs of a
 # product; the Greek letter; an ordinal and a ring for degrees; apostrophes
 _BLANKS = "\u00a0\u2002-\u200a\u202f\u205f\u3000"
@@ -60,27 +61,23 @@ def remark_on(item: str) -> str:
             ": remove what is not part of the table")
 
 
-class _Line(NamedTuple):
-    """A line of a file, which is not empty; numbers count from 1."""
-
-    number: int
-    text: str
-    is_comment: bool
-
-
 def _lines_of(text):
-    lines = ((number, line.rstrip(" "), line.strip()) for number, line in enumerate(text.split("\n"), 1))
-    return [_Line(number, line, trimmed.startswith(("#", "%", "//"))) for number, line, trimmed in lines if trimmed]
+    """Number from 1 and text of the lines that are neither empty nor comments; and comments, by the number of the line below."""
+    lines, comments, above = [], {}, None
+    for number, line in enumerate(text.split("\n"), 1):
+        if line.strip().startswith(("#", "%", "//")):
+            above = line
+        elif line.strip():
+            lines.append((number, line.rstrip(" ")))
+            comments[number], above = above, None
+    return lines, comments
 
 
-def _split(line, separator):
-    """The items of a line; with what separates behind the last one there are empty ones."""
+def split(line, separator):
+    """The items of a line; with what separates behind the last one there are empty ones. What stands in quotes may hold it."""
     if separator == " ":
         return [] if "\t" in line else line.split()
-    # what stands in quotes may hold separators
-    parts = line.split('"')
-    parts[1::2] = [part.replace(separator, "\0") for part in parts[1::2]]
-    return [item.replace("\0", separator).strip() for item in "".join(parts).split(separator)]
+    return [item.strip() for item in next(csv.reader([line], delimiter=separator, skipinitialspace=True))]
 
 
 def filled(items):
@@ -108,7 +105,7 @@ class Table:
 
     def __init__(self, text, refuse, separators=";\t, "):
         self.rows, self.names, self.line_above, self.refuse = [], [], None, refuse
-        lines = _lines_of(text)
+        lines, self._comments = _lines_of(text)
         shape, self.separator = self._choose(lines, separators)
         if not shape:
             self._refuse_no_row(lines, separators)
@@ -123,11 +120,11 @@ class Table:
         return max(self.n_columns, len(self.names))
 
     def _items(self, line):
-        return _split(line.text, self.separator)
+        return split(line[1], self.separator)
 
     @staticmethod
     def has_rows(text, separators):
-        return bool(Table._choose(_lines_of(text), separators)[0])
+        return bool(Table._choose(_lines_of(text)[0], separators)[0])
 
     @staticmethod
     def _choose(lines, separators):
@@ -135,11 +132,10 @@ class Table:
         best, most = ("", ";"), 0
         for separator in separators:
             weights = {}
-            for line in lines[:1000]:
-                if not line.is_comment:
-                    shape = _shape_of(_split(line.text, separator))
-                    # with a wrong separator there are numbers and texts, too
-                    weights[shape] = weights.get(shape, 0) + (1 if "x" in shape else 2)
+            for _, line in lines[:1000]:
+                shape = _shape_of(split(line, separator))
+                # with a wrong separator there are numbers and texts, too
+                weights[shape] = weights.get(shape, 0) + (1 if "x" in shape else 2)
             weights.pop("", None)
             for shape in sorted(weights):
                 if weights[shape] > most:
@@ -147,18 +143,16 @@ class Table:
         return best
 
     def _refuse_no_row(self, lines, separators):
-        cells = [(line.number, item) for line in lines if not line.is_comment for separator in separators
-                 for item in _split(line.text, separator)]
+        cells = [(number, item) for number, line in lines for separator in separators for item in split(line, separator)]
         odd = next((f"; '{shortened(item)}' in line {number}{remark_on(item)}" for number, item in cells
                     if _kind(item) == "text" and (_THOUSANDS.fullmatch(item) or _NUMBER_AND_UNIT.fullmatch(item))), "")
-        first = f", and its first line is '{shortened(lines[0].text)}'" if lines else ""
+        first = f", and its first line is '{shortened(lines[0][1])}'" if lines else ""
         self.refuse("this file holds no row of numbers; expected are two columns or more, separated by commas, semicolons, "
                     f"tabs or blanks{first}{odd}")
 
     def _first_row(self, lines, shape, begin):
         """The first line from `begin` on that is a row of this shape."""
-        return next((i for i in range(begin, len(lines))
-                     if not lines[i].is_comment and _shape_of(self._items(lines[i])) == shape), len(lines))
+        return next((i for i in range(begin, len(lines)) if _shape_of(self._items(lines[i])) == shape), len(lines))
 
     def _may_be_names(self, items, row):
         """Whether a line has no numbers, and as many items as rows."""
@@ -167,39 +161,34 @@ class Table:
 
     def _has_numbers_only(self, line):
         kinds = {_kind(item) for item in filled(self._items(line))}
-        return not line.is_comment and "number" in kinds and kinds <= {"number", "nothing"}
+        return "number" in kinds and kinds <= {"number", "nothing"}
 
     def _read_rows(self, lines, shape):
         first = self._first_row(lines, shape, 0)
         # rows that lack a value, or have one too many
-        for i in reversed(range(first)):
-            if self._has_numbers_only(lines[i]):
-                first = i
-            elif not lines[i].is_comment:
-                break
+        while first > 0 and self._has_numbers_only(lines[first - 1]):
+            first -= 1
         self._find_names(lines, first)
-        i = first
-        while i < len(lines):
+        for i in range(first, len(lines)):
             items = self._items(lines[i])
-            if not lines[i].is_comment and filled(items):
-                if self.rows and self._may_be_names(items, self.rows[0][1]):
-                    # numbers above the names are a date, say
-                    following = self._first_row(lines, shape, i)
-                    if self.names or following == len(lines):
-                        self.refuse(f"line {lines[i].number} has names in the place of numbers: keep one table in the file, "
-                                    "and remove what is not part of it")
-                    self.rows = []
-                    self._find_names(lines, following)
-                    i = following
-                    continue
-                self.rows.append((lines[i].number, items))
-            i += 1
+            if i < first or not filled(items):
+                continue
+            if self.rows and self._may_be_names(items, self.rows[0][1]):
+                # numbers above the names are a date, say
+                first = self._first_row(lines, shape, i)
+                if self.names or first == len(lines):
+                    self.refuse(f"line {lines[i][0]} has names in the place of numbers: keep one table in the file, and remove "
+                                "what is not part of it")
+                self.rows = []
+                self._find_names(lines, first)
+            else:
+                self.rows.append((lines[i][0], items))
 
     def _find_names(self, lines, first):
         """Names, or names and units below, right above the row `first`; else those in a comment there."""
         row = self._items(lines[first])
         self.line_above = None
-        for line in reversed([line for line in lines[:first] if not line.is_comment]):
+        for line in reversed(lines[:first]):
             above = self._items(line)
             if not self._may_be_names(above, row):
                 if not self.names:
@@ -214,8 +203,9 @@ class Table:
             self.names = above
             if not any(find_unit(name) or find_unit(name.strip("[]()")) for name in above):
                 break
-        if not self.names and first > 0 and lines[first - 1].is_comment:
-            items = _split(lines[first - 1].text.lstrip("#%/ "), self.separator)
+        comment = self._comments[lines[first][0]]
+        if not self.names and comment:
+            items = split(comment.strip().lstrip("#%/ "), self.separator)
             if self._may_be_names(items, row):
                 self.names = items
 
@@ -231,9 +221,9 @@ class Table:
         if not self.names and len(above) > 1 and any(map(unit_in, above)):
             number = next((item for item in above if value_of(item) is not None), None)
             if number and len(filled(above)) == n_first:
-                self.refuse(f"line {self.line_above.number} has '{number}' among the names or units of columns: expected names "
+                self.refuse(f"line {self.line_above[0]} has '{number}' among the names or units of columns: expected names "
                             "or units only")
-            self.refuse(f"line {self.line_above.number} names {len(filled(above))} columns, line {first} has {n_first} values"
+            self.refuse(f"line {self.line_above[0]} names {len(filled(above))} columns, line {first} has {n_first} values"
                         f"{what_to_do}")
         if self.separator != ",":
             return
@@ -265,7 +255,7 @@ class Table:
     def described(self):
         """The columns that there are, for messages."""
         if not self.names:
-            above = (f", since the line above the numbers, '{shortened(self.line_above.text)}', does not name as many (blanks "
+            above = (f", since the line above the numbers, '{shortened(self.line_above[1])}', does not name as many (blanks "
                      "in names are taken for separators where blanks separate)" if self.line_above else "")
             return f"this file has {self.n_columns} columns without names{above}"
         why = next(filter(None, map(why_ambiguous, self.names)), "")

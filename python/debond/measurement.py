@@ -40,15 +40,15 @@ def curve_column(scene, name, entry):
             return CurveColumn(name, position, "position", unit, k)
         if name == load or (k == 5 and name == "torque_Nmm"):
             return CurveColumn(name, "torque_Nmm" if name == "torque_Nmm" else load, "load", load_unit, k)
-    scene.refuse(entry, "there is no such curve: expected time, angle_deg, torque_Nmm or a column of torque.csv that begins with "
-                        "chuck_")
+    scene.refuse(entry, "there is no such curve: expected time, angle_deg, torque_Nmm or a column of torque.csv that begins "
+                        "with chuck_")
 
 
 def branches_of(over, least):
     """Between which turning points each value lies, 0 before the first. A curve turns where it goes back by more than `least`
     of its range."""
-    branch = numpy.zeros(len(over), dtype=int)
-    if len(over) == 0:
+    branch, steps = numpy.zeros(len(over), dtype=int), numpy.diff(over)
+    if (steps >= 0).all() or (steps <= 0).all():
         return branch
     tolerance = least * (over.max() - over.min())
     direction = n = extreme = 0
@@ -141,7 +141,8 @@ def _used_rows(scene, values, columns, over, table, branch, largest_shift):
     used = numpy.flatnonzero((window >= 0) & ~stays & ~turns & (implant >= least) & (implant <= most))
     if len(used) == 0:
         scene.refuse(ENTRY, f"{values[ENTRY]}: none of its {len(places)} rows, {over.name} from {places.min():.4g} to "
-                            f"{places.max():.4g}, is in Calibration / Windows and what the scene comes to, {least:.4g} to {most:.4g}")
+                            f"{places.max():.4g}, is in Calibration / Windows and what the scene comes to, {least:.4g} to "
+                            f"{most:.4g}")
     return used, window[used]
 
 

@@ -38,8 +38,8 @@ def _team(comm):
         return _debond.Team(0)
     mpi = sys.modules.get("mpi4py.MPI")
     if mpi is None or not isinstance(comm, mpi.Intracomm):
-        raise SceneError(f"comm: {type(comm).__name__}: expected a communicator of mpi4py within a group of processes to which this one "
-                         "belongs, as MPI.COMM_WORLD")
+        raise SceneError(f"comm: {type(comm).__name__}: expected a communicator of mpi4py within a group of processes to which "
+                         "this one belongs, as MPI.COMM_WORLD")
     theirs, ours = mpi.Get_library_version(), _debond.mpi_library
     if theirs != ours:
         raise SceneError(f"comm: mpi4py was built with {theirs:.60}, debond with {ours:.60}: expected the same MPI library")
@@ -118,8 +118,8 @@ class Scene:
         self._tables = []  # files live as long as the scene
         if law is not None:
             if not (isinstance(law, (tuple, list)) and len(law) == 2 and callable(law[0])):
-                raise SceneError(f"law: {law!r:.60}: expected a pair, (function, distance [mm]): phi over the sliding distance, "
-                                 "and the distance after which it is constant")
+                raise SceneError(f"law: {law!r:.60}: expected a pair, (function, distance [mm]): phi over the sliding "
+                                 "distance, and the distance after which it is constant")
             overrides += ["Interface/Friction law=table", "Interface/Friction table=" + self._write_table(*law)]
         entries = []
         if filename is not None:

@@ -8,7 +8,6 @@ any entry of the scene, with the value that this specimen has, in the entry's un
 template. Files are named relative to the table. Semicolons, tabs or commas separate; lines that begin with # are comments.
 """
 
-import csv
 import difflib
 import os
 import re
@@ -18,7 +17,7 @@ from typing import Dict, List
 import _debond
 
 from .errors import InputError, shortened
-from .layout import value_of, with_plain_marks
+from .layout import filled, split, value_of, with_plain_marks
 from .measured import texts_of
 from .unknowns import Unknowns
 
@@ -39,11 +38,6 @@ class Specimen:
     place: str  # "specimens.csv: line 3", for messages
 
 
-def _separator(line):
-    """What separates most items of the line of names."""
-    return max(";\t,", key=lambda separator: len(next(csv.reader([line], delimiter=separator))))
-
-
 def _lines_of(filename):
     """(what the line is called, its items) of all lines that are not empty; and whether commas may be those of decimals."""
 
@@ -55,10 +49,10 @@ def _lines_of(filename):
              if line.strip(" \t;,") and not line.lstrip().startswith("#")]
     if not lines:
         refuse(f"this table is empty: expected a line of names, {', '.join(OWN)} or entries, and a row for each specimen")
-    separator = "\t" if sheet else _separator(lines[0][1])
+    # what separates most items of the line of names
+    separator = "\t" if sheet else max(";\t,", key=lambda separator: len(split(lines[0][1], separator)))
     word = f"sheet '{sheet}', row" if sheet else "line"
-    return [(f"{filename}: {word} {number}", [item.strip() for item in next(csv.reader([line], delimiter=separator))])
-            for number, line in lines], separator != ","
+    return [(f"{filename}: {word} {number}", split(line, separator)) for number, line in lines], separator != ","
 
 
 def _column_of(name, known, place):
@@ -110,8 +104,9 @@ def _specimen(place, fields, known, has_decimal_commas, directory):
             continue
         if os.path.isfile(os.path.join(directory, text)):
             text = os.path.join(directory, text)
-        elif has_decimal_commas and "," not in known[column] and value_of(with_plain_marks(text)) is not None:
-            text = repr(value_of(with_plain_marks(text)))
+        elif has_decimal_commas and "," not in known[column]:
+            value = value_of(with_plain_marks(text))
+            text = text if value is None else repr(value)
         entries[column] = text
     return Specimen(name, group, fields["curve"], entries, place)
 
@@ -125,15 +120,15 @@ def _scene_of(template, changes=()):
 
 
 def _check_entries(specimen, template):
-    """Whether the scene may have each of these values."""
-    for column, text in specimen.entries.items():
-        try:
-            _scene_of(template, [f"{column}={text}"])
-        except InputError as error:
-            why = str(error)
-            if error.entry == column:  # "ENTRY = 'TEXT': expected ..."
-                why = why[why.rindex("expected "):] if "expected " in why else why
-            raise InputError(f"{specimen.place}, column '{column}': read '{shortened(text)}': {why}") from None
+    """Whether the scene may have these values."""
+    try:
+        _scene_of(template, [f"{column}={text}" for column, text in specimen.entries.items()])
+    except InputError as error:
+        text, why = specimen.entries.get(error.entry), str(error)
+        if text is None:
+            raise InputError(f"{specimen.place}: {why}") from None
+        why = why[why.rindex("expected "):] if "expected " in why else why  # "ENTRY = 'TEXT': expected ..."
+        raise InputError(f"{specimen.place}, column '{error.entry}': read '{shortened(text)}': {why}") from None
 
 
 def read_specimens(filename, template) -> List[Specimen]:
@@ -142,15 +137,12 @@ def read_specimens(filename, template) -> List[Specimen]:
     filename = os.fspath(filename)
     known = _scene_of(template).values
     ((place, names), *rows), has_decimal_commas = _lines_of(filename)
-    while names and not names[-1]:
-        names.pop()
-    columns, specimens = _columns_of(names, known, place), []
+    columns, specimens = _columns_of(filled(names), known, place), []
     for place, items in rows:
-        while len(items) > len(columns) and not items[-1]:
-            items.pop()
+        items = filled(items)
         if len(items) > len(columns):
             raise InputError(f"{place}: read {len(items)} items: expected at most {len(columns)}, as many as there are names")
-        fields = dict(zip(columns, items + [""] * (len(columns) - len(items))))
+        fields = {**dict.fromkeys(columns, ""), **dict(zip(columns, items))}
         specimen = _specimen(place, fields, known, has_decimal_commas, os.path.dirname(filename))
         for other in specimens:
             if other.name.lower() == specimen.name.lower():

@@ -131,12 +131,15 @@ def _fit_all(specimens, scene, table, directory, executor, n_jobs, say):
     n_done = len(tasks) - len(left)
     say(f"{len(tasks)} specimen" + "s" * (len(tasks) != 1) + f", {n_done} of them done already" * (n_done > 0))
 
-    def plain_result(result):
+    def said(result):
+        """Of what has failed {"reason"}; the others go on."""
+        if isinstance(result, (InputError, RunError)):
+            return {"reason": str(result)}
         return {"reason": f"{type(result).__name__}: {result}"} if isinstance(result, Exception) else result
 
     results.update(results_of(fit_one, left, executor, n_jobs,
-                              lambda name, result: say(f"{name}: {plain_result(result).get('reason', 'done')}")))
-    return {name: plain_result(result) for name, result in results.items()}
+                              lambda name, result: say(f"{name}: {said(result).get('reason', 'done')}")))
+    return {name: said(result) for name, result in results.items()}
 
 
 def main(arguments) -> int:

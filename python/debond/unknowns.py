@@ -8,32 +8,24 @@
 
 import math
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy
 
 import _debond
+
+from .errors import shortened
 
 _EXPECTED = ("expected <<START in LOWER..UPPER>>, <<START in LOWER..UPPER log>>, <<NAME: START in LOWER..UPPER>> or "
              "<<EXPRESSION>> in such names")
 _UNKNOWN = re.compile(r"(?P<start>.*?) in (?P<lower>.*?)\.\.(?P<upper>.*?)(?P<log> log)?$", re.S)
 
 
-def _short(text):
-    return text if len(text) <= 60 else text[:57] + "..."
-
-
-def _exact(number):
-    text = repr(number)
-    return text[:-2] if text.endswith(".0") else text
-
-
 def _number(text):
     try:
-        value = float(text)
+        return float(text) if re.fullmatch(r"[-+0-9.eE]+", text.strip()) else math.nan
     except ValueError:
         return math.nan
-    return value if re.fullmatch(r"[-+0-9.eE]+", text.strip()) else math.nan
 
 
 @dataclass
@@ -46,26 +38,27 @@ class Unknown:
     upper: float
     logarithmic: bool
     unit: str = ""
-    entry: object = field(default=None, repr=False, compare=False)  # that says so, for messages
+    entry: object = None  # that says so, for messages
 
 
 def _read(entry, text):
     match = _UNKNOWN.match(text)
     start = _number(match["start"]) if match else math.nan
     if math.isnan(start):
-        entry.refuse(f"'{_short(text)}': {_EXPECTED}")
+        entry.refuse(f"'{shortened(text)}': {_EXPECTED}")
     lower, upper = _number(match["lower"]), _number(match["upper"])
     if math.isnan(lower) or math.isnan(upper):
-        entry.refuse(f"the bounds '{_short(text[text.index(' in ') + 4:])}' are no numbers: {_EXPECTED}")
+        entry.refuse(f"the bounds '{shortened(text[text.index(' in ') + 4:])}' are no numbers: {_EXPECTED}")
     if not lower < upper or not lower <= start <= upper:
-        entry.refuse(f"'{_short(text)}': expected LOWER < UPPER and START between them")
+        entry.refuse(f"'{shortened(text)}': expected LOWER < UPPER and START between them")
     if match["log"] and lower <= 0:
-        entry.refuse(f"'{_short(text)}': a logarithm needs bounds above 0")
+        entry.refuse(f"'{shortened(text)}': a logarithm needs bounds above 0")
     return Unknown("", start, lower, upper, bool(match["log"]), "", entry)
 
 
 class Unknowns:
-    """Those of all experiments of a scene. `list`: of Unknown; values of all of them are arrays in its order.
+    """Those of all experiments of a scene. `list`: of Unknown; `names`, and `starts`, `lower`, `upper` and `logarithmic`, which
+    are arrays as all values are, in its order.
 
     An unknown that has a name, or whose entry has one value for all experiments, is the same in all of them; else each has
     its own."""
@@ -84,6 +77,10 @@ class Unknowns:
             for i, mark in enumerate(marks):
                 if isinstance(mark, str):
                     marks[i] = self._expression(entry, names, mark)
+        self.names = [unknown.name for unknown in self.list]
+        self.starts, self.lower, self.upper, self.logarithmic = (
+            numpy.array([getattr(unknown, member) for unknown in self.list], dtype=kind)
+            for member, kind in (("start", float), ("lower", float), ("upper", float), ("logarithmic", bool)))
 
     def _read_entry(self, number, entry, is_shared):
         pieces = re.split(r"<<(.*?)>>", entry.value, flags=re.S)
@@ -95,15 +92,14 @@ class Unknowns:
             name, colon, rest = mark.partition(":")
             name = name.strip()
             if colon and not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{0,99}", name):
-                entry.refuse(f"'{_short(name)}' is no name of letters, digits and _: {_EXPECTED}")
+                entry.refuse(f"'{shortened(name)}' is no name of letters, digits and _: {_EXPECTED}")
             if not colon and " in " not in mark:
                 marks.append(mark)  # an expression, read once all names are known
                 continue
             unknown = _read(entry, (rest if colon else mark).strip())
             unknown.unit = _debond.unit_of(entry.name) if alone else ""
-            unknown.name = name if colon else (entry.name
-                                               + (f" (experiment {number + 1})" if self._n_experiments > 1 and not is_shared else "")
-                                               + (f" #{len(marks) + 1}" if marks else ""))
+            which = f" (experiment {number + 1})" if self._n_experiments > 1 and not is_shared else ""
+            unknown.name = name if colon else entry.name + which + (f" #{len(marks) + 1}" if marks else "")
             marks.append(self._add(unknown, bool(colon)))
         return entry, texts, marks
 
@@ -113,7 +109,7 @@ class Unknowns:
                 if (other.start, other.lower, other.upper, other.logarithmic) != (unknown.start, unknown.lower, unknown.upper,
                                                                                   unknown.logarithmic):
                     unknown.entry.refuse(f"the unknown '{unknown.name}' is described differently in {other.entry.name} = "
-                                         f"'{_short(other.entry.value)}'")
+                                         f"'{shortened(other.entry.value)}'")
                 other.unit = other.unit or unknown.unit
                 return i
         if has_name:
@@ -128,27 +124,7 @@ class Unknowns:
         try:
             return text, _debond.expression(names, text)
         except ValueError as error:
-            entry.refuse(f"<<{_short(text)}>>: {error}; {_EXPECTED}")
-
-    @property
-    def names(self):
-        return [unknown.name for unknown in self.list]
-
-    @property
-    def starts(self):
-        return numpy.array([unknown.start for unknown in self.list])
-
-    @property
-    def lower(self):
-        return numpy.array([unknown.lower for unknown in self.list])
-
-    @property
-    def upper(self):
-        return numpy.array([unknown.upper for unknown in self.list])
-
-    @property
-    def logarithmic(self):
-        return numpy.array([unknown.logarithmic for unknown in self.list], dtype=bool)
+            entry.refuse(f"<<{shortened(text)}>>: {error}; {_EXPECTED}")
 
     def to_search(self, values):
         """What a search takes: numbers, or their logarithms."""
@@ -180,7 +156,8 @@ class Unknowns:
                                      "what has none")
                 else:
                     number = float(values[mark])
+                exact = repr(number).removesuffix(".0")
                 # in an expression of the scene a minus may stand before it
-                text += (_exact(number) if alone or number >= 0 else f"({_exact(number)})") + after
+                text += (exact if alone or number >= 0 else f"({exact})") + after
             result[entry.name] = text
         return result

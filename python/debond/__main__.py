@@ -9,22 +9,71 @@ specimens SCENE TABLE fit many specimens
 """
 
 import importlib
+import os
 import sys
 
-COMMANDS = ("calibrate", "compare", "ensemble", "measured", "page", "specimens")
+from .errors import InputError, RunError
+
+PROCESSORS = os.cpu_count()
+#: Of each command what it is given, how many files, and its options with their values where they are not said: a text, a number
+#: from 1 on, a list of texts, or False of what has no value.
+COMMANDS = {
+    "calibrate": ("SCENE.prm [--set ENTRY=VALUE]... [--threads N] [--force] [--check]", 1,
+                  {"--set": [], "--threads": PROCESSORS, "--force": False, "--check": False}),
+    "compare": ("DIR CURVE [--columns LIST], a directory of results and a measured curve", 2, {"--columns": ""}),
+    "ensemble": ("DIR, a finished study", 1, {}),
+    "measured": ("FILE [--columns LIST] [--curves angle_deg,torque_Nmm]", 1,
+                 {"--columns": "", "--curves": "angle_deg,torque_Nmm", "--entry": "FILE", "--columns-entry": "--columns"}),
+    "page": ("DIR, a directory of results", 1, {}),
+    "specimens": ("TEMPLATE.prm TABLE [--out DIR] [--jobs N]", 2, {"--out": "", "--jobs": PROCESSORS}),
+}
 PACKAGES = {"_debond": "build debond with pybind11, apt install pybind11-dev python3-dev"}
 
 
+def _read(words, usage, n_files, options):
+    """Files and options of a command line. Raises InputError."""
+    files, options, words = [], dict(options), list(words)
+    while words:
+        word = words.pop(0)
+        name, equals, value = word.partition("=")
+        before = options.get(name)
+        if before is False and not equals:
+            options[name] = True
+        elif name in options and (equals or words):
+            value = value if equals else words.pop(0)
+            if isinstance(before, int) and not (value.isdigit() and int(value) > 0):
+                raise InputError(f"{name} {value}: expected a number from 1 on")
+            options[name] = [*before, value] if isinstance(before, list) else type(before)(value)
+        elif word.startswith("-"):
+            raise InputError(f"{word}: expected {usage}")
+        else:
+            files.append(word)
+    if len(files) != n_files:
+        raise InputError(f"expected {usage}")
+    return files, options
+
+
 def main(words) -> int:
+    """Runs a command; returns the exit code: 1 if something wrong was given, 2 if it could not be finished or written."""
     if not words or words[0] not in COMMANDS:
         print(__doc__, file=sys.stderr)
         return 1
     try:
-        return importlib.import_module("debond." + words[0]).main(words[1:])
+        files, options = _read(words[1:], *COMMANDS[words[0]])
+        return importlib.import_module("debond." + words[0]).main(*files, options) or 0
     except ImportError as error:
         needed = PACKAGES.get(error.name, f"apt install python3-{error.name}")
         print(f"debond: '{words[0]}' needs the module {error.name} of Python: {needed}", file=sys.stderr)
         return 1
+    except (InputError, OSError) as error:
+        print(error, file=sys.stderr)
+        return 1
+    except RunError as error:
+        print(error, file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("interrupted: the same command goes on, without --force", file=sys.stderr)
+        return 130
 
 
 if __name__ == "__main__":

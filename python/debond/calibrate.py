@@ -1,14 +1,9 @@
-"""A scene with `Task = calibrate` as the program runs it: into its directory, with all files.
+"""A scene with `Task = calibrate` as the program runs it: into its directory, with all files."""
 
-    python3 -m debond.calibrate SCENE.prm [--set ENTRY=VALUE]... [--threads N] [--force] [--check]
-"""
-
-import argparse
 import hashlib
 import json
 import math
 import os
-import sys
 from typing import Any, Dict
 
 import numpy
@@ -16,7 +11,7 @@ import numpy
 import _debond
 
 from . import intervals
-from .errors import InputError, RunError
+from .errors import RunError
 from .experiment import RIG
 from .files import csv_text, write_whole
 from .fit import fit_problem, problem_of
@@ -220,34 +215,12 @@ def check_lines(problem):
                    "unit turns it, as in Reference columns = 1 [deg], 2 [-N m]")
 
 
-def main(arguments) -> int:
-    """The command; returns the exit code."""
-    parser = argparse.ArgumentParser(prog="python3 -m debond.calibrate", description=__doc__.splitlines()[0])
-    parser.add_argument("scene")
-    parser.add_argument("--set", action="append", default=[], metavar="ENTRY=VALUE")
-    parser.add_argument("--threads", type=int, default=os.cpu_count())
-    parser.add_argument("--force", action="store_true")
-    parser.add_argument("--check", action="store_true")
-    options = parser.parse_args(arguments)
-    try:
-        scene = Scene(options.scene)
-        scene._entries = _debond.changed(scene._entries, options.set, "--set")
-        if options.check:
-            for line in check_lines(problem_of(scene)):
-                print(line)
-        else:
-            calibrate(scene, options.threads, options.force, say=lambda text: print(text, flush=True))
-    except InputError as error:
-        print(error, file=sys.stderr)
-        return 1
-    except RunError as error:
-        print(error, file=sys.stderr)
-        return 2
-    except KeyboardInterrupt:
-        print("interrupted: the same calibration without --force goes on", file=sys.stderr)
-        return 130
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+def main(scene, options):
+    """The command."""
+    scene = Scene(scene)
+    scene._entries = _debond.changed(scene._entries, options["--set"], "--set")
+    if options["--check"]:
+        for line in check_lines(problem_of(scene)):
+            print(line)
+    else:
+        calibrate(scene, options["--threads"], options["--force"], say=lambda text: print(text, flush=True))

@@ -2,12 +2,9 @@
 
     from debond.compare import compare
     print(compare("output/run", "measured.csv", "2 [deg], 3 [N m]").text)
-
-    python3 -m debond.compare DIR CURVE [--columns LIST]
 """
 
 import os
-import sys
 from dataclasses import dataclass, field
 from typing import Dict
 
@@ -17,7 +14,7 @@ from _debond import CurveComparison
 
 from .ensemble import CURVE, torques_at
 from .errors import InputError
-from .measured import options_of, read_measured, read_measured_and_say
+from .measured import read_measured, read_measured_and_say
 from .page_data import curve_file, read_table, rows_of, varied_in
 
 
@@ -94,17 +91,6 @@ def compare(directory, curve, columns=()) -> Comparisons:
     return found
 
 
-def main(arguments) -> int:
-    """Prints the comparison; returns the exit code."""
-    try:
-        files, options = options_of(arguments, 2, {"--columns": ""}, "DIR CURVE [--columns LIST], a directory of results and a "
-                                    "measured curve")
-        print(compare(*files, options["--columns"]).text, end="")
-    except InputError as error:
-        print(error, file=sys.stderr)
-        return 1
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+def main(directory, curve, options):
+    """The command."""
+    print(compare(directory, curve, options["--columns"]).text, end="")

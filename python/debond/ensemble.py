@@ -1,7 +1,5 @@
 """Statistics over the variants of a finished study that differ by chance only, in the seed of their random patterns.
 
-    python3 -m debond.ensemble DIR [--over ENTRY]
-
 Reads study.csv, and summary.json and the curve of each variant; writes ensemble.csv and ensemble_summary.csv, which
 doc/results.md describes.
 """
@@ -9,14 +7,13 @@ doc/results.md describes.
 import io
 import json
 import os
-import sys
 from typing import Any, List, NamedTuple
 
 import numpy
 
-from .errors import InputError, RunError
+from .errors import InputError
 from .files import csv_text, write_whole
-from .measured import options_of, read_measured
+from .measured import read_measured
 from .page_data import curve_file, n_rows, read_table, varied_in
 
 CURVE = ("angle_deg", "torque_Nmm")
@@ -91,14 +88,14 @@ def band_of(curves):
     return angles, numpy.isfinite(torques).sum(axis=0), statistics_of(torques), sum(pair[0] is None for pair in pairs)
 
 
-def _members(directory, over):
-    """Names of the varied entries but `over`; of each group the members, {values: [(summary, curve), None if it failed]}."""
+def _members(directory):
+    """Names of the varied entries but the seed; of each group the members, {values: [(summary, curve), None if it failed]}."""
     table = read_table(os.path.join(directory, "study.csv"))
     if not n_rows(table):
         raise InputError(f"{directory}: there is no study in this directory, no study.csv with rows")
-    if over not in table:
-        raise InputError(f"{directory}/study.csv: this study varies {', '.join(varied_in(table)) or 'nothing'}, not {over}")
-    entries, groups = [name for name in varied_in(table) if name != over], {}
+    if CHANCE not in table:
+        raise InputError(f"{directory}/study.csv: this study varies {', '.join(varied_in(table)) or 'nothing'}, not {CHANCE}")
+    entries, groups = [name for name in varied_in(table) if name != CHANCE], {}
     for i, number in enumerate(table["variant"]):
         member, place = None, os.path.join(directory, f"variant-{int(number):03d}")
         if table["converged"][i] == "true":
@@ -108,10 +105,10 @@ def _members(directory, over):
     return entries, groups
 
 
-def _tables(directory, over):
+def _tables(directory):
     """Header and rows of ensemble.csv, those of ensemble_summary.csv, and notes."""
     try:
-        entries, groups = _members(directory, over)
+        entries, groups = _members(directory)
     except (OSError, ValueError) as error:
         raise error if isinstance(error, InputError) else InputError(f"{directory}: {error}") from None
     names = [name + kind + unit for name, unit in QUANTITIES for kind in STATISTICS]
@@ -131,38 +128,27 @@ def _tables(directory, over):
     return curves, summary, notes
 
 
-def write_ensemble(directory, over: str = CHANCE) -> List[str]:
+def write_ensemble(directory) -> List[str]:
     """Writes ensemble.csv and ensemble_summary.csv into the directory of a finished study; returns what had to be left out, for
     people. Raises as ensemble(), and RunError if a file cannot be written."""
-    curves, summary, notes = _tables(directory, over)
+    curves, summary, notes = _tables(directory)
     for name, table in (("ensemble.csv", curves), ("ensemble_summary.csv", summary)):
         write_whole(os.path.join(directory, name), csv_text(*table, digits=12))
     return notes
 
 
-def ensemble(directory, over: str = CHANCE) -> Ensemble:
-    """Statistics over the members of each group of a finished study: variants that agree in all varied entries but `over`.
+def ensemble(directory) -> Ensemble:
+    """Statistics over the members of each group of a finished study: variants that agree in all varied entries but the seed.
     Units are those in the names of columns. Writes nothing: write_ensemble() does. Raises InputError if there is no such study
     or a file of it cannot be read, ImportError without pandas."""
     import pandas
 
-    *tables, notes = _tables(os.fspath(directory), over)
+    *tables, notes = _tables(os.fspath(directory))
     return Ensemble(*(pandas.read_csv(io.StringIO(csv_text(*table)), float_precision="round_trip") for table in tables), notes)
 
 
-def main(arguments) -> int:
-    """The command; returns the exit code: 1 if there is no such study, 2 if the files cannot be written."""
-    try:
-        (directory,), options = options_of(arguments, 1, {"--over": CHANCE}, "DIR [--over ENTRY], a finished study")
-        for note in write_ensemble(directory, options["--over"]):
-            print(note)
-        over = "all seeds" if options["--over"] == CHANCE else "all of " + options["--over"]
-        print(f"Statistics over {over} are in {directory}/ensemble.csv and ensemble_summary.csv")
-    except (InputError, RunError) as error:
-        print(f"debond.ensemble: {error}", file=sys.stderr)
-        return 2 if isinstance(error, RunError) else 1
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+def main(directory, options):
+    """The command."""
+    for note in write_ensemble(directory):
+        print(note)
+    print(f"Statistics over all seeds are in {directory}/ensemble.csv and ensemble_summary.csv")

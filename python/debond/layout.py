@@ -4,6 +4,7 @@ called. measured.py says what is understood."""
 import csv
 import re
 import sys
+from collections import Counter
 
 from .errors import shortened
 from .units import find_unit, unit_in, why_ambiguous
@@ -62,7 +63,7 @@ def remark_on(item: str) -> str:
 
 
 def _lines_of(text):
-    """Number from 1 and text of the lines that are neither empty nor comments; and comments, by the number of the line below."""
+    """Number from 1 and text of lines that are neither empty nor comments; comments by the number of the line below."""
     lines, comments, above = [], {}, None
     for number, line in enumerate(text.split("\n"), 1):
         if line.strip().startswith(("#", "%", "//")):
@@ -110,7 +111,7 @@ class Table:
         if not shape:
             self._refuse_no_row(lines, separators)
         self.n_columns = len(shape)
-        self._read_rows(lines, shape)
+        self._read_rows([(number, split(line, self.separator)) for number, line in lines], shape)
         self._refuse_decimal_commas()
         self._refuse_thousands()
 
@@ -119,9 +120,6 @@ class Table:
         """How many columns can be read."""
         return max(self.n_columns, len(self.names))
 
-    def _items(self, line):
-        return split(line[1], self.separator)
-
     @staticmethod
     def has_rows(text, separators):
         return bool(Table._choose(_lines_of(text)[0], separators)[0])
@@ -129,18 +127,13 @@ class Table:
     @staticmethod
     def _choose(lines, separators):
         """The shape and the separator with which most of the first lines are rows of the same shape."""
-        best, most = ("", ";"), 0
+        weights = Counter()
         for separator in separators:
-            weights = {}
             for _, line in lines[:1000]:
-                shape = _shape_of(split(line, separator))
-                # with a wrong separator there are numbers and texts, too
-                weights[shape] = weights.get(shape, 0) + (1 if "x" in shape else 2)
-            weights.pop("", None)
-            for shape in sorted(weights):
-                if weights[shape] > most:
-                    best, most = (shape, separator), weights[shape]
-        return best
+                if shape := _shape_of(split(line, separator)):
+                    # with a wrong separator there are numbers and texts, too
+                    weights[shape, separator] += 1 if "x" in shape else 2
+        return max(weights, key=lambda key: (weights[key], -separators.index(key[1]), -len(key[0])), default=("", ";"))
 
     def _refuse_no_row(self, lines, separators):
         cells = [(number, item) for number, line in lines for separator in separators for item in split(line, separator)]
@@ -152,49 +145,42 @@ class Table:
 
     def _first_row(self, lines, shape, begin):
         """The first line from `begin` on that is a row of this shape."""
-        return next((i for i in range(begin, len(lines)) if _shape_of(self._items(lines[i])) == shape), len(lines))
+        return next((i for i in range(begin, len(lines)) if _shape_of(lines[i][1]) == shape), len(lines))
 
     def _may_be_names(self, items, row):
         """Whether a line has no numbers, and as many items as rows."""
         return (self.n_columns <= len(filled(items)) <= max(self.n_columns, len(row)) and
                 all(value_of(item) is None for item in items) and any(_kind(item) == "text" for item in items))
 
-    def _has_numbers_only(self, line):
-        kinds = {_kind(item) for item in filled(self._items(line))}
-        return "number" in kinds and kinds <= {"number", "nothing"}
-
     def _read_rows(self, lines, shape):
         first = self._first_row(lines, shape, 0)
         # rows that lack a value, or have one too many
-        while first > 0 and self._has_numbers_only(lines[first - 1]):
+        while first > 0 and {"number"} <= set(map(_kind, filled(lines[first - 1][1]))) <= {"number", "nothing"}:
             first -= 1
         self._find_names(lines, first)
-        for i in range(first, len(lines)):
-            items = self._items(lines[i])
+        for i, (number, items) in enumerate(lines):
             if i < first or not filled(items):
                 continue
             if self.rows and self._may_be_names(items, self.rows[0][1]):
                 # numbers above the names are a date, say
                 first = self._first_row(lines, shape, i)
                 if self.names or first == len(lines):
-                    self.refuse(f"line {lines[i][0]} has names in the place of numbers: keep one table in the file, and remove "
-                                "what is not part of it")
+                    self.refuse(f"line {number} has names in the place of numbers: keep one table in the file, and remove what "
+                                "is not part of it")
                 self.rows = []
                 self._find_names(lines, first)
             else:
-                self.rows.append((lines[i][0], items))
+                self.rows.append((number, items))
 
     def _find_names(self, lines, first):
         """Names, or names and units below, right above the row `first`; else those in a comment there."""
-        row = self._items(lines[first])
+        number, row = lines[first]
         self.line_above = None
         for line in reversed(lines[:first]):
-            above = self._items(line)
+            above = filled(line[1])
             if not self._may_be_names(above, row):
-                if not self.names:
-                    self.line_above = line
+                self.line_above = None if self.names else line
                 break
-            above = filled(above)
             if self.names:  # these are units
                 above += [""] * (len(self.names) - len(above))
                 self.names = [f"{name} [{unit}]".strip() if find_unit(unit) else f"{name} {unit}".strip()
@@ -203,7 +189,7 @@ class Table:
             self.names = above
             if not any(find_unit(name) or find_unit(name.strip("[]()")) for name in above):
                 break
-        comment = self._comments[lines[first][0]]
+        comment = self._comments[number]
         if not self.names and comment:
             items = split(comment.strip().lstrip("#%/ "), self.separator)
             if self._may_be_names(items, row):
@@ -217,14 +203,12 @@ class Table:
         if self.separator == ",":
             what_to_do = ": if decimals have commas, separate the columns with semicolons"
         first, n_first = self.rows[0][0], len(filled(self.rows[0][1]))
-        above = self._items(self.line_above) if self.line_above else []
+        line, above = self.line_above or (0, [])
         if not self.names and len(above) > 1 and any(map(unit_in, above)):
             number = next((item for item in above if value_of(item) is not None), None)
             if number and len(filled(above)) == n_first:
-                self.refuse(f"line {self.line_above[0]} has '{number}' among the names or units of columns: expected names "
-                            "or units only")
-            self.refuse(f"line {self.line_above[0]} names {len(filled(above))} columns, line {first} has {n_first} values"
-                        f"{what_to_do}")
+                self.refuse(f"line {line} has '{number}' among the names or units of columns: expected names or units only")
+            self.refuse(f"line {line} names {len(filled(above))} columns, line {first} has {n_first} values{what_to_do}")
         if self.separator != ",":
             return
         for number, items in self.rows:
@@ -255,8 +239,9 @@ class Table:
     def described(self):
         """The columns that there are, for messages."""
         if not self.names:
-            above = (f", since the line above the numbers, '{shortened(self.line_above[1])}', does not name as many (blanks "
-                     "in names are taken for separators where blanks separate)" if self.line_above else "")
+            above = shortened(self.separator.join(self.line_above[1])) if self.line_above else ""
+            above = above and (f", since the line above the numbers, '{above}', does not name as many (blanks in names are "
+                               "taken for separators where blanks separate)")
             return f"this file has {self.n_columns} columns without names{above}"
         why = next(filter(None, map(why_ambiguous, self.names)), "")
         return "the columns of this file are '" + "', '".join(self.names) + "'" + (f" ({why})" if why else "")

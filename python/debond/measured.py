@@ -3,7 +3,7 @@
     from debond.measured import read_measured
     angle_deg, torque_Nmm = read_measured("measured.csv", ("angle_deg", "torque_Nmm"), "2 [deg], 3 [-N m]")
 
-    python3 -m debond.measured FILE [--columns LIST] [--curves angle_deg,torque_Nmm] > plain.csv
+    python3 -m debond measured FILE [--columns LIST] [--curves angle_deg,torque_Nmm] > plain.csv
 
 Semicolons, tabs, commas or blanks separate items, in the way that makes most lines rows of numbers; these have a point or a
 comma, where commas separate in quotes. The first such line begins the table. The one or two lines above, if they have as many
@@ -15,8 +15,7 @@ Latin-1. Of a workbook (xlsx) the first sheet with numbers is read, in the same 
 import io
 import os
 import re
-import sys
-from typing import Dict, List, Mapping, Sequence, Tuple, Union
+from typing import List, Mapping, Sequence, Tuple, Union
 
 import numpy
 
@@ -71,19 +70,17 @@ def _text_of(content, refuse):
     """The text of a file of bytes, with plain ends of lines."""
     zeros = [byte == 0 for byte in content[:4]]
     if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        encodings = ["utf-16"]
+        encoding = "utf-16"
     elif zeros in ([False, True] * 2, [True, False] * 2):  # two letters without the mark
-        encodings = ["utf-16-be" if zeros[0] else "utf-16-le"]
+        encoding = "utf-16-be" if zeros[0] else "utf-16-le"
     else:
-        encodings = ["utf-8", "latin-1"]  # German Excel, for one, writes Latin-1 where it says CSV
-    for encoding in encodings:
-        try:
-            text = content.decode(encoding)
-            break
-        except UnicodeDecodeError:
-            continue
-    else:
-        refuse(f"this text begins as {encodings[0].upper()}, but is none")
+        encoding = "utf-8"
+    try:
+        text = content.decode(encoding)
+    except UnicodeDecodeError:
+        if encoding != "utf-8":
+            refuse(f"this text begins as {encoding.upper()}, but is none")
+        text = content.decode("latin-1")  # German Excel, for one, writes it where it says CSV
     if re.search("[\0-\x08\x0b\x0e-\x1f\x7f]", text):
         refuse("this is not a text file")
     return text.replace("\r\n", "\n").replace("\r", "\n")
@@ -201,45 +198,17 @@ def read_measured(filename, wanted: Sequence[str], columns: Union[str, Sequence[
     return read_measured_and_say(filename, wanted, columns, entry, columns_entry)[0]
 
 
-def options_of(arguments: Sequence[str], n_files: int, options: Mapping[str, str],
-               usage: str) -> Tuple[List[str], Dict[str, str]]:
-    """The `n_files` names on a command line, and its options, {"--name": value}, which have the values `options` if they are
-    not given. Raises InputError with the usage."""
-    files, options, words = [], dict(options), list(arguments)
-    while words:
-        word = words.pop(0)
-        name, equals, value = word.partition("=")
-        if name in options and equals:
-            options[name] = value
-        elif word in options and words:
-            options[word] = words.pop(0)
-        elif word.startswith("-"):
-            raise InputError(f"{word}: expected {usage}")
-        else:
-            files.append(word)
-    if len(files) != n_files:
-        raise InputError(f"expected {usage}")
-    return files, options
-
-
-def main(arguments: Sequence[str]) -> int:
+def main(filename: str, options: Mapping[str, str]) -> int:
     """Writes the columns of a measured table as plain CSV to the standard output; returns the exit code."""
+    names = [name.strip() for name in options["--curves"].split(",")]
     try:
-        files, options = options_of(arguments, 1, {"--columns": "", "--curves": "angle_deg,torque_Nmm", "--entry": "FILE",
-                                                   "--columns-entry": "--columns"},
-                                    "FILE [--columns LIST] [--curves angle_deg,torque_Nmm]")
-        names = [name.strip() for name in options["--curves"].split(",")]
-        values = read_measured(files[0], names, options["--columns"], options["--entry"], options["--columns-entry"])
+        values = read_measured(filename, names, options["--columns"], options["--entry"], options["--columns-entry"])
     except InputError as error:
-        if error.why is not None and options["--entry"] != "FILE":  # the program asks, and says it with the place of the entry
-            print(error.entry, error.value or "", error.why, sep="\n")
-        else:
-            print(f"debond.measured: {error}", file=sys.stderr)
+        if error.why is None or options["--entry"] == "FILE":
+            raise
+        # the program asks, and says it with the place of the entry
+        print(error.entry, error.value or "", error.why, sep="\n")
         return 1
     for row in [names, *(map(repr, row) for row in values.T.tolist())]:
         print(",".join(row))
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))

@@ -1,12 +1,10 @@
-"""Pages of results: `python3 -m debond.page DIR` writes DIR/report.html from the files in DIR.
+"""Pages of results: `python3 -m debond page DIR` writes DIR/report.html from the files in DIR.
 
 A page needs no other file and no network. It is written whole or not at all. Needs Jinja2 and nothing else.
 """
 
 import os
-import sys
 
-from debond.errors import RunError
 from debond.files import write_whole
 from debond.page_campaigns import context_of_calibration, context_of_study
 from debond.page_data import NoResults, members, number, short, shown, split_unit, table_of, with_unit
@@ -48,18 +46,6 @@ def write_page_if_possible(directory):
         pass
 
 
-def main(arguments):
-    """Exit codes: 0, or 1 if there are no results to read, or 2 if the page cannot be written."""
-    if len(arguments) != 1:
-        print("usage: python3 -m debond.page DIR", file=sys.stderr)
-        return 1
-    try:
-        write_page(arguments[0])
-    except (NoResults, OSError, RunError) as error:
-        print(f"debond.page: {error}", file=sys.stderr)
-        return 2 if isinstance(error, RunError) else 1
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+def main(directory, options):
+    """The command."""
+    write_page(directory)

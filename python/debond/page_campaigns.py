@@ -4,7 +4,8 @@ import os
 import re
 
 from debond.page_curve import Plot, colour
-from debond.page_data import curve_file, numbers, n_rows, read_entries, read_json, read_table, split_unit, unique, varied_in
+from debond.page_data import (curve_file, numbers, n_rows, read_entries, read_json, read_table, rows_of, split_unit, unique,
+                              varied_in)
 from debond.page_run import TORQUE, axes_of, files_of, origin_of, reference_of
 
 MOST_CURVES = 40    # more would hide each other, and make the page large
@@ -67,28 +68,27 @@ def with_reference(plot, directories, n_drawn, n, what):
 def bands_of_ensemble(directory, table, variants):
     """The mean curve of each group of an ensemble, and the band that holds 5 to 95 % of its members."""
     entries, groups = varied_in(table), {}
-    for i, key in enumerate(zip(*(table[name] for name in entries)) if entries else [()] * n_rows(table)):
-        groups.setdefault(key, []).append(i)
-    names = names_of(entries, list(groups))[0] if groups else []
-    all_groups = list(zip(names, groups.values()))
+    for row in rows_of(table):
+        groups.setdefault(tuple(row[name] for name in entries), []).append(row)
+    all_groups = list(zip(names_of(entries, list(groups))[0], groups.values()))
     some, plot = chosen(all_groups), Plot(*TORQUE[2:], "mean curves of the groups")
-    columns = {name: numbers(table[name]) for name in ("angle_deg", "torque_mean_Nmm", "torque_p05_Nmm", "torque_p95_Nmm")}
     for i, (name, rows) in enumerate(some):
-        xs, mean, low, high = ([column[k] for k in rows] for column in columns.values())
+        xs, mean, low, high = (numbers(row[column] for row in rows) for column in (
+            "angle_deg", "torque_mean_Nmm", "torque_p05_Nmm", "torque_p95_Nmm"))
         if len(some) <= MOST_BANDS:
             plot.band("5 to 95 %" + (f", {name}" if name else " of the members"), xs, low, high, colour(i, len(some)))
         plot.add(f"mean, {name}" if name else "mean", "line", xs, mean, colour(i, len(some)), most=20000 // len(some))
     return with_reference(plot, [directory, *variants[:1]], len(some), len(all_groups), "groups")
 
 
-def warnings_of_study(table, names):
+def warnings_of_study(rows, names):
     """Variants that failed, and what variants warn of; texts that differ in their numbers only are said once."""
     texts, said = [], {}
-    for i, variant in enumerate(table.get("variant", [])):
-        if table["converged"][i] != "true":
-            texts.append(f"variant {variant}, {names[i]}: {table['reason'][i] or 'not done'}")
-        for text in filter(None, (table[name][i] for name in ("warnings", "remarks") if name in table)):
-            said.setdefault(re.sub(r"\d[\d.e+-]*", "", text), []).append((variant, text))
+    for row, name in zip(rows, names):
+        if row.get("converged") != "true":
+            texts.append(f"variant {row['variant']}, {name}: {row.get('reason') or 'not done'}")
+        for text in filter(None, map(row.get, ("warnings", "remarks"))):
+            said.setdefault(re.sub(r"\d[\d.e+-]*", "", text), []).append((row["variant"], text))
     for several in said.values():
         some = ", ".join(variant for variant, _ in several[:8]) + f" and {len(several) - 8} others" * (len(several) > 8)
         numbers_of = f" (numbers of variant {several[0][0]})" * (len({text for _, text in several}) > 1)
@@ -99,37 +99,35 @@ def warnings_of_study(table, names):
 def context_of_study(directory):
     """What the template study.html shows of a study or an ensemble."""
     table = read_table(os.path.join(directory, "study.csv"))
-    n, entries = n_rows(table), varied_in(table)
-    for name in ("converged", "reason"):
-        table.setdefault(name, [""] * n)
-    names, only_changes = names_of(entries, list(zip(*(table[name] for name in entries))) if entries else [()] * n)
-    places = [os.path.join(directory, f"variant-{int(text):03d}") for text in table.get("variant", []) if text.isdigit()]
-    done = [i for i in range(len(places)) if table["converged"][i] == "true"]
+    rows, entries = rows_of(table), varied_in(table)
+    names, only_changes = names_of(entries, [[row[name] for name in entries] for row in rows])
+    places = [os.path.join(directory, "variant-" + row["variant"].zfill(3)) for row in rows]
+    done = [(place, name) for place, name, row in zip(places, names, rows) if row.get("converged") == "true"]
     ensemble = read_table(os.path.join(directory, "ensemble.csv"))
-    curve = bands_of_ensemble(directory, ensemble, [places[i] for i in done]) if n_rows(ensemble) else \
-        curves_of_study(directory, [(places[i], names[i]) for i in done])
+    curve = bands_of_ensemble(directory, ensemble, [place for place, _ in done]) if n_rows(ensemble) else \
+        curves_of_study(directory, done)
     scene = next(filter(None, (read_entries(os.path.join(place, "parameters.prm")) for place in places)), {})
-    title = scene.get("Title")
-    summary = read_json(os.path.join(places[done[0]], "summary.json")) if done else {}
+    title, n = scene.get("Title"), len(rows)
     return {"title": f"{title}: study of {n} variants" if title else f"Study of {n} variants in {directory}",
             "finished": len(done) == n, "reason": f"{len(done)} of {n} variants are done",
-            "warnings": warnings_of_study(table, names), "curve": curve,
+            "warnings": warnings_of_study(rows, names), "curve": curve,
             "statistics": read_table(os.path.join(directory, "ensemble_summary.csv")),
             "variants": {**table, "changed": names},
-            "first": ["changed"] if only_changes else entries, "entries": scene, "origin": origin_of(summary),
+            "first": ["changed"] if only_changes else entries, "entries": scene,
+            "origin": origin_of(read_json(os.path.join(done[0][0], "summary.json")) if done else {}),
             "files": files_of(directory)}
 
 
 def fits_of(directory):
     """For each measured curve the picture with its fit, and that of what lies between them."""
     pictures = []
-    files = sorted(name for name in os.listdir(directory) if re.fullmatch(r"fit(-\d+)?\.csv", name))
+    files = [name for name in os.listdir(directory) if re.fullmatch(r"fit(-\d+)?\.csv", name)]
     for file in sorted(files, key=lambda name: (len(name), name)):
         table = read_table(os.path.join(directory, file))
-        over = next(iter(table), "")
-        for column in [name[:-len("_measured")] for name in table if name.endswith("_measured")]:
+        over, *others = table
+        for column in [name[:-len("_measured")] for name in others if name.endswith("_measured")]:
             x, y = ((words.replace("_", " ").capitalize(), unit) for words, unit in map(split_unit, (over, column)))
-            xs, measured, fitted, low, high = (numbers(table.get(name, [])) for name in (
+            xs, measured, fitted, low, high = (numbers(table[name]) for name in (
                 over, *(f"{column}_{kind}" for kind in ("measured", "fitted", "lower_95", "upper_95"))))
             plot = Plot(x, y, f"fit of {column}")
             rest = Plot(x, (f"Measured - fitted {y[0].lower()}", y[1]), f"residuals of {column}", high=150)

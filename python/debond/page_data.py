@@ -5,12 +5,14 @@ import json
 import math
 import os
 
+from debond.errors import InputError
+
 #: Ends of the names of columns and members, and their units.
 UNITS = (("_Nmm_per_rad", "N mm/rad"), ("_MPa_per_mm", "MPa/mm"), ("_N_per_m", "N/m"), ("_Nmm", "N mm"), ("_MPa", "MPa"),
          ("_deg", "°"), ("_mm2", "mm²"), ("_mm", "mm"), ("_MB", "MB"), ("_N", "N"))
 
 
-class NoResults(Exception):
+class NoResults(InputError):
     """A directory has no results, or some that cannot be read; the text is one line."""
 
 

@@ -4,7 +4,7 @@
     found = debond.fit_specimens("template.prm", "specimens.csv", jobs=2)
     found.parameters, found.pooled, found.failures
 
-    python3 -m debond.specimens TEMPLATE.prm TABLE [--out DIR] [--jobs N]
+    python3 -m debond specimens TEMPLATE.prm TABLE [--out DIR] [--jobs N]
 
 specimen_table.py says what the table holds, pooling.py what a mean over specimens is. DIR gets parameters.csv, pooled.csv,
 specimens.json and report.html; DIR/NAME what a fit leaves. Those that are finished, with the same row, curve and template, are
@@ -22,7 +22,6 @@ import _debond
 from .errors import InputError, RunError
 from .executors import results_of
 from .files import csv_text, write_whole
-from .measured import options_of
 from .page import write_page_if_possible
 from .pooling import pool
 from .scene import Scene
@@ -142,29 +141,11 @@ def _fit_all(specimens, scene, table, directory, executor, n_jobs, say):
     return {name: said(result) for name, result in results.items()}
 
 
-def main(arguments) -> int:
+def main(template, table, options) -> int:
     """The command; returns the exit code."""
-    try:
-        files, options = options_of(arguments, 2, {"--out": "", "--jobs": str(os.cpu_count())},
-                                    "TEMPLATE.prm TABLE [--out DIR] [--jobs N]")
-        if not options["--jobs"].isdigit() or int(options["--jobs"]) < 1:
-            raise InputError(f"--jobs {options['--jobs']}: expected a number of processes from 1 on")
-        found = fit_specimens(*files, options["--out"] or None, jobs=int(options["--jobs"]),
-                              say=lambda text: print(text, flush=True))
-    except InputError as error:
-        print(f"debond.specimens: {error}", file=sys.stderr)
-        return 1
-    except RunError as error:
-        print(f"debond.specimens: {error}", file=sys.stderr)
-        return 2
-    except KeyboardInterrupt:
-        print("interrupted: the same command goes on", file=sys.stderr)
-        return 130
+    found = fit_specimens(template, table, options["--out"] or None, jobs=options["--jobs"],
+                          say=lambda text: print(text, flush=True))
     print(f"Results are in {found.directory}/parameters.csv, pooled.csv and report.html")
     for name, why in found.failures.items():
         print(f"{name} failed: {why}", file=sys.stderr)
     return 2 if found.failures else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))

@@ -16,7 +16,8 @@ import tempfile
 import numpy
 
 from _debond import CurveComparison
-from debond.compare import compare, main
+from debond.__main__ import main
+from debond.compare import compare
 from debond.errors import InputError
 
 debond = os.path.abspath(sys.argv[1]) if sys.argv[1:] else None
@@ -151,7 +152,7 @@ def check_program():
             (["run", "measured.csv", "--columns"], 1, "")):
         out, err = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            got = main(arguments)
+            got = main(["compare", *arguments])
         expect(f"exit code of {arguments}", code, got)
         if expected:
             expect(str(arguments), expected, err.getvalue() if code else out.getvalue())

@@ -15,6 +15,7 @@ import tempfile
 import numpy
 
 from debond import measured
+from debond.__main__ import main
 from debond.errors import InputError
 from debond.measured import read_measured
 
@@ -221,7 +222,7 @@ def output_of(*arguments):
     """Exit code and output of the program that writes plain CSV."""
     out, err = io.StringIO(), io.StringIO()
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-        code = measured.main(arguments)
+        code = main(["measured", *arguments])
     return code, out.getvalue(), err.getvalue()
 
 
@@ -236,7 +237,7 @@ def check_plain():
         assert numpy.array_equal(again, read_measured(table, names)), f"not the same numbers: {plain}"
     assert output_of(table, "--columns", "1 [deg], 2 [-N mm]")[1] == "angle_deg,torque_Nmm\n0.1,-0.3\n0.2,-0.6\n", "--columns"
     code, out, error = output_of(table, "--columns", "phi, 9")
-    assert (code, out) == (1, "") and error.startswith("debond.measured: --columns = 'phi, 9': there is no column '9': "), error
+    assert (code, out) == (1, "") and error.startswith("--columns = 'phi, 9': there is no column '9': "), error
     for arguments in ([], [table, table], [table, "--columns"], [table, "--curve", "time"], [table, "--curves", "slip"]):
         code, out, error = output_of(*arguments)
         assert (code, out) == (1, "") and "expected" in error, f"{arguments}: {code}, {error}"

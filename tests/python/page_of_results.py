@@ -42,7 +42,7 @@ def make(directory, code=0, limit=None):
     path = os.path.join(directory, "report.html")
     if limit is None and os.path.exists(path):
         os.remove(path)
-    done = subprocess.run([sys.executable, "-m", "debond.page", directory], capture_output=True, text=True,
+    done = subprocess.run([sys.executable, "-m", "debond", "page", directory], capture_output=True, text=True,
                           env={**os.environ, "PYTHONPATH": package}, preexec_fn=limit and
                           (lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))))
     check(done.returncode == code, f"the page of {directory} ends with {done.returncode}, not {code}: {done.stderr}")

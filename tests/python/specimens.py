@@ -43,7 +43,7 @@ def text_of(path):
 
 
 def command(*arguments, code=0):
-    done = subprocess.run([sys.executable, "-m", "debond.specimens", *arguments], capture_output=True, text=True)
+    done = subprocess.run([sys.executable, "-m", "debond", "specimens", *arguments], capture_output=True, text=True)
     check(done.returncode == code, f"{arguments} ends with {done.returncode}, not {code}: {done.stdout}{done.stderr}")
     return done.stdout, done.stderr
 
@@ -216,7 +216,7 @@ def check_bad_tables():
             check(said.startswith("copy/bad.csv: ") and expected in said and "\n" not in said, f"{text!r}: {said}")
     check(not os.path.exists("bad"), "a table that is refused leaves a directory")
     _, said = command("copy/template.prm", "copy/none.csv", code=1)
-    check(said == "debond.specimens: copy/none.csv: this file cannot be read: No such file or directory\n", said)
+    check(said == "copy/none.csv: this file cannot be read: No such file or directory\n", said)
     command("copy/template.prm", code=1)
     command("copy/template.prm", "copy/specimens.csv", "--jobs", "0", code=1)
 

@@ -548,8 +548,7 @@ namespace
 PYBIND11_MODULE(_debond, module)
 {
   set_up_libraries();
-  module.attr("version")           = DEBOND_VERSION;
-  module.attr("default_directory") = OutputParameters().directory;
+  module.attr("version") = DEBOND_VERSION;
   char mpi_library[MPI_MAX_LIBRARY_VERSION_STRING];
   int  length = 0;
   MPI_Get_library_version(mpi_library, &length);
@@ -595,21 +594,7 @@ PYBIND11_MODULE(_debond, module)
       Ranks::in_agreement([&] { scene = Scene::from_entries(entries, name); });
       return scene;
     }))
-    .def_readonly("title", &Scene::title)
     .def_readonly("parameters", &Scene::completed_parameters)
-    .def_property_readonly("directory",
-                           [](const Scene &s) { return s.output.directory; })
-    .def_property_readonly("has_page",
-                           [](const Scene &s) { return s.output.report; })
-    .def_property_readonly("has_closed_form",
-                           [](const Scene &s) {
-                             return s.model != ModelKind::finite_elements &&
-                                    s.model != ModelKind::automatic;
-                           })
-    .def_property_readonly("is_automatic",
-                           [](const Scene &s) {
-                             return s.model == ModelKind::automatic;
-                           })
     .def("prescribed", prescribed)
     .def_property_readonly("values",
                            [](const Scene &s) {

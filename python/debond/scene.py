@@ -165,9 +165,10 @@ class Scene:
         Raises RunError."""
         team = _team(comm)
         scene = self._read(team)
-        if scene.is_automatic:
+        model = scene.values["Model"]
+        if model == "auto":
             raise SceneError("Model = auto writes into a directory: write() does it")
-        if scene.has_closed_form:
+        if model != "finite elements":
             rows, summary = _debond.closed_form(scene, team)
             return Result(rows, _known(summary), scene.warnings)
         simulation = Simulation(self, comm=comm)
@@ -182,9 +183,9 @@ class Scene:
             entries = _debond.changed(entries, ["Output/Directory=" + os.fspath(directory)])
         scene = _debond.Scene(entries, self._name, team)
         _debond.run_into_directory(scene, force, team)
-        if scene.has_page and (comm is None or comm.rank == 0):
-            write_page_if_possible(scene.directory)
-        return scene.directory
+        if scene.values["Output / Report"] == "true" and (comm is None or comm.rank == 0):
+            write_page_if_possible(scene.values["Output / Directory"])
+        return scene.values["Output / Directory"]
 
 
 class Result:

@@ -33,25 +33,21 @@ PARAMETERS = ("specimen", "group", "curve", "unknown", "value", "lower_95", "upp
 POOLED = ("unknown", "group", "specimens", "left_out", "mean", "lower_95", "upper_95", "sd_between", "unit", "scale", "tau")
 
 
+def _frame(rows, columns):
+    import pandas
+
+    return pandas.DataFrame(rows, columns=columns)
+
+
 class Specimens:
-    """What fit_specimens() finds. failures: {specimen: why it failed}; directory: where the results are."""
+    """What fit_specimens() finds: parameters.csv, with a row for each specimen and unknown, and pooled.csv, with one for each
+    unknown and group, and for all, as frames of pandas. failures: {specimen: why it failed}; directory: of the results."""
 
     def __init__(self, parameters, pooled, failures: Dict[str, str], directory: str):
         self._parameters, self._pooled, self.failures, self.directory = parameters, pooled, failures, directory
 
-    @property
-    def parameters(self):
-        """parameters.csv as a pandas.DataFrame: a row for each specimen and unknown. Raises ImportError without pandas."""
-        import pandas
-
-        return pandas.DataFrame(self._parameters, columns=PARAMETERS)
-
-    @property
-    def pooled(self):
-        """pooled.csv: a row for each unknown and group, and one for all."""
-        import pandas
-
-        return pandas.DataFrame(self._pooled, columns=POOLED)
+    parameters = property(lambda self: _frame(self._parameters, PARAMETERS))
+    pooled = property(lambda self: _frame(self._pooled, POOLED))
 
 
 def _searched(row, name):
@@ -75,15 +71,15 @@ def _pooled_row(unknown, group, rows):
 def _tables(specimens, results):
     """Rows of parameters.csv and of pooled.csv."""
     parameters, of_unknowns = [], {}
+    nothing = {**dict.fromkeys(PARAMETERS, ""), **dict.fromkeys(("value", "lower_95", "upper_95", "e_rel"), math.nan), "fits": False}
     for specimen in specimens:
-        result, head = results[specimen.name], [specimen.name, specimen.group, specimen.curve]
-        if "reason" in result:
-            parameters.append([*head, "", *[math.nan] * 3, *[""] * 4, False, math.nan, result["reason"]])
-        for row in result.get("rows", []):
-            numbers = [math.nan if row[name] is None else row[name] for name in ("value", "lower_95", "upper_95")]
-            parameters.append([*head, row["unknown"], *numbers, row["unit"], row["told"], row["at_bound"], row["logarithmic"],
-                               result["fits"], result["e_rel"], ""])
-            of_unknowns.setdefault(row["unknown"], []).append((specimen.group, row))
+        result = results[specimen.name]
+        about = {**nothing, **result, "specimen": specimen.name, "group": specimen.group, "curve": specimen.curve}
+        for row in result.get("rows", [{}]):
+            known = {**about, **{name: value for name, value in row.items() if value is not None}}
+            parameters.append([known[name] for name in PARAMETERS])
+            if row:
+                of_unknowns.setdefault(row["unknown"], []).append((specimen.group, row))
     pooled = []
     for unknown, pairs in of_unknowns.items():
         groups = list(dict.fromkeys(group for group, _ in pairs))

@@ -56,10 +56,8 @@ def _other_units():
               **dict.fromkeys(("oz", "ozf", "ounce", "ounces"), _LBF / 16)}
     inches = dict.fromkeys(("in", "inch", "inches"), _INCH)
     arms = {**inches, **dict.fromkeys(("ft", "foot", "feet"), 12 * _INCH)}
-    moments = _moments(pounds, arms)
-    moments.update({arm + force: moments[force + arm] for force in pounds for arm in arms})
     return {
-        **moments,
+        **_moments(pounds, arms), **_moments(arms, pounds),
         **_moments({"newton": 1.0}, dict.fromkeys(("metre", "metres", "meter", "meters"), 1e3)),
         # alone, pounds and ounces may be masses
         **_units("force", {"lbf": _LBF, "ozf": _LBF / 16}),

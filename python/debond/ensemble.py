@@ -61,14 +61,8 @@ def torques_at(curve, angles):
 def ascending(curve):
     """A curve (2, rows) as one whose angles rise, with the last of rows that share an angle, but for rounding; without rows if
     nothing turns, None if it turns back."""
-    rows: List[List[float]] = []
-    tolerance = _rounding_of(curve[0])
-    for angle, torque in curve.T.tolist():
-        if rows and abs(angle - rows[-1][0]) <= tolerance:
-            rows[-1][1] = torque
-        else:
-            rows.append([angle, torque])
-    result = numpy.array(rows).T.reshape(2, -1)
+    turns_on = abs(numpy.diff(curve[0])) > _rounding_of(curve[0])
+    result = curve[:, numpy.r_[turns_on, True]]
     steps = numpy.diff(result[0])
     if steps.size == 0:
         return numpy.empty((2, 0))

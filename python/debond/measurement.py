@@ -22,13 +22,8 @@ class CurveColumn:
     unit: str
     component: int = -1  # 0..5 of the chuck
 
-    @property
-    def is_angle(self):
-        return self.kind == "position" and self.component == 5
-
-    @property
-    def is_torque(self):
-        return self.kind == "load" and self.component == 5
+    is_angle = property(lambda self: self.kind == "position" and self.component == 5)
+    is_torque = property(lambda self: self.kind == "load" and self.component == 5)
 
 
 def curve_column(scene, name, entry):
@@ -98,11 +93,10 @@ def _places(scene, over, times):
     return scene.prescribed(list(times)).get(over.key) if over.kind == "position" else None
 
 
-def _least_turn(scene, over):
-    """Measured places are not smooth: what goes back by less than a twentieth of the range is no turn, unless the scene turns
-    by less."""
+def _least_turn(places):
+    """Measured places are not smooth: what goes back by less than a twentieth of the range is no turn, unless the scene, which
+    comes to these places, turns by less."""
     usual = 0.05
-    places = _places(scene, over, scene.sample_times)
     if places is None or numpy.ptp(places) == 0:
         return usual
     branch = branches_of(places, 1e-9)
@@ -111,16 +105,15 @@ def _least_turn(scene, over):
     return min(usual, 0.4 * numpy.abs(numpy.diff(places[ends])).min() / numpy.ptp(places)) if len(turns) else usual
 
 
-def _reach(scene, over, largest_shift):
-    """What the scene comes to, with all that the rig may show more: rows beyond mean nothing."""
-    places = _places(scene, over, scene.sample_times)
+def _reach(places, largest_shift):
+    """What a scene comes to, with all that the rig may show more: rows beyond mean nothing."""
     if places is None:
         return -numpy.inf, numpy.inf
-    margin, turned = 1e-9 * numpy.ptp(places), largest_shift if over.is_angle else 0
-    return places.min() - margin - abs(turned), places.max() + margin + turned
+    margin = 1e-9 * numpy.ptp(places)
+    return places.min() - margin - abs(largest_shift), places.max() + margin + largest_shift
 
 
-def _used_rows(scene, values, columns, over, table, branch, largest_shift):
+def _used_rows(scene, values, columns, over, table, branch, reach):
     """Numbers of the rows that are fitted, and of each the window that it is in."""
     places = table[:, 0]
     implant = places.copy()  # where the implant is while the machine shows that place
@@ -133,7 +126,7 @@ def _used_rows(scene, values, columns, over, table, branch, largest_shift):
     window = numpy.full(len(places), -1)
     for w, (begin, end) in reversed(list(enumerate(windows))):
         window[(places >= begin) & (places <= end)] = w
-    least, most = _reach(scene, over, largest_shift)
+    least, most = reach
     # of rows at the same place, as while it is pressed, the last one; the one at a turn may belong to either side of it
     stays = numpy.r_[places[1:] == places[:-1], False]
     turns = numpy.r_[branch[1:] != branch[:-1], False]
@@ -171,13 +164,14 @@ def read(scene, values, columns, over, largest_shift):
     """The Measurement of a scene, whose entries are `values`: `columns` along `over`. The rig may show `largest_shift` [deg]
     more than the implant has turned. Raises SceneError."""
     _check(scene, values, columns)
-    least_turn = _least_turn(scene, over)
-    file = values[ENTRY]
+    planned, file = _places(scene, over, scene.sample_times), values[ENTRY]
+    least_turn = _least_turn(planned)
     if not file:
         return _proposed(scene, columns, over, least_turn)
     table = _read(scene, file, [column.name for column in (over, *columns)], values["Output / Reference columns"])
     branch = branches_of(table[:, 0], least_turn)
-    used, window = _used_rows(scene, values, columns, over, table, branch, largest_shift)
+    reach = _reach(planned, largest_shift if over.is_angle else 0)
+    used, window = _used_rows(scene, values, columns, over, table, branch, reach)
     scale = numpy.abs(table[:, 1:]).max(axis=0)  # of the whole file, so that a window changes no weight
     for column, largest in zip(columns, scale):
         if largest == 0:

@@ -71,7 +71,8 @@ def _pooled_row(unknown, group, rows):
 def _tables(specimens, results):
     """Rows of parameters.csv and of pooled.csv."""
     parameters, of_unknowns = [], {}
-    nothing = {**dict.fromkeys(PARAMETERS, ""), **dict.fromkeys(("value", "lower_95", "upper_95", "e_rel"), math.nan), "fits": False}
+    unknown = dict.fromkeys(("value", "lower_95", "upper_95", "e_rel"), math.nan)
+    nothing = {**dict.fromkeys(PARAMETERS, ""), **unknown, "fits": False}
     for specimen in specimens:
         result = results[specimen.name]
         about = {**nothing, **result, "specimen": specimen.name, "group": specimen.group, "curve": specimen.curve}
@@ -81,11 +82,11 @@ def _tables(specimens, results):
             if row:
                 of_unknowns.setdefault(row["unknown"], []).append((specimen.group, row))
     pooled = []
-    for unknown, pairs in of_unknowns.items():
+    for name, pairs in of_unknowns.items():
         groups = list(dict.fromkeys(group for group, _ in pairs))
         for group in groups if len(groups) > 1 else []:
-            pooled.append(_pooled_row(unknown, group, [row for own, row in pairs if own == group]))
-        pooled.append(_pooled_row(unknown, ALL, [row for _, row in pairs]))
+            pooled.append(_pooled_row(name, group, [row for own, row in pairs if own == group]))
+        pooled.append(_pooled_row(name, ALL, [row for _, row in pairs]))
     return parameters, pooled
 
 

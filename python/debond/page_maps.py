@@ -30,15 +30,6 @@ class Grid:
             math.isnan(value) == (math.hypot(x, y) > self.half_x) for x, y, value in zip(self.xs, self.ys, values))
 
 
-def extended(row):
-    """A row in which the last known value, or at its beginning the first, stands where there is none; None if it has none."""
-    before, filled = next((value for value in row if value == value), None), []
-    for value in row:
-        before = value if value == value else before
-        filled.append(before)
-    return filled if before is not None else None
-
-
 @functools.lru_cache(maxsize=None)
 def windows(n, width):
     """Of the pixels of n places: the first and the last place of the window around each, and the shares of these."""
@@ -47,11 +38,11 @@ def windows(n, width):
     return pad, [(int(low), int(high), low - int(low), high - int(high)) for low, high in ends]
 
 
-def averaged(values, width):
-    """Means over this many places around each pixel. Values that stand at the nearest places around points so far apart become
-    those that are linear between the points."""
+def summed(values, width):
+    """Sums over this many places around each pixel. Values that stand at the nearest places around points so far apart become
+    those that are linear between the points, if divided by how many there are."""
     pad, ends = windows(len(values), width)
-    padded = [value / width for value in (*[values[0]] * pad, *values, *[values[-1]] * pad)]
+    padded = [*[0.] * pad, *values, *[0.] * pad]
     sums = list(itertools.accumulate(padded, initial=0.))
     return [sums[j] + padded[j] * t - sums[i] - padded[i] * s for i, j, s, t in ends]
 
@@ -69,17 +60,16 @@ def widths_of(grid, maps):
 
 def picture(grid, values, low, high, widths, is_round):
     """A PNG file of the values as a data URI; the page cuts round faces out."""
+    def smooth(column_of):
+        rows = (summed(list(map(column_of, values[j * grid.nx:(j + 1) * grid.nx])), widths[0]) for j in range(grid.ny))
+        return zip(*(summed(column, widths[1]) for column in zip(*rows)))
     scale = 254.99 / (high - low)
-    rows = [values[j * grid.nx:(j + 1) * grid.nx] for j in range(grid.ny)]
-    gaps = [] if is_round else [[value != value for value in row] for row in rows]
-    rows = [extended(row) for row in rows]
-    known = [j for j, row in enumerate(rows) if row]
-    rows = [row or rows[min(known, key=lambda k: abs(k - j))] for j, row in enumerate(rows)]
-    columns = zip(*(averaged([(value - low) * scale for value in row], widths[0]) for row in rows))
-    lines = [bytearray(map(int, line)) for line in zip(*(averaged(list(column), widths[1]) for column in columns))]
-    for line, gap in zip(lines, (gap for gap in gaps for _ in range(FINER))):
-        for i in range(len(line)) if any(gap) else ():
-            line[i] = 255 if gap[i // FINER] else line[i]
+    heights = smooth(lambda value: (value - low) * scale if value == value else 0.)
+    lines = [bytearray(255 if n < 1e-6 else min(254, max(0, int(z / n))) for z, n in zip(*both))
+             for both in zip(heights, smooth(lambda value: float(value == value)))]
+    for k in () if is_round else (k for k, value in enumerate(values) if value != value):
+        for line in lines[k // grid.nx * FINER:(k // grid.nx + 1) * FINER]:
+            line[k % grid.nx * FINER:(k % grid.nx + 1) * FINER] = b"\xff" * FINER
     return "data:image/png;base64," + base64.b64encode(png(grid.nx * FINER, lines[::-1])).decode()
 
 

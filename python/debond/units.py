@@ -1,5 +1,6 @@
 """Units in the names of the columns of measured tables."""
 
+import itertools
 import math
 import re
 from typing import NamedTuple, Optional
@@ -22,58 +23,45 @@ class Unit(NamedTuple):
     factor: float
 
 
-def _units(quantity, factors):
-    return {name: Unit(quantity, factor) for name, factor in factors.items()}
-
-
-def _moments(forces, arms):
-    return {force + arm: Unit("moment", n * mm) for force, n in forces.items() for arm, mm in arms.items()}
-
-
 # exact, by definition
 _INCH, _LBF, _KGF, _RAD = 25.4, 0.45359237 * 9.80665, 9.80665, 180 / math.pi
 
-
-def _metric_units():
-    """Units in which M and m differ, without blanks and signs of a product."""
-    forces = {"uN": 1e-6, "µN": 1e-6, "mN": 1e-3, "cN": 1e-2, "dN": 0.1, "N": 1.0, "daN": 10.0, "kN": 1e3}
-    weights = {"gf": 1e-3 * _KGF, "kgf": _KGF, "kp": _KGF}
-    arms = {"mm": 1.0, "cm": 10.0, "m": 1e3}
-    return {
-        **_units("force", {**forces, **weights}),
-        **_units("length", {"um": 1e-3, "µm": 1e-3, **arms}),
-        # kg and g: masses that are meant as weights, as torque meters say them
-        **_moments({**forces, **weights, "kg": _KGF}, arms),
-        **_moments({"g": 1e-3 * _KGF}, {"cm": 10.0}),
-        # shouted: M for mega has no meaning here
-        **_units("moment", {"NM": 1e3, "NCM": 10.0, "NMM": 1.0, "KNM": 1e6}),
-    }
+_FORCES = {"uN µN": 1e-6, "mN": 1e-3, "cN": 1e-2, "dN": 0.1, "N": 1.0, "daN": 10.0, "kN": 1e3, "gf": 1e-3 * _KGF, "kgf kp": _KGF}
+_ARMS = {"mm": 1.0, "cm": 10.0, "m": 1e3}
+_POUNDS = {"lb lbs lbf pound pounds": _LBF, "oz ozf ounce ounces": _LBF / 16}
+_INCHES = {"in inch inches": _INCH}
+_FEET = {**_INCHES, "ft foot feet": 12 * _INCH}
 
 
-def _other_units():
-    """Units that may be shouted."""
-    pounds = {**dict.fromkeys(("lb", "lbs", "lbf", "pound", "pounds"), _LBF),
-              **dict.fromkeys(("oz", "ozf", "ounce", "ounces"), _LBF / 16)}
-    inches = dict.fromkeys(("in", "inch", "inches"), _INCH)
-    arms = {**inches, **dict.fromkeys(("ft", "foot", "feet"), 12 * _INCH)}
-    return {
-        **_moments(pounds, arms), **_moments(arms, pounds),
-        **_moments({"newton": 1.0}, dict.fromkeys(("metre", "metres", "meter", "meters"), 1e3)),
-        # alone, pounds and ounces may be masses
-        **_units("force", {"lbf": _LBF, "ozf": _LBF / 16}),
-        **_units("length", inches),
-        **_units("angle", {
-            **dict.fromkeys(("deg", "degree", "degrees", "°"), 1.0), "mdeg": 1e-3, "arcmin": 1 / 60,
-            **dict.fromkeys(("rad", "radian", "radians"), _RAD), "mrad": 1e-3 * _RAD, "urad": 1e-6 * _RAD, "µrad": 1e-6 * _RAD,
-            "gon": 0.9, "mgon": 0.9e-3,
-            **dict.fromkeys(("rev", "revs", "revolution", "revolutions", "turn", "turns"), 360.0)}),
-        # the name `time` is enough
-        **_units("time", {"us": 1e-6, "µs": 1e-6, "ms": 1e-3, **dict.fromkeys(("s", "sec", "second", "seconds", "time"), 1.0),
-                          "min": 60.0, "minutes": 60.0, "h": 3600.0, "hours": 3600.0}),
-    }
+def _units(quantity, *tables):
+    """{name: Unit} of names and factors; of two tables of their products."""
+    return {"".join(names): Unit(quantity, math.prod(factor for _, factor in pairs))
+            for pairs in itertools.product(*(table.items() for table in tables))
+            for names in itertools.product(*(names.split() for names, _ in pairs))}
 
 
-_METRIC, _OTHER = _metric_units(), _other_units()
+# M and m differ; without blanks and signs of a product
+_METRIC = {
+    **_units("force", _FORCES),
+    **_units("length", {"um µm": 1e-3, **_ARMS}),
+    # kg and g: masses that are meant as weights, as torque meters say them
+    **_units("moment", {**_FORCES, "kg": _KGF}, _ARMS),
+    # gm would be grams; shouted: M for mega has no meaning here
+    **_units("moment", {"gcm": 1e-2 * _KGF, "NM": 1e3, "NCM": 10.0, "NMM": 1.0, "KNM": 1e6}),
+}
+# these may be shouted
+_OTHER = {
+    **_units("moment", _POUNDS, _FEET), **_units("moment", _FEET, _POUNDS),
+    **_units("moment", {"newtonmetre newtonmetres newtonmeter newtonmeters": 1e3}),
+    # alone, pounds and ounces may be masses
+    **_units("force", {"lbf": _LBF, "ozf": _LBF / 16}),
+    **_units("length", _INCHES),
+    **_units("angle", {"deg degree degrees °": 1.0, "mdeg": 1e-3, "arcmin": 1 / 60, "rad radian radians": _RAD,
+                       "mrad": 1e-3 * _RAD, "urad µrad": 1e-6 * _RAD, "gon": 0.9, "mgon": 0.9e-3,
+                       "rev revs revolution revolutions turn turns": 360.0}),
+    # the name `time` is enough
+    **_units("time", {"us µs": 1e-6, "ms": 1e-3, "s sec second seconds time": 1.0, "min minutes": 60.0, "h hours": 3600.0}),
+}
 
 
 def find_unit(text: str) -> Optional[Unit]:

@@ -2,8 +2,8 @@
 
 import math
 
-WIDTH = 560                                 # of the viewBox; text has 17 units, which are 11 px where the page is 400 px wide
-LEFT, TOP, WIDE, HIGH = 66, 30, 482, 292    # the area of the data in it
+# the area of the data in a viewBox of width 560; text has 17 units, which are 11 px where the page is 400 px wide
+LEFT, TOP, WIDE, HIGH = 66, 30, 482, 292
 FEW = ("#c03028", "#2c1e5c", "#e08a1e", "#3a7d44", "#2a78b0", "#8e4585", "#6b6b6b", "#a0522d", "#20a0a0", "#d868a8", "#98982a",
        "#000000")
 
@@ -71,7 +71,7 @@ class Plot:
 
     def level(self, name, colour, x=None, y=None):
         """A dashed line all across at one x or one y."""
-        self.levels.append({"name": name, "x": x, "y": y, "colour": colour})
+        self.levels.append({"name": name, "kind": "level", "x": x, "y": y, "colour": colour})
 
     def limits(self):
         """Those of the axes: all that is drawn, from 0 where nothing is negative."""
@@ -95,16 +95,9 @@ class Plot:
             is_dots = one["kind"] in ("points", "marks")
             path = "".join(f"M{place}h.01" for place in places) if is_dots else "M" + "L".join(places)
             shapes.append({**one, "path": path + "Z" * (one["kind"] == "band")})
-        for one in self.levels:
-            path = f"M0 {(high - one['y']) * fy:.2f}h{WIDE}" if one["x"] is None else \
-                f"M{(one['x'] - left) * fx:.2f} 0v{self.high}"
-            shapes.append({**one, "kind": "level", "path": path})
-        axes = {"x": [(f"{LEFT + (x - left) * fx:.1f}", text) for x, text in ticks(left, right)],
-                "y": [(f"{TOP + (high - y) * fy:.1f}", text) for y, text in ticks(low, high, most=7 * self.high / HIGH)]}
         # names, places and values from which the script reads out; seven digits are more than it shows
-        box = (LEFT, TOP, WIDE, self.high)
-        data = {"x": limits[0], "y": limits[1], "box": box, "units": (self.x[1], self.y[1]), "series": [
+        data = {"x": limits[0], "y": limits[1], "box": (LEFT, TOP, WIDE, self.high), "units": (self.x[1], self.y[1]), "series": [
             {"name": one["name"], **{axis: [float(f"{value:.7g}") for value in one[axis]] for axis in "xy"}}
             for one in self.series if one["kind"] in ("line", "points")]}
-        return {"x": self.x, "y": self.y, "about": self.about, "size": (WIDTH, self.high + TOP + 58), "box": box,
-                "shapes": shapes, "axes": axes, "data": data, "many": False, "notes": []}
+        return {"x": self.x, "y": self.y, "about": self.about, "shapes": shapes, "levels": self.levels, "data": data,
+                "ticks": (ticks(left, right), ticks(low, high, most=7 * self.high / HIGH)), "many": False, "notes": []}

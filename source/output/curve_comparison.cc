@@ -253,15 +253,8 @@ namespace Debond
     const std::string   &file = scene.output.reference_curve;
     const ReferenceCurve measured =
       read_reference_curve(file, scene.output.reference_columns);
-    std::vector<std::string> doubts;
     if (measured.empty())
-      return doubts;
-    const CurveComparison comparison = comparison_before_run(scene, measured);
-    if (comparison.rows_used == 0)
-      doubts.push_back(file +
-                       " could not be compared with: " + comparison.why_none);
-    for (const std::string &remark : comparison.remarks)
-      doubts.push_back(file + ": " + remark);
-    return doubts;
+      return {};
+    return comparison_before_run(scene, measured).warnings(file);
   }
 } // namespace Debond

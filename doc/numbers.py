@@ -666,14 +666,6 @@ def auto_levels():
 
 
 @numbers('minutes')
-def auto_foundation():
-    names = ('main, 585 MPa/mm', '1800 MPa/mm', '18 000 MPa/mm', 'force held', 'brittle law', 'disk pattern')
-    return table(['scene', 'tolerance', 'estimate', 'true error'],
-                 [[name, '%.3g %%' % (100 * row['Load steps / Tolerance']), percent(row['error_estimate']), percent(row['difference_max'])]
-                  for name, row in zip(names, study('prm/verification/auto_foundation.prm'))])
-
-
-@numbers('minutes')
 def table_7():
     paper = {100: (2.233, 2.195, 2.186), 200: (2.242, 2.197, 2.185), 500: (2.239, 2.191, 2.177), 1000: (2.240, 2.190, 2.176),
              2000: (2.241, 2.190, 2.176), 2500: (2.241, 2.190, 2.176)}

@@ -5,18 +5,16 @@
 #include <debond/models/memory_estimate.h>
 #include <debond/output/console.h>
 #include <debond/support/input_error.h>
-#include <debond/support/interruption.h>
 #include <debond/support/number_text.h>
 
 #include <deal.II/base/timer.h>
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <set>
-#include <utility>
 
 namespace Debond
 {
@@ -31,106 +29,100 @@ namespace Debond
 
 
 
-    /** Adaptive steps take a tenth of the tolerance. Their own estimate holds
-     *  approximately: the measured error is up to 1.5 times their tolerance. */
-    constexpr double share_of_steps = 0.1, reserve_of_steps = 2.;
-
-    /** The linearisation is measured on the coarsest mesh, which sees less of
-     *  the largest strains. */
-    constexpr double reserve_of_linearisation = 2.;
-
-    /** Finer meshes may be linear if linearising costs less than this part of
-     *  the tolerance. */
-    constexpr double share_of_linearisation = 0.1;
-
-    /** A mesh tells something of another one if its cells are that much larger.
-     */
-    constexpr double smallest_cell_ratio = 1.4;
+    void
+    run(ModelLevel &level)
+    {
+      const dealii::Timer clock;
+      level.scene.complete();
+      if (level.is_foundation())
+        {
+          const ClosedFormSolution solution(level.scene);
+          write_results(solution, clock);
+          level.rows = solution.rows;
+          return;
+        }
+      DebondingProblem problem(level.scene);
+      problem.run();
+      level.rows = problem.rows;
+    }
 
 
 
     /**
-     * Runs the models of a ModelHierarchy from the cheapest until the error of
-     * one of their torque curves is estimated to be within `Load steps /
-     * Tolerance`, and answers with the cheapest one that is. The error is the
-     * largest difference from the curve of the scene's own bodies on a
-     * converged mesh, relative to the largest torque; doc/auto.md says how it
-     * is estimated.
+     * Climbs a ModelLadder until the error of one of the torque curves is
+     * estimated to be within `Load steps / Tolerance`, and answers with the
+     * cheapest model whose curve is. The error is the largest difference from
+     * the curve of the scene's own bodies on a converged mesh, relative to the
+     * largest torque; doc/auto.md says how it is estimated.
      */
     struct ModelChoice
     {
       const double            tolerance;
-      const ModelHierarchy    hierarchy;
-      const double            step_error; ///< what steps add to an estimate
-      std::vector<ModelLevel> tried;      ///< by cost
-      std::string why_no_further;         ///< if the tolerance is not reached
-      Materials   refined;                ///< those of the finer meshes
+      ModelLadder             ladder;
+      std::vector<ModelLevel> tried; ///< by cost
+      /** Those of the meshes from 1 on, and what these cost if they are not the
+       *  scene's own. */
+      std::array<Material, 2> refined;
+      double                  linearisation_error = 0.;
 
       explicit ModelChoice(const Scene &scene)
         : tolerance(scene.load_steps.tolerance)
-        , hierarchy(scene, share_of_steps * tolerance)
-        , step_error(reserve_of_steps * share_of_steps * tolerance)
-        , refined(hierarchy.materials.back())
+        , ladder(scene)
+        , refined(ladder.levels.back().materials())
       {}
 
       /** Tries the models, each in a directory DIR/rung-1 and so on. */
       void
       climb(Console &console)
       {
-        try_level(hierarchy.foundation(), console);
-        for (const Materials &materials : hierarchy.materials)
-          if (sufficient() == nullptr)
-            try_level(hierarchy.finite_elements(materials, 0), console);
-        if (linearisation_error() <= share_of_linearisation * tolerance)
-          refined = hierarchy.linear_materials;
-        unsigned int mesh = 0;
-        while (sufficient() == nullptr && why_no_further.empty())
+        for (ModelLevel &level : ladder.levels)
           {
-            while (find(refined, mesh) != nullptr)
-              ++mesh;
-            why_no_further =
-              mesh == 0 ? "the scene's own bodies could not be solved for" :
-                          hierarchy.limit(refined, mesh);
-            if (!why_no_further.empty())
+            if (level.mesh == 1)
+              choose_materials();
+            if (level.mesh > 0)
+              {
+                level.scene.bone.material    = refined[0];
+                level.scene.implant.material = refined[1];
+              }
+            try_level(level, console);
+            tried.push_back(level);
+            if (level.mesh > 0 && level.rows.empty())
+              {
+                ladder.why_no_further = "the next mesh " + level.why_not;
+                return;
+              }
+            estimate_errors();
+            if (sufficient() != nullptr)
               return;
-            try_level(hierarchy.finite_elements(refined, mesh), console);
-            if (!tried.back().done)
-              why_no_further = "the next mesh " + tried.back().why_not;
           }
       }
 
 
 
-      // The foundation has an estimate of its own; the others are compared.
+    private:
+      // Measured on mesh 0, which sees less of the largest strains: twice.
       void
-      run(ModelLevel &level) const
+      choose_materials()
       {
-        level.scene.complete();
-        if (!level.is_foundation())
+        constexpr double  reserve = 2., largest_share = 0.1;
+        const ModelLevel &exact  = tried.back(),
+                         &linear = tried[tried.size() - 2];
+        if (std::max(refined[0], refined[1]) <= Material::linear ||
+            exact.rows.empty() || linear.rows.empty())
+          return;
+        const double error =
+          reserve * largest_difference(linear.rows, exact.rows);
+        if (error <= largest_share * tolerance)
           {
-            DebondingProblem problem(level.scene);
-            problem.run();
-            level.rows = problem.rows;
-            return;
+            refined             = linear.materials();
+            linearisation_error = error;
           }
-        const dealii::Timer      clock;
-        const ClosedFormSolution solution(level.scene);
-        write_results(solution, clock);
-        level.rows                  = solution.rows;
-        const auto [coarser, ratio] = hierarchy.below_coarsest();
-        if (ratio >= smallest_cell_ratio) // else it is nothing to compare with
-          level.estimate =
-            step_error + foundation_error(level.scene,
-                                          level.rows,
-                                          solution.linear_solution,
-                                          foundation_stiffness(coarser),
-                                          ratio);
       }
 
 
 
       void
-      try_level(ModelLevel level, Console &console)
+      try_level(ModelLevel &level, Console &console) const
       {
         const dealii::Timer timer;
         const std::string   number = std::to_string(tried.size() + 1);
@@ -138,19 +130,6 @@ namespace Debond
         try
           {
             run(level);
-            level.done = true;
-          }
-        catch (const Interrupted &interruption)
-          {
-            throw Interrupted(interruption.signal,
-                              "interrupted by " +
-                                signal_name(interruption.signal) +
-                                " in level " + number +
-                                ": Model = auto keeps no checkpoints");
-          }
-        catch (const WriteError &)
-          {
-            throw;
           }
         catch (const InputError &error)
           {
@@ -160,71 +139,17 @@ namespace Debond
               throw;
             level.why_not = std::string("refused: ") + error.what();
           }
-        catch (const std::exception &error)
+        catch (const RunError &error)
           {
+            if (dynamic_cast<const WriteError *>(&error) != nullptr)
+              throw;
             level.why_not = std::string("failed: ") + error.what();
           }
         level.seconds = timer.wall_time();
-        tried.push_back(std::move(level));
-        estimate_errors();
         console.headline(
-          "  level " + number + ": " + tried.back().description() + ": " +
-          (tried.back().done ? fixed_text(tried.back().seconds, 2) + " s" :
-                               tried.back().why_not));
-      }
-
-
-
-      const ModelLevel *
-      find(const Materials &materials, const unsigned int mesh) const
-      {
-        for (const ModelLevel &level : tried)
-          if (level.done && !level.is_foundation() &&
-              level.materials == materials && level.mesh == mesh)
-            return &level;
-        return nullptr;
-      }
-
-
-
-      // The finest mesh of the materials that are refined; if these could not
-      // be solved for, the richest model that could.
-      const ModelLevel *
-      best() const
-      {
-        const bool        is_solved = find(refined, 0) != nullptr;
-        const ModelLevel *best      = nullptr;
-        for (const ModelLevel &level : tried)
-          if (level.done && (!is_solved || (level.materials == refined &&
-                                            !level.is_foundation())))
-            best = &level;
-        return best;
-      }
-
-
-
-      const ModelLevel *
-      sufficient() const
-      {
-        for (const ModelLevel &level : tried)
-          if (is_sufficient(level))
-            return &level;
-        return nullptr;
-      }
-
-
-
-      double
-      linearisation_error() const
-      {
-        if (hierarchy.linear_materials == hierarchy.materials.back())
-          return 0.;
-        const ModelLevel *const linear = find(hierarchy.linear_materials, 0);
-        const ModelLevel *const exact  = find(hierarchy.materials.back(), 0);
-        return linear == nullptr || exact == nullptr ?
-                 ModelLevel::undefined :
-                 reserve_of_linearisation *
-                   largest_difference(linear->rows, exact->rows);
+          "  level " + number + ": " + level.description() + ": " +
+          (level.rows.empty() ? level.why_not :
+                                fixed_text(level.seconds, 2) + " s"));
       }
 
 
@@ -234,19 +159,26 @@ namespace Debond
       void
       estimate_errors()
       {
+        // Those of steps, which take a tenth of the tolerance: they exceed
+        // their own tolerance by up to 1.5.
+        const double        step_error = 0.2 * tolerance;
         std::vector<double> differences;
-        for (unsigned int mesh = 1; find(refined, mesh) != nullptr; ++mesh)
-          differences.push_back(
-            largest_difference(find(refined, mesh - 1)->rows,
-                               find(refined, mesh)->rows));
+        const ModelLevel   *finest = nullptr;
+        for (const ModelLevel &level : tried)
+          if (!level.rows.empty() && !level.is_foundation() &&
+              level.materials() == refined)
+            {
+              if (finest != nullptr)
+                differences.push_back(
+                  largest_difference(finest->rows, level.rows));
+              finest = &level;
+            }
         if (differences.empty())
           return;
-        const ModelLevel *finest = best();
-        const double      error =
-          discretisation_error(differences) + step_error +
-          (refined == hierarchy.materials.back() ? 0. : linearisation_error());
+        const double error =
+          discretisation_error(differences) + step_error + linearisation_error;
         for (ModelLevel &level : tried)
-          if (level.done)
+          if (!level.rows.empty())
             {
               level.difference = &level == finest ?
                                    0. :
@@ -260,75 +192,30 @@ namespace Debond
 
 
 
-      bool
-      is_sufficient(const ModelLevel &level) const
+      const ModelLevel *
+      sufficient() const
       {
-        return level.done && level.estimate <= tolerance;
+        for (const ModelLevel &level : tried)
+          if (level.estimate <= tolerance)
+            return &level;
+        return nullptr;
       }
 
 
 
-      /** The cheapest within the tolerance, else the best; none if no model
+    public:
+      /** The cheapest within the tolerance, else the last; none if no model
        *  could be run. */
       const ModelLevel *
       answer() const
       {
-        return sufficient() != nullptr ? sufficient() : best();
-      }
-
-
-
-      /** Why the answer is no better than it is, in words. */
-      std::string
-      reason() const
-      {
-        const ModelLevel *const answer = this->answer();
-        if (is_sufficient(*answer))
-          return "the estimated error is within the tolerance";
-        std::string estimate;
-        if (!std::isnan(answer->estimate))
-          estimate = "the estimated error is " + percent(answer->estimate);
-        else if (find(refined, 0) == nullptr || find(refined, 1) == nullptr)
-          estimate = "there is no second mesh to estimate the error with";
-        else
-          estimate =
-            "the curves of its meshes give no estimate of the error: they "
-            "do not converge, are off by more than the largest torque or "
-            "have no angle beyond zero in common";
-        return "the tolerance of " + percent(tolerance) +
-               " was not reached: " + estimate + "; " + why_no_further;
+        const ModelLevel *last = nullptr;
+        for (const ModelLevel &level : tried)
+          if (!level.rows.empty())
+            last = &level;
+        return sufficient() != nullptr ? sufficient() : last;
       }
     };
-
-
-
-    /** Fields and profiles of the answer of `Model = auto` go to the scene's
-     *  directory, those of other levels nowhere. */
-    void
-    sort_files(const std::string &from, const std::string &to, bool is_answer)
-    {
-      namespace fs = std::filesystem;
-      const std::set<std::string> stay{"torque.csv",
-                                       "curve.csv",
-                                       "summary.json",
-                                       "parameters.prm"};
-      std::vector<fs::path>       files;
-      std::error_code             none; // refused levels have no directory
-      for (const auto &entry : fs::directory_iterator(from, none))
-        files.push_back(entry.path());
-      for (const fs::path &file : files)
-        {
-          const fs::path name = file.filename();
-          if (is_answer && (name == "torque.csv" || name == "curve.csv"))
-            fs::copy_file(file,
-                          to / name,
-                          fs::copy_options::overwrite_existing);
-          else if (is_answer && stay.count(name) == 0)
-            fs::rename(file, to / name);
-          else if (stay.count(name) == 0)
-            fs::remove(file);
-        }
-    }
 
 
 
@@ -336,21 +223,6 @@ namespace Debond
     largest_torque(const std::vector<TorqueRow> &rows)
     {
       return measure_torque_curve(rows, CurveSettings())["T_max_Nmm"];
-    }
-
-
-
-    std::string
-    verdict(const ModelChoice &choice, const ModelLevel &level)
-    {
-      const bool is_answer  = &level == choice.answer();
-      const bool sufficient = choice.is_sufficient(level);
-      return !level.done                ? level.why_not :
-             is_answer && sufficient    ? "the answer" :
-             is_answer                  ? "the answer, but not sufficient" :
-             sufficient                 ? "sufficient" :
-             std::isnan(level.estimate) ? "not estimated" :
-                                          "not sufficient";
     }
 
 
@@ -363,25 +235,44 @@ namespace Debond
                             "T_max_Nmm,difference,estimate,verdict\n";
       unsigned int number = 0;
       for (const ModelLevel &level : choice.tried)
-        table +=
-          csv_line({std::to_string(++number),
-                    level.model(),
-                    name_of(level.materials[0]),
-                    name_of(level.materials[1]),
-                    in_words(level.scene.bone.cells),
-                    in_words(level.scene.implant.cells),
-                    to_text(level.unknowns(), 6),
-                    std::to_string(level.done ? level.rows.back().step : 0),
-                    to_text(level.seconds, 6),
-                    to_text(largest_torque(level.rows), 6),
-                    to_text(level.difference, 6),
-                    to_text(level.estimate, 6),
-                    verdict(choice, level)});
+        table += csv_line(
+          {std::to_string(++number),
+           level.model(),
+           name_of(level.scene.bone.material),
+           name_of(level.scene.implant.material),
+           in_words(level.scene.bone.cells),
+           in_words(level.scene.implant.cells),
+           to_text(level.unknowns(), 6),
+           std::to_string(level.rows.empty() ? 0 : level.rows.back().step),
+           to_text(level.seconds, 6),
+           to_text(largest_torque(level.rows), 6),
+           to_text(level.difference, 6),
+           to_text(level.estimate, 6),
+           level.rows.empty()                 ? level.why_not :
+           &level == choice.answer()          ? "the answer" :
+           level.estimate <= choice.tolerance ? "sufficient" :
+                                                "not sufficient"});
       write_file(filename, table);
     }
 
 
 
+    /** Gives the scene's directory the files of the answer. Fields, which may
+     *  be large, move there. */
+    void
+    take_files(const std::string &from, const std::string &to)
+    {
+      namespace fs = std::filesystem;
+      std::vector<fs::path> files;
+      for (const auto &entry : fs::directory_iterator(from))
+        files.push_back(entry.path());
+      for (const fs::path &file : files)
+        if (const fs::path target = to / file.filename();
+            file.extension() == ".csv" || file.extension() == ".json")
+          fs::copy_file(file, target, fs::copy_options::overwrite_existing);
+        else if (file.extension() != ".prm")
+          fs::rename(file, target);
+    }
   } // namespace
 
 
@@ -393,7 +284,7 @@ namespace Debond
     ModelChoice         choice(scene);
     Console console(scene.output.quiet, scene.load_steps.times, std::cout);
     const ResultDirectory directory(scene.output, scene.completed_parameters);
-    remove_results(directory.path(), true);
+    remove_results(directory.path());
     if (!scene.title.empty())
       console.headline(scene.title);
     choice.climb(console);
@@ -402,30 +293,33 @@ namespace Debond
     if (answer == nullptr)
       throw RunError("Model = auto: no model could be run; " +
                      directory.file("auto.csv") + " says why");
-    for (const ModelLevel &level : choice.tried)
-      sort_files(level.scene.output.directory,
-                 directory.path(),
-                 &level == answer);
-    const bool reached = choice.is_sufficient(*answer);
+    take_files(answer->scene.output.directory, directory.path());
+    const bool        reached  = answer->estimate <= choice.tolerance;
+    const std::string estimate = percent(answer->estimate),
+                      reason =
+                        reached ?
+                          "the estimated error is within the tolerance" :
+                          "the tolerance of " + percent(choice.tolerance) +
+                            " was not reached: the estimated error is " +
+                            estimate + "; " + choice.ladder.why_no_further;
     // The summary of the answer, and what only the choice knows.
-    nlohmann::ordered_json json =
-      read_json(answer->scene.output.directory + "/summary.json");
+    nlohmann::ordered_json json = read_json(directory.file("summary.json"));
     json.update({{"wall_seconds", clock.wall_time()},
                  {"converged", reached},
-                 {"reason", choice.reason()},
+                 {"reason", reason},
                  {"error_estimate", answer->estimate},
                  {"error_tolerance", choice.tolerance},
                  {"answer", answer->description()},
                  {"answer_rung", answer - choice.tried.data() + 1},
                  {"rungs", choice.tried.size()}});
     write_json(directory.file("summary.json"), json);
-    console.headline(
-      Text() << (reached ? "Answer: " : "Best: ") << answer->description()
-             << ", estimated error " << percent(answer->estimate)
-             << " of the largest torque, " << largest_torque(answer->rows)
-             << " N mm. Results are in " << directory.path());
+    console.headline(Text() << (reached ? "Answer: " : "Best: ")
+                            << answer->description() << ", estimated error "
+                            << estimate << " of the largest torque, "
+                            << largest_torque(answer->rows)
+                            << " N mm. Results are in " << directory.path());
     if (!reached)
-      throw RunError("Model = auto: " + choice.reason());
+      throw RunError("Model = auto: " + reason);
   }
 
 
@@ -433,39 +327,14 @@ namespace Debond
   void
   check_auto(const Scene &scene, std::ostream &out)
   {
-    const ClassicNumbers  classic(out);
-    const ModelChoice     choice(scene);
-    const ModelHierarchy &hierarchy = choice.hierarchy;
-    const Materials      &richest   = hierarchy.materials.back();
-    unsigned int          number    = 0;
+    const ClassicNumbers classic(out);
+    const ModelLadder    ladder(scene);
+    unsigned int         number = 0;
     out << "Model auto would climb until the torque curve is right to "
-        << percent(choice.tolerance) << ":\n";
-    const auto print = [&](const ModelLevel &level, const std::string &remark) {
+        << percent(scene.load_steps.tolerance) << ":\n";
+    for (const ModelLevel &level : ladder.levels)
       out << "  " << ++number << " " << level.description() << ", "
-          << level.unknowns() << " unknowns" << remark << '\n';
-    };
-    const ModelLevel closed_form = hierarchy.foundation();
-    std::string      refused;
-    try
-      {
-        ClosedFormSolution solution(closed_form.scene);
-      }
-    catch (const InputError &error)
-      {
-        refused = std::string("; refused: ") + error.what();
-      }
-    print(closed_form, refused);
-    for (const Materials &materials : hierarchy.materials)
-      print(hierarchy.finite_elements(materials, 0), "");
-    unsigned int mesh = 1;
-    for (; hierarchy.limit(richest, mesh).empty(); ++mesh)
-      print(hierarchy.finite_elements(richest, mesh),
-            richest == hierarchy.linear_materials ?
-              "" :
-              ", or linear if that is accurate enough");
-    out << "and no further: " << hierarchy.limit(richest, mesh) << '\n';
+          << level.unknowns() << " unknowns\n";
+    out << "and no further: " << ladder.why_no_further << '\n';
   }
-
-
-
 } // namespace Debond

@@ -1,4 +1,5 @@
 #include <debond/models/closed_form_solution.h>
+#include <debond/models/foundation.h>
 #include <debond/shapes/body_geometry.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
@@ -197,11 +198,11 @@ namespace Debond
       if (!needs_normal &&
           (torsional != 0. || scene.model != ModelKind::foundation))
         return;
-      solution.linear_solution = foundation_stiffness(scene);
+      const FoundationStiffness bodies = foundation_stiffness(scene);
       if (normal == 0.)
-        normal = solution.linear_solution.normal;
+        normal = bodies.normal;
       if (torsional == 0.)
-        torsional = solution.linear_solution.torsional;
+        torsional = bodies.torsional;
     }
 
 

@@ -181,9 +181,7 @@ namespace Debond
         seconds_before_steps = wall_clock.wall_time();
         simulation.run();
         const std::string difference =
-          difference_from_forecast(scene,
-                                   simulation.system(),
-                                   simulation.rows());
+          difference_from_forecast(scene, simulation.rows());
         if (!difference.empty())
           report.console.warn("forecast", difference);
         report.torque_curve->finish();
@@ -466,6 +464,6 @@ namespace Debond
     for (const Warning &warning : simulation.warnings())
       out << "warning: " << warning.text << '\n';
     if (scene.implant.geometry().has_closed_forms())
-      print_forecast(scene, system, out);
+      print_forecast(scene, out);
   }
 } // namespace Debond

@@ -1,4 +1,5 @@
 #include <debond/models/closed_form_solution.h>
+#include <debond/models/foundation.h>
 #include <debond/models/simulation.h>
 #include <debond/models/torsion_curve.h>
 #include <debond/models/varying_curve.h>

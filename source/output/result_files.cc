@@ -17,7 +17,7 @@
 namespace Debond
 {
   void
-  remove_results(const std::string &directory, const bool rungs_only)
+  remove_results(const std::string &directory)
   {
     namespace fs = std::filesystem;
     if (!Ranks::is_first())
@@ -35,7 +35,7 @@ namespace Debond
         const std::string name = path.filename().string();
         const bool        is_rung =
           std::regex_match(name, rung) && fs::exists(path / "parameters.prm");
-        if (is_rung || (!rungs_only && std::regex_match(name, file)))
+        if (is_rung || std::regex_match(name, file))
           fs::remove_all(path);
       }
   }

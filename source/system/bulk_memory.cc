@@ -61,9 +61,13 @@ namespace Debond
   double
   n_unknowns_of(const BodyParameters &body)
   {
-    const double p     = body.element == ElementKind::quadratic ? 2. : 1.;
-    const auto   cells = body.lattice_of_cells();
-    return 3. * (p * cells[0] + 1.) * (p * cells[1] + 1.) * (p * cells[2] + 1.);
+    const auto   n    = body.lattice_of_cells();
+    const double more = body.contact_surface == SurfaceKind::nurbs ? 2. : 1.,
+                 on_face = (n[0] + more) * (n[1] + more),
+                 p       = body.element == ElementKind::quadratic ? 2. : 1.;
+    return 3. * (body.element == ElementKind::spline ?
+                   on_face * (n[2] + 2.) :
+                   (p * n[0] + 1.) * (p * n[1] + 1.) * p * n[2] + on_face);
   }
 
 

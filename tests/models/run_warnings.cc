@@ -32,8 +32,7 @@ show(const std::string &name, const std::vector<std::string> &overrides)
   std::cout << name << ":";
   for (const Warning &warning : simulation.warnings())
     std::cout << " [" << warning.check << "]";
-  if (!difference_from_forecast(scene, simulation.system(), simulation.rows())
-         .empty())
+  if (!difference_from_forecast(scene, simulation.rows()).empty())
     std::cout << " [forecast]";
   std::cout << "\n";
 }

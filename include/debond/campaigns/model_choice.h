@@ -8,14 +8,10 @@
 #include <iosfwd>
 #include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace Debond
 {
-  /** The materials of bone and implant. */
-  using Materials = std::array<Material, 2>;
-
   /** "rigid", "linear" or "neo-hookean". */
   std::string
   name_of(Material material);
@@ -24,20 +20,17 @@ namespace Debond
   std::string
   in_words(const std::array<unsigned int, 3> &cells);
 
-  /** A level of the hierarchy: one model of a scene, and what came out of it.
-   */
+  /** A model of a scene, and what came out of it. */
   struct ModelLevel
   {
     static constexpr double undefined =
       std::numeric_limits<double>::quiet_NaN();
 
-    Materials    materials; ///< of bone and implant
-    unsigned int mesh = 0;  ///< doublings of the coarsest mesh
-    Scene        scene;
+    Scene        scene;    ///< with the bodies and the mesh of this model
+    unsigned int mesh = 0; ///< doublings of the coarsest mesh
 
-    bool                   done = false;
-    std::string            why_not; ///< it is not done
-    std::vector<TorqueRow> rows;
+    std::vector<TorqueRow> rows;    ///< none: it could not be run
+    std::string            why_not; ///< it could not
     double                 seconds = 0;
     double difference = undefined; ///< largest, from the best level, over T_max
     double estimate   = undefined; ///< of the error, over T_max
@@ -46,6 +39,12 @@ namespace Debond
     is_foundation() const
     {
       return scene.model == ModelKind::foundation;
+    }
+    /** Those of bone and implant. */
+    std::array<Material, 2>
+    materials() const
+    {
+      return {{scene.bone.material, scene.implant.material}};
     }
     /** "foundation" or the richer of both materials. */
     std::string
@@ -59,52 +58,21 @@ namespace Debond
   };
 
   /**
-   * The models that `Model = auto` may choose among: the scenes that they are.
-   * Meshes are numbered from 0, the coarsest; each has twice the cells of the
-   * one before in every direction. The coarsest is that of the scene, or a
-   * half, a quarter ... of it as long as all numbers of cells are even and the
-   * mesh keeps 15 cells across the bone, 3 across the implant and 2 layers.
+   * The models that `Model = auto` tries, from the cheapest: the closed form;
+   * bodies from rigid ones to those of the scene, on mesh 0; these on meshes
+   * with twice the cells in every direction, and again. Mesh 0 is that of the
+   * scene, or a half, a quarter ... of it as long as all numbers of cells are
+   * even and 15 cells across the bone, 3 across the implant and 2 layers stay.
    */
-  class ModelHierarchy
+  struct ModelLadder
   {
-  public:
-    /** @p step_tolerance is that of the adaptive steps of all models. Throws
-     *  EntryError if the scene has no torque curve that models could be
+    /** Throws EntryError if the scene has no torque curve that models could be
      *  compared by. */
-    ModelHierarchy(const Scene &scene, double step_tolerance);
+    explicit ModelLadder(const Scene &scene);
 
-    /** Finite elements. */
-    ModelLevel
-    finite_elements(const Materials &materials, unsigned int mesh) const;
-
-    /** The closed form with the linear solution on mesh 0. */
-    ModelLevel
-    foundation() const;
-
-    /** The scene with half the cells of mesh 0, rounded up, for the linear
-     *  solution only, and the ratio of the sizes of cells: the smallest of all
-     *  directions. */
-    std::pair<Scene, double>
-    below_coarsest() const;
-
-    /** Why this mesh is more than a computer can be asked for; empty if it is
-     *  not. */
-    std::string
-    limit(const Materials &materials, unsigned int mesh) const;
-
-  private:
-    const Scene                                scene;
-    const double                               step_tolerance;
-    std::array<std::array<unsigned int, 3>, 2> coarsest;
-
-  public:
-    /** From the poorest, two rigid bodies, to the scene's own; the richest that
-     *  are not Neo-Hookean. */
-    std::vector<Materials> materials;
-    Materials              linear_materials;
+    std::vector<ModelLevel> levels;
+    std::string             why_no_further;
   };
-
-
 
   /** Largest |T - T_reference| relative to the largest |T_reference|: the
    *  `difference_max` of summary.json, at the rows of both curves. Only angles
@@ -129,8 +97,7 @@ namespace Debond
    *  of the answer are then in the scene's directory, those of every level in
    *  DIR/rung-1 and so on, and auto.csv lists them. If the tolerance was not
    *  reached the answer is the best model, and summary.json says so. Throws
-   *  EntryError if the scene has no torque curve that models could be compared
-   *  by. */
+   *  what ModelLadder does. */
   void
   run_auto(const Scene &scene);
 

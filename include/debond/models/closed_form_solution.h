@@ -2,8 +2,8 @@
 #define debond_models_closed_form_solution_h
 
 #include <debond/models/closed_forms.h>
-#include <debond/models/foundation.h>
 #include <debond/output/torque_curve.h>
+#include <debond/scene/scene.h>
 
 #include <iosfwd>
 #include <memory>
@@ -30,8 +30,6 @@ namespace Debond
     const Scene scene;
     /** Those of the foundation [MPa/mm], 0 where the model needs none. */
     double normal_stiffness = 0, torsional_stiffness = 0;
-    /** The linear solution that they are from, if one was needed. */
-    FoundationStiffness linear_solution;
 
     std::unique_ptr<TorsionModel> model;
     /** What the machine has jumped over at the end; empty if it is rigid. */

@@ -12,12 +12,11 @@
 namespace Debond
 {
   /** Removes what debond has written into a directory, but for parameters.prm;
-   *  images that others made of the results stay. @p rungs_only: nothing but
-   * the directories rung-NUMBER of Model = auto; what else has such a name is
-   * not ours. Throws std::filesystem::filesystem_error if that is impossible.
-   */
+   *  images that others made of the results stay, and what only has the name of
+   *  a directory rung-NUMBER of Model = auto. Throws
+   *  std::filesystem::filesystem_error if that is impossible. */
   void
-  remove_results(const std::string &directory, bool rungs_only = false);
+  remove_results(const std::string &directory);
 
   /** The directory that a run writes to. No other process can open it while
    * this object or a copy of it lives; that process gets an InputError. */

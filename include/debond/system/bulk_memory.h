@@ -7,8 +7,8 @@
 
 namespace Debond
 {
-  /** Degrees of freedom of the nodes of its cells, about, if none are coarser
-   *  below. */
+  /** Unknowns of a body on a lattice, if it is not rigid and none of its cells
+   *  are coarser below; of any other about. */
   double
   n_unknowns_of(const BodyParameters &body);
 

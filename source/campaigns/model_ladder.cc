@@ -1,0 +1,258 @@
+#include <debond/campaigns/model_choice.h>
+#include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
+#include <debond/system/bulk_memory.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Debond
+{
+  namespace
+  {
+    /** Adaptive steps take this part of the tolerance. */
+    constexpr double       share_of_steps = 0.1;
+    constexpr unsigned int largest_mesh   = 4; // doublings
+
+
+
+    /** What the scene prescribes, a column for each time: expressions may do
+     *  anything between planned steps. Each phase has at least a thousand
+     *  times, the ends of planned steps among them. */
+    Eigen::ArrayXXd
+    prescribed_values(const Scene &scene)
+    {
+      const Chuck            chuck(scene.chuck,
+                        Eigen::Vector3d::Zero(),
+                        scene.implant.characteristic_radius());
+      LoadSteppingParameters steps = scene.load_steps;
+      for (unsigned int &n : steps.steps)
+        n *= (999 + n) / n;
+      const std::vector<double> times = steps.planned_times();
+      Eigen::ArrayXXd           values(6, times.size());
+      for (std::size_t i = 0; i < times.size(); ++i)
+        values.col(i) = chuck.values(times[i]).array();
+      return values;
+    }
+
+
+
+    void
+    refuse_what_has_no_curve(const Scene &scene)
+    {
+      constexpr auto    z     = ChuckComponent::rotation_z;
+      const std::string entry = "Chuck / Rotation z / ";
+      if (scene.chuck.component[z].loaded)
+        throw EntryError(entry + "Control",
+                         "Model = auto compares torques and takes this "
+                         "rotation as prescribed");
+      const Eigen::ArrayXXd values = prescribed_values(scene);
+      const Eigen::Index    n      = values.cols() - 1;
+      // -1, 0 or 1; rounding is no motion
+      Eigen::ArrayXXd moves = values.rightCols(n) - values.leftCols(n);
+      for (unsigned int k = 0; k <= z; ++k)
+        {
+          const double rounding = 1e-12 * values.row(k).abs().maxCoeff();
+          moves.row(k)          = moves.row(k).unaryExpr([&](const double x) {
+            return double(x > rounding) - double(x < -rounding);
+          });
+        }
+      if ((moves.row(z) == 0.).all())
+        throw EntryError(entry + "Value",
+                         "Model = auto judges a model by its torque curve, and "
+                         "nothing rotates about z in this scene: choose a "
+                         "model with Model");
+      if (moves.row(z).maxCoeff() - moves.row(z).minCoeff() > 1.)
+        throw EntryError(entry + "Value",
+                         "Model = auto compares torques over the angle and "
+                         "knows no rotation that reverses");
+      bool has_turned = false;
+      for (const auto &move : moves.colwise())
+        {
+          has_turned = has_turned || move[z] != 0.;
+          for (unsigned int k = 0; k < z; ++k)
+            if (has_turned && move[z] == 0. && move[k] != 0.)
+              throw EntryError(
+                ChuckParameters::entry_name(k, "Value"),
+                "Model = auto compares torques over the angle and would not "
+                "see what this does while the rotation about z pauses or has "
+                "ended; it may change before the rotation begins and during "
+                "it");
+        }
+    }
+
+
+
+    bool
+    can_be_halved(const BodyParameters &body, const unsigned int fewest_across)
+    {
+      const auto &n = body.cells;
+      return body.cells_under_implant == 0 && n[0] % 2 == 0 && n[1] % 2 == 0 &&
+             n[2] % 2 == 0 && std::min(n[0], n[1]) >= 2 * fewest_across &&
+             n[2] >= 4;
+    }
+  } // namespace
+
+
+
+  std::string
+  name_of(const Material material)
+  {
+    switch (material)
+      {
+        case Material::rigid:
+          return "rigid";
+        case Material::linear:
+          return "linear";
+        case Material::neo_hookean:
+          return "neo-hookean";
+      }
+    AssertThrow(false, dealii::ExcNotImplemented());
+    return "";
+  }
+
+
+
+  std::string
+  in_words(const std::array<unsigned int, 3> &cells)
+  {
+    return Text() << cells[0] << " x " << cells[1] << " x " << cells[2];
+  }
+
+
+
+  std::string
+  ModelLevel::model() const
+  {
+    return is_foundation() ?
+             "foundation" :
+             name_of(std::max(scene.bone.material, scene.implant.material));
+  }
+
+
+
+  std::string
+  ModelLevel::description() const
+  {
+    return model() + ", " + in_words(scene.bone.cells) + " and " +
+           in_words(scene.implant.cells) + " cells";
+  }
+
+
+
+  double
+  ModelLevel::unknowns() const
+  {
+    double sum = 0.;
+    for (const BodyParameters *const body : {&scene.bone, &scene.implant})
+      if (!is_foundation() && !body->is_rigid())
+        sum += n_unknowns_of(*body);
+    return sum;
+  }
+
+
+
+  ModelLadder::ModelLadder(const Scene &scene)
+  {
+    refuse_what_has_no_curve(scene);
+    ModelLevel level;
+    level.scene       = scene;
+    level.scene.model = ModelKind::finite_elements;
+    level.scene.changed_entries.clear();
+    level.scene.load_steps.adaptive = true;
+    level.scene.load_steps.tolerance *= share_of_steps;
+    level.scene.output.quiet                   = true;
+    level.scene.output.overwrite_other_results = true;
+    level.scene.output.resumable               = false;
+    BodyParameters &bone = level.scene.bone, &implant = level.scene.implant;
+    const auto      limit_materials = [&](const Material richest) {
+      bone.material    = std::min(scene.bone.material, richest);
+      implant.material = std::min(scene.implant.material, richest);
+    };
+    while (can_be_halved(bone, 15) && can_be_halved(implant, 3))
+      for (BodyParameters *const body : {&bone, &implant})
+        for (unsigned int &n : body->cells)
+          n /= 2;
+
+    limit_materials(Material::linear); // as in the linear solution
+    levels.push_back(level);
+    levels[0].scene.model       = ModelKind::foundation;
+    levels[0].scene.closed_form = ClosedFormParameters(); // of the bodies
+    for (const Material richest :
+         {Material::rigid,
+          Material::linear,
+          std::max(scene.bone.material, scene.implant.material)})
+      {
+        limit_materials(richest);
+        if (levels.size() == 1 ||
+            level.materials() != levels.back().materials())
+          levels.push_back(level);
+      }
+    for (level.mesh = 1; level.mesh <= largest_mesh; ++level.mesh)
+      {
+        for (BodyParameters *const body : {&bone, &implant})
+          {
+            body->cells_under_implant *= 2;
+            for (unsigned int &n : body->cells)
+              n *= 2;
+          }
+        if (level.unknowns() > scene.largest_number_of_unknowns)
+          {
+            why_no_further = Text() << "the next mesh has " << level.unknowns()
+                                    << " unknowns, more than "
+                                    << scene.largest_number_of_unknowns
+                                    << " (Auto / Largest number of unknowns)";
+            return;
+          }
+        levels.push_back(level);
+      }
+    why_no_further = Text() << "the mesh has been refined " << largest_mesh
+                            << " times";
+  }
+
+
+
+  double
+  largest_difference(const std::vector<TorqueRow> &rows,
+                     const std::vector<TorqueRow> &reference)
+  {
+    // two polygons differ most at a corner of one of them
+    const auto measures = [](const std::vector<TorqueRow> &rows,
+                             const std::vector<TorqueRow> &others) {
+      CurveSettings settings;
+      for (const TorqueRow &row : fine_curve(others))
+        settings.reference.emplace_back(row.angle_deg, row.torque_Nmm);
+      return measure_torque_curve(rows, settings);
+    };
+    const auto   there           = measures(rows, reference);
+    const auto   back            = measures(reference, rows);
+    const double difference_back = back["difference_max"].get<double>() *
+                                   there["T_max_Nmm"].get<double>() /
+                                   back["T_max_Nmm"].get<double>();
+    return std::isnan(difference_back) ?
+             difference_back :
+             std::max(difference_back, there["difference_max"].get<double>());
+  }
+
+
+
+  double
+  discretisation_error(const std::vector<double> &differences)
+  {
+    constexpr double reserve = 1.25, lowest_order = 0.5, highest_order = 2.;
+    const double     last = differences.back();
+    if (last == 0.)
+      return 0.;
+    double order = 1.;
+    if (differences.size() > 1)
+      order = std::min(std::log2(differences[differences.size() - 2] / last),
+                       highest_order);
+    if (!(order >= lowest_order))
+      return ModelLevel::undefined;
+    return reserve * last / (std::exp2(order) - 1.);
+  }
+} // namespace Debond

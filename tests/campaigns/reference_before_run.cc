@@ -6,7 +6,9 @@
 #include <debond/campaigns/run_scene.h>
 #include <debond/campaigns/study.h>
 #include <debond/input/parameter_loop.h>
+#include <debond/scene/scene.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>

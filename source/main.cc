@@ -2,7 +2,6 @@
 #include <debond/campaigns/study.h>
 #include <debond/input/parameter_loop.h>
 #include <debond/models/debonding_problem.h>
-#include <debond/models/memory_estimate.h>
 #include <debond/models/resumed_run.h>
 #include <debond/output/reference_comparison.h>
 #include <debond/output/result_files.h>
@@ -16,6 +15,7 @@
 #include <debond/support/provenance.h>
 #include <debond/support/ranks.h>
 #include <debond/support/runtime.h>
+#include <debond/system/memory_estimate.h>
 
 #include <deal.II/base/config.h>
 #include <deal.II/base/exceptions.h>

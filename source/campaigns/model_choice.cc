@@ -2,10 +2,10 @@
 #include <debond/input/csv_table.h>
 #include <debond/models/closed_form_solution.h>
 #include <debond/models/debonding_problem.h>
-#include <debond/models/memory_estimate.h>
 #include <debond/output/console.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
+#include <debond/system/memory_estimate.h>
 
 #include <deal.II/base/timer.h>
 

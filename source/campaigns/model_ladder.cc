@@ -1,7 +1,7 @@
 #include <debond/campaigns/model_choice.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
-#include <debond/system/bulk_memory.h>
+#include <debond/system/memory_estimate.h>
 
 #include <deal.II/base/exceptions.h>
 

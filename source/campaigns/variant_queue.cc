@@ -1,7 +1,6 @@
 #include <debond/campaigns/run_scene.h>
 #include <debond/campaigns/variant_queue.h>
 #include <debond/models/debonding_problem.h>
-#include <debond/models/memory_estimate.h>
 #include <debond/models/resumed_run.h>
 #include <debond/scene/scene.h>
 #include <debond/shapes/modulus_field.h>
@@ -10,6 +9,7 @@
 #include <debond/support/ranks.h>
 #include <debond/support/runtime.h>
 #include <debond/system/coupled_system.h>
+#include <debond/system/memory_estimate.h>
 
 #include <deal.II/base/multithread_info.h>
 #include <deal.II/base/timer.h>
@@ -79,7 +79,7 @@ namespace Debond
         set_number_of_threads(1);
         try
           {
-            require_memory(scene, false);
+            require_memory(scene, scene.output.fields_every > 0, false);
             dealii::Timer clock;
             CoupledSystem system(scene);
             system.start(scene.load_steps.times.front());

@@ -1,6 +1,5 @@
 #include <debond/models/debonding_problem.h>
 #include <debond/models/forecast.h>
-#include <debond/models/memory_estimate.h>
 #include <debond/models/resumed_run.h>
 #include <debond/models/run_report.h>
 #include <debond/models/simulation.h>
@@ -12,6 +11,7 @@
 #include <debond/support/ranks.h>
 #include <debond/support/runtime.h>
 #include <debond/support/serialization.h>
+#include <debond/system/memory_estimate.h>
 
 #include <nlohmann/json.hpp>
 
@@ -388,7 +388,9 @@ namespace Debond
     , bodies(std::move(bodies))
   {
     scene.check_ranks();
-    require_memory(scene, this->bodies != nullptr);
+    require_memory(scene,
+                   scene.output.fields_every > 0,
+                   this->bodies != nullptr);
   }
 
 
@@ -453,8 +455,12 @@ namespace Debond
       out << scene.bulk_solver_in_words() << '\n';
     out << interface.get_points().size() << " slave quadrature points on the "
         << name_of(interface.slave_side()) << '\n'
-        << "memory: some " << std::ceil(estimated_memory_MB(scene)) << " MB"
-        << (Ranks::number() > 1 ? " in each process\n" : "\n")
+        << "memory: some "
+        << std::ceil(1e3 * MemoryEstimate(scene,
+                                          scene.bulk_solver(),
+                                          scene.output.fields_every > 0)
+                             .total)
+        << " MB" << (Ranks::number() > 1 ? " in each process\n" : "\n")
         << "initial bonding " << name_of(scene.interface.bonding.pattern)
         << ": " << interface.bonding().description() << '\n'
         << (scene.load_steps.adaptive ? "adaptive steps, no larger than " : "")

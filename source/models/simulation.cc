@@ -1,10 +1,10 @@
-#include <debond/models/memory_estimate.h>
 #include <debond/models/simulation.h>
 #include <debond/shapes/body_geometry.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
 #include <debond/support/runtime.h>
+#include <debond/system/memory_estimate.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +29,7 @@ namespace Debond
           dealii::TimerOutput      *timer)
     {
       scene.require_same_on_all_ranks();
-      require_memory(scene, bodies != nullptr);
+      require_memory(scene, scene.output.fields_every > 0, bodies != nullptr);
       const TimedSection t(timer, "set-up");
       return CoupledSystem(scene, std::move(bodies), timer);
     }

@@ -5,8 +5,8 @@
 #include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
 #include <debond/support/runtime.h>
-#include <debond/system/bulk_memory.h>
 #include <debond/system/load_step_parameters.h>
+#include <debond/system/memory_estimate.h>
 
 #include <algorithm>
 #include <cmath>
@@ -159,26 +159,19 @@ namespace Debond
 
   namespace
   {
-    /** What the machine had when the program began, so that the choice is the
-     *  same at all times. */
+    /** What the machine had when the program began [GB], so that the choice is
+     *  the same at all times. */
     double
-    memory_of_machine_MB()
+    memory_of_machine()
     {
       static const double MB = available_memory_MB();
-      return MB / Ranks::number_on_this_machine();
+      return 1e-3 * MB / Ranks::number_on_this_machine();
     }
 
 
 
-    /** Seconds of one processor for a run, measured (doc/scaling.md): to
-     *  factorise and condense, and with multigrid, of which each iteration of
-     *  Newton's method takes some cycles. */
-    double
-    seconds_of_direct(const double bytes)
-    {
-      return 4e-14 * std::pow(bytes, 1.5);
-    }
-
+    /** Seconds of one processor for a run, measured (doc/scaling.md): with
+     *  multigrid each iteration of Newton's method takes some cycles. */
     double
     seconds_of_multigrid(const ModelParameters &model)
     {
@@ -202,14 +195,13 @@ namespace Debond
       return "as asked for";
     if (bone.bulk_solver != BulkSolver::automatic)
       return "";
-    double       n_condensed;
-    const double sparse = bytes_of_body(
-                   *this, Side::bone, BulkSolver::direct, false, n_condensed),
-                 bytes = sparse + 16. * n_condensed * n_condensed;
-    if (1e-6 * bytes > 0.9 * memory_of_machine_MB())
-      return "as factors would take some " + to_text(1e-9 * bytes, 2) +
-             " GB of memory, of " + to_text(1e-3 * memory_of_machine_MB(), 2);
-    const double direct    = seconds_of_direct(bytes),
+    const double factors =
+      MemoryEstimate(*this, BulkSolver::direct, false).bone;
+    if (factors > 0.9 * memory_of_machine())
+      return "as factors would take some " + to_text(factors, 2) +
+             " GB of memory, of " + to_text(memory_of_machine(), 2);
+    // to factorise and condense, measured as well
+    const double direct    = 1.3 * std::pow(factors, 1.5),
                  multigrid = seconds_of_multigrid(*this);
     if (multigrid < direct)
       return "in some " + to_text(multigrid, 2) + " s, where factors take " +
@@ -247,21 +239,6 @@ namespace Debond
     if (why_off_lattice().empty())
       return BulkSolver::lattice;
     return why_multigrid().empty() ? BulkSolver::direct : BulkSolver::multigrid;
-  }
-
-
-
-  bool
-  ModelParameters::needs_matrix() const
-  {
-    const auto &components = chuck.component;
-    return bulk_solver() == BulkSolver::direct &&
-           (load_steps.follow_path ||
-            std::any_of(components.begin(),
-                        components.end(),
-                        [](const ChuckComponentParameters &component) {
-                          return component.is_unknown();
-                        }));
   }
 
 

@@ -100,10 +100,6 @@ namespace Debond
                1e-9 * (load_steps.times.back() - load_steps.times.front());
     }
 
-    /** Whether unknown components of the chuck, or those of a path, make the
-     *  coupled system one that is assembled as a matrix. */
-    bool
-    needs_matrix() const;
     /** Why the lattice solver cannot do the bone, as the rest of a sentence;
      *  empty: it can. */
     std::string

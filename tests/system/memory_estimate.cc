@@ -4,8 +4,8 @@
 // coupled system a dense matrix, and a thick mesh. The measured peak is that of
 // the process, so each case needs more than the one before.
 
-#include <debond/models/memory_estimate.h>
 #include <debond/support/runtime.h>
+#include <debond/system/memory_estimate.h>
 
 #include <sys/resource.h>
 
@@ -43,11 +43,14 @@ compare(const std::string              &what,
 {
   run_scene("memory_estimate", scene_text, overrides);
   const double measured = Debond::peak_memory_MB() - before_MB;
+  const auto   estimate = [](const std::vector<std::string> &overrides) {
+    const auto scene = Debond::Scene::from_text(scene_text, overrides);
+    return 1e3 *
+           Debond::MemoryEstimate(scene, scene.bulk_solver(), false).total;
+  };
   const double estimated =
-    Debond::estimated_memory_MB(
-      Debond::Scene::from_text(scene_text, overrides)) -
-    Debond::estimated_memory_MB(Debond::Scene::from_text(
-      scene_text, {"Bone/Material=rigid", "Implant/Material=rigid"}));
+    estimate(overrides) -
+    estimate({"Bone/Material=rigid", "Implant/Material=rigid"});
   report(what + ": factor between estimate and peak",
          std::max(measured / estimated, estimated / measured),
          2.);
@@ -75,7 +78,7 @@ check_limit()
   const auto is_refused = [&](const bool has_bodies) {
     try
       {
-        Debond::require_memory(large, has_bodies);
+        Debond::require_memory(large, false, has_bodies);
         return false;
       }
     catch (const Debond::NotEnoughMemory &)

@@ -3,7 +3,6 @@
 
 #include "module.h"
 
-#include <debond/campaigns/run_scene.h>
 #include <debond/input/expression_parser.h>
 #include <debond/input/parameter_loop.h>
 #include <debond/models/closed_form_solution.h>
@@ -41,17 +40,6 @@ arrays(const std::vector<TorqueRow> &rows)
 
 
 
-ReferenceCurve
-curve_of(const Curve &columns)
-{
-  ReferenceCurve curve;
-  for (std::size_t i = 0; i < columns[0].size(); ++i)
-    curve.emplace_back(columns[0][i], columns[1].at(i));
-  return curve;
-}
-
-
-
 /** What summary.json says of a curve. */
 std::string
 measures(const Scene                  &scene,
@@ -81,6 +69,17 @@ namespace
 {
   using Texts = std::map<std::string, std::string>; ///< by full names
   using Curve = std::array<std::vector<double>, 2>; ///< angles, torques
+
+
+
+  ReferenceCurve
+  curve_of(const Curve &columns)
+  {
+    ReferenceCurve curve;
+    for (std::size_t i = 0; i < columns[0].size(); ++i)
+      curve.emplace_back(columns[0][i], columns[1].at(i));
+    return curve;
+  }
 
 
 

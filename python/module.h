@@ -3,6 +3,7 @@
 
 // What the parts of the module _debond share.
 
+#include <debond/campaigns/run_scene.h>
 #include <debond/models/simulation.h>
 #include <debond/support/ranks.h>
 

@@ -203,7 +203,7 @@ namespace Debond
           result.state.internal = friction.law.advance(friction.start, 0.);
         result.normal_gap          = g_n;
         result.state.pressure      = std::max(0., response.pressure);
-        result.state.gap           = parts_along(normal.geometry, gap);
+        result.state.gap           = normal.parts(gap);
         result.softening           = 0.;
         result.tangential_traction = eps_t * (gap - g_n * n);
         result.traction = -response.pressure * n + result.tangential_traction;
@@ -218,18 +218,14 @@ namespace Debond
         //   dg = dx - dy,   dg_n = n . dg + g . dn.
         // With the penalty law and eps_n = eps_t all but the first term cancel,
         // and dt = eps dg is Eq. (28) differentiated. Otherwise the turning of
-        // the normal has a part. Columns of y_n stay 0: y(xi_hat^n) is y here.
-        constexpr int at_x = 0, at_y = 3, at_a1 = 6; // columns of w
+        // the normal has a part.
         result.dxi.setZero();
-        result.dt.setZero();
-        const Matrix3d along_gap =
-          eps_t * Matrix3d::Identity() + (eps_n - eps_t) * n * n.transpose();
-        result.dt.middleCols<3>(at_x)        = along_gap;
-        result.dt.middleCols<3>(at_y)        = -along_gap;
         const Eigen::Matrix<double, 3, 6> dn = normal.derivative();
-        result.dt.middleCols<6>(at_a1) =
+        result.dt << eps_t * Matrix3d::Identity() +
+                       (eps_n - eps_t) * n * n.transpose(),
           (eps_n - eps_t) * (n * (gap.transpose() * dn)) -
-          (response.pressure + eps_t * g_n) * dn;
+            (response.pressure + eps_t * g_n) * dn,
+          Eigen::Matrix<double, 3, W::size - W::trial_gap>::Zero();
       }
 
       // The point slides, or opens: with p = 0 the same equations project it,
@@ -254,9 +250,8 @@ namespace Debond
                      length  = tangential_gap.norm();
         const double slip    = length > 0. ? 1. - elastic / length : 0.;
         SlipOutcome  outcome =
-          problem.solve(master.surface->moved(
-                          start.xi,
-                          slip * parts_along(old.geometry, tangential_gap)),
+          problem.solve(master.surface->moved(start.xi,
+                                              slip * old.parts(tangential_gap)),
                         result);
         // The projection is near the solution wherever the tangential gap is
         // small, however far xi_hat^n is, and starting there costs one more

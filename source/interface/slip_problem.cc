@@ -10,18 +10,6 @@ namespace Debond
   using Eigen::Vector3d;
   using Eigen::Vector4d;
 
-  // What changes along a_1 x a_2 only makes it longer, and a unit vector has no
-  // part in that: dn = (1 - n n^T) dm / |m| with m = a_1 x a_2.
-  inline Vector3d
-  MasterNormal::change(const Vector3d &da1, const Vector3d &da2) const
-  {
-    const Vector3d dm =
-      scale * (da1.cross(geometry.a2) + geometry.a1.cross(da2));
-    return dm - n * n.dot(dm);
-  }
-
-
-
   // The equations of a sliding point.
   //
   // While a point sticks its interacting point xi_hat is known, and so is all
@@ -44,11 +32,11 @@ namespace Debond
                                       const Vector3d        &y_old,
                                       const SurfaceGeometry &geometry,
                                       const double           outward_sign)
-    : slip(geometry.y - y_old)
+    : normal(geometry, outward_sign)
+    , slip(geometry.y - y_old)
     , law(law)
     , geometry(geometry)
     , friction(friction)
-    , normal(geometry, outward_sign)
     , gap(x - geometry.y)
     , trial_gap(x - y_old)
   {
@@ -98,8 +86,8 @@ namespace Debond
   // the step. Asked at g_s^n it would lag behind, by 8 % of the torque in the
   // softening branch with 50 steps. The traction is the limit t_t = (mu p + eta
   // V) tau, Eq. (30), V being the distance over the duration of the step. What
-  // the gap is more than the elastic t_t / eps_t, its excess, must have no part
-  // in the surface, Eq. (29).
+  // the gap is more than the elastic t_t / eps_t must have no part in the
+  // surface, Eq. (29); derivatives take all of t for t_t, as -p n has none.
   inline void
   SlipEquations::find_traction()
   {
@@ -115,8 +103,10 @@ namespace Debond
                             Vector3d(Vector3d::Zero());
     tangential_traction = limit * tau;
     traction = -normal_response.pressure * normal.n + tangential_traction;
-    excess   = gap - tangential_traction / law.tangential_penalty;
-    h << geometry.a1.dot(excess), geometry.a2.dot(excess);
+    excess   = gap - traction / law.tangential_penalty;
+    tangents << geometry.a1, geometry.a2;
+    h = tangents.transpose() *
+        (gap - tangential_traction / law.tangential_penalty);
   }
 
 
@@ -125,10 +115,9 @@ namespace Debond
   //
   // Newton's method for xi_hat needs dh/dxi_hat; the Newton's method of the
   // whole system needs dt/dw and dh/dw, w being what the control points of both
-  // bodies move, see ContactPointResult. Both are the same chain rule. It
-  // starts with the changes of four vectors: of the gap x - y, of the trial gap
-  // x - y_n, of the gap of the step before, and of the normal n, which stays
-  // a unit vector.
+  // bodies move. Both are the same chain rule. It starts with the changes of
+  // four vectors: of the gap x - y, of the trial gap x - y_n, of the gap of the
+  // step before, and of the normal n, which stays a unit vector.
   inline void
   SlipEquations::find_changes()
   {
@@ -158,13 +147,13 @@ namespace Debond
       }
     else
       find_changes_of_direction(by_distance);
+    const Vector4d by_normal_gap =
+      normal_response.stiffness *
+      (pressure > 0. ? Vector4d(with(n, 0.) - by_pressure) : with(n, 0.));
+    change.gap.noalias() += by_normal_gap * n.transpose();
+    change.normal.noalias() += by_normal_gap * gap.transpose();
     change.normal.noalias() -= with(limit * n, 0.) * tau.transpose();
-    if (pressure > 0.)
-      {
-        by_pressure *= normal_response.stiffness;
-        change.gap.noalias() -= by_pressure * n.transpose();
-        change.normal.noalias() -= by_pressure * gap.transpose();
-      }
+    change.normal.topRows<3>().diagonal().array() -= normal_response.pressure;
   }
 
 
@@ -179,37 +168,20 @@ namespace Debond
 
 
 
-  // With respect to w = (x, y, a_1, a_2, y_n, g_n, turn), at fixed xi_hat. x
-  // moves both gaps, y the gap alone, y_n the trial gap alone, the tangents the
-  // normal and what of the excess lies along them. The traction is t = -p n +
-  // t_t, and of the excess g - t_t / eps_t the parts in the surface are h.
-  inline SlipEquations::Derivative<ContactPointResult::n_w>
+  // With respect to w, at fixed xi_hat. The tangents turn the normal, and what
+  // of the excess lies along them changes.
+  inline SlipEquations::Derivative<W::size>
   SlipEquations::along_w() const
   {
-    constexpr int   at_x = 0, at_y = 3, at_a1 = 6, at_a2 = 9; // columns of w
-    const Vector3d &n                                    = normal.n;
-    const Eigen::Matrix<double, 3, 6>                 dn = normal.derivative();
-    Eigen::Matrix<double, 4, ContactPointResult::n_w> d;
-    d << change.gap + change.trial, -change.gap, change.normal * dn,
-      -change.trial, change.old_gap, change.turn;
-
-    Derivative<ContactPointResult::n_w> result;
-    result.distance        = d.row(3);
-    result.traction        = d.topRows<3>();
-    const Matrix3d along_n = normal_response.stiffness * n * n.transpose();
-    result.traction.middleCols<3>(at_x) += along_n;
-    result.traction.middleCols<3>(at_y) -= along_n;
-    result.traction.middleCols<6>(at_a1) +=
-      normal_response.stiffness * n * (gap.transpose() * dn) -
-      normal_response.pressure * dn;
-    Eigen::Matrix<double, 3, 2> tangents;
-    tangents << geometry.a1, geometry.a2;
+    Derivative<W::size> result;
+    auto               &d = result.traction_and_distance;
+    d << change.gap, change.normal * normal.derivative(), change.trial,
+      change.old_gap, change.turn;
     result.h =
       -1. / law.tangential_penalty * tangents.transpose() * d.topRows<3>();
-    result.h.middleCols<3>(at_x) += tangents.transpose();
-    result.h.middleCols<3>(at_y) -= tangents.transpose();
-    result.h.block<1, 3>(0, at_a1) += excess.transpose();
-    result.h.block<1, 3>(1, at_a2) += excess.transpose();
+    result.h.middleCols<3>(W::gap) += tangents.transpose();
+    result.h.block<1, 3>(0, W::a1) += excess.transpose();
+    result.h.block<1, 3>(1, W::a2) += excess.transpose();
     return result;
   }
 
@@ -220,23 +192,19 @@ namespace Debond
   inline SlipEquations::Derivative<2>
   SlipEquations::along_surface() const
   {
-    const SurfaceGeometry      &y = geometry;
-    const Vector3d             &n = normal.n;
-    Eigen::Matrix<double, 3, 2> tangents, dn;
-    tangents << y.a1, y.a2;
-    dn << normal.change(y.a11, y.a12), normal.change(y.a12, y.a22);
-    const Eigen::Matrix<double, 4, 2> d =
-      change.normal * dn - change.gap * tangents;
-
+    const SurfaceGeometry &y     = geometry;
+    const auto             along = [&y](const Vector3d &v) {
+      Eigen::Matrix2d result;
+      result << v.dot(y.a11), v.dot(y.a12), v.dot(y.a12), v.dot(y.a22);
+      return result;
+    };
     Derivative<2> result;
-    result.distance = d.row(3);
-    result.traction = d.topRows<3>() +
-                      normal_response.stiffness * n * (gap.transpose() * dn) -
-                      normal_response.pressure * dn;
-    result.h << excess.dot(y.a11), excess.dot(y.a12), excess.dot(y.a12),
-      excess.dot(y.a22);
-    result.h -= tangents.transpose() *
-                (tangents + 1. / law.tangential_penalty * d.topRows<3>());
+    auto         &d = result.traction_and_distance;
+    d =
+      -change.normal * (normal.duals * along(normal.n)) - change.gap * tangents;
+    result.h = along(excess) -
+               tangents.transpose() *
+                 (tangents + 1. / law.tangential_penalty * d.topRows<3>());
     return result;
   }
 
@@ -428,7 +396,7 @@ namespace Debond
     result.normal_gap      = e.g_n;
     result.state.pressure  = e.pressure;
     result.state.gap =
-      parts_along(geometry, e.tangential_traction / law.tangential_penalty);
+      e.normal.parts(e.tangential_traction / law.tangential_penalty);
     result.softening           = e.softening();
     result.traction            = e.traction;
     result.tangential_traction = e.tangential_traction;
@@ -456,9 +424,11 @@ namespace Debond
           if (!held[1 - d])
             inverse(1 - d, 1 - d) = 1. / by_xi.h(1 - d, 1 - d);
         }
-    result.dxi   = -inverse * by_w.h;
-    result.dt    = by_w.traction + by_xi.traction * result.dxi;
-    result.dslip = by_w.distance + by_xi.distance * result.dxi;
+    result.dxi = -inverse * by_w.h;
+    const Eigen::Matrix<double, 4, W::size> total =
+      by_w.traction_and_distance + by_xi.traction_and_distance * result.dxi;
+    result.dt    = total.topRows<3>();
+    result.dslip = total.row(3);
   }
 
 

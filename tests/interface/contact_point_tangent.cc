@@ -570,7 +570,7 @@ relative_deviation(const Matrix &ours, const Matrix &reference)
 }
 
 /** What the program says of the derivatives with respect to x and all control
- *  points: chain rule from w = (x, y, a_1, a_2, y_n, g_n). */
+ *  points: chain rule from w. */
 void
 chain(const ContactPointResult &result,
       const Eigen::Vector2d    &old_gap,
@@ -578,32 +578,33 @@ chain(const ContactPointResult &result,
       Matrix                   &dt,
       Matrix                   &dforce)
 {
-  Matrix W = Matrix::Zero(ContactPointResult::n_w, 3 + 3 * n_control_points);
-  W.topLeftCorner<3, 3>().setIdentity();
+  Matrix dw = Matrix::Zero(W::size, 3 + 3 * n_control_points);
+  for (const int gap : {W::gap, W::trial_gap})
+    dw.block<3, 3>(gap, 0).setIdentity();
   const auto add_block =
     [&](const int row, const unsigned int A, const double factor) {
-      W.block<3, 3>(row, 3 + 3 * A) += factor * Eigen::Matrix3d::Identity();
+      dw.block<3, 3>(row, 3 + 3 * A) += factor * Eigen::Matrix3d::Identity();
     };
   for (unsigned int a = 0; a < result.basis.size; ++a)
     {
       const unsigned int A = result.basis.control_point[a];
-      add_block(3, A, result.basis.N[a]);
-      add_block(6, A, result.basis.N_1[a]);
-      add_block(9, A, result.basis.N_2[a]);
+      add_block(W::gap, A, -result.basis.N[a]);
+      add_block(W::a1, A, result.basis.N_1[a]);
+      add_block(W::a2, A, result.basis.N_2[a]);
     }
   if (result.state.status == PointStatus::slip)
     for (unsigned int a = 0; a < result.old_basis.size; ++a)
       {
         const SurfaceBasis &old = result.old_basis;
-        add_block(12, old.control_point[a], old.N[a]);
-        add_block(15,
+        add_block(W::trial_gap, old.control_point[a], -old.N[a]);
+        add_block(W::old_gap,
                   old.control_point[a],
                   old_gap[0] * old.N_1[a] + old_gap[1] * old.N_2[a]);
       }
 
-  dt               = result.dt * W;
-  const Matrix dxi = result.dxi * W;
-  dforce           = Matrix::Zero(3 * n_control_points, W.cols());
+  dt               = result.dt * dw;
+  const Matrix dxi = result.dxi * dw;
+  dforce           = Matrix::Zero(3 * n_control_points, dw.cols());
   for (unsigned int b = 0; b < result.basis.size; ++b)
     dforce.middleRows<3>(3 * result.basis.control_point[b]) =
       result.basis.N[b] * dt +
@@ -630,16 +631,15 @@ deviation_by_turn(const Setting &setting, const ContactPointResult &result)
                            mode,
                            varied[i]);
     }
-  constexpr int at_turn = ContactPointResult::n_w - 1;
-  const double  scale   = result.dt.col(at_turn).norm();
+  const double scale = result.dt.col(W::turn).norm();
   return std::max(((varied[1].traction - varied[0].traction) / (2. * h) -
-                   result.dt.col(at_turn))
+                   result.dt.col(W::turn))
                       .norm() /
                     scale,
                   setting.law.tangential_penalty *
                     std::abs((varied[1].state.slip - varied[0].state.slip) /
                                (2. * h) -
-                             result.dslip[at_turn]) /
+                             result.dslip[W::turn]) /
                     scale);
 }
 

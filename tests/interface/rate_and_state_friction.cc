@@ -233,7 +233,8 @@ public:
         const double residual = spring * (end - x[0]) - result.traction[0];
         if (std::abs(residual) < 1e-13)
           break;
-        x[0] += residual / (spring + result.dt(0, 0));
+        x[0] += residual /
+                (spring + result.dt(0, W::gap) + result.dt(0, W::trial_gap));
       }
     slides =
       slides && !result.failed && result.state.status == PointStatus::slip;

@@ -88,7 +88,8 @@ public:
                                  ContactPointMode(),
                                  point.result);
             traction += point.dA * point.result.traction;
-            stiffness += point.dA * point.result.dt(2, 2);
+            for (const int gap : {W::gap, W::trial_gap})
+              stiffness += point.dA * point.result.dt(2, gap + 2);
           }
         // tractions enter the residual of the wedge: they are what pushes it
         force = traction;

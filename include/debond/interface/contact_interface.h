@@ -134,8 +134,8 @@ namespace Debond
   {
   public:
     ContactInterface(const InterfaceParameters &parameters,
-                     const BulkSpace            &bone,
-                     const BulkSpace            &implant);
+                     const BulkSpace           &bone,
+                     const BulkSpace           &implant);
 
     Side
     slave_side() const
@@ -339,13 +339,14 @@ namespace Debond
     double
     motion(const InterfaceConfiguration &configuration) const;
 
+    /** Unless it is gathered already. */
     void
     gather_tangent() const;
 
     const InterfaceParameters             parameters;
     const ContactPointLaw                 law;
     const Side                            slave;
-    std::array<const BulkSpace *, 2>       mesh;
+    std::array<const BulkSpace *, 2>      mesh;
     const unsigned int                    n; ///< points per direction, element
     std::vector<SlavePoint>               points;
     double                                area_of_implant = 0;

@@ -118,25 +118,31 @@ namespace Debond
     double softening = 0;
   };
 
+  /** w = (g, a_1, a_2, g*, g_n, turn), by which traction and xi_hat of a
+   *  closed point change: the gap x - y, the master's tangents at xi_hat, the
+   *  trial gap x - y_n to the old xi_hat^n, the tangential gap of the step
+   * before where the master has taken it, and the angle by which the point's
+   * way turns. Here is where in w each of them begins; a point that sticks
+   * knows the first three only. */
+  struct W
+  {
+    static constexpr int gap = 0, a1 = 3, a2 = 6, trial_gap = 9, old_gap = 12,
+                         turn = 15, size = 16;
+  };
+
   /**
    * Everything one quadrature point contributes.
    *
-   * Derivatives are with respect to w = (x, y, a_1, a_2, y_n, g_n, turn), 19
-   * numbers: slave point, master point and tangents at xi_hat, the master point
-   * at the old xi_hat^n, the tangential gap of the step before where the master
-   * has taken it, and the angle by which the point's way turns. They are total:
-   * the motion of xi_hat is eliminated by the implicit function theorem on its
-   * two equations.
+   * Derivatives with respect to w are total: the motion of xi_hat is eliminated
+   * by the implicit function theorem on its two equations.
    */
   struct ContactPointResult : ContactPointAnswer
   {
-    static constexpr int n_w = 19;
-
-    SurfaceBasis basis;                  ///< master basis at xi_hat
-    SurfaceBasis old_basis;              ///< at xi_hat^n; only when slipping
-    Eigen::Matrix<double, 3, n_w> dt;    ///< dt/dw
-    Eigen::Matrix<double, 2, n_w> dxi;   ///< dxi_hat/dw
-    Eigen::Matrix<double, 1, n_w> dslip; ///< dg_s/dw; only when slipping
+    SurfaceBasis basis;                    ///< master basis at xi_hat
+    SurfaceBasis old_basis;                ///< at xi_hat^n; only when slipping
+    Eigen::Matrix<double, 3, W::size> dt;  ///< dt/dw
+    Eigen::Matrix<double, 2, W::size> dxi; ///< dxi_hat/dw
+    Eigen::Matrix<double, 1, W::size> dslip; ///< dg_s/dw; only when slipping
     /** d turn / dq of the chuck, where a component of it is unknown. */
     Eigen::Matrix<double, 6, 1> turn_by_chuck =
       Eigen::Matrix<double, 6, 1>::Zero();

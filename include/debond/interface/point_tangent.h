@@ -42,13 +42,13 @@ namespace Debond
     };
     Factors on_slave, on_master, on_old;
     bool    slips;
-    /** JxW dt/dw [N/mm] and dxi^1/dw, then dxi^2/dw with a zero after each
-     *  three. */
-    Eigen::Matrix<double, 4, ContactPointResult::n_w> dt_dxi_1;
-    Eigen::Matrix<double, 24, 1>                      dxi_2;
-    double                                            dxi_2_by_turn;
-    Eigen::Vector4d                                   t; ///< JxW t [N]
-    Eigen::Matrix<double, 6, 1>                       turn_by_chuck;
+    /** JxW dt/dw [N/mm] and dxi^1/dw. */
+    Eigen::Matrix<double, 4, W::size> dt_dxi_1;
+    /** dxi^2 by each vector of w, with a zero as a fourth component. */
+    Eigen::Matrix<double, 4, 5> dxi_2;
+    double                      dxi_2_by_turn;
+    Eigen::Vector4d             t; ///< JxW t [N]
+    Eigen::Matrix<double, 6, 1> turn_by_chuck;
   };
 } // namespace Debond
 #endif

@@ -20,17 +20,22 @@ namespace Debond
     /** @p geometry must outlive this object. */
     MasterNormal(const SurfaceGeometry &geometry, double outward_sign);
 
-    /** dn for changes of the tangents. */
-    Eigen::Vector3d
-    change(const Eigen::Vector3d &da1, const Eigen::Vector3d &da2) const;
-
-    /** dn/d(a_1, a_2) [1/mm], the same as a matrix. */
+    /** dn/d(a_1, a_2) [1/mm]. */
     Eigen::Matrix<double, 3, 6>
     derivative() const;
 
+    /** The parts of a vector along the tangents, without that along the normal.
+     */
+    Eigen::Vector2d
+    parts(const Eigen::Vector3d &vector) const
+    {
+      return duals.transpose() * vector;
+    }
+
     const SurfaceGeometry &geometry;
     Eigen::Vector3d        n;
-    double                 scale; ///< n = scale * a_1 x a_2
+    /** a^1 and a^2 in the tangent plane, a^alpha . a_beta = delta [1/mm]. */
+    Eigen::Matrix<double, 3, 2> duals;
   };
 
 
@@ -42,35 +47,22 @@ namespace Debond
                                     const double           outward_sign)
     : geometry(geometry)
   {
-    const Eigen::Vector3d m = geometry.a1.cross(geometry.a2);
-    scale                   = outward_sign / m.norm();
-    n                       = scale * m;
+    const Eigen::Vector3d m     = geometry.a1.cross(geometry.a2);
+    const double          scale = outward_sign / m.norm();
+    n                           = scale * m;
+    duals << scale * geometry.a2.cross(n), scale * n.cross(geometry.a1);
   }
 
 
 
-  // The same as a matrix, for all six components of the tangents at once. With
-  // skew(a) b = a x b the change of a_1 x a_2 is -skew(a_2) da_1 + skew(a_1)
-  // da_2.
+  // As n stays a unit vector and normal to the tangents, n . da_alpha =
+  // -a_alpha . dn says all of dn: dn = -a^alpha (n . da_alpha).
   inline Eigen::Matrix<double, 3, 6>
   MasterNormal::derivative() const
   {
-    Eigen::Matrix<double, 3, 6> dm;
-    dm << -scale * skew(geometry.a2), scale * skew(geometry.a1);
-    return dm - n * (n.transpose() * dm);
-  }
-
-
-
-  /** The parts of a vector along the tangents, without that along the normal.
-   */
-  inline Eigen::Vector2d
-  parts_along(const SurfaceGeometry &geometry, const Eigen::Vector3d &vector)
-  {
-    Eigen::Matrix<double, 3, 2> tangents;
-    tangents << geometry.a1, geometry.a2;
-    return (tangents.transpose() * tangents).inverse() *
-           (tangents.transpose() * vector);
+    Eigen::Matrix<double, 3, 6> dn;
+    dn << -duals.col(0) * n.transpose(), -duals.col(1) * n.transpose();
+    return dn;
   }
 
 
@@ -97,17 +89,16 @@ namespace Debond
                   const SurfaceGeometry &geometry,
                   double                 outward_sign);
 
-    /** What changes with N quantities at once: traction [MPa] and h, one column
-     *  for each. */
+    /** What changes with N quantities at once, one column for each: traction
+     *  [MPa] and, in the last row, distance; and h. */
     template <int N>
     struct Derivative
     {
-      Eigen::Matrix<double, 3, N> traction;
+      Eigen::Matrix<double, 4, N> traction_and_distance;
       Eigen::Matrix<double, 2, N> h;
-      Eigen::Matrix<double, 1, N> distance;
     };
-    /** With respect to w, see ContactPointResult: for the whole system. */
-    Derivative<ContactPointResult::n_w>
+    /** With respect to w: for the whole system. */
+    Derivative<W::size>
     along_w() const;
     /** With respect to the two parameters of the surface: for this point. */
     Derivative<2>
@@ -132,18 +123,19 @@ namespace Debond
       return slope;
     }
 
-    // What the point has come to at the trial place. h has to vanish: it is the
-    // part of the excess [mm] along a_alpha. Of the normal response friction
-    // feels the pressure only, where a law with strength in tension may pull.
-    // The coefficient is that at the updated sliding distance, Eq. (32).
-    // Tractions are those that enter the slave's residual, in space [MPa],
-    // t = -p n + t_t: minus those that act on the slave. The viscous part is
-    // kept apart for the works.
+    // What the point has come to at the trial place. h has to vanish: it is
+    // the part of g - t_t / eps_t [mm] along a_alpha, and of the excess. Of the
+    // normal response friction feels the pressure only, where a law with
+    // strength in tension may pull. The coefficient is that at the updated
+    // sliding distance, Eq. (32). Tractions are those that enter the slave's
+    // residual, in space [MPa], t = -p n + t_t: minus those that act on the
+    // slave. The viscous part is kept apart for the works.
     Eigen::Vector2d     h;
     double              g_n;
     NormalResponse      normal_response;
     double              pressure; ///< what friction feels: p, or 0
     FrictionCoefficient coefficient;
+    const MasterNormal  normal;
     Eigen::Vector3d     slip;     ///< y - y_n [mm]
     double              distance; ///< g_s - g_s^n [mm]
     Eigen::Vector3d     traction, tangential_traction, viscous_traction;
@@ -173,7 +165,7 @@ namespace Debond
     void
     find_changes();
 
-    /** A change of tangential traction and distance. */
+    /** A change of traction and distance. */
     static Eigen::Vector4d
     with(const Eigen::Vector3d &vector, const double number)
     {
@@ -191,7 +183,6 @@ namespace Debond
     const ContactPointLaw &law;
     const SurfaceGeometry &geometry;
     const PointFriction   &friction;
-    const MasterNormal     normal;
     const Eigen::Vector3d  gap, trial_gap; ///< x - y and x - y_n [mm]
 
     Eigen::Vector3d tau; ///< direction of the slip; zero if there is none
@@ -205,17 +196,17 @@ namespace Debond
     Eigen::Matrix<double, 3, 2> axes;
     Eigen::Vector3d             along_gap;
 
-    // The length of the slip has a derivative along its own direction. What is
-    // left of the gap beside the elastic t_t / eps_t, the excess, may have a
-    // part along n only: Eq. (29).
+    // The length of the slip has a derivative along its own direction. The
+    // excess may have a part along n only, as g - t_t / eps_t in Eq. (29).
     Eigen::Vector3d forward; ///< d(distance)/d(y - y_n)
     double          limit;   ///< mu p + eta / dt times the distance [MPa]
     double          slope;   ///< its derivative [MPa/mm]
-    Eigen::Vector3d excess;  ///< g - t_t / eps_t [mm]
+    Eigen::Vector3d excess;  ///< g - t / eps_t [mm]
+    Eigen::Matrix<double, 3, 2> tangents; ///< a_1, a_2
 
-    /** How the tangential traction, and in the last row the distance, change
-     *  with x - y, x - y_n, the gap of the step before, n, and the angle by
-     *  which the way turns. */
+    /** How the traction, and in the last row the distance, change with x - y,
+     *  x - y_n, the gap of the step before, n, and the angle by which the way
+     *  turns. */
     struct
     {
       Eigen::Matrix<double, 4, 3> gap, trial, old_gap, normal;

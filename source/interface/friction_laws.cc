@@ -1,25 +1,23 @@
 #include <debond/input/entry_table.h>
 #include <debond/interface/friction_law.h>
 
+#include <debond_friction_laws.h>
+
 #include <set>
 
 namespace Debond
 {
-  // Each law's own file defines its plug-in; it is named here, and nowhere
-  // else.
-  FrictionLawPlugin
-  frictionless_plugin(),
-    coulomb_plugin(), modified_coulomb_plugin(), table_plugin(),
-    rate_and_state_plugin();
+  // Each law's own file defines its plug-in; CMake finds their names. (The
+  // linker would drop static objects that register themselves.)
+#define DECLARED(plugin) FrictionLawPlugin plugin;
+#define CALLED(plugin) plugin,
+  DEBOND_FRICTION_LAWS(DECLARED)
 
   const std::vector<FrictionLawPlugin> &
   friction_law_plugins()
   {
-    static const std::vector<FrictionLawPlugin> all{frictionless_plugin(),
-                                                    coulomb_plugin(),
-                                                    modified_coulomb_plugin(),
-                                                    table_plugin(),
-                                                    rate_and_state_plugin()};
+    static const std::vector<FrictionLawPlugin> all{
+      DEBOND_FRICTION_LAWS(CALLED)};
     return all;
   }
 

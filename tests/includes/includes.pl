@@ -4,7 +4,7 @@
 # DIRECTORY holds source/ROOM, include/debond/ROOM, source/main.cc and doc/solution.md. A file may include headers of its
 # own room and of those named before it, main.cc those of any. A header and a source of the same name, taken together,
 # must not need themselves through others. In the table each room has a row, in the same order, which names the files of
-# the room, without suffix, and nothing else, in backticks.
+# the room, without suffix, and nothing else, in backticks; `*_x` names all that end so.
 use strict;
 use warnings;
 
@@ -79,7 +79,12 @@ for (lines_of('doc/solution.md'))
   next unless $in_section && m{^\| `(\w+)` \|(.*)};
   my ($room, $text) = ($1, $2);
   push @rows, $room;
-  $named{$room}{$_} = 1 for $text =~ m{`(\w+)`}g;
+  for my $name ($text =~ m{`([\w*]+)`}g)
+  {
+    my $pattern = $name =~ s{\*}{\\w*}gr;
+    my @meant = $name =~ m{\*} ? grep { m{^$pattern$} } keys %{$files{$room}} : ();
+    $named{$room}{$_} = 1 for @meant ? @meant : $name;
+  }
 }
 push @mistakes, "doc/solution.md: the rooms of the table are @rows, those of the sources @rooms." if "@rows" ne "@rooms";
 for my $room (@rooms)

@@ -124,13 +124,13 @@ check_law(const std::string &name)
         if (!rate && start.slip + d >= law->kinks().back())
           grow(tail, std::abs(now.mu - mu(1000. * d)));
       }
-  std::cout << name << std::endl;
-  report("  slope, deviation from differences", slope, 1e-7);
-  report("  works, deviation from quadrature, per distance", work, 1e-8);
-  report("  works of the bond, deviation per distance", bond, 1e-12);
-  report("  falls faster than promised by", faster, 1e-12);
-  report("  beyond the last kink mu changes by", tail, 1e-14);
-  report("  mu is not negative, and has a distance over which it changes",
+  report(name + ": slope, deviation from differences", slope, 1e-7);
+  report(name + ": works, deviation from quadrature, per distance", work, 1e-8);
+  report(name + ": works of the bond, deviation per distance", bond, 1e-12);
+  report(name + ": falls faster than promised by", faster, 1e-12);
+  report(name + ": beyond the last kink mu changes by", tail, 1e-14);
+  report(name +
+           ": mu is not negative, and has a distance over which it changes",
          positive && size > 0.);
 }
 

@@ -1,22 +1,52 @@
 // The completed parameters name every entry with its value and give the same
 // scene again; so does what --print-parameters prints.
 
+#include <debond/input/scene_file.h>
 #include <debond/scene/scene.h>
 
-#include <iostream>
 #include <sstream>
+#include <string>
+#include <vector>
+
+#include "checks.h"
+
+using namespace Debond;
+
+/** "Interface / Slave = implant" of each entry. */
+std::vector<std::string>
+entries_of(const std::string &text)
+{
+  std::vector<std::string> result;
+  for (const SceneEntry &entry : read_scene_text(text, "text"))
+    result.push_back(entry.full_name() + " = " + entry.value);
+  return result;
+}
+
+std::string
+printed(const Scene *scene)
+{
+  std::ostringstream text;
+  print_parameters(text, scene);
+  return text.str();
+}
 
 int
 main()
 {
-  using Debond::Scene;
-
   const std::string turning = "subsection Chuck\n"
                               "  subsection Rotation z\n"
                               "    set Value = 10 * max(t - 1, 0) # degrees\n"
                               "  end\n"
                               "end\n";
-  std::cout << Scene::from_text(turning).completed_parameters;
+  // the defaults, but for the entry that is given
+  std::vector<std::string> expected = entries_of(printed(nullptr));
+  for (std::string &entry : expected)
+    if (entry.rfind("Chuck / Rotation z / Value = ", 0) == 0)
+      entry = "Chuck / Rotation z / Value = 10 * max(t - 1, 0)";
+  const auto completed =
+    entries_of(Scene::from_text(turning).completed_parameters);
+  report("every entry is there, with its default or what is given",
+         completed.size() > 100 && completed == expected);
 
   const Scene scene = Scene::from_text(turning,
                                        {"Title=a = \"b\", ä",
@@ -25,20 +55,17 @@ main()
                                         "Bone/Material=linear",
                                         "Interface/Slave=bone"});
   const Scene again = Scene::from_text(scene.completed_parameters);
-  std::cout << "round trip of the completed parameters: "
-            << (again.completed_parameters == scene.completed_parameters)
-            << '\n';
+  report("round trip of the completed parameters",
+         again.completed_parameters == scene.completed_parameters);
+  report("round trip of the printed parameters",
+         Scene::from_text(printed(&scene)).completed_parameters ==
+           scene.completed_parameters);
 
-  std::ostringstream documented;
-  print_parameters(documented, &scene);
-  std::cout << "round trip of the printed parameters: "
-            << (Scene::from_text(documented.str()).completed_parameters ==
-                scene.completed_parameters)
-            << '\n';
-
-  const Debond::BodyParameters &implant = again.implant;
-  std::cout << "cells of the implant: " << implant.cells[0] << ' '
-            << implant.cells[1] << ' ' << implant.cells[2] << '\n'
-            << "tangential penalty: " << again.interface.tangential_stiffness()
-            << '\n';
+  const BodyParameters &implant = again.implant;
+  report("cells of the implant",
+         implant.cells[0] == 4 && implant.cells[1] == 5 &&
+           implant.cells[2] == 2);
+  report("tangential penalty",
+         std::abs(again.interface.tangential_stiffness() - 585.),
+         1e-12);
 }

@@ -306,6 +306,7 @@ namespace
       .def(py::init([](const Curve &computed, const Curve &measured) {
         return CurveComparison(curve_of(computed), curve_of(measured));
       }))
+      .def_readonly_static("opposite_sign", &CurveComparison::opposite_sign)
       .def_readonly("rows_used", &CurveComparison::rows_used)
       .def_readonly("e_mp", &CurveComparison::e_mp)
       .def_readonly("e_rel", &CurveComparison::e_rel)

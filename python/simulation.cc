@@ -129,8 +129,7 @@ namespace
     py::dict
     last_row() const
     {
-      if (simulation->rows().empty())
-        throw InputError("there is no row yet: advance() or run() first");
+      require_a_row();
       py::dict result;
       TorqueRow(simulation->rows().back())
         .for_each_column([&](const std::string &name, const double value) {
@@ -164,6 +163,7 @@ namespace
     std::pair<Eigen::Matrix3Xd, Eigen::MatrixXd>
     bulk(const bool of_implant, const Eigen::Matrix3Xd &X) const
     {
+      require_a_row();
       const auto      &system = simulation->system();
       const BodyPoints at(*system.body[of_implant], system.chuck, X);
       Eigen::MatrixXd  stress(9, X.cols());
@@ -225,6 +225,13 @@ namespace
     std::unique_ptr<Simulation> simulation;
 
   private:
+    void
+    require_a_row() const
+    {
+      if (simulation->rows().empty())
+        throw InputError("there is no row yet: advance() or run() first");
+    }
+
     static unsigned int
     component(const std::string &name)
     {

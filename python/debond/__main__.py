@@ -41,7 +41,7 @@ def _read(words, usage, n_files, options):
             options[name] = True
         elif name in options and (equals or words):
             value = value if equals else words.pop(0)
-            if isinstance(before, int) and not (value.isdigit() and int(value) > 0):
+            if isinstance(before, int) and not (value.isascii() and value.isdigit() and int(value) > 0):
                 raise InputError(f"{name} {value}: expected a number from 1 on")
             options[name] = [*before, value] if isinstance(before, list) else type(before)(value)
         elif word.startswith("-"):

@@ -119,7 +119,7 @@ def lines_of(done):
     for j, (name, value) in enumerate(zip(done.names, done.values)):
         yield f"{name:{width}}  {value:<10.6g}  {interval_text(done, j)}"
     for m in done.misfits:
-        correlated = f", neighbours correlated by {m.noise.correlation:.2g}" if len(m.noise.phi) else ""
+        correlated = f", neighbours correlated by {m.noise.correlation:.3g}" if len(m.noise.phi) else ""
         yield (f"{m.name}: e_mp {100 * m.e_mp:.3g} %, e_rel {100 * m.e_rel:.3g} %, residuals {100 * m.rms:.3g} % of the "
                f"largest value; noise {m.noise.name}{correlated}")
     if len(done.optima) > 1:
@@ -130,8 +130,7 @@ def lines_of(done):
     yield from ("warning: " + text for text in done.warnings)
     runs = done.problem.runs
     if runs.n_failures:
-        yield (f"{runs.n_failures} curves that were tried could not be computed, which the search went around; the last for: "
-               + runs.last_failure)
+        yield f"{runs.n_failures} curves that were tried could not be computed: the search went around them"
     for number, widths in done.candidates:
         parts = []
         for j, (name, then) in enumerate(zip(done.names, widths)):
@@ -155,13 +154,13 @@ def why_it_does_not_fit(done) -> str:
     """Text if a Fit is further from what was measured than its scene accepts; else none."""
     problem = done.problem
     largest = float(problem.values["Calibration / Largest misfit"])
-    if done.e_rel <= largest:
+    if not done.e_rel > largest:  # no number if no row is used
         return ""
     opposite = problem.measured @ done.optima[0].curve < 0
     return (f"no parameters of this scene fit the measured curve: the best ones leave e_rel = {100 * done.e_rel:.3g} %, more "
             f"than Calibration / Largest misfit, {100 * largest:.3g} %"
-            + ("; the measured values have the opposite sign: turn the load round, or the values by a minus before the unit, "
-               "as in Reference columns = 1 [deg], 2 [-N m]" if opposite else ""))
+            + ("; the measured values have the opposite sign: turn the load round, or the values by a minus before their "
+               "unit in Output / Reference columns, as in [-N m]" if opposite else ""))
 
 
 def calibrate(scene, threads: int = 1, force: bool = False, *, executor=None, say=lambda text: None) -> Dict[str, Any]:
@@ -211,8 +210,7 @@ def check_lines(problem):
                + (f"no closed form: {why_not}" if why_not else "searched with the closed form first"))
         if over.is_angle and any(column.is_torque and numpy.sum(values) * experiment.last_angle < 0
                                  for column, values in zip(experiment.columns, measured.values.T)):
-            yield (f"warning: {measured.file}: the torques of the reference curve have the opposite sign: a minus before the "
-                   "unit turns it, as in Reference columns = 1 [deg], 2 [-N m]")
+            yield (f"warning: {measured.file}: {_debond.CurveComparison.opposite_sign}")
 
 
 def main(scene, options):

@@ -92,5 +92,7 @@ def compare(directory, curve, columns=()) -> Comparisons:
 
 
 def main(directory, curve, options):
-    """The command."""
-    print(compare(directory, curve, options["--columns"]).text, end="")
+    """The command; 2 if there was nothing to compare."""
+    found = compare(directory, curve, options["--columns"])
+    print(found.text, end="")
+    return 0 if any(one.rows_used for one in found.runs.values()) else 2

@@ -154,7 +154,8 @@ class Misfit:
     @property
     def is_ambiguous(self):
         """Whether what is left hangs together over so much of the curve that noise and a wrong model cannot be told apart."""
-        return not self.does_not_fit and self.effective_rows < FEWEST_ROWS and len(self.noise.phi) > 0 and self.smooth > 1e-5
+        hangs_together = self.effective_rows < FEWEST_ROWS or self.noise_over_largest > 2 * self.rms
+        return not self.does_not_fit and hangs_together and len(self.noise.phi) > 0 and self.smooth > 1e-5
 
 
 def fit(scene, *, executor=None, threads: int = 1, evaluations: str = None, say=lambda text: None) -> "Fit":
@@ -262,9 +263,8 @@ class Fit:
                                      f"{100 * misfit.smooth:.2g} % of the largest value (root mean square). The intervals take it for "
                                      "noise; they do not hold if the model is wrong")
             elif misfit.is_ambiguous:
-                self.warnings.append(f"neighbouring residuals of {misfit.name} hang together so far that only {misfit.effective_rows:.2g} "
-                                     "independent values are left: noise and a model that is wrong cannot be told apart, and the "
-                                     "intervals may be too narrow")
+                self.warnings.append(f"neighbouring residuals of {misfit.name} hang together so far that noise and a model that is "
+                                     "wrong cannot be told apart; the intervals may be too narrow")
         self._warn_of_noise()
 
     def _warn_of_noise(self):
@@ -335,8 +335,8 @@ class Fit:
 
     def profiles(self, n: int = 11) -> Dict[str, Dict[str, numpy.ndarray]]:
         """Fits in which one unknown is held at `n` values, two interval widths to both sides: {unknown: {"value",
-        "chi_squared" (n), "unknowns" (n x k)}}. chi_squared is the growth of the sum of squares, such that it is 3.84 at the
-        ends of the 95 % interval."""
+        "chi_squared" (n), "unknowns" (n x k)}}. chi_squared is the growth of the sum of squares, such that it is 3.84 at
+        the ends of the 95 % interval if the curve is linear in the unknowns."""
         problem, told, result = self.problem, self.told, {}
         unknowns = problem.unknowns
         at, lower, upper = (unknowns.to_search(v) for v in (self.values, unknowns.lower, unknowns.upper))

@@ -6,8 +6,8 @@ With derivatives J (N x k), weighted, and residuals of covariance V the least sq
 
 whether the noise is white or not. V is estimated from the residuals (noise.py). An interval ends where the sum of squares, with
 the other unknowns at their best, has grown by t^2 C_jj/(J'J)^-1_jj, t of Student's distribution: for a curve that is linear in
-the unknowns that is +- t sqrt(C_jj). Where it is not, J is that of the end: the question is what the noise would do if the truth
-were there. Degrees of freedom are Satterthwaite's.
+the unknowns that is +- t sqrt(C_jj). Where it is not, J is that of the end, if a closed form
+gives it: the question is what the noise would do if the truth were there. Degrees of freedom are Satterthwaite's.
 """
 
 from dataclasses import dataclass, field
@@ -188,6 +188,7 @@ class _End:
         self.inside, self.beyond = (0.0, 0.0), None  # (distance, sqrt of the growth over its target) below and above 1
         self.at, self.distance = start, 0.0
         self.best = numpy.inf
+        self.n_inside = 0  # places in turn that are
         self.done = False
 
 
@@ -234,7 +235,8 @@ def profile_ends(problem, told, nearby, best, rounds):
             _advance(problem, best, J, active, (centre, finite, lower, upper), nearby[0])
         for end in active if nearby[1] is not None else ():
             _advance_closely(problem, told, best, end, (centre, finite, lower, upper), nearby)
-    told.lower, told.upper = centre - told.half_widths, centre + told.half_widths
+    for name, one in (("lower", centre - told.half_widths), ("upper", centre + told.half_widths)):
+        setattr(told, name, numpy.where(numpy.isfinite(one), numpy.clip(one, lower, upper), one))
     for end in ends:
         if end.done:
             (told.lower if end.sign < 0 else told.upper)[end.j] = centre[end.j] + end.sign * end.distance
@@ -322,8 +324,12 @@ def _judge(end, growth, frame):
         return
     if root < 1:
         end.inside = max(end.inside, (end.distance, root))
+        end.n_inside += 1
     else:
         end.beyond = (end.distance, root) if end.beyond is None else min(end.beyond, (end.distance, root))
+        end.n_inside = 0
+    if end.n_inside == 4:  # what was beyond was judged before the others had followed
+        end.beyond, end.n_inside = None, 0
     (a, root_a), b = end.inside, end.beyond
     if b is None:
         target = min(a * numpy.clip(1 / root_a, 1.1, 2.5), end.limit)

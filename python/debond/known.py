@@ -16,6 +16,13 @@ _FACTORS = ["Implant / Radius", "Implant / Height", "Bone / Young modulus", "Imp
 _BONDING = "Interface / Bonding / Initial bonding"
 
 
+def _unit_of(entry, values):
+    """Also of entries that may be expressions."""
+    if "Chuck" in entry:
+        return "N" if values["Chuck / Translation z / Control"] == "force" else "mm"
+    return _debond.unit_of(entry) or ("MPa" if "modulus" in entry else "")
+
+
 def _changes(fit):
     """(entry, value, unit, change in words, its new text) of what is taken as known."""
     problem = fit.problem
@@ -26,7 +33,8 @@ def _changes(fit):
         text = values.get(entry, "")
         if entry in held or not text or _is_zero(text):
             continue
-        result.append((entry, text, _debond.unit_of(entry), "+10 %", f"({text}) * 1.1" if "Chuck" in entry else repr(1.1 * float(text))))
+        changed = f"({text}) * 1.1" if "Chuck" in entry else repr(1.1 * float(text))
+        result.append((entry, text, _unit_of(entry, values), "+10 %", changed))
     if _BONDING not in held and values.get(_BONDING) == "1":
         result.append((_BONDING, "1", "", "-10 %", "0.9"))
     curve = fit._best.curve[problem.series[0].slice]
@@ -90,7 +98,8 @@ def table_of(fit):
         with numpy.errstate(over="ignore"):
             effect = numpy.where(usable & (fit.values != 0), 100 * (other / numpy.where(fit.values == 0, 1, fit.values) - 1), numpy.nan)
         table.append({"entry": entry, "value": value, "unit": unit, "change": change,
-                      "effect": {name: (round(float(x), 2) if numpy.isfinite(x) else None) for name, x in zip(fit.names, effect)}})
+                      "effect": {name: (round(float(x), 2) + 0.0 if numpy.isfinite(x) else None)
+                                 for name, x in zip(fit.names, effect)}})
     return table
 
 

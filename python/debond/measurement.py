@@ -132,10 +132,11 @@ def _used_rows(scene, values, columns, over, table, branch, reach):
     turns = numpy.r_[branch[1:] != branch[:-1], False]
     turns[0] = False
     used = numpy.flatnonzero((window >= 0) & ~stays & ~turns & (implant >= least) & (implant <= most))
+    rows = f"none of its {len(places)} rows, {over.name} from {places.min():.4g} to {places.max():.4g}, is in"
+    if (window < 0).all():
+        scene.refuse("Calibration / Windows", f"{values[ENTRY]}: {rows} them")
     if len(used) == 0:
-        scene.refuse(ENTRY, f"{values[ENTRY]}: none of its {len(places)} rows, {over.name} from {places.min():.4g} to "
-                            f"{places.max():.4g}, is in Calibration / Windows and what the scene comes to, {least:.4g} to "
-                            f"{most:.4g}")
+        scene.refuse(ENTRY, f"{values[ENTRY]}: {rows} what the scene comes to, {least:.4g} to {most:.4g}")
     return used, window[used]
 
 

@@ -143,10 +143,10 @@ def fits_of(directory):
 def context_of_calibration(directory):
     """What the template calibration.html shows."""
     json = read_json(os.path.join(directory, "calibration.json"))
-    title, n, failed = json["title"], json["evaluations"], json["failures"]
+    title, n = json["title"], json["evaluations"]
     reason = f"{json['measured_values']} measured values, " + (f"{n} evaluations" if n else "closed form")
     return {"title": f"{title}: calibration" if title else f"Calibration in {directory}", "finished": True,
-            "reason": reason + f", {failed} evaluations failed" * bool(failed),
+            "reason": reason,
             "warnings": unique([*json["cannot_be_told"], *json["warnings"]]), "json": json, "names": list(json["unknowns"]),
             "fits": fits_of(directory), "origin": origin_of(json, json["seconds"]),
             "entries": read_entries(os.path.join(directory, "parameters.prm")), "files": files_of(directory)}

@@ -1,5 +1,6 @@
 """Scenes, and runs of them in memory."""
 
+import hashlib
 import json
 import os
 import sys
@@ -206,7 +207,7 @@ class Result:
 
 
 class Simulation:
-    """Finite elements, row by row.
+    """Finite elements, row by row, whatever Model the scene names.
 
     drive: {component of the chuck: value at the first time}, "Translation x" ... "Rotation z", in mm or degrees, N or N mm if
     its Control says so. advance() is told where they go; their Value in the scene does not count. Between rows they go along
@@ -275,8 +276,8 @@ class Simulation:
 
     def bulk(self, body: str, points) -> Dict[str, numpy.ndarray]:
         """What `body`, "bone" or "implant", shows in the newest row at `points` (n x 3) of its reference configuration [mm]:
-        displacement_mm (n x 3) and stress_MPa (n x 3 x 3, Cauchy, in space), as in bulk.pvd; not a number where the body is
-        not."""
+        displacement_mm (n x 3) and stress_MPa (n x 3 x 3, Cauchy, in space), as in bulk.pvd. Not a number where the mesh is
+        not: trilinear cells of a round implant have plane sides above the contact face; nor is the stress of a rigid body."""
 
         def check():
             places = numpy.asarray(points, dtype=float)
@@ -290,12 +291,16 @@ class Simulation:
 
     def save(self) -> bytes:
         """The state in its newest row, drive included: see restore()."""
-        return self._run.save()
+        state = self._run.save()
+        return hashlib.sha256(state).digest() + state
 
     def restore(self, state: bytes) -> None:
         """Goes to a state that save() of this simulation, or of another one of the same scene, gave; to the last bit. Raises
         SceneError for any other."""
-        self._run.restore(state)
+        length = hashlib.sha256().digest_size
+        if not isinstance(state, bytes) or hashlib.sha256(state[length:]).digest() != state[:length]:
+            raise SceneError("this is no state that save() gave, or it was damaged since")
+        self._run.restore(state[length:])
 
     def __repr__(self) -> str:
         row = self._run.rows().get("time", ())
@@ -314,5 +319,7 @@ def _checked(scene) -> Scene:
 
 
 def set_number_of_threads(n: int) -> None:
-    """Of one run; results do not depend on it. At first it is 1."""
+    """Of one run; results do not depend on it. At first it is 1. Raises SceneError."""
+    if not (isinstance(n, int) and n >= 1):
+        raise SceneError(f"{n!r:.60} threads: expected a whole number, 1 or more")
     _debond.set_number_of_threads(n)

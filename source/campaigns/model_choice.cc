@@ -4,6 +4,7 @@
 #include <debond/models/debonding_problem.h>
 #include <debond/output/console.h>
 #include <debond/support/input_error.h>
+#include <debond/support/interruption.h>
 #include <debond/support/number_text.h>
 #include <debond/system/memory_estimate.h>
 
@@ -145,6 +146,14 @@ namespace Debond
               throw;
             level.why_not = std::string("failed: ") + error.what();
           }
+        catch (const Interrupted &)
+          {
+            throw;
+          }
+        catch (const std::exception &error) // no memory left, say
+          {
+            level.why_not = std::string("failed: ") + error.what();
+          }
         level.seconds = timer.wall_time();
         console.headline(
           "  level " + number + ": " + level.description() + ": " +
@@ -227,6 +236,21 @@ namespace Debond
 
 
 
+    std::string
+    verdict(const ModelLevel &level, const ModelChoice &choice)
+    {
+      if (level.rows.empty())
+        return level.why_not;
+      const bool is_answer     = &level == choice.answer(),
+                 is_sufficient = level.estimate <= choice.tolerance;
+      return is_answer ?
+               is_sufficient ? "the answer" : "the answer, but not sufficient" :
+             is_sufficient ? "sufficient" :
+                             "not sufficient";
+    }
+
+
+
     void
     write_table(const ModelChoice &choice, const std::string &filename)
     {
@@ -248,10 +272,7 @@ namespace Debond
            to_text(largest_torque(level.rows), 6),
            to_text(level.difference, 6),
            to_text(level.estimate, 6),
-           level.rows.empty()                 ? level.why_not :
-           &level == choice.answer()          ? "the answer" :
-           level.estimate <= choice.tolerance ? "sufficient" :
-                                                "not sufficient"});
+           verdict(level, choice)});
       write_file(filename, table);
     }
 

@@ -129,8 +129,9 @@ namespace Debond
           << forecast.pressure * M_PI * std::pow(scene.implant.radius, 2)
           << " N\n"
           << "  torsional stiffness while everything sticks "
-          << forecast.torsional_stiffness << " N mm/rad\n"
-          << "  largest torque " << forecast.T_max << " N mm, at the end "
+          << forecast.torsional_stiffness << " N mm/rad\n";
+    if (forecast.T_max > 0.) // it turns
+      out << "  largest torque " << forecast.T_max << " N mm, at the end "
           << forecast.T_end << " N mm\n";
   }
 } // namespace Debond

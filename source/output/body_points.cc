@@ -8,7 +8,9 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/fe/fe_q.h>
 
+#include <algorithm>
 #include <limits>
+#include <optional>
 
 namespace Debond
 {
@@ -48,13 +50,14 @@ namespace Debond
 
 
 
-    /** A box around a cell. Its faces may be curved a little. */
+    /** A box around the nodes of a cell, and so around the cell: control points
+     *  enclose what is curved. */
     dealii::BoundingBox<3>
-    box_around(const CellFunctions &functions)
+    box_around(const BulkSpace &space, const BulkSpace::Cell &cell)
     {
       std::vector<dealii::Point<3>> points;
-      for (const auto &corner : dealii::FE_Q<3>(2).get_unit_support_points())
-        points.push_back(as_point(functions.position(corner)));
+      for (const unsigned int node : cell.nodes)
+        points.push_back(as_point(space.reference_position(node)));
       dealii::BoundingBox<3> box(points);
       double                 size = 0.;
       for (unsigned int d = 0; d < 3; ++d)
@@ -65,22 +68,25 @@ namespace Debond
 
 
 
-    /** The point of the unit cell that lies at @p X, by Newton's method. False
-     *  if there is none. */
+    /** The functions of a cell at the point that lies at @p X, and the point,
+     * by Newton's method within the unit cell. False if there is none. At the
+     *  corners of a disk the derivatives are singular: what counts is where the
+     *  point is, to a millionth of the cell. */
     bool
     find_in_cell(const BulkSpace       &space,
                  const BulkSpace::Cell &cell,
                  const CellFunctions   &functions,
                  const Eigen::Vector3d &X,
-                 dealii::Point<3>      &unit)
+                 dealii::Point<3>      &unit,
+                 ShapeValues           &N)
     {
-      constexpr double tolerance = 1e-8;
-      unit                       = dealii::Point<3>(0.5, 0.5, 0.5);
-      for (unsigned int iteration = 0; iteration < 20; ++iteration)
+      using Geometry = dealii::GeometryInfo<3>;
+      unit           = dealii::Point<3>(0.5, 0.5, 0.5);
+      for (unsigned int iteration = 0; iteration < 30; ++iteration)
         {
-          const ShapeValues N          = functions.at(unit);
-          Eigen::Vector3d   difference = X;
-          Eigen::Matrix3d   slope      = Eigen::Matrix3d::Zero();
+          N                          = functions.at(unit);
+          Eigen::Vector3d difference = X;
+          Eigen::Matrix3d slope      = Eigen::Matrix3d::Zero();
           for (unsigned int a = 0; a < N.rows(); ++a)
             {
               const Eigen::Vector3d &node =
@@ -88,13 +94,15 @@ namespace Debond
               difference -= N(a, 0) * node;
               slope += node * N.block<1, 3>(a, 1);
             }
+          const double error = difference.norm() / slope.norm();
+          if (error < 1e-10)
+            return true;
           const Eigen::Vector3d step = slope.partialPivLu().solve(difference);
-          for (unsigned int d = 0; d < 3; ++d)
-            unit[d] += step[d];
-          if (!(step.norm() < 10.))
-            return false;
-          if (step.norm() < tolerance)
-            return dealii::GeometryInfo<3>::is_inside_unit_cell(unit, 1e-6);
+          const auto            next =
+            Geometry::project_to_unit_cell(unit + as_point(step));
+          if (!(next.distance(unit) > 1e-9))
+            return error < 1e-6;
+          unit = next;
         }
       return false;
     }
@@ -115,18 +123,21 @@ namespace Debond
     Eigen::MatrixXd values = Eigen::MatrixXd::Constant(12, points.cols(), none);
     for (const BulkSpace::Cell &cell : space.cells())
       {
-        const CellFunctions functions(space, cell);
-        const auto          box = box_around(functions);
+        const auto                   box = box_around(space, cell);
+        std::optional<CellFunctions> functions; // which are dear
         for (unsigned int p = 0; p < points.cols(); ++p)
           {
-            dealii::Point<3>      unit;
             const Eigen::Vector3d X = points.col(p);
-            if (values(0, p) != none || !box.point_inside(as_point(X)) ||
-                !find_in_cell(space, cell, functions, X, unit))
+            if (values(0, p) != none || !box.point_inside(as_point(X)))
               continue;
-            Eigen::Vector3d   moved  = Eigen::Vector3d::Zero();
-            Eigen::Matrix3d   stress = Eigen::Matrix3d::Zero();
-            const ShapeValues N      = functions.at(unit);
+            if (!functions)
+              functions.emplace(space, cell);
+            dealii::Point<3> unit;
+            ShapeValues      N;
+            if (!find_in_cell(space, cell, *functions, X, unit, N))
+              continue;
+            Eigen::Vector3d moved  = Eigen::Vector3d::Zero();
+            Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
             for (unsigned int a = 0; a < N.rows(); ++a)
               moved += N(a, 0) * v.segment<3>(3 * cell.nodes[a]);
             for (const unsigned int a :
@@ -147,6 +158,9 @@ namespace Debond
       {
         if (values(0, p) == none)
           values.col(p).setConstant(std::numeric_limits<double>::quiet_NaN());
+        else if (!body.bulk()) // a rigid body has forces and no stress
+          values.col(p).tail<9>().setConstant(
+            std::numeric_limits<double>::quiet_NaN());
         displacement.col(p) = values.col(p).head<3>();
         stress.emplace_back(Eigen::Map<Eigen::Matrix3d>(&values(3, p)));
       }

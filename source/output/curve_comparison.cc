@@ -88,7 +88,7 @@ namespace Debond
 
   const char *const CurveComparison::opposite_sign =
     "the torques of the reference curve have the opposite sign: a minus "
-    "before the unit turns it, as in Reference columns = 1 [deg], 2 [-N m]";
+    "before their unit, as in [-N m], turns them";
 
 
 
@@ -151,11 +151,13 @@ namespace Debond
       "two tests, are compared with one curve");
     if (rows_used == 0)
       {
-        why_none = "the run turns from " + to_text(computed.front().first, 4) +
-                   " to " + to_text(computed.back().first, 4) +
-                   " deg, and the curve from " +
-                   to_text(measured.front().first, 4) + " to " +
-                   to_text(measured.back().first, 4) + " deg";
+        why_none =
+          T_largest == 0. ?
+            "all torques are zero" :
+            "the run turns from " + to_text(computed.front().first, 4) +
+              " to " + to_text(computed.back().first, 4) +
+              " deg, and the curve from " + to_text(measured.front().first, 4) +
+              " to " + to_text(measured.back().first, 4) + " deg";
         return;
       }
     e_mp            = sum_mp / rows_used;

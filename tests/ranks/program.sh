@@ -71,7 +71,7 @@ exec 9<&-
 OMPI_MCA_btl=tcp,self OMPI_MCA_btl_tcp_if_include=lo ranks 2 $scene --set Output/Directory=tcp && echo "by TCP"
 
 echo "a process that is killed"
-"$run" "$mpirun" 2 "$debond" $scene --set "Load steps/Steps=1,400" --set "Output/Checkpoint minutes=1e-9" --set "Output/Fields every=0" --set Output/Directory=killed > said 2>&1 &
+"$run" "$mpirun" 2 "$debond" $scene --set "Load steps/Steps=1,100" --set "Output/Checkpoint minutes=1e-9" --set "Output/Fields every=0" --set Output/Directory=killed > said 2>&1 &
 job=$!
 while [ ! -e killed/checkpoint-2 ]; do sleep 0.1; done
 kill -9 "$(pgrep -f "Output/Directory=killed" | tail -n 1)"
@@ -83,7 +83,7 @@ kill -0 $job 2> /dev/null || echo "ends the others within 10 s"
 wait $job
 ranks 3 --resume killed || cat said
 said "Going on after step"
-"$debond" $scene --set "Load steps/Steps=1,400" --set "Output/Fields every=0" --set Output/Directory=whole > /dev/null
+"$debond" $scene --set "Load steps/Steps=1,100" --set "Output/Fields every=0" --set Output/Directory=whole > /dev/null
 tail -n 1 killed/torque.csv | cut -d, -f1-4 > last-1
 tail -n 1 whole/torque.csv | cut -d, -f1-4 > last-2
 numdiff -q -r 1e-6 -s ,'\n' last-1 last-2 && echo "goes on with three"

@@ -89,8 +89,10 @@ namespace Debond
     if (!scene.implant.geometry().has_closed_forms() ||
         rows.back().released_energy_Nmm > 0. || scene.load_steps.follow_path)
       return "";
-    // points that lie badly or are few are another cause
+    // points that lie badly or are few, and a face of plane pieces, which is
+    // smaller than the disk, are other causes
     if (scene.interface.slave == Side::bone ||
+        scene.implant.contact_surface == SurfaceKind::bilinear ||
         scene.interface.points_per_element(scene.bone, scene.implant) < 3 ||
         scene.interface.friction->is_frictionless())
       return "";

@@ -386,7 +386,7 @@ check_voxels()
 
 const std::string coin = pressed_and_turned + R"(
 subsection Bone
-  set Cells         = 24, 24, 4
+  set Cells         = 16, 16, 4
   set Layer grading = 2
   set Element       = spline
   set Material      = linear

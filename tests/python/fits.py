@@ -2,7 +2,7 @@
 often as they say, with white noise and with noise that hangs together; what curves cannot tell is named, and which test would;
 curves of another model are said not to fit.
 
-    fits.py [N]: N seeds for each kind of noise, 25 if it is not given
+    fits.py [N]: N seeds for each kind of noise, 10 if it is not given
 """
 
 import os
@@ -272,7 +272,7 @@ def check_posteriors():
 
 
 def main():
-    n_seeds = int(sys.argv[1]) if len(sys.argv) > 1 else 25
+    n_seeds = int(sys.argv[1]) if len(sys.argv) > 1 else 10
     with tempfile.TemporaryDirectory() as directory:
         os.chdir(directory)
         check_exact_curves()

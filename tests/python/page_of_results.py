@@ -438,7 +438,8 @@ def test_in_browser(directory):
 
 
 def main():
-    os.makedirs(sys.argv[2], exist_ok=True)
+    shutil.rmtree(sys.argv[2], ignore_errors=True)  # of the program as it was before
+    os.makedirs(sys.argv[2])
     os.chdir(sys.argv[2])
     simulate("run")
     text = test_run("run")

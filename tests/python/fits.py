@@ -14,7 +14,7 @@ import numpy
 from scipy import linalg, signal
 
 import debond
-from debond import noise
+from debond import intervals, noise
 
 warnings.simplefilter("error")
 SCENE = """
@@ -271,6 +271,31 @@ def check_posteriors():
            0.5 < numpy.std(samples[:, 0]) / sd[0] < 1.2, numpy.std(samples[:, 0]) / sd[0])
 
 
+def check_ends():
+    """Ends of intervals of a curve that is far from linear: where the sum of squares, the others at their best, has grown by
+    t^2 C_jj/(J'J)^-1_jj with the J of that place; with that of the best fit it would be elsewhere."""
+    generator = numpy.random.default_rng(5)
+    measured("noise.csv", more=0.03 * 53 * correlated(generator, 200, 0.8))
+    found = fit({name: FIVE[name] if "Transition" in name or name in TWO else value for name, value in TRUTH.items()}
+                | {I + "Tangential penalty stiffness": 700}, "noise.csv", Starts=1)
+    problem, told, best = found.problem, found.told, found._best
+    unknowns, roots = problem.unknowns, []
+    lower, upper = unknowns.to_search(unknowns.lower), unknowns.to_search(unknowns.upper)
+    for j in range(len(found.names)):
+        for place in (told.lower, told.upper):
+            if not lower[j] + 1e-6 < place[j] < upper[j] - 1e-6:
+                continue
+            start = unknowns.to_search(best.values)
+            start[j] = place[j]
+            end = problem.minimise(unknowns.from_search(start), True, numpy.delete(numpy.arange(len(start)), j))
+            growth = 2 * (end.cost - best.cost)
+            there = problem.weights[:, None] * problem.derivatives(end.values, True)
+            roots.append([numpy.sqrt(growth / intervals._growth_at_end(problem, told, J, j)) for J in (there, told.derivatives)])
+    roots = numpy.array(roots)
+    report("ends are where the noise at that place says, to 6 %", len(roots) >= 3 and abs(roots[:, 0] - 1).max() < 0.06, roots)
+    report("which is not where that at the best fit says", abs(roots[:, 1] - 1).max() > 0.12, roots)
+
+
 def main():
     n_seeds = int(sys.argv[1]) if len(sys.argv) > 1 else 10
     with tempfile.TemporaryDirectory() as directory:
@@ -284,6 +309,7 @@ def main():
         check_what_cannot_be_told()
         check_known()
         check_posteriors()
+        check_ends()
         check_intervals(n_seeds)
     sys.exit(f"{len(failures)} checks failed: {failures}" if failures else 0)
 

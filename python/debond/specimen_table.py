@@ -115,6 +115,9 @@ def _scene_of(template, changes=()):
     """The scene with unknowns at their starts, without a measured curve. Raises SceneError."""
     entries, _ = _debond.variants(_debond.changed(template, [*changes, "Output/Reference curve=", "Task=calibrate"]))[0]
     unknowns = Unknowns([(entries, [])])
+    if not unknowns.list:
+        raise InputError("the template has no unknowns: write <<START in LOWER..UPPER>> in the place of numbers that are to be "
+                         "found")
     starts = [f"{entry}={value}" for entry, value in unknowns.entries(0, unknowns.starts).items()]
     return _debond.Scene(_debond.changed(entries, starts), "", _debond.Team(0))
 

@@ -221,7 +221,7 @@ def profile_ends(problem, told, nearby, best, rounds):
     _, finite, _ = inverse(J)
     ends = []
     for j in numpy.flatnonzero(numpy.isfinite(told.half_widths) & (told.half_widths > 0)):
-        growth = _growth_at_end(problem, told, J, j)
+        growth = told.half_widths[j] ** 2 / finite[j, j]  # of the sum of squares at the end of the linear curve
         for sign in (-1, 1):
             limit = (upper[j] - centre[j]) if sign > 0 else (centre[j] - lower[j])
             end = _End(j, sign, centre, growth, limit)

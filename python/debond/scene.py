@@ -285,8 +285,8 @@ class Simulation:
                 raise SceneError(f"bulk({body!r:.20}, points of shape {places.shape}): expected 'bone' or 'implant', and n x 3")
             return body, places.tolist()
 
-        _agreed(self._team, check)
-        displacement, stress = self._run.bulk(body == "implant", numpy.asarray(points, dtype=float).T)
+        body, places = _agreed(self._team, check)
+        displacement, stress = self._run.bulk(body == "implant", numpy.reshape(places, (-1, 3)).T)
         return {"displacement_mm": displacement.T, "stress_MPa": stress.T.reshape(-1, 3, 3)}
 
     def save(self) -> bytes:

@@ -140,17 +140,15 @@ namespace Debond
               throw;
             level.why_not = std::string("refused: ") + error.what();
           }
-        catch (const RunError &error)
+        catch (const WriteError &)
           {
-            if (dynamic_cast<const WriteError *>(&error) != nullptr)
-              throw;
-            level.why_not = std::string("failed: ") + error.what();
+            throw;
           }
         catch (const Interrupted &)
           {
             throw;
           }
-        catch (const std::exception &error) // no memory left, say
+        catch (const std::exception &error) // the run, or no memory left
           {
             level.why_not = std::string("failed: ") + error.what();
           }

@@ -92,6 +92,47 @@ namespace Debond
 
 
 
+  namespace
+  {
+    constexpr auto angle_of  = &ReferenceCurve::value_type::first;
+    constexpr auto torque_of = &ReferenceCurve::value_type::second;
+
+
+
+    /** Why the measured curve may be read wrongly. */
+    std::vector<std::string>
+    doubts_of(const ReferenceCurve &computed,
+              const ReferenceCurve &measured,
+              const bool            is_opposite)
+    {
+      std::vector<std::string> remarks;
+      const double             T_largest = largest(measured, torque_of),
+                   T_max                 = largest(computed, torque_of);
+      const double end                   = largest(computed, angle_of),
+                   measured_end          = largest(measured, angle_of);
+      const auto ask = [&](const bool is_so, const std::string &text) {
+        if (is_so)
+          remarks.push_back(text);
+      };
+      ask(!(T_largest > 0.01 * T_max && T_largest < 100. * T_max),
+          "the largest torque of the reference curve is " +
+            to_text(T_largest, 4) + " and that of the run " +
+            to_text(T_max, 4) + " N mm: is it in N mm?");
+      ask(measured_end < 0.05 * end,
+          "the reference curve ends at " + to_text(measured_end, 4) +
+            " and the run at " + to_text(end, 4) +
+            " degrees: is it in degrees?");
+      ask(is_opposite, CurveComparison::opposite_sign);
+      ask(
+        turns_back(measured),
+        "the angles of the reference curve turn back: loading and unloading, or "
+        "two tests, are compared with one curve");
+      return remarks;
+    }
+  } // namespace
+
+
+
   CurveComparison::CurveComparison(const ReferenceCurve &computed,
                                    const ReferenceCurve &measured)
   {
@@ -107,10 +148,8 @@ namespace Debond
     for (auto &[angle, torque] : curve)
       angle *= rotation.direction;
 
-    constexpr auto angle_of  = &ReferenceCurve::value_type::first;
-    constexpr auto torque_of = &ReferenceCurve::value_type::second;
-    const double   T_largest = largest(measured, torque_of),
-                 T_max       = largest(computed, torque_of);
+    const double T_largest = largest(measured, torque_of),
+                 T_max     = largest(computed, torque_of);
     double sum_mp = 0., sum = 0., products = 0., most = -1.;
     for (const auto &[angle, T_measured] : measured)
       {
@@ -131,24 +170,7 @@ namespace Debond
             angle_of_max_deg = angle;
           }
       }
-    const double end          = largest(computed, angle_of),
-                 measured_end = largest(measured, angle_of);
-    const auto ask            = [&](const bool is_so, const std::string &text) {
-      if (is_so)
-        remarks.push_back(text);
-    };
-    ask(!(T_largest > 0.01 * T_max && T_largest < 100. * T_max),
-        "the largest torque of the reference curve is " +
-          to_text(T_largest, 4) + " and that of the run " + to_text(T_max, 4) +
-          " N mm: is it in N mm?");
-    ask(measured_end < 0.05 * end,
-        "the reference curve ends at " + to_text(measured_end, 4) +
-          " and the run at " + to_text(end, 4) + " degrees: is it in degrees?");
-    ask(products < 0., opposite_sign);
-    ask(
-      turns_back(measured),
-      "the angles of the reference curve turn back: loading and unloading, or "
-      "two tests, are compared with one curve");
+    remarks = doubts_of(computed, measured, products < 0.);
     if (rows_used == 0)
       {
         why_none =

@@ -1,4 +1,4 @@
-#include <debond/interface/contact_law.h>
+#include <debond/interface/interface_law.h>
 #include <debond/interface/slip_problem.h>
 
 #include <cmath>

@@ -45,7 +45,8 @@ namespace Debond
     for (unsigned int q = 0; q < points.size(); ++q)
       {
         static_cast<SurfaceQuadraturePoint &>(points[q]) = places[q];
-        points[q].accepted.internal = law.friction->initial_variables();
+        points[q].accepted.internal =
+          law.joint->friction->initial_variables();
       }
     for (const Side side : both_sides)
       // no forces before the first evaluate(); their size never changes
@@ -124,7 +125,7 @@ namespace Debond
   // The interacting point xi_hat^n of a point that is open: its closest point
   // on the master, so that a point that closes during the next step starts from
   // there, and what it moves along the surface in that step counts as slip.
-  void
+  Projection
   ContactInterface::project_accepted(
     SlavePoint                   &point,
     const InterfaceConfiguration &configuration,
@@ -144,6 +145,7 @@ namespace Debond
     // close to the singular corner of a disk, where there is no clearance, the
     // search may end early: no partner is to be found there anyway
     unprojected += !projection.converged && projection.clearance > 0.;
+    return projection;
   }
 
 
@@ -207,7 +209,8 @@ namespace Debond
   //
   // The bonding comes last, as with the bone as slave it asks for the partners.
   void
-  ContactInterface::initialise(const InterfaceConfiguration &configuration)
+  ContactInterface::initialise(const InterfaceConfiguration &configuration,
+                               const double touch_tolerance)
   {
     tangent_is_gathered = false;
     for (const Side side : both_sides)
@@ -222,7 +225,14 @@ namespace Debond
       {
         if (neighbour != nullptr)
           point.accepted.xi = neighbour->accepted.xi;
-        project_accepted(point, configuration, neighbour != nullptr);
+        const Projection projection =
+          project_accepted(point, configuration, neighbour != nullptr);
+        // faces that touch have grown together
+        if (projection.faces && projection.height <= touch_tolerance)
+          {
+            point.accepted.joined     = true;
+            point.accepted.normal_gap = 0.;
+          }
         if (point.accepted.has_partner)
           neighbour = &point;
       }
@@ -381,8 +391,7 @@ namespace Debond
       const SlavePoint        &point = points[q];
       const ContactPointState &begin = point.accepted, &end = point.trial.state;
       if (!begin.has_partner || !end.has_partner ||
-          (begin.status != PointStatus::slip &&
-           end.status != PointStatus::slip))
+          (!slides(begin.status) && !slides(end.status)))
         return;
       const auto at = [&](const ControlNet &positions) {
         return Eigen::Vector3d(interpolate(point.basis, positions));
@@ -442,7 +451,7 @@ namespace Debond
     const RigidMotion rigid({accepted_frame, accepted_centre},
                             Place::of_implant(configuration));
     for (SlavePoint &point : points)
-      if (point.trial.state.status == PointStatus::slip)
+      if (slides(point.trial.state.status))
         point.trial.turn_by_chuck =
           turn_by_chuck(rigid,
                         configuration,
@@ -485,7 +494,7 @@ namespace Debond
             continue;
           }
         if (point.trial.state.status != PointStatus::open)
-          works.add(point, *law.friction, mode_now, Q);
+          works.add(point, *law.joint, mode_now, Q);
         else if (point.accepted.status != PointStatus::open)
           works.add_opening(
             point,
@@ -598,9 +607,11 @@ namespace Debond
   {
     InterfaceSummary summary;
     double           area = 0.;
-    // open, stick, slip: see PointStatus
-    const std::array<double *, 3> share{
-      {&summary.share_open, &summary.share_stick, &summary.share_slip}};
+    // open, stick, slip, pulled: see PointStatus
+    const std::array<double *, 4> share{{&summary.share_open,
+                                         &summary.share_stick,
+                                         &summary.share_slip,
+                                         &summary.share_pulled}};
     const double resistance =
       law.tangential_penalty + viscous_stiffness(law, mode_now);
     for (const SlavePoint &point : points)
@@ -608,7 +619,7 @@ namespace Debond
         const ContactPointResult &trial = point.trial;
         // int p dA [N]; it is no resultant, as the normals of a curved face
         // differ
-        summary.normal_force += point.JxW * trial.state.pressure;
+        summary.normal_force += point.JxW * trial.pressure;
         if (point.faces_implant)
           {
             // phi as reported() has it, of the trial state, and the share of
@@ -620,9 +631,9 @@ namespace Debond
         if (trial.state.status == PointStatus::open)
           {
             // whether it was bonded: opening itself may have broken it
-            if (law.friction->has_bond() &&
+            if (!law.joint->pulls() && law.joint->friction->has_bond() &&
                 point.accepted.status != PointStatus::open &&
-                point.friction(*law.friction, point.accepted).phi > 0.)
+                point.friction(*law.joint, point.accepted).phi > 0.)
               ++summary.bonded_opened;
             continue;
           }
@@ -639,17 +650,18 @@ namespace Debond
           std::max(summary.max_traction, trial.traction.norm());
         if (mode_now.frictionless)
           continue;
-        // -dmu/dg_s [1/mm] where it is largest, from the accepted g_s on. The
+        // -dL/dg_s where it is largest, from the accepted g_s on [MPa/mm]. The
         // steepest point is kept with its numbers, which the message of a run
         // that ends here has to give.
-        const double slope = law.friction->steepest_fall(
-          friction_state(point.accepted, point.phi_0, mode_now.duration),
-          trial.state.slip - point.accepted.slip);
-        const double softening = slope * trial.state.pressure / resistance;
+        const double slope =
+          law.joint->softening_by_slip(point.begin(*law.joint, mode_now),
+                                       trial.pressure,
+                                       trial.state.slip - point.accepted.slip);
+        const double softening = slope / resistance;
         if (softening > summary.steepest_softening)
           {
             summary.steepest_softening = softening;
-            summary.softening_pressure = trial.state.pressure;
+            summary.softening_pressure = trial.pressure;
             summary.softening_slope    = slope;
           }
       }

@@ -32,13 +32,13 @@ namespace Debond
     result.state                             = old_state;
     result.state.status                      = PointStatus::open;
     if (old_state.status != PointStatus::open)
-      law.normal->open(result.state);
+      static_cast<PointHistory &>(result.state) = law.joint->open(old_state);
     // No traction, no stored energy, and no derivatives: an open point drops
     // out of forces and tangent.
     result.traction = result.tangential_traction = result.viscous_traction =
       result.slip_increment                      = Vector3d::Zero();
     result.normal_gap = result.energy = result.softening = result.path_to_edge =
-      result.state.pressure                              = 0.;
+      result.pressure                                    = 0.;
     result.state.gap.setZero();
     result.dt.setZero();
     result.dxi.setZero();
@@ -101,7 +101,7 @@ namespace Debond
   viscous_stiffness(const ContactPointLaw &law, const ContactPointMode &mode)
   {
     const bool resists = !mode.frictionless && mode.duration > 0. &&
-                         !law.friction->is_frictionless();
+                         !law.joint->friction->is_frictionless();
     return resists ? law.viscosity / mode.duration : 0.;
   }
 
@@ -123,32 +123,27 @@ namespace Debond
       const ContactPointMode  &mode;
       ContactPointResult      &result;
 
-      // What the friction law is to know of the point: the state at the
-      // beginning, and with it the bond that is left.
-      //
-      // In the frictionless part of a load history (`Friction starts at') mu is
-      // 0 and g_s does not grow.
+      // What the law is to know of the point. In the frictionless part of a
+      // load history (`Friction starts at') nothing rubs and g_s does not grow.
       PointFriction
       friction(const double phi_0) const
       {
-        return {*law.friction,
-                friction_state(start, phi_0, mode.duration),
-                mode.frictionless,
+        return {*law.joint,
+                law.joint->begin(start, phi_0, mode.duration, mode.frictionless),
                 viscous_stiffness(law, mode)};
       }
 
       // What the step starts from. The master has taken the parts of the old
       // gap along a_1 and a_2 with it; where slip is integrated over the step
-      // the string was L_n = mu p / eps_t long. @p mu: at g_s^n.
+      // the string was L_n / eps_t long.
       void
-      bring_along(const MasterNormal &old,
-                  const double        mu,
-                  PointFriction      &friction) const
+      bring_along(const MasterNormal &old, PointFriction &friction) const
       {
         friction.old_gap =
           start.gap[0] * old.geometry.a1 + start.gap[1] * old.geometry.a2;
-        friction.old_mu    = mu;
-        friction.old_limit = mu * start.pressure / law.tangential_penalty;
+        friction.old_limit =
+          law.joint->respond(friction.start, start.normal_gap, 0.).limit /
+          law.tangential_penalty;
         friction.arc       = Arc(mode.turn);
       }
 
@@ -159,9 +154,11 @@ namespace Debond
       //
       // A tolerance of rounding: 1e-12 of the implant's radius.
       bool
-      is_closed(const double g_n) const
+      is_closed(const PointStart &start,
+                const double      g_n,
+                const double      distance) const
       {
-        const double reach = law.normal->reach(start);
+        const double reach = law.joint->reach(start, distance);
         return mode.stick_first ? g_n < reach + mode.touch_tolerance :
                                   g_n < reach - mode.touch_tolerance;
       }
@@ -186,23 +183,24 @@ namespace Debond
             const Vector3d      &gap,
             const MasterNormal  &normal)
       {
-        // g_n and p. The spring eps_n pushes while g_n < 0; a law with strength
-        // in tension would have a p that is negative, which friction does not
-        // feel.
-        const Vector3d      &n        = normal.n;
-        const double         g_n      = n.dot(gap);
-        const NormalResponse response = law.normal->respond(g_n, start);
-        const double eps_n = response.stiffness, eps_t = law.tangential_penalty;
+        // g_n and p: the spring eps_n pushes while g_n < 0; a law with strength
+        // in tension pulls beyond.
+        const Vector3d         &n   = normal.n;
+        const double            g_n = n.dot(gap);
+        const InterfaceResponse response =
+          law.joint->respond(friction.start, g_n, 0.);
+        const double eps_n = -response.pressure_by_gap,
+                     eps_t = law.tangential_penalty;
         // xi_hat = xi_hat^n and g_s = g_s^n. The spring eps_t holds the point
         // with what is left of the gap in the tangent plane, (1 - n n^T) g,
         // which need not be zero: this gap is the elastic deformation of the
         // interface, not an error of the penalty.
-        result.state        = start;
-        result.state.status = PointStatus::stick;
-        if (!friction.frictionless) // a state may age at rest
-          result.state.internal = friction.law.advance(friction.start, 0.);
+        result.state                              = start;
+        result.state.status                       = PointStatus::stick;
+        static_cast<PointHistory &>(result.state) =
+          law.joint->advance(friction.start, g_n, 0.);
         result.normal_gap          = g_n;
-        result.state.pressure      = std::max(0., response.pressure);
+        result.pressure            = response.pressure;
         result.state.gap           = normal.parts(gap);
         result.softening           = 0.;
         result.tangential_traction = eps_t * (gap - g_n * n);
@@ -245,7 +243,7 @@ namespace Debond
         // y(xi_hat^n) moves with the master too, and the slip y(xi_hat) -
         // y(xi_hat^n) with both: its basis is kept for the tangent.
         result.old_basis = result.basis;
-        SlipProblem  problem(law, friction, start, x, old.geometry.y, master);
+        SlipProblem  problem(law, friction, x, old.geometry.y, master);
         const double elastic = limit / law.tangential_penalty,
                      length  = tangential_gap.norm();
         const double slip    = length > 0. ? 1. - elastic / length : 0.;
@@ -269,16 +267,21 @@ namespace Debond
         // Closed where it has come to: it slides. xi_hat is new, report() adds
         // g_s and traction. The solution of a law that went below mu = 0 would
         // push the point along; it is refused, and with it the step.
-        const double g_n = problem.at_end().g_n;
-        if (outcome == SlipOutcome::solved && is_closed(g_n))
+        const SlipEquations &end = problem.at_end();
+        const double         g_n = end.g_n;
+        if (outcome == SlipOutcome::solved &&
+            is_closed(friction.start, g_n, end.distance))
           {
             const Vector2d xi   = result.state.xi;
             result.state        = start;
             result.state.xi     = xi;
-            result.state.status = PointStatus::slip;
+            result.state.status =
+              end.response.pressure < 0. && end.response.limit == 0. ?
+                PointStatus::pulled :
+                PointStatus::slip;
             problem.report(result);
             result.failed = result.negative_friction =
-              problem.at_end().coefficient.mu < 0.;
+              end.response.limit < 0.;
             return;
           }
         // Solved with an open gap, or beyond the edge: open. Not found: an open
@@ -288,7 +291,7 @@ namespace Debond
         open(failed ? 0. : g_n);
         result.failed = failed;
         if (outcome == SlipOutcome::left_patch)
-          result.path_to_edge = problem.at_end().distance;
+          result.path_to_edge = end.distance;
       }
     };
   } // namespace
@@ -328,11 +331,10 @@ namespace Debond
     contract(result.basis, *master.positions, false, geometry);
     const Vector3d     gap = x - geometry.y;
     const MasterNormal normal(geometry, master.outward_sign);
-    const double       g_n    = normal.n.dot(gap);
-    const bool         closed = step.is_closed(g_n);
+    const double       g_n = normal.n.dot(gap);
 
     // If the point stuck, it would carry the trial traction eps_t |g_t|, Eq.
-    // (28). It does while that is no more than the mu p of Eq. (30), with mu at
+    // (28). It does while that is no more than the L = mu p of Eq. (30), with mu at
     // the sliding distance g_s^n that it comes with.
     //
     // mu is asked with the distance 0: a law with a state that ages has aged in
@@ -341,9 +343,10 @@ namespace Debond
     // Without pressure the limit is 0, and whatever pulls makes the point
     // slide.
     PointFriction friction = step.friction(phi_0);
-    const double  mu       = friction.after(0.).mu;
-    const double  limit =
-      mu * std::max(0., law.normal->respond(g_n, start).pressure);
+    const bool    closed   = step.is_closed(friction.start, g_n, 0.);
+    const InterfaceResponse response =
+      law.joint->respond(friction.start, g_n, 0.);
+    const double limit = response.limit;
     const Vector3d tangential_gap = gap - g_n * normal.n;
     const double   trial_traction =
       law.tangential_penalty * tangential_gap.norm();
@@ -351,13 +354,16 @@ namespace Debond
     // stick, whatever they would carry: the tangent is then that of bodies
     // joined by springs, and the iteration cannot begin with a cycle of stick
     // and slip. The true law takes over in the next one.
-    if (closed && (mode.stick_first || trial_traction <= limit))
+    // What is pulled and does not rub follows its slave, even where nothing
+    // has moved yet.
+    const bool rubs = limit > 0. || response.pressure >= 0.;
+    if (closed && (mode.stick_first || (rubs && trial_traction <= limit)))
       step.stick(friction, gap, normal);
     else if (mode.stick_first)
       step.open(g_n);
     else
       {
-        step.bring_along(normal, mu, friction);
+        step.bring_along(normal, friction);
         step.slide_or_open(friction, normal, tangential_gap, limit);
       }
   }

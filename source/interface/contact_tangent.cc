@@ -74,7 +74,7 @@ namespace Debond
               {point.basis.N[a], 0., 0., point.basis.N[a], 0.});
         const SurfaceBasis &now = point.trial.basis,
                            &old = point.trial.old_basis;
-        const bool slips        = point.trial.state.status == PointStatus::slip,
+        const bool slips        = slides(point.trial.state.status),
                    same         = slips && old.element == now.element;
         for (unsigned int b = 0; b < now.size; ++b)
           add(other(slave),
@@ -153,7 +153,7 @@ namespace Debond
     : on_slave(point.basis)
     , on_master(point.trial.basis)
     , on_old(point.trial.old_basis)
-    , slips(point.trial.state.status == PointStatus::slip)
+    , slips(slides(point.trial.state.status))
   {
     dt_dxi_1 << point.JxW * point.trial.dt, point.trial.dxi.row(0);
     dxi_2 << point.trial.dxi.row(1).head<W::turn>().reshaped(3, 5),
@@ -330,7 +330,7 @@ namespace Debond
         result.value += point.JxW * trial.state.slip;
         // Only a sliding point changes it. Where it has not moved the length
         // has no derivative; the gradient leaves it out.
-        if (trial.state.status != PointStatus::slip || mode_now.frictionless ||
+        if (!slides(trial.state.status) || mode_now.frictionless ||
             trial.state.slip == point.accepted.slip)
           continue;
         const Matrix<double, W::size, 1> d =

@@ -155,7 +155,7 @@ namespace Debond
 
     /** What the entries say; laws that are special cases change it. */
     ModifiedCoulombParameters
-    coulomb_parameters(const FrictionLawChoice &choice)
+    coulomb_parameters(const LawChoice &choice)
     {
       return {choice.number("Friction coefficient broken"),
               choice.number("Friction coefficient unbroken"),
@@ -215,7 +215,7 @@ namespace Debond
     return {"frictionless",
             "no tangential traction",
             coulomb_entries(),
-            [](const FrictionLawChoice &choice) {
+            [](const LawChoice &choice) {
               auto parameters      = coulomb_parameters(choice);
               parameters.mu_broken = parameters.mu_unbroken = 0.;
               parameters.frictionless                       = true;
@@ -233,7 +233,7 @@ namespace Debond
     return {"coulomb",
             "the constant coefficient Friction coefficient broken",
             coulomb_entries(),
-            [](const FrictionLawChoice &choice) {
+            [](const LawChoice &choice) {
               auto parameters        = coulomb_parameters(choice);
               parameters.mu_unbroken = parameters.mu_broken;
               return modified_coulomb(parameters);
@@ -253,7 +253,7 @@ namespace Debond
             "the accumulated sliding distance of a point grows (Eqs. 11 to 13 "
             "of the paper)",
             coulomb_entries(),
-            [](const FrictionLawChoice &choice) {
+            [](const LawChoice &choice) {
               return modified_coulomb(coulomb_parameters(choice));
             }};
   }

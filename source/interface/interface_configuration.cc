@@ -172,7 +172,7 @@ namespace Debond
           continue;
         const bool is_slave = slave == Side::bone;
         touched[is_slave ? point.element : trial.basis.element] = true;
-        if (!is_slave && trial.state.status == PointStatus::slip)
+        if (!is_slave && slides(trial.state.status))
           touched[trial.old_basis.element] = true;
       }
     return control_points_of(bone, touched);

@@ -38,6 +38,7 @@ namespace Debond
               Allowed::number_between(1e-6, 1e15, "MPa/mm").or_number(0),
               "Tangential stiffness eps_t [MPa/mm] of the interface. 0: the "
               "same as the normal one.");
+    declare_interface_laws(table, law_choice);
     declare_friction_laws(table, friction_choice);
     table.add("Friction starts at",
               friction_starts_at,
@@ -91,12 +92,25 @@ namespace Debond
 
 
 
+  InterfaceLawPointer
+  InterfaceParameters::joint() const
+  {
+    const InterfaceLawParts parts{normal_penalty,
+                                  explicit_friction ?
+                                    explicit_update(friction) :
+                                    friction,
+                                  opening_breaks_bond};
+    return law_choice.law.empty() ? friction_under_pressure(parts) :
+                                    create_interface_law(law_choice, parts);
+  }
+
+
+
   ContactPointLaw
   InterfaceParameters::law() const
   {
-    return {penalty_law(normal_penalty, opening_breaks_bond),
+    return {joint(),
             tangential_stiffness(),
-            explicit_friction ? explicit_update(friction) : friction,
             viscosity,
             slip_direction};
   }
@@ -159,6 +173,7 @@ namespace Debond
       throw EntryError("Interface / Viscosity",
                        "it is not used by Friction law = frictionless: it "
                        "belongs to laws with friction");
+    joint(); // refuses what its entries cannot be
     bonding.check(implant);
   }
 } // namespace Debond

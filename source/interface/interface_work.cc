@@ -29,29 +29,37 @@ namespace Debond
     // dissipated is a trapezoid as that of a step [N/mm]: doc/theory.md,
     // Energies.
     double
-    friction_until_open(const Lifting     &lifting,
-                        const FrictionLaw &law,
-                        FrictionState      state)
+    friction_until_open(const Lifting      &lifting,
+                        const InterfaceLaw &law,
+                        PointStart          start)
     {
       constexpr unsigned int n = 200;
-      state.duration /= n;
+      start = law.begin(start.history, start.phi_0, start.duration / n);
       // each distance is held back by this much of itself
       const double viscous =
-        state.duration > 0. ?
-          lifting.viscosity / state.duration / lifting.stiffness :
+        start.duration > 0. ?
+          lifting.viscosity / start.duration / lifting.stiffness :
           0.;
+      const auto per_pressure = [&](const double pressure,
+                                    const double distance) {
+        return std::max(
+          0.,
+          law.respond(start, -pressure / law.stiffness, distance).limit /
+            pressure);
+      };
       Eigen::Vector3d gap = lifting.gap;
-      double          mu = law.coefficient(state, 0.).mu, lost = 0.;
+      double          mu = per_pressure(lifting.pressure, 0.), lost = 0.;
       for (unsigned int i = 1; i <= n; ++i)
         {
           const Eigen::Vector3d trial  = gap + lifting.motion / n;
           const double          length = trial.norm();
-          const auto            slides = [&] {
-            const double pressure = lifting.pressure * (n - i) / n;
+          const double          pressure = lifting.pressure * (n - i) / n;
+          const auto            slides   = [&] {
             return std::max(0., length - mu * pressure / lifting.stiffness) /
                    (1. + viscous);
           };
-          mu               = std::max(0., law.coefficient(state, slides()).mu);
+          if (pressure > 0.)
+            mu = per_pressure(pressure, slides());
           const double way = slides();
           if (way > 0.)
             {
@@ -62,8 +70,10 @@ namespace Debond
             }
           else
             gap = trial;
-          state.internal = law.advance(state, way);
-          state.slip += way;
+          start =
+            law.begin(law.advance(start, -pressure / law.stiffness, way),
+                      start.phi_0,
+                      start.duration);
         }
       // what viscosity holds until it opens
       return lost + 0.5 * lifting.stiffness * gap.squaredNorm();
@@ -81,7 +91,7 @@ namespace Debond
   // state jumps cannot dissipate more.
   void
   InterfaceWork::add(const SlavePoint       &point,
-                     const FrictionLaw      &law,
+                     const InterfaceLaw     &law,
                      const ContactPointMode &mode,
                      const Eigen::Matrix3d  &frame)
   {
@@ -102,27 +112,15 @@ namespace Debond
               .dot(slip);
     for (double *work : {&viscous, &friction, &friction_bound})
       *work += viscous_part;
-    if (mode.frictionless)
-      return;
-    // The law is integrated over the distance that the point slides, from its
-    // accepted state, with the pressure between its two ends. Pressures times
-    // mm are works per area. Of the friction the bond has its part, int (mu -
-    // mu_b) dg_s: D_adh, which tells what the adhesion costs without reading it
-    // off the torque curve as Eq. (20) does.
-    const FrictionState start =
-      friction_state(point.accepted, point.phi_0, mode.duration);
-    const double distance = trial.state.slip - point.accepted.slip;
-    const double p        = point.accepted.pressure,
-                 mean     = 0.5 * (p + trial.state.pressure);
-    const double per_pressure =
-      point.JxW * law.friction_strength(start, distance);
-    adhesive += point.JxW * mean * law.adhesive_strength(start, distance);
-    friction += mean * per_pressure;
-    // What the mean pressure can be wrong by, and a speed that changes within
-    // the step. The bound keeps a fast but stable fall from being reported as a
-    // jump.
-    friction_bound += 0.5 * std::abs(p - trial.state.pressure) * per_pressure +
-                      mean * point.JxW * law.strength_bound(start, distance);
+    const PointWork by_law = law.work(point.begin(law, mode),
+                                      trial.normal_gap,
+                                      trial.state.slip - point.accepted.slip);
+    const double of_gap = point.JxW * (by_law.damage - by_law.lift);
+    adhesive += point.JxW * by_law.adhesive;
+    damage += point.JxW * by_law.damage;
+    dissipation += of_gap;
+    friction += of_gap + point.JxW * by_law.friction;
+    friction_bound += point.JxW * by_law.friction_bound;
   }
 
 
@@ -159,9 +157,12 @@ namespace Debond
                              const OpeningMotion    &motion)
   {
     const ContactPointResult &trial = point.trial;
-    const double  p = point.accepted.pressure, g_n = trial.normal_gap;
-    FrictionState start =
-      friction_state(point.accepted, point.phi_0, mode.duration);
+    const InterfaceLaw       &joint = *law.joint;
+    PointStart                start = point.begin(joint, mode);
+    // of the beginning, and where nothing has slid
+    const InterfaceResponse at_start =
+      joint.respond(start, point.accepted.normal_gap, 0.);
+    const double p = std::max(0., at_start.pressure), g_n = trial.normal_gap;
     const Eigen::Vector3d &n          = motion.normal;
     const auto             tangential = [&n](const Eigen::Vector3d &v) {
       return Eigen::Vector3d(v - n.dot(v) * n);
@@ -169,18 +170,21 @@ namespace Debond
     const double          eps_t        = law.tangential_penalty;
     const Eigen::Vector3d old_traction = frame * point.accepted_traction,
                           gap          = old_traction / eps_t;
-    const double penetration           = p / law.normal->initial_stiffness();
+    const double penetration           = p / joint.stiffness;
     // Unloaded, the bodies move as well: while the point is closed.
     const Eigen::Vector3d by_bodies =
       motion.gap - (gap - penetration * n) - motion.by_chuck;
-    const bool over_edge = g_n < -mode.touch_tolerance;
+    const bool over_edge = g_n < -mode.touch_tolerance && p > 0.;
     double     lost = 0., of_springs = 0.; // per area [N/mm]
+    if (at_start.pressure < 0.) // a bond that is torn over the edge
+      of_springs = at_start.energy;
     if (over_edge)
       {
         // rubbed on the way there, at a pressure that is known at the beginning
         // only
-        if (!mode.frictionless)
-          lost = p * law.friction->friction_strength(start, trial.path_to_edge);
+        lost =
+          joint.work(start, point.accepted.normal_gap, trial.path_to_edge)
+            .friction;
         friction_bound += 0.5 * point.JxW * lost;
         lost += std::max(0., 0.5 * old_traction.dot(gap + by_bodies));
         of_springs = -0.5 * p * g_n;
@@ -190,8 +194,7 @@ namespace Debond
         // How compliant the bodies are, over the springs: along the pressure,
         // and along the traction where there is one worth asking.
         const double rises = std::max(0., -n.dot(by_bodies)),
-                     limit =
-                       law.friction->coefficient(start, 0.).mu * p / eps_t,
+                     limit       = at_start.limit / eps_t,
                      little     = 1e-4 * limit * limit,
                      compliance = std::max(0.,
                                            (by_bodies.dot(gap) +
@@ -207,7 +210,7 @@ namespace Debond
                                     p,
                                     eps_t / (1. + compliance),
                                     law.viscosity},
-                                   *law.friction,
+                                   joint,
                                    start);
       }
     // as the trapezoid of the chuck's work has it, with a traction that falls

@@ -37,7 +37,7 @@ namespace Debond
     class RateAndState : public FrictionLaw
     {
     public:
-      explicit RateAndState(const FrictionLawChoice &choice)
+      explicit RateAndState(const LawChoice &choice)
         : mu_0(choice.number("Reference coefficient"))
         , A(choice.number("Direct effect"))
         , B(choice.number("Evolution effect"))
@@ -305,7 +305,7 @@ namespace Debond
             "mu = mu_0 + A ln(1 + V/V_0) + B ln(V_0 theta/D) with the sliding "
             "speed V and a state theta that follows it, see Rate and state",
             RateAndState::entries(),
-            [](const FrictionLawChoice &choice) {
+            [](const LawChoice &choice) {
               return FrictionLawPointer(std::make_shared<RateAndState>(choice));
             }};
   }

@@ -19,7 +19,7 @@ namespace Debond
   // friction can carry, and it points where the slip goes,
   //
   //     a_alpha . (g - t_t / eps_t) = 0,  alpha = 1, 2,     Eqs. (29), (30)
-  //     t_t = (mu(g_s) p + eta V) tau.
+  //     t_t = (L + eta V) tau,  L = mu(g_s) p for friction under pressure.
   //
   // All of it is asked at one trial place, in the order in which one thing
   // needs the other. First comes the gap g = x - y, Eq. (26), and its part
@@ -27,7 +27,6 @@ namespace Debond
   // direction of slip; then the traction that friction allows.
   inline SlipEquations::SlipEquations(const ContactPointLaw &law,
                                       const PointFriction   &friction,
-                                      const PointHistory    &history,
                                       const Vector3d        &x,
                                       const Vector3d        &y_old,
                                       const SurfaceGeometry &geometry,
@@ -40,10 +39,7 @@ namespace Debond
     , gap(x - geometry.y)
     , trial_gap(x - y_old)
   {
-    g_n             = normal.n.dot(gap);
-    normal_response = law.normal->respond(g_n, history);
-    // tension, where a law has any, does not press the faces together
-    pressure = std::max(0., normal_response.pressure);
+    g_n = normal.n.dot(gap);
     if (law.slip_direction == SlipDirection::integrated)
       integrate_slip();
     else
@@ -66,12 +62,14 @@ namespace Debond
     axes.col(1)           = normal.n.cross(axes.col(0));
     const Vector3d g_t    = gap - g_n * normal.n;
     const double   length = g_t.norm();
+    const InterfaceResponse held = friction.law.respond(friction.start, g_n, 0.);
+    held_by_gap                  = held.limit_by_gap;
     towed.emplace(
       TowedGap::Step{friction.arc,
                      axes.transpose() * friction.old_gap,
                      axes.transpose() * (trial_gap - friction.old_gap),
                      friction.old_limit,
-                     friction.old_mu * pressure / law.tangential_penalty,
+                     held.limit / law.tangential_penalty,
                      length});
     tau       = axes * towed->direction;
     distance  = towed->distance;
@@ -84,8 +82,8 @@ namespace Debond
 
   // The law is asked at the updated sliding distance, Eq. (32), at the end of
   // the step. Asked at g_s^n it would lag behind, by 8 % of the torque in the
-  // softening branch with 50 steps. The traction is the limit t_t = (mu p + eta
-  // V) tau, Eq. (30), V being the distance over the duration of the step. What
+  // softening branch with 50 steps. The traction is the limit t_t = (L + eta V)
+  // tau, Eq. (30), V being the distance over the duration of the step. What
   // the gap is more than the elastic t_t / eps_t must have no part in the
   // surface, Eq. (29); derivatives take all of t for t_t, as -p n has none.
   inline void
@@ -93,16 +91,14 @@ namespace Debond
   {
     if (!towed)
       find_distance();
-    const auto friction_limit = friction.limit(pressure, distance);
-    coefficient               = friction_limit.coefficient;
-    limit                     = friction_limit.value;
-    slope                     = friction_limit.slope;
+    response = friction.law.respond(friction.start, g_n, distance);
+    const auto with_viscosity = friction.limit(response, distance);
+    limit                     = with_viscosity.value;
+    slope                     = with_viscosity.slope;
 
-    viscous_traction    = pressure > 0. ?
-                            Vector3d(friction.viscous * distance * tau) :
-                            Vector3d(Vector3d::Zero());
+    viscous_traction    = with_viscosity.resistance * distance * tau;
     tangential_traction = limit * tau;
-    traction = -normal_response.pressure * normal.n + tangential_traction;
+    traction            = -response.pressure * normal.n + tangential_traction;
     excess   = gap - traction / law.tangential_penalty;
     tangents << geometry.a1, geometry.a2;
     h = tangents.transpose() *
@@ -122,11 +118,12 @@ namespace Debond
   SlipEquations::find_changes()
   {
     const Vector3d &n = normal.n;
-    // with the sliding distance changes the limit, and it changes itself
-    const Vector4d by_distance = with(slope * tau, 1.);
-    // the limit changes with the pressure, dp = -stiffness dg_n, and g_n with
-    // gap and normal
-    Vector4d by_pressure = with(coefficient.mu * tau, 0.);
+    // with the sliding distance limit and pressure change, and it changes itself
+    const Vector4d by_distance =
+      with(slope * tau - response.pressure_by_slip * n, 1.);
+    // both change with g_n, and g_n with gap and normal
+    Vector4d by_normal_gap =
+      with(response.limit_by_gap * tau - response.pressure_by_gap * n, 0.);
     if (towed)
       {
         // In axes that tilt with the normal, but do not turn about it, the
@@ -137,7 +134,7 @@ namespace Debond
                                           moved = by.middleCols<2>(2) *
                                                   axes.transpose();
         const Vector3d &g = friction.old_gap;
-        by_pressure += friction.old_mu / law.tangential_penalty * by.col(4);
+        by_normal_gap += held_by_gap / law.tangential_penalty * by.col(4);
         change.old_gap = held - moved;
         change.trial   = moved;
         change.gap     = by.col(5) * along_gap.transpose();
@@ -147,13 +144,10 @@ namespace Debond
       }
     else
       find_changes_of_direction(by_distance);
-    const Vector4d by_normal_gap =
-      normal_response.stiffness *
-      (pressure > 0. ? Vector4d(with(n, 0.) - by_pressure) : with(n, 0.));
     change.gap.noalias() += by_normal_gap * n.transpose();
     change.normal.noalias() += by_normal_gap * gap.transpose();
     change.normal.noalias() -= with(limit * n, 0.) * tau.transpose();
-    change.normal.topRows<3>().diagonal().array() -= normal_response.pressure;
+    change.normal.topRows<3>().diagonal().array() -= response.pressure;
   }
 
 
@@ -162,7 +156,8 @@ namespace Debond
   SlipEquations::by_towed() const
   {
     Eigen::Matrix<double, 4, 3> result;
-    result << limit * axes, slope * tau, 0., 0., 1.;
+    result << limit * axes,
+      slope * tau - response.pressure_by_slip * normal.n, 0., 0., 1.;
     return result;
   }
 
@@ -213,13 +208,11 @@ namespace Debond
   // Finding the interacting point.
   SlipProblem::SlipProblem(const ContactPointLaw &law,
                            const PointFriction   &friction,
-                           const PointHistory    &history,
                            const Vector3d        &x,
                            const Vector3d        &y_old,
                            const MasterSurface   &master)
     : law(law)
     , friction(friction)
-    , history(history)
     , x(x)
     , y_old(y_old)
     , master(master)
@@ -394,7 +387,7 @@ namespace Debond
   {
     const SlipEquations &e = *equations;
     result.normal_gap      = e.g_n;
-    result.state.pressure  = e.pressure;
+    result.pressure        = e.response.pressure;
     result.state.gap =
       e.normal.parts(e.tangential_traction / law.tangential_penalty);
     result.softening           = e.softening();
@@ -403,16 +396,11 @@ namespace Debond
     result.viscous_traction    = e.viscous_traction;
     result.slip_increment      = e.slip;
     result.energy =
-      e.normal_response.energy +
+      e.response.energy +
       0.5 * e.tangential_traction.squaredNorm() / law.tangential_penalty;
-    // g_s = g_s^n + |y - y_n|, Eq. (32), and what else the law remembers; it is
     // the history of the point once the step is accepted
-    if (!friction.frictionless)
-      {
-        result.state.slip = friction.start.slip + e.distance;
-        result.state.internal =
-          friction.law.advance(friction.start, e.distance);
-      }
+    static_cast<PointHistory &>(result.state) =
+      friction.law.advance(friction.start, e.g_n, e.distance);
     const auto by_w  = e.along_w();
     const auto by_xi = e.along_surface();
     // what a ridge holds does not move
@@ -450,7 +438,7 @@ namespace Debond
     master.surface->evaluate_in_element(place.element, place.xi, basis, true);
     contract(basis, *master.positions, true, geometry);
     equations.emplace(
-      law, friction, history, x, y_old, geometry, master.outward_sign);
+      law, friction, x, y_old, geometry, master.outward_sign);
   }
 
 

@@ -244,7 +244,7 @@ namespace Debond
           "Monotone cubics lie between the rows, of which there are four at "
           "least; from the last one on phi is constant. Used by table. The "
           "path is relative to the working directory."}}),
-      [](const FrictionLawChoice &choice) {
+      [](const LawChoice &choice) {
         return read_table(choice.number("Friction coefficient broken"),
                           choice.number("Friction coefficient unbroken"),
                           choice.text("Friction table"));

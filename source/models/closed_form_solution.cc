@@ -53,6 +53,9 @@ namespace Debond
                   bonding.initial_bonding != 1,
                 "Interface / Bonding / Initial bonding",
                 "this closed form knows a fully bonded surface only");
+      refuse_if(!scene.interface.is_friction_only(),
+                "Interface / Law",
+                "closed forms know friction without strength in tension only");
       refuse_if(scene.interface.viscosity != 0,
                 "Interface / Viscosity",
                 "closed forms do not depend on the rate");

@@ -40,7 +40,7 @@ namespace Debond
     const double stiffness =
       1. / (torsional + 1. / interface.tangential_stiffness());
     const double p_over_depth =
-      1. / (normal + 1. / interface.law().normal->initial_stiffness() +
+      1. / (normal + 1. / interface.normal_penalty +
             (z.stiffness > 0. ? M_PI * R * R / z.stiffness : 0.));
     torsional_stiffness = 0.5 * M_PI * std::pow(R, 4) * stiffness;
     // Held at its top, and by friction at its face, a short implant is stiffer

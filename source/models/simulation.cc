@@ -538,6 +538,8 @@ namespace Debond
     row.energy_defect_bound = state_checks.energy().defect_bound();
     row.reaction_defect     = reaction_defect;
     row.viscous_work_Nmm    = interface.work().viscous;
+    row.share_pulled        = summary.share_pulled;
+    row.damage_Nmm          = interface.work().damage;
     row.warnings            = state_checks.take_violations();
     // With a compliant machine the scene prescribes the angle of the machine,
     // ahead of the chuck's by T / k.

@@ -219,7 +219,7 @@ namespace Debond
         trial.state.status == PointStatus::open &&
         (!trial.state.has_partner || trial.normal_gap < 0.);
       Eigen::Matrix<double, 6, 1> values;
-      values << trial.state.pressure, -trial.tangential_traction,
+      values << trial.pressure, -trial.tangential_traction,
         is_beyond ? 0. : trial.normal_gap, trial.state.slip;
       return values;
     }
@@ -229,11 +229,11 @@ namespace Debond
     /** Sliding distance [mm] and internal variables from those points that face
      *  the implant: the others of a bone have never slid and would heal its
      *  bond at the rim. */
-    FrictionState
-    state_under_implant(const QuadratureGrid::Stencil &stencil)
+    PointHistory
+    history_under_implant(const QuadratureGrid::Stencil &stencil)
     {
-      FrictionState state;
-      double        weight = 0.;
+      PointHistory state;
+      double       weight = 0.;
       for (unsigned int a = 0; a < 4; ++a)
         if (stencil.point[a]->faces_implant)
           weight += stencil.weight[a];
@@ -258,21 +258,20 @@ namespace Debond
      * law: they are as sharp as the pattern where it jumps, smooth elsewhere.
      */
     std::array<double, 3>
-    bonding_values(const FrictionLaw             &law,
+    bonding_values(const InterfaceLaw            &law,
                    const QuadratureGrid::Stencil &across_elements,
                    const QuadratureGrid::Stencil &own)
     {
-      double        phi_0 = 0.;
-      FrictionState state = state_under_implant(across_elements);
-      state.phi_0         = 0.; // without bonds that opening broke
+      double phi_0 = 0., phi_0_left = 0.; // without bonds that opening broke
       for (unsigned int a = 0; a < 4; ++a)
         {
           const double part = own.weight[a] * own.point[a]->phi_0;
           phi_0 += part;
           if (!own.point[a]->trial.state.broken)
-            state.phi_0 += part;
+            phi_0_left += part;
         }
-      const FrictionCoefficient friction = law.reported(state);
+      const FrictionCoefficient friction =
+        law.reported(history_under_implant(across_elements), phi_0_left);
       return {{phi_0, friction.phi, friction.mu}};
     }
 
@@ -299,7 +298,7 @@ namespace Debond
                 const Chuck            &chuck)
   {
     const NurbsSurface  &surface = slave.surface();
-    const FrictionLaw   &law     = *interface.get_parameters().friction;
+    const InterfaceLaw  &law     = interface.get_law();
     const ControlNet     u       = control_point_displacement(slave, chuck);
     const QuadratureGrid grid(interface, surface);
     SurfaceBasis         basis;

@@ -74,7 +74,7 @@ namespace Debond
           points.push_back({{X[0],
                              X[1],
                              std::hypot(X[0], X[1]),
-                             trial.state.pressure,
+                             trial.pressure,
                              trial.tangential_traction.norm(),
                              trial.state.slip,
                              coefficient.phi,

@@ -203,7 +203,7 @@ namespace Debond
       const BodyParameters &bone = scene.bone, &implant = scene.implant;
       const auto [least, most] =
         std::minmax_element(values.begin(), values.end());
-      note(*least >= 0. && *most > 0.,
+      note(*least >= 0. && *most > 0. && scene.interface.is_friction_only(),
            "direction of the push",
            entry + " is never negative: it pulls the implant off the bone. "
                    "What presses is negative");

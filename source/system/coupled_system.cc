@@ -82,7 +82,7 @@ namespace Debond
     , interface(parameters.interface, bone.mesh(), implant.mesh())
     , R(parameters.implant.characteristic_radius())
     , timer(timer)
-    , force_floor(parameters.interface.law().normal->initial_stiffness() *
+    , force_floor(parameters.interface.normal_penalty *
                   interface.implant_area() * 1e-6 * R)
     , matrix(body, interface, configuration, path)
   {
@@ -96,7 +96,7 @@ namespace Debond
     // the preconditioner, where that has no other stiffness (CoupledTangent).
     for (unsigned int k = 0; k < 6; ++k)
       path.stiffness[k] =
-        parameters.interface.law().normal->initial_stiffness() *
+        parameters.interface.normal_penalty *
         interface.implant_area() * std::pow(scale_of(k), 2);
   }
 
@@ -172,7 +172,7 @@ namespace Debond
     update_configuration();
     {
       const TimedSection t(timer, "contact");
-      interface.initialise(configuration);
+      interface.initialise(configuration, 1e-12 * R);
     }
     const TimedSection t(timer, "condensation");
     bone.set_contact_control_points(bone_control_points_under_implant(

@@ -235,6 +235,7 @@ struct Setting
   ContactPointState         old_state;
   double                    phi_0 = 0.9;
   double                    turn  = 0.; ///< of the way in the step
+  double old_pressure = 0.; ///< before the step
   MasterSurface             master;
   Eigen::Vector3d           x;
 
@@ -245,17 +246,23 @@ struct Setting
   }
 
   void
+  rub_with(FrictionLawPointer friction_law)
+  {
+    law.joint = friction_under_pressure({eps_n, std::move(friction_law)});
+  }
+
+  void
   set_friction(const ModifiedCoulombParameters &parameters)
   {
-    friction     = parameters;
-    law.friction = modified_coulomb(parameters);
+    friction = parameters;
+    rub_with(modified_coulomb(parameters));
   }
 
   void
   set_frictionless()
   {
-    friction         = {0., 0.};
-    law.friction     = modified_coulomb({0., 0., 0.022, 0.74, true});
+    friction = {0., 0.};
+    rub_with(modified_coulomb({0., 0., 0.022, 0.74, true}));
     frictionless_law = true;
   }
 };
@@ -347,7 +354,7 @@ towed_gap(const Setting             &setting,
 
   // where it begins to slide, by Newton's method with differences
   const Number mu_old    = friction_limit(setting, Number(1.), Number(1e-200));
-  const Number A         = mu_old * setting.old_state.pressure / eps,
+  const Number A         = mu_old * setting.old_pressure / eps,
                B         = mu_old * pressure / eps - A;
   const auto at_fraction = [&](const Number &f, Number &a, Number &b) {
     const double ratio = turn == 0. ? 1. : 1. / std::sin(0.5 * turn);
@@ -793,7 +800,7 @@ check(const std::string         &name,
          deviation.dforce,
          1e-9);
   if (expected == PointStatus::slip && !basic.mode.frictionless &&
-      basic.law.friction->has_bond())
+      basic.law.joint->friction->has_bond())
     {
       const double begin = basic.friction.sliding_threshold;
       const double end   = begin * (1. + 2. * basic.friction.transition_factor);
@@ -835,7 +842,7 @@ check_open(const std::vector<Master> &masters, const Setting &basic)
             result.tangential_traction.setOnes();
             result.slip_increment.setOnes();
             result.viscous_traction.setOnes();
-            result.state.pressure = result.softening = 1.;
+            result.pressure = result.softening = 1.;
             update_contact_point(setting.law,
                                  setting.old_state,
                                  setting.phi_0,
@@ -849,7 +856,7 @@ check_open(const std::vector<Master> &masters, const Setting &basic)
             all_zero = all_zero && result.traction.isZero(0.) &&
                        result.tangential_traction.isZero(0.) &&
                        result.viscous_traction.isZero(0.) &&
-                       result.state.pressure == 0. && result.softening == 0. &&
+                       result.pressure == 0. && result.softening == 0. &&
                        result.dt.isZero(0.) && result.dxi.isZero(0.);
             all_keep_slip =
               all_keep_slip && result.state.slip == setting.old_state.slip;
@@ -912,7 +919,7 @@ check_honesty(const std::vector<Master> &masters, const Setting &basic)
         {
           ++n_slip;
           const double t =
-            result.state.pressure * friction_coefficient_at(setting.friction,
+            result.pressure * friction_coefficient_at(setting.friction,
                                                             setting.phi_0,
                                                             result.state.slip);
           grow(excess, std::abs(result.tangential_traction.norm() / t - 1.));
@@ -935,7 +942,7 @@ main()
     Master("disk", NurbsSurface::disk(0.6, 3))};
 
   Setting basic;
-  basic.law.normal             = penalty_law(basic.eps_n);
+  basic.rub_with(default_friction_law());
   basic.law.tangential_penalty = 250;
   basic.law.slip_direction     = SlipDirection::trial;
   basic.old_state.status       = PointStatus::stick;
@@ -995,7 +1002,7 @@ main()
   setting                = basic;
   setting.old_state.slip = 0.035;
   setting.is_explicit    = true;
-  setting.law.friction   = explicit_update(setting.law.friction);
+  setting.rub_with(explicit_update(setting.law.joint->friction));
   check("Slip, explicit coefficient", masters, setting, g_n, 0.045, slip);
   setting                    = basic;
   setting.old_state.slip     = 0.018;
@@ -1012,7 +1019,8 @@ main()
         setting.turn               = turn;
         setting.law.slip_direction = SlipDirection::integrated;
         setting.old_state.gap      = {length, -0.5 * length};
-        setting.old_state.pressure = 11.;
+        setting.old_pressure         = 11.;
+        setting.old_state.normal_gap = -11. / setting.eps_n;
         std::cout << "Gap " << length << ", turn " << turn << std::endl;
         check("Integrated slip, bonded", masters, setting, g_n, 0.05, slip);
         setting.old_state.slip = 0.018;
@@ -1026,8 +1034,9 @@ main()
     {
       setting                       = basic;
       setting.rate_and_state.ageing = ageing;
-      setting.law.friction          = setting.rate_and_state.law();
-      setting.old_state.internal    = setting.law.friction->initial_variables();
+      setting.rub_with(setting.rate_and_state.law());
+      setting.old_state.internal =
+        setting.law.joint->friction->initial_variables();
       setting.rate_and_state.is_used = true;
       setting.mode.duration          = 0.5;
       check(ageing ? "Slip, ageing state" : "Slip, state of the slip law",

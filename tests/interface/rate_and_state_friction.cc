@@ -203,9 +203,8 @@ public:
     , positions(surface.control_points())
     , spring(spring)
   {
-    law.normal             = penalty_law(500.);
+    law.joint = friction_under_pressure({500., law_with(evolution)});
     law.tangential_penalty = eps_t;
-    law.friction           = law_with(evolution);
     state.status           = PointStatus::slip;
     state.has_partner      = true;
     state.xi               = Eigen::Vector2d(0.1, 0.5);
@@ -325,20 +324,21 @@ check_aged_point()
   const NurbsSurface surface   = NurbsSurface::rectangle(4., 1., 1, 1);
   const ControlNet   positions = surface.control_points();
   ContactPointLaw    law;
-  law.normal             = penalty_law(500.);
   law.tangential_penalty = 585.;
-  law.friction           = law_of_text("set Friction law = rate and state\n"
+  const FrictionLawPointer friction =
+    law_of_text("set Friction law = rate and state\n"
                                        "subsection Rate and state\n"
                                        "  set Direct effect = 0.02\n"
                                        "  set Evolution effect = 0.035\n"
                                        "  set Reference speed = 1e-3\n"
                                        "  set Sliding distance = 1e-4\n"
                                        "  set Initial state = 1e3\nend\n");
+  law.joint = friction_under_pressure({500., friction});
   ContactPointState state;
   state.status      = PointStatus::stick;
   state.has_partner = true;
   state.xi          = Eigen::Vector2d(0.1, 0.5);
-  state.internal    = law.friction->initial_variables();
+  state.internal    = friction->initial_variables();
   SurfaceBasis    basis;
   SurfaceGeometry geometry;
   surface.evaluate(state.xi, basis, false);
@@ -360,8 +360,7 @@ check_aged_point()
           continue;
         n_slips += result.state.status == PointStatus::slip;
         const double limit =
-          p *
-          law.friction->coefficient(friction_state(state, 1., duration), 0.).mu;
+          p * law.joint->begin(state, 1., duration).at_rest.mu;
         const double direct = p * 0.02 * std::log1p(pulled / (1e-3 * duration));
         grow(beyond, result.tangential_traction.norm() - limit - direct);
         grow(against, -result.tangential_traction.dot(result.slip_increment));

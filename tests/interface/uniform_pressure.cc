@@ -47,13 +47,13 @@ press(const std::vector<std::string> &overrides)
   Pressure    result;
   for (const auto &point : points)
     {
-      result.mean += point.trial.state.pressure * point.JxW;
+      result.mean += point.trial.pressure * point.JxW;
       area += point.JxW;
     }
   result.mean /= area;
   for (const auto &point : points)
     grow(result.deviation,
-         std::abs(point.trial.state.pressure / result.mean - 1));
+         std::abs(point.trial.pressure / result.mean - 1));
   return result;
 }
 

@@ -63,7 +63,7 @@ public:
             points.push_back(point);
           }
       }
-    height = -G / (law.normal->initial_stiffness() * area);
+    height = -G / (law.joint->stiffness * area);
   }
 
   /** Moves by @p distance, finds the height, accepts the states. */
@@ -182,9 +182,8 @@ check_constant_friction()
                                        std::array<double, 2>{{1e4, 200}}})
       {
         ContactPointLaw law;
-        law.normal             = penalty_law(eps_n);
+        law.joint              = friction_under_pressure({eps_n, coulomb(mu)});
         law.tangential_penalty = eps_t;
-        law.friction           = coulomb(mu);
         Wedge wedge(slope, law, G);
 
         if (slope > 0 && eps_t / eps_n * slope < mu)
@@ -238,7 +237,7 @@ void
 check_falling_friction()
 {
   ContactPointLaw law;
-  law.normal             = penalty_law(600);
+  law.joint = friction_under_pressure({600, default_friction_law()});
   law.tangential_penalty = 600;
   Wedge  wedge(0.1, law, 12.);
   double deviation = 0, spread = 0, largest = 0, smallest = 1;
@@ -248,7 +247,7 @@ check_falling_friction()
       if (!wedge.all(PointStatus::slip))
         continue;
       const double mu =
-        law.friction->coefficient({1., wedge.slip(spread)}, 0.).mu;
+        law.joint->friction->coefficient({1., wedge.slip(spread)}, 0.).mu;
       grow(deviation,
            std::abs(wedge.force_ratio() - wedge_force_ratio(0.1, mu)));
       largest  = std::max(largest, mu);

@@ -126,7 +126,7 @@ identical(const State &before, const State &after)
       result = result && same_history(p.accepted, r.accepted) &&
                p.clearance == r.clearance &&
                p.accepted_traction == r.accepted_traction &&
-               p.accepted.pressure == r.accepted.pressure;
+               p.accepted.normal_gap == r.accepted.normal_gap;
     }
   return result;
 }

@@ -56,7 +56,7 @@ namespace Debond
     static std::vector<LawEntry>
     entries(const std::vector<LawEntry> &more);
 
-  protected:
+    // Laws of the interface ask for the bond itself.
     /** s at the sliding distance @p slip [mm]; @p slope: ds/dg_s [1/mm]. */
     virtual double
     decay(double slip, double &slope) const = 0;
@@ -67,7 +67,6 @@ namespace Debond
     virtual double
     steepest_decay(double slip) const = 0;
 
-  private:
     const double mu_b, drop; ///< mu_ub - mu_b
   };
 

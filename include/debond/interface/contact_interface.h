@@ -18,15 +18,15 @@ namespace Debond
   {
     double normal_force = 0; ///< int p dA [N]
     double phi_mean     = 0; ///< area mean over the implant's contact face
-    double share_stick = 0, share_slip = 0, share_open = 0; ///< of that area
+    double share_stick = 0, share_slip = 0, share_open = 0, share_pulled = 0;
     double energy = 0;                                      ///< stored [N mm]
-    /** Largest |d mu/d g_s| p / (eps_t + eta / dt). */
+    /** Largest -dL/d g_s / (eps_t + eta / dt). */
     double max_softening = 0;
     /** The same where the law of a point falls steepest from the g_s on that
      *  the step began with: the local solution is unique while this is below
      *  1. Zero for the explicit law, which does not ask. */
     double steepest_softening = 0;
-    /** p, and |d mu/d g_s| of that point [MPa, 1/mm]. */
+    /** p, and -dL/d g_s of that point [MPa, MPa/mm]. */
     double       softening_pressure = 0, softening_slope = 0;
     double       max_penetration = 0; ///< [mm]
     double       max_traction    = 0; ///< [MPa]
@@ -80,6 +80,8 @@ namespace Debond
     double adhesive = 0;
     /** The part of the dissipation that the viscosity makes up. */
     double viscous = 0;
+    /** The part of it that opening makes up. */
+    double damage = 0;
     /** Work of friction with the integral of the law over the sliding distance
      *  instead of a trapezoid, and of viscosity: a step that jumps dissipates
      *  no more than that. */
@@ -93,7 +95,7 @@ namespace Debond
      *  @p mode: of the step; @p frame: Q of the master. */
     void
     add(const SlavePoint       &point,
-        const FrictionLaw      &law,
+        const InterfaceLaw     &law,
         const ContactPointMode &mode,
         const Eigen::Matrix3d  &frame);
     /** The same of a point that opens. */
@@ -110,7 +112,7 @@ namespace Debond
     serialize(Archive &archive, const unsigned int)
     {
       archive &dissipation &dissipation_bound &adhesive &viscous &friction
-        &friction_bound &step_dissipation;
+        &friction_bound &step_dissipation &damage;
     }
   };
 
@@ -145,7 +147,8 @@ namespace Debond
 
     /** Faces every point with its closest point on the master. */
     void
-    initialise(const InterfaceConfiguration &configuration);
+    initialise(const InterfaceConfiguration &configuration,
+               double                        touch_tolerance);
 
     /** Updates all points. Returns false if a point found no solution. */
     bool
@@ -162,7 +165,7 @@ namespace Debond
     bool
     depends_on_rate() const
     {
-      return law.viscosity > 0. || law.friction->depends_on_rate();
+      return law.viscosity > 0. || law.joint->friction->depends_on_rate();
     }
     /** Completes the derivatives of the last evaluate() by those with the
      *  components of the chuck that are unknowns of @p configuration, where it
@@ -246,7 +249,7 @@ namespace Debond
     FrictionCoefficient
     friction(const SlavePoint &point) const
     {
-      return point.friction(*law.friction, point.trial.state);
+      return point.friction(*law.joint, point.trial.state);
     }
     /** The mean of phi_0 over the slave's quadrature points that face the
      *  implant at the start: that of the pattern if the implant is the slave.
@@ -263,6 +266,11 @@ namespace Debond
     get_parameters() const
     {
       return parameters;
+    }
+    const InterfaceLaw &
+    get_law() const
+    {
+      return *law.joint;
     }
 
     /** Of the last evaluate(). */
@@ -325,7 +333,7 @@ namespace Debond
     find_side(InterfaceSummary &summary) const;
     void
     assign_bonding();
-    void
+    Projection
     project_accepted(SlavePoint                   &point,
                      const InterfaceConfiguration &configuration,
                      bool                          use_guess);

@@ -92,9 +92,16 @@ namespace Debond
 
     /** phi and mu in one of its states. */
     FrictionCoefficient
-    friction(const FrictionLaw &law, const ContactPointState &state) const
+    friction(const InterfaceLaw &law, const ContactPointState &state) const
     {
-      return law.reported(friction_state(state, phi_0));
+      return law.reported(state, phi_0);
+    }
+
+    /** The step that leads to the trial state, as its law sees it. */
+    PointStart
+    begin(const InterfaceLaw &law, const ContactPointMode &mode) const
+    {
+      return law.begin(accepted, phi_0, mode.duration, mode.frictionless);
     }
 
     /** See serialization.h. */

@@ -2,7 +2,7 @@
 #define debond_interface_contact_point_state_h
 
 #include <debond/geometry/nurbs_surface.h>
-#include <debond/interface/contact_law.h>
+#include <debond/interface/interface_law.h>
 #include <debond/support/saved_state.h>
 
 #include <Eigen/Core>
@@ -16,8 +16,16 @@ namespace Debond
   {
     open  = 0,
     stick = 1,
-    slip  = 2
+    slip  = 2,
+    pulled = 3 ///< across the interface only: it rubs nowhere
   };
+
+  /** Whether a point's xi_hat moves. */
+  inline bool
+  slides(const PointStatus status)
+  {
+    return status == PointStatus::slip || status == PointStatus::pulled;
+  }
 
   /** The state of one slave quadrature point. */
   struct ContactPointState : PointHistory
@@ -30,28 +38,19 @@ namespace Debond
     Eigen::Vector2d xi = Eigen::Vector2d::Zero();
     /** Tangential gap, in parts of the master's a_1 and a_2 there: it moves
      *  with the master as it turns and deforms. */
-    Eigen::Vector2d gap      = Eigen::Vector2d::Zero();
-    double          pressure = 0; ///< p >= 0 [MPa]
+    Eigen::Vector2d gap = Eigen::Vector2d::Zero();
 
     /** See serialization.h. */
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &status &has_partner &broken &xi &gap &pressure &slip;
+      archive &status &has_partner &broken &joined &xi &gap &normal_gap;
+      archive                      &slip &damage;
       for (double &variable : internal)
         archive &variable;
     }
   };
-
-  /** A point in this state at the beginning of a step, for its friction law. */
-  inline FrictionState
-  friction_state(const ContactPointState &state,
-                 const double             phi_0,
-                 const double             duration = 0.)
-  {
-    return {state.bond_left(phi_0), state.slip, state.internal, duration};
-  }
 
   /** The master surface in its current configuration. */
   struct MasterSurface
@@ -101,6 +100,8 @@ namespace Debond
     bool              failed = false; ///< the local iteration found no solution
     bool              negative_friction = false; ///< or one with a negative mu
 
+    double pressure = 0; ///< p [MPa]; negative where it pulls
+
     /** t = eps_n g_n n + t_t [MPa], as it enters the residual of the slave. */
     Eigen::Vector3d traction            = Eigen::Vector3d::Zero();
     Eigen::Vector3d tangential_traction = Eigen::Vector3d::Zero();
@@ -113,8 +114,8 @@ namespace Debond
     /** How far a point that left the master over its edge slid before [mm];
      *  else 0. */
     double path_to_edge = 0;
-    /** |d mu/d g_s| p / (eps_t + eta / dt) where the law softens; the local
-     *  solution is unique while this is below one. */
+    /** -dL/d g_s / (eps_t + eta / dt) where the law softens; the local solution
+     *  is unique while this is below one. */
     double softening = 0;
   };
 

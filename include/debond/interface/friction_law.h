@@ -1,10 +1,9 @@
 #ifndef debond_interface_friction_law_h
 #define debond_interface_friction_law_h
 
-#include <debond/input/allowed_values.h>
+#include <debond/interface/law_entries.h>
 
 #include <array>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,10 +17,19 @@ namespace Debond
   /** What the laws keep of a point from one accepted state to the next. */
   struct PointHistory
   {
+    static constexpr double far = 1e100; ///< [mm]
+
     /** Accumulated sliding distance g_s [mm], Eq. (12). */
     double slip = 0;
-    /** The bond is gone for good (only with `Opening breaks bond`). */
-    bool              broken = false;
+    /** g_n [mm] where the point is carried, else far away. */
+    double normal_gap = far;
+    /** It has been closed: what opens from now on opens a bond. */
+    bool joined = false;
+    /** The bond is gone for good: by opening. */
+    bool broken = false;
+    /** How far opening has damaged the bond, by a law with strength in tension:
+     *  what the number means is that law's own affair. */
+    double            damage = 0;
     InternalVariables internal{};
 
     /** @p phi_0, or 0 if the bond is gone for good. */
@@ -185,43 +193,8 @@ namespace Debond
 
   using FrictionLawPointer = std::shared_ptr<const FrictionLaw>;
 
-  /** An entry of a law: a row of a scene's subsection `Interface`, or of a
-   *  subsection of its own in there. */
-  struct LawEntry
-  {
-    std::string   subsection; ///< within `Interface`; may be empty
-    std::string   name;
-    std::string   value; ///< default
-    AllowedValues allowed;
-    std::string   documentation; ///< states the unit
-  };
-
-  /** What a scene says of friction: the name of a law, and the texts of the
-   *  entries of all laws by name, without their subsections. */
-  struct FrictionLawChoice
-  {
-    std::string                        law;
-    std::map<std::string, std::string> entries;
-
-    double
-    number(const std::string &entry) const;
-    const std::string &
-    text(const std::string &entry) const
-    {
-      return entries.at(entry);
-    }
-  };
-
-  /** A law as scenes know it. */
-  struct FrictionLawPlugin
-  {
-    std::string name;        ///< its choice of the entry `Friction law`
-    std::string description; ///< what that choice means
-    /** Laws may share entries. */
-    std::vector<LawEntry> entries;
-    /** Throws EntryError. */
-    FrictionLawPointer (*create)(const FrictionLawChoice &choice);
-  };
+  using FrictionLawPlugin =
+    LawPlugin<FrictionLawPointer (*)(const LawChoice &)>;
 
   /** All laws, in the order of the choices. */
   const std::vector<FrictionLawPlugin> &
@@ -232,11 +205,11 @@ namespace Debond
   /** Rows for `Friction law` and for the entries of all laws, in `Interface`;
    *  what they are set to goes to @p choice. */
   void
-  declare_friction_laws(EntryTable &table, FrictionLawChoice &choice);
+  declare_friction_laws(EntryTable &table, LawChoice &choice);
 
   /** The law that has been chosen. Throws EntryError. */
   FrictionLawPointer
-  create_friction_law(const FrictionLawChoice &choice);
+  create_friction_law(const LawChoice &choice);
 
   /** The law of a scene that says nothing. */
   FrictionLawPointer

@@ -2,7 +2,7 @@
 #define debond_interface_interface_parameters_h
 
 #include <debond/interface/bonding_parameters.h>
-#include <debond/interface/contact_law.h>
+#include <debond/interface/interface_law.h>
 #include <debond/shapes/side.h>
 
 namespace Debond
@@ -17,7 +17,8 @@ namespace Debond
     bool         opening_breaks_bond = false;
     /** Never null; made of what a scene says of it, friction_choice. */
     FrictionLawPointer friction = default_friction_law();
-    FrictionLawChoice  friction_choice;
+    LawChoice          friction_choice;
+    LawChoice          law_choice; ///< of the law of the interface
     double        friction_starts_at = 0; ///< frictionless before this time
     double        viscosity      = 0; ///< eta [MPa per (mm per unit of time)]
     SlipDirection slip_direction = SlipDirection::integrated;
@@ -44,6 +45,17 @@ namespace Debond
     unsigned int
     fewest_points_per_element(const BodyParameters &bone,
                               const BodyParameters &implant) const;
+
+    /** The law of the interface. Throws EntryError. */
+    InterfaceLawPointer
+    joint() const;
+
+    /** Whether it is that of the paper, friction under pressure. */
+    bool
+    is_friction_only() const
+    {
+      return law_choice.law.empty() || law_choice.law == "friction";
+    }
 
     /** What governs the points. */
     ContactPointLaw

@@ -1,12 +1,10 @@
 #ifndef debond_interface_point_friction_h
 #define debond_interface_point_friction_h
 
-#include <debond/interface/friction_law.h>
+#include <debond/interface/interface_law.h>
 #include <debond/interface/towed_gap.h>
 
 #include <Eigen/Core>
-
-#include <algorithm>
 
 namespace Debond
 {
@@ -14,54 +12,32 @@ namespace Debond
    *  how sliding is resisted by its speed, and where it goes. */
   struct PointFriction
   {
-    // The law, and the point at the beginning of the step. The answer of the
-    // law is not used in the frictionless part of a load history. The viscosity
-    // resists with a stiffness.
-    const FrictionLaw &law;
-    FrictionState      start;
-    bool               frictionless = false;
-    double             viscous      = 0.; ///< eta / dt [MPa/mm]
+    const InterfaceLaw &law;
+    PointStart          start;
+    double              viscous = 0.; ///< eta / dt [MPa/mm]
     /** The gap of the step before, where the master has taken it [mm]. */
     Eigen::Vector3d old_gap = Eigen::Vector3d::Zero();
-    // For slip that is integrated over the step: mu at the end of the step
-    // before, the length at which it slides there, and the way.
-    double old_mu    = 0.;
+    // For slip that is integrated over the step: the length at which the point
+    // slides at the end of the step before, and the way.
     double old_limit = 0.; ///< [mm]
     Arc    arc       = Arc();
 
-    /** mu and its slope once the point has slid by @p distance. */
-    FrictionCoefficient
-    after(const double distance) const
-    {
-      return frictionless ? FrictionCoefficient() :
-                            law.coefficient(start, distance);
-    }
-
-    /** mu p + eta V once it has slid by @p distance [MPa]. */
+    /** L + eta V at a distance [MPa], and its slope; what of that is viscous
+     *  [MPa/mm]. */
     struct Limit
     {
-      FrictionCoefficient coefficient;
-      double              value, slope;
+      double value, slope, resistance;
     };
-    // A point cannot slide against what pulls it. Where Newton's method looks
-    // there, at negative distances, mu goes on along its tangent, but never
-    // rises: the distance alone would have a second solution there where
-    // friction rises with the speed, a rise one where it falls steeply.
+    // The viscous part resists as fast as the point moves, and it pulls where a
+    // trial moves backwards; not where faces that do not rub follow each other.
     Limit
-    limit(const double pressure, const double distance) const
+    limit(const InterfaceResponse &response, const double distance) const
     {
-      FrictionCoefficient coefficient = after(std::max(0., distance));
-      if (distance < 0.)
-        {
-          coefficient.dmu = std::max(0., coefficient.dmu);
-          coefficient.mu += coefficient.dmu * distance;
-        }
-      // the viscous part resists as fast as the point moves, and it pulls where
-      // a trial moves backwards
-      const double resistance = pressure > 0. ? viscous : 0.;
-      return {coefficient,
-              coefficient.mu * pressure + resistance * distance,
-              coefficient.dmu * pressure + resistance};
+      const double resistance =
+        response.pressure > 0. || response.limit > 0. ? viscous : 0.;
+      return {response.limit + resistance * distance,
+              response.limit_by_slip + resistance,
+              resistance};
     }
   };
 } // namespace Debond

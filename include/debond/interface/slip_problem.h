@@ -83,7 +83,6 @@ namespace Debond
      *  y(xi_hat^n) on the current surface. */
     SlipEquations(const ContactPointLaw &law,
                   const PointFriction   &friction,
-                  const PointHistory    &history,
                   const Eigen::Vector3d &x,
                   const Eigen::Vector3d &y_old,
                   const SurfaceGeometry &geometry,
@@ -104,17 +103,17 @@ namespace Debond
     Derivative<2>
     along_surface() const;
 
-    /** |d mu/d g_s| p / (eps_t + eta / dt) where the law softens,
-     *  dimensionless: how fast the limit falls with the slip, relative to how
-     *  fast the springs let go. From 1 on the bond breaks in a jump. */
+    /** -dL/d g_s / (eps_t + eta / dt) where the law softens, dimensionless:
+     *  how fast the limit falls with the slip, relative to how fast the springs
+     *  let go. From 1 on the bond breaks in a jump. */
     double
     softening() const
     {
-      return std::max(0., -coefficient.dmu) * pressure /
+      return std::max(0., -response.limit_by_slip) /
              (law.tangential_penalty + friction.viscous);
     }
 
-    /** d(mu p + eta / dt * distance)/d(distance) [MPa/mm]: how the limit of
+    /** d(L + eta / dt * distance)/d(distance) [MPa/mm]: how the limit of
      *  the traction changes as the point slides; negative where the bond
      *  breaks. */
     double
@@ -124,21 +123,18 @@ namespace Debond
     }
 
     // What the point has come to at the trial place. h has to vanish: it is
-    // the part of g - t_t / eps_t [mm] along a_alpha, and of the excess. Of the
-    // normal response friction feels the pressure only, where a law with
-    // strength in tension may pull. The coefficient is that at the updated
-    // sliding distance, Eq. (32). Tractions are those that enter the slave's
-    // residual, in space [MPa], t = -p n + t_t: minus those that act on the
-    // slave. The viscous part is kept apart for the works.
-    Eigen::Vector2d     h;
-    double              g_n;
-    NormalResponse      normal_response;
-    double              pressure; ///< what friction feels: p, or 0
-    FrictionCoefficient coefficient;
-    const MasterNormal  normal;
-    Eigen::Vector3d     slip;     ///< y - y_n [mm]
-    double              distance; ///< g_s - g_s^n [mm]
-    Eigen::Vector3d     traction, tangential_traction, viscous_traction;
+    // the part of g - t_t / eps_t [mm] along a_alpha, and of the excess. The
+    // response is that at the updated sliding distance, Eq. (32). Tractions are
+    // those that enter the slave's residual, in space [MPa], t = -p n + t_t:
+    // minus those that act on the slave. The viscous part is kept apart for the
+    // works.
+    Eigen::Vector2d    h;
+    double             g_n;
+    InterfaceResponse  response;
+    const MasterNormal normal;
+    Eigen::Vector3d    slip;     ///< y - y_n [mm]
+    double             distance; ///< g_s - g_s^n [mm]
+    Eigen::Vector3d    traction, tangential_traction, viscous_traction;
     /** What the step comes to where slip is integrated over it. */
     std::optional<TowedGap> towed;
 
@@ -191,15 +187,16 @@ namespace Debond
     // gap of the step before.
     double pull_along_n, pull_along_surface;
     bool   has_direction, is_previous_gap;
-    // axes of the tangent plane, and the direction of the gap in it, for slip
-    // that is integrated
+    // axes of the tangent plane, the direction of the gap in it, and how the
+    // limit without sliding changes with the gap, for slip that is integrated
     Eigen::Matrix<double, 3, 2> axes;
     Eigen::Vector3d             along_gap;
+    double                      held_by_gap; ///< [MPa/mm]
 
     // The length of the slip has a derivative along its own direction. The
     // excess may have a part along n only, as g - t_t / eps_t in Eq. (29).
     Eigen::Vector3d forward; ///< d(distance)/d(y - y_n)
-    double          limit;   ///< mu p + eta / dt times the distance [MPa]
+    double          limit;   ///< L + eta / dt times the distance [MPa]
     double          slope;   ///< its derivative [MPa/mm]
     Eigen::Vector3d excess;  ///< g - t / eps_t [mm]
     Eigen::Matrix<double, 3, 2> tangents; ///< a_1, a_2
@@ -239,7 +236,6 @@ namespace Debond
   public:
     SlipProblem(const ContactPointLaw &law,
                 const PointFriction   &friction,
-                const PointHistory    &history,
                 const Eigen::Vector3d &x,
                 const Eigen::Vector3d &y_old,
                 const MasterSurface   &master);
@@ -292,7 +288,6 @@ namespace Debond
 
     const ContactPointLaw &law;
     const PointFriction   &friction;
-    const PointHistory    &history;
     const Eigen::Vector3d &x, &y_old;
     const MasterSurface   &master;
     /** Parameters that a ridge of the master holds. */

@@ -53,6 +53,8 @@ namespace Debond
     double machine_angle_deg = 0;
     /** Energy that jumps have released so far, see ReleasedEnergy. */
     double released_energy_Nmm = 0;
+    double share_pulled        = 0; ///< in tension, and without friction
+    double damage_Nmm          = 0; ///< part of dissipation_Nmm, by opening
 
     /** What the curve between rows is drawn of: torque [N mm], chuck_reaction
      *  and chuck_position, by the unit of time. */
@@ -120,6 +122,8 @@ namespace Debond
       visit("warnings", warnings);
       visit("machine_angle_deg", machine_angle_deg);
       visit("released_energy_Nmm", released_energy_Nmm);
+      visit("share_pulled", share_pulled);
+      visit("damage_Nmm", damage_Nmm);
     }
 
     /** See serialization.h. */

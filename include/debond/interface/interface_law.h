@@ -1,0 +1,206 @@
+#ifndef debond_interface_interface_law_h
+#define debond_interface_interface_law_h
+
+#include <debond/interface/friction_law.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Debond
+{
+  /** A point at the beginning of a step, as a law of the interface sees it. */
+  struct PointStart
+  {
+    PointHistory history;
+    double       phi_0    = 1; ///< initial bonding
+    double       duration = 0; ///< of the step [unit of time], 0: none passes
+    /** For now: nothing rubs, and slip does not count. */
+    bool frictionless = false;
+    /** phi and mu with nothing slid in the step: asked for once. */
+    FrictionCoefficient at_rest;
+
+    /** What the friction law is to know. */
+    FrictionState
+    friction() const
+    {
+      return {history.bond_left(phi_0),
+              history.slip,
+              history.internal,
+              duration};
+    }
+  };
+
+
+
+  /** What an interface carries at the end of a step, by the gap g_n across it
+   *  and the distance d that the point has slid in the step. */
+  struct InterfaceResponse
+  {
+    double pressure         = 0; ///< p [MPa]; negative where it pulls
+    double pressure_by_gap  = 0; ///< dp/dg_n [MPa/mm]
+    double pressure_by_slip = 0; ///< dp/dd [MPa/mm]
+    double limit         = 0; ///< L >= 0 of the tangential traction [MPa]
+    double limit_by_gap  = 0; ///< dL/dg_n [MPa/mm]
+    double limit_by_slip = 0; ///< dL/dd [MPa/mm]
+    double energy        = 0; ///< stored across the interface [N/mm]
+  };
+
+
+
+  /** Works per area of a point in a step [N/mm]. */
+  struct PointWork
+  {
+    double friction = 0; ///< what the law lets the slip dissipate
+    /** How far that may be wrong, as pressure and speed change meanwhile. */
+    double friction_bound = 0;
+    double damage         = 0; ///< dissipated by opening
+    double adhesive       = 0; ///< what the bond accounts for of both
+    double lift = 0; ///< work of slip that is stored: it parts the faces
+  };
+
+
+
+  /** What a law of the interface is made of besides its own entries. */
+  struct InterfaceLawParts
+  {
+    double             stiffness; ///< eps_n [MPa/mm]
+    FrictionLawPointer friction;
+    bool               opening_breaks_bond = false;
+  };
+
+
+
+  /**
+   * The law of the interface: from what a point has gone through, the gap
+   * across it and the distance that it slides to the pressure, the limit of the
+   * tangential traction, energies, and a new history. Which points slide, and
+   * where to, is the same for all laws (slip_problem.h).
+   *
+   * All laws push with a stiffness eps_n where the faces are pressed together,
+   * and rub with a friction law. All functions are pure. How to add a law:
+   * CONTRIBUTING.md.
+   */
+  class InterfaceLaw
+  {
+  public:
+    explicit InterfaceLaw(const InterfaceLawParts &parts);
+    virtual ~InterfaceLaw() = default;
+
+    /** @name A point in a step */
+    //@{
+    /** The point with its history @p history begins a step. */
+    PointStart
+    begin(const PointHistory &history,
+          double              phi_0,
+          double              duration     = 0.,
+          bool                frictionless = false) const;
+
+    /** At the end of the step, at the gap @p g_n [mm], after sliding by
+     *  @p distance [mm]. Goes on smoothly beyond reach(), where Newton's method
+     *  may look, and where touching points have their tangent. A point cannot
+     *  slide backwards: at negative distances nothing rises. */
+    virtual InterfaceResponse
+    respond(const PointStart &start, double g_n, double distance) const = 0;
+
+    /** The gap up to which the point is carried [mm]. */
+    virtual double
+    reach(const PointStart &, double /*distance*/) const
+    {
+      return 0.;
+    }
+
+    /** The history of a point that is carried at the end of the step. */
+    virtual PointHistory
+    advance(const PointStart &start, double g_n, double distance) const;
+
+    /** The history of a point that opens. */
+    virtual PointHistory
+    open(const PointHistory &history) const;
+
+    /** The works of a point that is carried. */
+    virtual PointWork
+    work(const PointStart &start, double g_n, double distance) const = 0;
+    //@}
+
+    /** Bound of -dL/dd [MPa/mm] >= 0 at the @p pressure [MPa], up to the @p
+     *  distance and for what is still to come: what has been found is the first
+     *  solution, and unique, while this is less than eps_t. */
+    virtual double
+    softening_by_slip(const PointStart &start,
+                      double            pressure,
+                      double            distance) const = 0;
+
+    /** phi and mu in an accepted state, for output. */
+    virtual FrictionCoefficient
+    reported(const PointHistory &history, double phi_0) const;
+
+    /** Whether it has strength in tension. */
+    virtual bool
+    pulls() const
+    {
+      return false;
+    }
+
+    // What all laws share: eps_n [MPa/mm], and friction under pressure.
+    const double             stiffness;
+    const FrictionLawPointer friction;
+
+  protected:
+    /** phi, mu and its slope after sliding by @p distance, which is negative
+     *  only at trial places. */
+    FrictionCoefficient
+    coefficient(const PointStart &start, double distance) const;
+  };
+
+  using InterfaceLawPointer = std::shared_ptr<const InterfaceLaw>;
+
+
+
+  using InterfaceLawPlugin = LawPlugin<
+    InterfaceLawPointer (*)(const LawChoice &, const InterfaceLawParts &)>;
+
+  /** All laws, in the order of the choices. */
+  const std::vector<InterfaceLawPlugin> &
+  interface_law_plugins();
+
+  /** Rows for `Law` and for the entries of all laws, in `Interface`; what they
+   *  are set to goes to @p choice. */
+  void
+  declare_interface_laws(EntryTable &table, LawChoice &choice);
+
+  /** The law that has been chosen. Throws EntryError. */
+  InterfaceLawPointer
+  create_interface_law(const LawChoice         &choice,
+                       const InterfaceLawParts &parts);
+
+  /** p = -eps_n g_n while that is positive, and L = mu p. */
+  InterfaceLawPointer
+  friction_under_pressure(const InterfaceLawParts &parts);
+
+  /** Where a point slides in a step. */
+  enum class SlipDirection
+  {
+    integrated,  ///< along its way, see TowedGap
+    trial,       ///< along the gap that it would have without sliding
+    previous_gap ///< along that of the step before, Eq. (31) as printed
+  };
+
+  /** `Friction update = explicit': the same law with mu at g_s^n, whatever the
+   *  distance. See compared_methods.cc. */
+  FrictionLawPointer
+  explicit_update(FrictionLawPointer law);
+
+  /** What governs all points of an interface. */
+  struct ContactPointLaw
+  {
+    InterfaceLawPointer joint =
+      friction_under_pressure({585, default_friction_law()});
+    double tangential_penalty = 585; ///< eps_t [MPa/mm]
+    /** eta [MPa per (mm per unit of time)]: resistance of a point to the speed
+     *  it slides with. */
+    double        viscosity      = 0;
+    SlipDirection slip_direction = SlipDirection::integrated;
+  };
+} // namespace Debond
+#endif

@@ -1,0 +1,322 @@
+#include <debond/interface/bond_friction.h>
+#include <debond/interface/interface_law.h>
+#include <debond/support/input_error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Debond
+{
+  namespace
+  {
+    // A bond with strength in tension, exponential, irreversible, and with
+    // friction of its own: after Immel, Nguyen, Haiat and Sauer (2022) and
+    // Mergel, Scheibert and Sauer (2021). doc/model.md, Adhesive interface.
+    //
+    //   sigma_e(x) = t_0 x/g_0 exp(1 - x/g_0)    envelope of the pull
+    //   d(kappa) = 1 up to g_0, then sigma_e(kappa)/t_0
+    //   phi = phi_0 s(g_s) d(kappa)
+    //   p = -eps_n g_n                           for g_n <= 0
+    //   p = -phi_0 s K g_n, K = sigma_e(kappa)/kappa     for g_n > 0
+    //   L = mu(phi) max(0, p + c phi t_0)
+    //
+    // with kappa the largest gap since the point has been closed: on the
+    // envelope while the gap grows, else straight to the origin.
+    class Adhesive : public InterfaceLaw
+    {
+    public:
+      Adhesive(const LawChoice                    &choice,
+               const InterfaceLawParts            &parts,
+               std::shared_ptr<const BondFriction> bond)
+        : InterfaceLaw(parts)
+        , t_0(choice.number("Strength"))
+        , g_0(choice.number("Gap at strength"))
+        , c(choice.number("Adhesive friction"))
+        , bond(std::move(bond))
+      {}
+
+      InterfaceResponse
+      respond(const PointStart &start,
+              const double      g_n,
+              const double      distance) const override
+      {
+        const Bond        now(*this, start, g_n, distance);
+        InterfaceResponse result;
+        if (g_n > 0. && now.holds)
+          {
+            // on the envelope K falls as the gap grows, dK/dg_n = -K/g_0
+            const double K = now.phi_0_s * pull(now.kappa);
+            result.pressure = -K * g_n;
+            result.pressure_by_gap =
+              -K * (now.grows ? 1. - g_n / g_0 : 1.);
+            result.pressure_by_slip = -now.s_slope * pull(now.kappa) * g_n;
+            result.energy           = 0.5 * K * g_n * g_n;
+          }
+        else
+          {
+            result.pressure        = -stiffness * g_n;
+            result.pressure_by_gap = -stiffness;
+            if (g_n < 0.)
+              result.energy = 0.5 * stiffness * g_n * g_n;
+          }
+        if (start.frictionless)
+          return result;
+        // what is pressed, or held, across the interface
+        const double cohesion = c * now.phi * t_0,
+                     held     = result.pressure + cohesion;
+        if (held > rounding * std::max(std::abs(result.pressure), cohesion))
+          {
+            const double mu    = bond->mu_b + now.phi * bond->drop,
+                         slope = bond->drop * held + mu * c * t_0; // by phi
+            result.limit       = mu * held;
+            result.limit_by_gap =
+              mu * result.pressure_by_gap + slope * now.phi_by_gap;
+            result.limit_by_slip =
+              mu * result.pressure_by_slip + slope * now.phi_by_slip;
+          }
+        return result;
+      }
+
+      // A bond that holds is carried however wide it is open, until its
+      // history says that it is gone.
+      double
+      reach(const PointStart &start, const double) const override
+      {
+        return holds(start.history, start.phi_0) ?
+                 std::numeric_limits<double>::infinity() :
+                 0.;
+      }
+
+      PointHistory
+      advance(const PointStart &start,
+              const double      g_n,
+              const double      distance) const override
+      {
+        PointHistory result = InterfaceLaw::advance(start, g_n, distance);
+        if (start.history.joined)
+          result.damage = std::max(start.history.damage, g_n);
+        result.broken = start.history.broken || result.damage > gone();
+        return result;
+      }
+
+      // Only the edge of the master opens a point that is bonded: the bond is
+      // torn.
+      PointHistory
+      open(const PointHistory &history) const override
+      {
+        PointHistory result = InterfaceLaw::open(history);
+        result.broken       = history.broken || history.joined;
+        return result;
+      }
+
+      // Friction as a trapezoid. A bond of the strength phi_0 s that is opened
+      // up to kappa has taken W(kappa), less what it gives back, and one that
+      // is open loses what it stores as slip breaks it. With both at a time the
+      // mean: exact if one of them rests, never negative.
+      PointWork
+      work(const PointStart &start,
+           const double      g_n,
+           const double      distance) const override
+      {
+        const double            g_start = start.history.normal_gap;
+        const InterfaceResponse begin   = respond(start, g_start, 0.),
+                                end     = respond(start, g_n, distance);
+        PointWork result;
+        if (!start.frictionless)
+          {
+            result.friction = 0.5 * (begin.limit + end.limit) * distance;
+            result.friction_bound =
+              0.5 * std::abs(begin.limit - end.limit) * distance;
+          }
+        const Bond before(*this, start, g_start, 0.),
+          now(*this, start, g_n, distance);
+        if (now.holds)
+          {
+            const double e_n = stored(before.kappa, g_start),
+                         e   = stored(now.kappa, g_n);
+            result.damage =
+              0.5 * (before.phi_0_s + now.phi_0_s) *
+                (spent(now.kappa) - spent(before.kappa)) -
+              0.5 * (now.phi_0_s - before.phi_0_s) * (e_n + e);
+            if (now.kappa > gone()) // nothing gives the rest back
+              result.damage += now.phi_0_s * e;
+          }
+        const double pressed =
+          0.5 * (std::max(0., begin.pressure) + std::max(0., end.pressure));
+        result.adhesive =
+          result.damage +
+          (start.frictionless ?
+             0. :
+             result.friction - bond->mu_b * pressed * distance);
+        return result;
+      }
+
+      // As p + c phi t_0 <= p + c t_0; that the pull falls with the bond raises
+      // L.
+      double
+      softening_by_slip(const PointStart &start,
+                        const double      pressure,
+                        const double) const override
+      {
+        const PointHistory &history = start.history;
+        const double        mu_ub   = bond->mu_b + bond->drop;
+        return history.bond_left(start.phi_0) * left(history.damage) *
+               bond->steepest_decay(history.slip) *
+               std::max(0.,
+                        bond->drop * (std::max(0., pressure) + c * t_0) +
+                          mu_ub * c * t_0);
+      }
+
+      FrictionCoefficient
+      reported(const PointHistory &history, const double phi_0) const override
+      {
+        double              slope;
+        FrictionCoefficient result;
+        result.phi = history.bond_left(phi_0) * left(history.damage) *
+                     bond->decay(history.slip, slope);
+        result.mu  = bond->mu_b + result.phi * bond->drop;
+        return result;
+      }
+
+      bool
+      pulls() const override
+      {
+        return true;
+      }
+
+    private:
+      /** The bond of a point at the end of a step. */
+      struct Bond
+      {
+        Bond(const Adhesive   &law,
+             const PointStart &start,
+             const double      g_n,
+             const double      distance)
+          : holds(law.holds(start.history, start.phi_0))
+          , grows(holds && g_n > start.history.damage)
+          , kappa(grows ? g_n : start.history.damage)
+        {
+          const double slip =
+            start.frictionless ? 0. : std::max(0., distance);
+          double       s_by_slip;
+          phi_0_s = start.history.bond_left(start.phi_0) *
+                    law.bond->decay(start.history.slip + slip, s_by_slip);
+          const bool moves = !start.frictionless && distance >= 0.;
+          s_slope          = moves ?
+                               start.history.bond_left(start.phi_0) * s_by_slip :
+                               0.;
+          const double d   = law.left(kappa);
+          phi              = phi_0_s * d;
+          phi_by_slip      = s_slope * d;
+          // d = x exp(1 - x) beyond g_0
+          phi_by_gap = grows && kappa > law.g_0 ?
+                         phi * (1. / kappa - 1. / law.g_0) :
+                         0.;
+        }
+
+        bool   holds; ///< in tension, too
+        bool   grows; ///< opens further than it has been
+        double kappa; ///< [mm]
+        double phi_0_s, s_slope;             ///< by the distance
+        double phi, phi_by_slip, phi_by_gap; ///< [1, 1/mm, 1/mm]
+      };
+
+      /** Whether a point with this history is bonded. */
+      bool
+      holds(const PointHistory &history, const double phi_0) const
+      {
+        return history.joined && !history.broken && phi_0 > 0.;
+      }
+
+      /** K [MPa/mm]. */
+      double
+      pull(const double kappa) const
+      {
+        return t_0 / g_0 * std::exp(1. - kappa / g_0);
+      }
+
+      /** d: what opening has left. */
+      double
+      left(const double kappa) const
+      {
+        return kappa <= g_0 ? 1. : kappa / g_0 * std::exp(1. - kappa / g_0);
+      }
+
+      /** Stored in the gap at the full bond [N/mm]. */
+      double
+      stored(const double kappa, const double g_n) const
+      {
+        const double g = std::max(0., g_n);
+        return g < PointHistory::far ? 0.5 * pull(kappa) * g * g : 0.;
+      }
+
+      /** The work up to kappa, less what is stored there [N/mm]. */
+      double
+      spent(const double kappa) const
+      {
+        const double x = kappa / g_0;
+        return -std::exp(1.) * t_0 * g_0 *
+               (std::expm1(-x) + (x + 0.5 * x * x) * std::exp(-x));
+      }
+
+      /** From here on 1e-7 of the strength and 4e-8 of the work are left, which
+       *  nobody misses [mm]. */
+      double
+      gone() const
+      {
+        return 20. * g_0;
+      }
+
+      // of p + c phi t_0, which is zero beyond g_0 for c = 1
+      static constexpr double rounding = 1e-14;
+
+      const double                              t_0, g_0, c;
+      const std::shared_ptr<const BondFriction> bond;
+    };
+  } // namespace
+
+
+
+  InterfaceLawPlugin
+  adhesive_interface_law_plugin()
+  {
+    const std::string subsection = "Adhesive";
+    return {
+      "adhesive",
+      "a bond with strength in tension, exponential and irreversible, that also "
+      "adds to friction",
+      {{subsection,
+        "Strength",
+        "5",
+        Allowed::number_between(1e-9, 1e6, "MPa").or_number(0),
+        "t_0 [MPa]: the largest pull across a full bond. 0: as Law = "
+        "friction."},
+       {subsection,
+        "Gap at strength",
+        "0.005",
+        Allowed::number_between(1e-9, 1e3, "mm"),
+        "g_0 [mm]: the gap at which the pull is largest. e t_0 g_0 is the work "
+        "of adhesion [N/mm]; Strength / g_0 times e the stiffness of the bond."},
+       {subsection,
+        "Adhesive friction",
+        "1",
+        Allowed::number_between(0, 1, ""),
+        "c, dimensionless: the part of the strength that adds to the pressure "
+        "in friction, mu (p + c phi t_0)."}},
+      [](const LawChoice &choice, const InterfaceLawParts &parts) {
+        if (choice.number("Strength") == 0.)
+          return friction_under_pressure(parts);
+        auto bond =
+          std::dynamic_pointer_cast<const BondFriction>(parts.friction);
+        if (!bond)
+          throw EntryError("Interface / Law",
+                           "the law adhesive needs a friction law whose bond "
+                           "breaks with the slip: modified coulomb, coulomb, "
+                           "frictionless or table, with Friction update = "
+                           "implicit");
+        return InterfaceLawPointer(
+          std::make_shared<Adhesive>(choice, parts, std::move(bond)));
+      }};
+  }
+} // namespace Debond

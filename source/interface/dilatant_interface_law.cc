@@ -1,0 +1,156 @@
+#include <debond/interface/interface_law.h>
+#include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Debond
+{
+  namespace
+  {
+    // Rough faces climb on each other and shed debris: their distance grows
+    // with the slip, by h = h_inf (1 - exp(-g_s/l)), and never falls, as g_s
+    // does not,
+    //
+    //   p = -eps_n (g_n - h(g_s)) while that is positive,  L = mu p.
+    //
+    // Of the work of slip L dg_s the part p dh pushes the faces apart: it is
+    // stored, and the rest dissipated, which is not negative while h' <= mu.
+    class Dilatant : public InterfaceLaw
+    {
+    public:
+      Dilatant(const double height, const double length, const InterfaceLawParts &parts)
+        : InterfaceLaw(parts)
+        , h_inf(height)
+        , l(length)
+      {}
+
+      InterfaceResponse
+      respond(const PointStart &start,
+              const double      g_n,
+              const double      distance) const override
+      {
+        const FrictionCoefficient mu    = coefficient(start, distance);
+        const double              slip  = slipped(start, distance);
+        const double              depth = height(slip) - g_n;
+        InterfaceResponse         result;
+        result.pressure        = stiffness * depth;
+        result.pressure_by_gap = -stiffness;
+        result.energy          = 0.5 * stiffness * depth * depth;
+        if (!start.frictionless && distance >= 0.)
+          result.pressure_by_slip = stiffness * slope(slip);
+        if (result.pressure > 0.)
+          {
+            result.limit        = mu.mu * result.pressure;
+            result.limit_by_gap = -mu.mu * stiffness;
+            result.limit_by_slip =
+              mu.dmu * result.pressure + mu.mu * result.pressure_by_slip;
+          }
+        return result;
+      }
+
+      double
+      reach(const PointStart &start, const double distance) const override
+      {
+        return height(slipped(start, distance));
+      }
+
+      // The friction of the mean pressure, as without dilatancy.
+      PointWork
+      work(const PointStart &start,
+           const double      g_n,
+           const double      distance) const override
+      {
+        if (start.frictionless)
+          return {};
+        const FrictionState state = start.friction();
+        const double        p =
+          std::max(0.,
+                   respond(start, start.history.normal_gap, 0.).pressure);
+        const double p_end =
+                       std::max(0., respond(start, g_n, distance).pressure),
+                     mean = 0.5 * (p + p_end),
+                     per_pressure =
+                       friction->friction_strength(state, distance);
+        PointWork result;
+        result.friction       = mean * per_pressure;
+        result.friction_bound = 0.5 * std::abs(p - p_end) * per_pressure +
+                                mean * friction->strength_bound(state, distance);
+        result.adhesive = mean * friction->adhesive_strength(state, distance);
+        result.lift =
+          mean * (height(slipped(start, distance)) - height(state.slip));
+        return result;
+      }
+
+      double
+      softening_by_slip(const PointStart &start,
+                        const double      pressure,
+                        const double      distance) const override
+      {
+        return friction->steepest_fall(start.friction(), distance) *
+               std::max(0., pressure);
+      }
+
+    private:
+      static double
+      slipped(const PointStart &start, const double distance)
+      {
+        return start.history.slip +
+               (start.frictionless ? 0. : std::max(0., distance));
+      }
+
+      double
+      height(const double slip) const
+      {
+        return -h_inf * std::expm1(-slip / l);
+      }
+
+      double
+      slope(const double slip) const
+      {
+        return h_inf / l * std::exp(-slip / l);
+      }
+
+      const double h_inf, l; ///< [mm]
+    };
+  } // namespace
+
+
+
+  InterfaceLawPlugin
+  dilatant_interface_law_plugin()
+  {
+    const std::string subsection = "Dilatant";
+    return {
+      "dilatant",
+      "friction under pressure between rough faces that climb on each other as "
+      "they slide",
+      {{subsection,
+        "Height",
+        "0.002",
+        Allowed::number_between(1e-9, 1e3, "mm").or_number(0),
+        "h_inf [mm]: by how much the faces are further apart after much slip."},
+       {subsection,
+        "Length",
+        "0.05",
+        Allowed::number_between(1e-9, 1e3, "mm"),
+        "l [mm]: the sliding distance over which they climb, h = h_inf (1 - "
+        "exp(-g_s/l)). Height / Length must not exceed the friction of what is "
+        "debonded: friction pays for the climb."}},
+      [](const LawChoice &choice, const InterfaceLawParts &parts) {
+        const double height = choice.number("Height"),
+                     length = choice.number("Length"),
+                     least  = parts.friction->mu_without_bond();
+        if (!parts.friction->depends_on_rate() && height > least * length)
+          throw EntryError("Interface / Dilatant / Height",
+                           "the faces would climb by " + to_text(height / length) +
+                             " mm per mm of slip (Height / Length), more than "
+                             "friction pays for: the coefficient without a bond "
+                             "is " +
+                             to_text(least));
+        return InterfaceLawPointer(
+          std::make_shared<Dilatant>(height, length, parts));
+      }};
+  }
+} // namespace Debond

@@ -1,0 +1,240 @@
+// What a law of the interface owes the program, whatever it says, of all laws
+// that scenes can choose: pressure and limit have the derivatives that it
+// gives; nothing is carried beyond its reach; energies balance along any motion
+// of a point, to second order in the step; damage is never negative; the limit
+// never falls faster than promised; and entries of the same name are the same
+// entry.
+
+#include <debond/interface/interface_law.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "checks.h"
+#include "law_of_text.h"
+
+using namespace Debond;
+
+/** The law with its default entries, and the friction of the paper. */
+InterfaceLawPointer
+law_called(const std::string &name)
+{
+  return interface_law_of_text("set Law = " + name + "\n",
+                               {585., modified_coulomb()});
+}
+
+
+
+/** A motion of a point: gap and sliding distance by time from 0 to 1. */
+struct Motion
+{
+  double depth, height, turns, slip, phase;
+
+  explicit Motion(std::mt19937 &random)
+  {
+    std::uniform_real_distribution<double> between(0., 1.);
+    depth  = 0.005 * between(random);
+    height = 0.03 * std::pow(between(random), 2);
+    turns  = 1. + 3. * between(random);
+    slip   = 0.08 * std::pow(between(random), 2);
+    phase  = between(random);
+  }
+
+  double
+  gap(const double t) const
+  {
+    return -depth +
+           (depth + height) * t * std::pow(std::sin(M_PI * turns * t), 2);
+  }
+  double
+  slid(const double t) const
+  {
+    return slip * (t - 0.1 * std::sin(2. * M_PI * (t + phase)));
+  }
+};
+
+
+
+/** A point that is taken through a motion in steps. */
+struct Point
+{
+  const InterfaceLaw &law;
+  double              phi_0;
+  PointHistory        history;
+  double work = 0., lift = 0., damage = 0., friction = 0.; ///< [N/mm]
+  double least_damage = 0., lost = 0.;
+
+  InterfaceResponse
+  response() const
+  {
+    return law.respond(law.begin(history, phi_0), history.normal_gap, 0.);
+  }
+
+  /** Whether it is carried. */
+  bool
+  step(const double g_n, const double distance)
+  {
+    const PointStart        start = law.begin(history, phi_0);
+    const bool              was_open = history.normal_gap == PointHistory::far;
+    const InterfaceResponse before   = response(),
+                            after    = law.respond(start, g_n, distance);
+    if (g_n >= law.reach(start, distance))
+      {
+        if (!was_open)
+          history = law.open(history);
+        return false;
+      }
+    const PointWork by_law = law.work(start, g_n, distance);
+    if (!was_open)
+      {
+        work -= 0.5 * (before.pressure + after.pressure) *
+                (g_n - history.normal_gap);
+        lift += by_law.lift;
+        damage += by_law.damage;
+        friction += by_law.friction;
+      }
+    least_damage = std::min(least_damage, by_law.damage);
+    history      = law.advance(start, g_n, distance);
+    return true;
+  }
+};
+
+
+
+// Differences from both sides that agree, where the law has no kink.
+void
+check_derivatives(const std::string &name, const InterfaceLaw &law)
+{
+  std::mt19937 random(7);
+  double       by_gap = 0., by_slip = 0., beyond = 0., softening = 0.;
+  bool         positive = true;
+  unsigned int n        = 0;
+  for (unsigned int sample = 0; sample < 400; ++sample)
+    {
+      const Motion motion(random);
+      Point        point{law, sample % 3 == 0 ? 1. : 0.3 + 0.002 * sample, {}};
+      const double steps = 2 + sample % 9;
+      for (unsigned int i = 0; i < steps; ++i)
+        point.step(motion.gap(i / steps),
+                   motion.slid((i + 1) / steps) - motion.slid(i / steps));
+      const PointStart start = law.begin(point.history, point.phi_0);
+      const double     g = motion.gap(1.), d = 1e-4 + motion.slip / steps;
+      const auto       at = [&](const double more_g, const double more_d) {
+        return law.respond(start, g + more_g, d + more_d);
+      };
+      const InterfaceResponse now = at(0, 0);
+      if (g >= law.reach(start, d)) // open
+        continue;
+      positive = positive && now.limit >= 0.;
+      grow(softening,
+           -now.limit_by_slip - law.softening_by_slip(start, now.pressure, d));
+      const auto compare = [&](const InterfaceResponse &minus,
+                               const InterfaceResponse &plus,
+                               const double             h,
+                               const double             dp,
+                               const double             dL,
+                               double                  &worst) {
+        const double p_minus = (now.pressure - minus.pressure) / h,
+                     p_plus  = (plus.pressure - now.pressure) / h,
+                     L_minus = (now.limit - minus.limit) / h,
+                     L_plus  = (plus.limit - now.limit) / h;
+        // a kink: the slopes on its two sides differ by more than a curve's
+        if (std::abs(p_plus - p_minus) + std::abs(L_plus - L_minus) > 3e-2)
+          return;
+        ++n;
+        grow(worst, std::abs(0.5 * (p_minus + p_plus) - dp) / 600.);
+        grow(worst, std::abs(0.5 * (L_minus + L_plus) - dL) / 600.);
+      };
+      const double h = 1e-8;
+      compare(at(-h, 0), at(h, 0), h, now.pressure_by_gap, now.limit_by_gap, by_gap);
+      compare(at(0, -h), at(0, h), h, now.pressure_by_slip, now.limit_by_slip, by_slip);
+      // what a bond still carries where it is given up
+      const double reach = law.reach(start, d);
+      if (std::isfinite(reach))
+        grow(beyond, std::abs(law.respond(start, reach, d).pressure));
+    }
+  report(name + ": derivatives by the gap, deviation from differences", by_gap, 1e-6);
+  report(name + ": derivatives by the distance", by_slip, 1e-6);
+  report(name + ": a hundred of them", n > 100);
+  report(name + ": where it opens it carries", beyond, 1e-12);
+  report(name + ": the limit falls faster than promised by", softening, 1e-9);
+  report(name + ": the limit is not negative", positive);
+}
+
+
+
+// Work across the gap, and of slip what lifts the faces, is stored, or has
+// damaged the bond.
+void
+check_energies(const std::string &name, const InterfaceLaw &law)
+{
+  std::mt19937 random(3);
+  double       worst = 0., coarse = 0., fine = 0., least = 0.;
+  for (unsigned int sample = 0; sample < 60; ++sample)
+    {
+      const Motion        motion(random);
+      std::vector<double> defect;
+      double              size = 0.;
+      for (const unsigned int steps : {2000, 4000})
+        {
+          Point  point{law, 1. - 0.01 * sample, {}};
+          double stored = 0., missing = 0.;
+          point.step(motion.gap(0.), 0.);
+          stored = point.response().energy;
+          for (unsigned int i = 0; i < steps; ++i)
+            {
+              const bool is_carried =
+                point.step(motion.gap((i + 1.) / steps),
+                           motion.slid((i + 1.) / steps) -
+                             motion.slid(1. * i / steps));
+              if (!is_carried)
+                break; // what opens has stored nothing; here it ends
+              missing = point.work + point.lift - point.damage -
+                        (point.response().energy - stored);
+              size = std::max({size, std::abs(point.work), point.damage});
+            }
+          least = std::min(least, point.least_damage);
+          defect.push_back(std::abs(missing) / size);
+        }
+      grow(worst, defect[1]);
+      coarse += defect[0];
+      fine += defect[1];
+    }
+  report(name + ": energies along a motion in 4000 steps balance to", worst, 2e-5);
+  report(name + ": and four times better than in 2000, to a quarter",
+         std::abs(fine / coarse - 0.25) < 0.06 || worst < 1e-12);
+  report(name + ": damage is not negative", -least, 1e-15);
+}
+
+
+
+void
+check_entries()
+{
+  std::map<std::string, std::string> subsection;
+  bool                               same = true;
+  for (const InterfaceLawPlugin &plugin : interface_law_plugins())
+    for (const LawEntry &entry : plugin.entries)
+      same = same &&
+             subsection.emplace(entry.name, entry.subsection).first->second ==
+               entry.subsection;
+  report("entries of the same name are the same entry", same);
+}
+
+
+
+int
+main()
+{
+  for (const InterfaceLawPlugin &plugin : interface_law_plugins())
+    {
+      const InterfaceLawPointer law = law_called(plugin.name);
+      check_derivatives(plugin.name, *law);
+      check_energies(plugin.name, *law);
+    }
+  check_entries();
+}

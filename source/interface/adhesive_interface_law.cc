@@ -46,10 +46,9 @@ namespace Debond
         if (g_n > 0. && now.holds)
           {
             // on the envelope K falls as the gap grows, dK/dg_n = -K/g_0
-            const double K = now.phi_0_s * pull(now.kappa);
-            result.pressure = -K * g_n;
-            result.pressure_by_gap =
-              -K * (now.grows ? 1. - g_n / g_0 : 1.);
+            const double K          = now.phi_0_s * pull(now.kappa);
+            result.pressure         = -K * g_n;
+            result.pressure_by_gap  = -K * (now.grows ? 1. - g_n / g_0 : 1.);
             result.pressure_by_slip = -now.s_slope * pull(now.kappa) * g_n;
             result.energy           = 0.5 * K * g_n * g_n;
           }
@@ -135,20 +134,18 @@ namespace Debond
           {
             const double e_n = stored(before.kappa, g_start),
                          e   = stored(now.kappa, g_n);
-            result.damage =
-              0.5 * (before.phi_0_s + now.phi_0_s) *
-                (spent(now.kappa) - spent(before.kappa)) -
-              0.5 * (now.phi_0_s - before.phi_0_s) * (e_n + e);
+            result.damage    = 0.5 * (before.phi_0_s + now.phi_0_s) *
+                              (spent(now.kappa) - spent(before.kappa)) -
+                            0.5 * (now.phi_0_s - before.phi_0_s) * (e_n + e);
             if (now.kappa > gone()) // nothing gives the rest back
               result.damage += now.phi_0_s * e;
           }
         const double pressed =
           0.5 * (std::max(0., begin.pressure) + std::max(0., end.pressure));
         result.adhesive =
-          result.damage +
-          (start.frictionless ?
-             0. :
-             result.friction - bond->mu_b * pressed * distance);
+          result.damage + (start.frictionless ?
+                             0. :
+                             result.friction - bond->mu_b * pressed * distance);
         return result;
       }
 
@@ -175,7 +172,7 @@ namespace Debond
         FrictionCoefficient result;
         result.phi = history.bond_left(phi_0) * left(history.damage) *
                      bond->decay(history.slip, slope);
-        result.mu  = bond->mu_b + result.phi * bond->drop;
+        result.mu = bond->mu_b + result.phi * bond->drop;
         return result;
       }
 
@@ -197,27 +194,24 @@ namespace Debond
           , grows(holds && g_n > start.history.damage)
           , kappa(grows ? g_n : start.history.damage)
         {
-          const double slip =
-            start.frictionless ? 0. : std::max(0., distance);
+          const double slip = start.frictionless ? 0. : std::max(0., distance);
           double       s_by_slip;
           phi_0_s = start.history.bond_left(start.phi_0) *
                     law.bond->decay(start.history.slip + slip, s_by_slip);
           const bool moves = !start.frictionless && distance >= 0.;
-          s_slope          = moves ?
-                               start.history.bond_left(start.phi_0) * s_by_slip :
-                               0.;
-          const double d   = law.left(kappa);
-          phi              = phi_0_s * d;
-          phi_by_slip      = s_slope * d;
+          s_slope =
+            moves ? start.history.bond_left(start.phi_0) * s_by_slip : 0.;
+          const double d = law.left(kappa);
+          phi            = phi_0_s * d;
+          phi_by_slip    = s_slope * d;
           // d = x exp(1 - x) beyond g_0
-          phi_by_gap = grows && kappa > law.g_0 ?
-                         phi * (1. / kappa - 1. / law.g_0) :
-                         0.;
+          phi_by_gap =
+            grows && kappa > law.g_0 ? phi * (1. / kappa - 1. / law.g_0) : 0.;
         }
 
-        bool   holds; ///< in tension, too
-        bool   grows; ///< opens further than it has been
-        double kappa; ///< [mm]
+        bool   holds;                        ///< in tension, too
+        bool   grows;                        ///< opens further than it has been
+        double kappa;                        ///< [mm]
         double phi_0_s, s_slope;             ///< by the distance
         double phi, phi_by_slip, phi_by_gap; ///< [1, 1/mm, 1/mm]
       };

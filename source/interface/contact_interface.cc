@@ -45,8 +45,7 @@ namespace Debond
     for (unsigned int q = 0; q < points.size(); ++q)
       {
         static_cast<SurfaceQuadraturePoint &>(points[q]) = places[q];
-        points[q].accepted.internal =
-          law.joint->friction->initial_variables();
+        points[q].accepted.internal = law.joint->friction->initial_variables();
       }
     for (const Side side : both_sides)
       // no forces before the first evaluate(); their size never changes
@@ -210,7 +209,7 @@ namespace Debond
   // The bonding comes last, as with the bone as slave it asks for the partners.
   void
   ContactInterface::initialise(const InterfaceConfiguration &configuration,
-                               const double touch_tolerance)
+                               const double                  touch_tolerance)
   {
     tangent_is_gathered = false;
     for (const Side side : both_sides)
@@ -612,7 +611,7 @@ namespace Debond
                                          &summary.share_stick,
                                          &summary.share_slip,
                                          &summary.share_pulled}};
-    const double resistance =
+    const double                  resistance =
       law.tangential_penalty + viscous_stiffness(law, mode_now);
     for (const SlavePoint &point : points)
       {

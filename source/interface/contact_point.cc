@@ -128,9 +128,10 @@ namespace Debond
       PointFriction
       friction(const double phi_0) const
       {
-        return {*law.joint,
-                law.joint->begin(start, phi_0, mode.duration, mode.frictionless),
-                viscous_stiffness(law, mode)};
+        return {
+          *law.joint,
+          law.joint->begin(start, phi_0, mode.duration, mode.frictionless),
+          viscous_stiffness(law, mode)};
       }
 
       // What the step starts from. The master has taken the parts of the old
@@ -144,7 +145,7 @@ namespace Debond
         friction.old_limit =
           law.joint->respond(friction.start, start.normal_gap, 0.).limit /
           law.tangential_penalty;
-        friction.arc       = Arc(mode.turn);
+        friction.arc = Arc(mode.turn);
       }
 
       // Contact is where g_n < 0, or less than the reach of a law with strength
@@ -195,8 +196,8 @@ namespace Debond
         // with what is left of the gap in the tangent plane, (1 - n n^T) g,
         // which need not be zero: this gap is the elastic deformation of the
         // interface, not an error of the penalty.
-        result.state                              = start;
-        result.state.status                       = PointStatus::stick;
+        result.state        = start;
+        result.state.status = PointStatus::stick;
         static_cast<PointHistory &>(result.state) =
           law.joint->advance(friction.start, g_n, 0.);
         result.normal_gap          = g_n;
@@ -272,16 +273,15 @@ namespace Debond
         if (outcome == SlipOutcome::solved &&
             is_closed(friction.start, g_n, end.distance))
           {
-            const Vector2d xi   = result.state.xi;
-            result.state        = start;
-            result.state.xi     = xi;
+            const Vector2d xi = result.state.xi;
+            result.state      = start;
+            result.state.xi   = xi;
             result.state.status =
               end.response.pressure < 0. && end.response.limit == 0. ?
                 PointStatus::pulled :
                 PointStatus::slip;
             problem.report(result);
-            result.failed = result.negative_friction =
-              end.response.limit < 0.;
+            result.failed = result.negative_friction = end.response.limit < 0.;
             return;
           }
         // Solved with an open gap, or beyond the edge: open. Not found: an open
@@ -334,19 +334,19 @@ namespace Debond
     const double       g_n = normal.n.dot(gap);
 
     // If the point stuck, it would carry the trial traction eps_t |g_t|, Eq.
-    // (28). It does while that is no more than the L = mu p of Eq. (30), with mu at
-    // the sliding distance g_s^n that it comes with.
+    // (28). It does while that is no more than the L = mu p of Eq. (30), with
+    // mu at the sliding distance g_s^n that it comes with.
     //
     // mu is asked with the distance 0: a law with a state that ages has aged in
     // this step, and for one that depends on the speed this is V = 0. A limit
     // and a traction in MPa are compared, both along the surface as it is now.
     // Without pressure the limit is 0, and whatever pulls makes the point
     // slide.
-    PointFriction friction = step.friction(phi_0);
-    const bool    closed   = step.is_closed(friction.start, g_n, 0.);
+    PointFriction           friction = step.friction(phi_0);
+    const bool              closed   = step.is_closed(friction.start, g_n, 0.);
     const InterfaceResponse response =
       law.joint->respond(friction.start, g_n, 0.);
-    const double limit = response.limit;
+    const double   limit          = response.limit;
     const Vector3d tangential_gap = gap - g_n * normal.n;
     const double   trial_traction =
       law.tangential_penalty * tangential_gap.norm();

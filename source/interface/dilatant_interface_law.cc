@@ -20,7 +20,9 @@ namespace Debond
     class Dilatant : public InterfaceLaw
     {
     public:
-      Dilatant(const double height, const double length, const InterfaceLawParts &parts)
+      Dilatant(const double             height,
+               const double             length,
+               const InterfaceLawParts &parts)
         : InterfaceLaw(parts)
         , h_inf(height)
         , l(length)
@@ -66,17 +68,17 @@ namespace Debond
           return {};
         const FrictionState state = start.friction();
         const double        p =
-          std::max(0.,
-                   respond(start, start.history.normal_gap, 0.).pressure);
+          std::max(0., respond(start, start.history.normal_gap, 0.).pressure);
         const double p_end =
                        std::max(0., respond(start, g_n, distance).pressure),
                      mean = 0.5 * (p + p_end),
                      per_pressure =
                        friction->friction_strength(state, distance);
         PointWork result;
-        result.friction       = mean * per_pressure;
-        result.friction_bound = 0.5 * std::abs(p - p_end) * per_pressure +
-                                mean * friction->strength_bound(state, distance);
+        result.friction = mean * per_pressure;
+        result.friction_bound =
+          0.5 * std::abs(p - p_end) * per_pressure +
+          mean * friction->strength_bound(state, distance);
         result.adhesive = mean * friction->adhesive_strength(state, distance);
         result.lift =
           mean * (height(slipped(start, distance)) - height(state.slip));
@@ -143,12 +145,13 @@ namespace Debond
                      length = choice.number("Length"),
                      least  = parts.friction->mu_without_bond();
         if (!parts.friction->depends_on_rate() && height > least * length)
-          throw EntryError("Interface / Dilatant / Height",
-                           "the faces would climb by " + to_text(height / length) +
-                             " mm per mm of slip (Height / Length), more than "
-                             "friction pays for: the coefficient without a bond "
-                             "is " +
-                             to_text(least));
+          throw EntryError(
+            "Interface / Dilatant / Height",
+            "the faces would climb by " + to_text(height / length) +
+              " mm per mm of slip (Height / Length), more than "
+              "friction pays for: the coefficient without a bond "
+              "is " +
+              to_text(least));
         return InterfaceLawPointer(
           std::make_shared<Dilatant>(height, length, parts));
       }};

@@ -62,7 +62,7 @@ namespace Debond
         if (start.frictionless)
           return {};
         const FrictionState state = start.friction();
-        const double        p = std::max(0., -stiffness * start.history.normal_gap),
+        const double p = std::max(0., -stiffness * start.history.normal_gap),
                      p_end = std::max(0., -stiffness * g_n),
                      mean  = 0.5 * (p + p_end),
                      per_pressure =

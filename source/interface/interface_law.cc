@@ -61,7 +61,8 @@ namespace Debond
   FrictionCoefficient
   InterfaceLaw::reported(const PointHistory &history, const double phi_0) const
   {
-    return friction->reported(PointStart{history, phi_0, 0., false, {}}.friction());
+    return friction->reported(
+      PointStart{history, phi_0, 0., false, {}}.friction());
   }
 
 
@@ -71,7 +72,8 @@ namespace Debond
   // rises: the distance alone would have a second solution there where
   // friction rises with the speed, a rise one where it falls steeply.
   FrictionCoefficient
-  InterfaceLaw::coefficient(const PointStart &start, const double distance) const
+  InterfaceLaw::coefficient(const PointStart &start,
+                            const double      distance) const
   {
     if (start.frictionless)
       return {};

@@ -109,10 +109,7 @@ namespace Debond
   ContactPointLaw
   InterfaceParameters::law() const
   {
-    return {joint(),
-            tangential_stiffness(),
-            viscosity,
-            slip_direction};
+    return {joint(), tangential_stiffness(), viscosity, slip_direction};
   }
 
 

@@ -51,8 +51,8 @@ namespace Debond
       double          mu = per_pressure(lifting.pressure, 0.), lost = 0.;
       for (unsigned int i = 1; i <= n; ++i)
         {
-          const Eigen::Vector3d trial  = gap + lifting.motion / n;
-          const double          length = trial.norm();
+          const Eigen::Vector3d trial    = gap + lifting.motion / n;
+          const double          length   = trial.norm();
           const double          pressure = lifting.pressure * (n - i) / n;
           const auto            slides   = [&] {
             return std::max(0., length - mu * pressure / lifting.stiffness) /
@@ -70,10 +70,9 @@ namespace Debond
             }
           else
             gap = trial;
-          start =
-            law.begin(law.advance(start, -pressure / law.stiffness, way),
-                      start.phi_0,
-                      start.duration);
+          start = law.begin(law.advance(start, -pressure / law.stiffness, way),
+                            start.phi_0,
+                            start.duration);
         }
       // what viscosity holds until it opens
       return lost + 0.5 * lifting.stiffness * gap.squaredNorm();
@@ -115,7 +114,7 @@ namespace Debond
     const PointWork by_law = law.work(point.begin(law, mode),
                                       trial.normal_gap,
                                       trial.state.slip - point.accepted.slip);
-    const double of_gap = point.JxW * (by_law.damage - by_law.lift);
+    const double    of_gap = point.JxW * (by_law.damage - by_law.lift);
     adhesive += point.JxW * by_law.adhesive;
     damage += point.JxW * by_law.damage;
     dissipation += of_gap;
@@ -176,15 +175,14 @@ namespace Debond
       motion.gap - (gap - penetration * n) - motion.by_chuck;
     const bool over_edge = g_n < -mode.touch_tolerance && p > 0.;
     double     lost = 0., of_springs = 0.; // per area [N/mm]
-    if (at_start.pressure < 0.) // a bond that is torn over the edge
+    if (at_start.pressure < 0.)            // a bond that is torn over the edge
       of_springs = at_start.energy;
     if (over_edge)
       {
         // rubbed on the way there, at a pressure that is known at the beginning
         // only
-        lost =
-          joint.work(start, point.accepted.normal_gap, trial.path_to_edge)
-            .friction;
+        lost = joint.work(start, point.accepted.normal_gap, trial.path_to_edge)
+                 .friction;
         friction_bound += 0.5 * point.JxW * lost;
         lost += std::max(0., 0.5 * old_traction.dot(gap + by_bodies));
         of_springs = -0.5 * p * g_n;
@@ -193,8 +191,8 @@ namespace Debond
       {
         // How compliant the bodies are, over the springs: along the pressure,
         // and along the traction where there is one worth asking.
-        const double rises = std::max(0., -n.dot(by_bodies)),
-                     limit       = at_start.limit / eps_t,
+        const double rises      = std::max(0., -n.dot(by_bodies)),
+                     limit      = at_start.limit / eps_t,
                      little     = 1e-4 * limit * limit,
                      compliance = std::max(0.,
                                            (by_bodies.dot(gap) +

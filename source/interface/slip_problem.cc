@@ -58,12 +58,13 @@ namespace Debond
   inline void
   SlipEquations::integrate_slip()
   {
-    axes.col(0)           = geometry.a1.normalized();
-    axes.col(1)           = normal.n.cross(axes.col(0));
-    const Vector3d g_t    = gap - g_n * normal.n;
-    const double   length = g_t.norm();
-    const InterfaceResponse held = friction.law.respond(friction.start, g_n, 0.);
-    held_by_gap                  = held.limit_by_gap;
+    axes.col(0)                    = geometry.a1.normalized();
+    axes.col(1)                    = normal.n.cross(axes.col(0));
+    const Vector3d          g_t    = gap - g_n * normal.n;
+    const double            length = g_t.norm();
+    const InterfaceResponse held =
+      friction.law.respond(friction.start, g_n, 0.);
+    held_by_gap = held.limit_by_gap;
     towed.emplace(
       TowedGap::Step{friction.arc,
                      axes.transpose() * friction.old_gap,
@@ -99,7 +100,7 @@ namespace Debond
     viscous_traction    = with_viscosity.resistance * distance * tau;
     tangential_traction = limit * tau;
     traction            = -response.pressure * normal.n + tangential_traction;
-    excess   = gap - traction / law.tangential_penalty;
+    excess              = gap - traction / law.tangential_penalty;
     tangents << geometry.a1, geometry.a2;
     h = tangents.transpose() *
         (gap - tangential_traction / law.tangential_penalty);
@@ -118,7 +119,8 @@ namespace Debond
   SlipEquations::find_changes()
   {
     const Vector3d &n = normal.n;
-    // with the sliding distance limit and pressure change, and it changes itself
+    // with the sliding distance limit and pressure change, and it changes
+    // itself
     const Vector4d by_distance =
       with(slope * tau - response.pressure_by_slip * n, 1.);
     // both change with g_n, and g_n with gap and normal
@@ -156,8 +158,8 @@ namespace Debond
   SlipEquations::by_towed() const
   {
     Eigen::Matrix<double, 4, 3> result;
-    result << limit * axes,
-      slope * tau - response.pressure_by_slip * normal.n, 0., 0., 1.;
+    result << limit * axes, slope * tau - response.pressure_by_slip * normal.n,
+      0., 0., 1.;
     return result;
   }
 
@@ -395,9 +397,9 @@ namespace Debond
     result.tangential_traction = e.tangential_traction;
     result.viscous_traction    = e.viscous_traction;
     result.slip_increment      = e.slip;
-    result.energy =
-      e.response.energy +
-      0.5 * e.tangential_traction.squaredNorm() / law.tangential_penalty;
+    result.energy              = e.response.energy + 0.5 *
+                                          e.tangential_traction.squaredNorm() /
+                                          law.tangential_penalty;
     // the history of the point once the step is accepted
     static_cast<PointHistory &>(result.state) =
       friction.law.advance(friction.start, e.g_n, e.distance);
@@ -437,8 +439,7 @@ namespace Debond
   {
     master.surface->evaluate_in_element(place.element, place.xi, basis, true);
     contract(basis, *master.positions, true, geometry);
-    equations.emplace(
-      law, friction, x, y_old, geometry, master.outward_sign);
+    equations.emplace(law, friction, x, y_old, geometry, master.outward_sign);
   }
 
 

@@ -132,8 +132,7 @@ namespace Debond
     std::string
     describe_softening(const InterfaceSummary &summary, const FrictionLaw &law)
     {
-      const double slope =
-        summary.softening_slope / summary.softening_pressure;
+      const double slope = summary.softening_slope / summary.softening_pressure;
       Classic<std::ostringstream> text;
       // A user can act on it: the numbers of the worst point, and the entries
       // that move the bound p |d mu/d g_s| < eps_t.

@@ -11,9 +11,10 @@ using namespace Debond;
 const double t_0 = 5., g_0 = 0.005, R = 2.5, mu_b = 0.4, mu_ub = 0.58,
              eps_t = 585., A = M_PI * R * R;
 
-const std::string rigid_coin = "subsection Bone\n set Material = rigid\nend\n"
-                               "subsection Implant\n set Material = rigid\nend\n"
-                               "subsection Interface\n set Law = adhesive\nend\n";
+const std::string rigid_coin =
+  "subsection Bone\n set Material = rigid\nend\n"
+  "subsection Implant\n set Material = rigid\nend\n"
+  "subsection Interface\n set Law = adhesive\nend\n";
 
 using Overrides = std::vector<std::string>;
 
@@ -37,36 +38,38 @@ envelope(const double gap)
 
 
 
-
 void
 check_pull_off()
 {
   const double w = std::exp(1.) * t_0 * g_0;
   for (const bool half : {false, true})
     {
-      const auto rows = run_scene(
-        "adhesive_pull_off",
-        rigid_coin,
-        moves("Translation z", "0.11 * t") + steps("0, 1", "2200") +
-          (half ? Overrides{"Interface/Bonding/Pattern=disk",
-                            "Interface/Bonding/Bonded fraction=0.5"} :
-                  Overrides{}));
+      const auto rows =
+        run_scene("adhesive_pull_off",
+                  rigid_coin,
+                  moves("Translation z", "0.11 * t") + steps("0, 1", "2200") +
+                    (half ? Overrides{"Interface/Bonding/Pattern=disk",
+                                      "Interface/Bonding/Bonded fraction=0.5"} :
+                            Overrides{}));
       const double bonded = rows[0].phi_mean * A; // by the program's points
       double       force = 0., largest = 0., defect = 0., back = 0.;
       for (const TorqueRow &row : rows)
         {
           const double g = row.chuck_position[2];
           grow(force,
-               std::abs(-row.force_N - (g > 20. * g_0 ? 0. : bonded * envelope(g))) /
+               std::abs(-row.force_N -
+                        (g > 20. * g_0 ? 0. : bonded * envelope(g))) /
                  (A * t_0));
           largest = std::max(largest, -row.force_N);
           grow(defect, std::abs(row.energy_defect) - row.energy_defect_bound);
           grow(back, -row.damage_Nmm);
         }
       // up to 20 g_0, where the last of the work is given up
-      const double cut = w * (1. - 21. * std::exp(-20.));
+      const double      cut  = w * (1. - 21. * std::exp(-20.));
       const std::string name = half ? "half bonded: " : "pulled off: ";
-      report(name + "force, deviation from the envelope over A t_0", force, 1e-10);
+      report(name + "force, deviation from the envelope over A t_0",
+             force,
+             1e-10);
       report(name + "largest force over that at g_0, deviation",
              std::abs(largest / (bonded * t_0) - 1.),
              1e-10);
@@ -78,7 +81,8 @@ check_pull_off()
              1e-7);
       report(name + "energies balance within the bound by", defect, 1e-12);
       report(name + "all is dissipated",
-             std::abs(rows.back().dissipation_Nmm / rows.back().damage_Nmm - 1.) +
+             std::abs(rows.back().dissipation_Nmm / rows.back().damage_Nmm -
+                      1.) +
                rows.back().energy_interface_Nmm,
              1e-6);
     }
@@ -111,8 +115,7 @@ check_reload()
       if (row.time > 2.)
         largest = std::max(largest, -row.force_N);
       if (g < 0.0075 - 1e-9)
-        grow(damage,
-             std::abs(row.damage_Nmm / rows[30].damage_Nmm - 1.));
+        grow(damage, std::abs(row.damage_Nmm / rows[30].damage_Nmm - 1.));
     }
   report("pulled again: straight, deviation over t_0", second, 1e-10);
   report("pulled again: the largest force is that at 1.5 g_0, deviation",
@@ -137,13 +140,14 @@ check_twist()
   for (const std::string points : {"5", "20"})
     for (const double pressed : {0., 0.002})
       {
-        const auto rows = run_scene(
-          "adhesive_twist",
-          rigid_coin,
-          moves("Translation z", "-" + std::to_string(pressed) + " * min(t, 1)") +
-            moves("Rotation z", "0.4 * max(t - 1, 0)") +
-            steps("0, 1, 2", "1, 20") +
-            Overrides{"Interface/Quadrature points=" + points});
+        const auto rows =
+          run_scene("adhesive_twist",
+                    rigid_coin,
+                    moves("Translation z",
+                          "-" + std::to_string(pressed) + " * min(t, 1)") +
+                      moves("Rotation z", "0.4 * max(t - 1, 0)") +
+                      steps("0, 1, 2", "1, 20") +
+                      Overrides{"Interface/Quadrature points=" + points});
         const double L     = mu_ub * (t_0 + 585. * pressed),
                      theta = 0.4 * M_PI / 180., r_s = L / (eps_t * theta),
                      T = 2. * M_PI / 3. * L *
@@ -152,7 +156,8 @@ check_twist()
       }
   for (const unsigned int i : {0, 1})
     {
-      const std::string name = i == 0 ? "twisted: " : "twisted under pressure: ";
+      const std::string name =
+        i == 0 ? "twisted: " : "twisted under pressure: ";
       report(name + "torque, deviation from the formula", errors[2 + i], 1e-4);
       report(name + "more with few points", errors[i] > errors[2 + i]);
     }
@@ -164,12 +169,11 @@ check_twist()
 void
 check_pull_and_shear()
 {
-  const auto rows =
-    run_scene("adhesive_shear",
-              rigid_coin,
-              moves("Translation z", "0.0025 * min(t, 1)") +
-                moves("Translation x", "0.01 * max(t - 1, 0)") +
-                steps("0, 1, 2", "10, 10"));
+  const auto   rows = run_scene("adhesive_shear",
+                              rigid_coin,
+                              moves("Translation z", "0.0025 * min(t, 1)") +
+                                moves("Translation x", "0.01 * max(t - 1, 0)") +
+                                steps("0, 1, 2", "10, 10"));
   const double force =
     std::hypot(rows.back().chuck_reaction[0], rows.back().chuck_reaction[1]);
   report("pulled and sheared: deviation from mu_ub t_0 (1 - sqrt(e)/2)",
@@ -201,9 +205,9 @@ check_without_strength()
   const auto        run    = [&](const std::string &law) {
     return torque_table(
       run_scene("adhesive_none",
-                       rigid_coin,
-                       moves("Translation z", motion) + moves("Rotation z", "2 * t") +
-                         steps("0, 1, 2", "10, 10") + Overrides{law}));
+                rigid_coin,
+                moves("Translation z", motion) + moves("Rotation z", "2 * t") +
+                  steps("0, 1, 2", "10, 10") + Overrides{law}));
   };
   report("without strength every digit is that of Law = friction",
          run("Interface/Adhesive/Strength=0") == run("Interface/Law=friction"));

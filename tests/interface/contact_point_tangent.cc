@@ -233,9 +233,9 @@ struct Setting
   RateAndState              rate_and_state;
   ContactPointMode          mode;
   ContactPointState         old_state;
-  double                    phi_0 = 0.9;
-  double                    turn  = 0.; ///< of the way in the step
-  double old_pressure = 0.; ///< before the step
+  double                    phi_0        = 0.9;
+  double                    turn         = 0.; ///< of the way in the step
+  double                    old_pressure = 0.; ///< before the step
   MasterSurface             master;
   Eigen::Vector3d           x;
 
@@ -920,8 +920,8 @@ check_honesty(const std::vector<Master> &masters, const Setting &basic)
           ++n_slip;
           const double t =
             result.pressure * friction_coefficient_at(setting.friction,
-                                                            setting.phi_0,
-                                                            result.state.slip);
+                                                      setting.phi_0,
+                                                      result.state.slip);
           grow(excess, std::abs(result.tangential_traction.norm() / t - 1.));
         }
     }
@@ -1015,10 +1015,10 @@ main()
   for (const double turn : {0., 0.6, -1.})
     for (const double length : {0.01, 0.017})
       {
-        setting                    = basic;
-        setting.turn               = turn;
-        setting.law.slip_direction = SlipDirection::integrated;
-        setting.old_state.gap      = {length, -0.5 * length};
+        setting                      = basic;
+        setting.turn                 = turn;
+        setting.law.slip_direction   = SlipDirection::integrated;
+        setting.old_state.gap        = {length, -0.5 * length};
         setting.old_pressure         = 11.;
         setting.old_state.normal_gap = -11. / setting.eps_n;
         std::cout << "Gap " << length << ", turn " << turn << std::endl;

@@ -78,7 +78,7 @@ struct Point
   bool
   step(const double g_n, const double distance)
   {
-    const PointStart        start = law.begin(history, phi_0);
+    const PointStart        start    = law.begin(history, phi_0);
     const bool              was_open = history.normal_gap == PointHistory::far;
     const InterfaceResponse before   = response(),
                             after    = law.respond(start, g_n, distance);
@@ -91,8 +91,8 @@ struct Point
     const PointWork by_law = law.work(start, g_n, distance);
     if (!was_open)
       {
-        work -= 0.5 * (before.pressure + after.pressure) *
-                (g_n - history.normal_gap);
+        work -=
+          0.5 * (before.pressure + after.pressure) * (g_n - history.normal_gap);
         lift += by_law.lift;
         damage += by_law.damage;
         friction += by_law.friction;
@@ -150,14 +150,22 @@ check_derivatives(const std::string &name, const InterfaceLaw &law)
         grow(worst, std::abs(0.5 * (L_minus + L_plus) - dL) / 600.);
       };
       const double h = 1e-8;
-      compare(at(-h, 0), at(h, 0), h, now.pressure_by_gap, now.limit_by_gap, by_gap);
-      compare(at(0, -h), at(0, h), h, now.pressure_by_slip, now.limit_by_slip, by_slip);
+      compare(
+        at(-h, 0), at(h, 0), h, now.pressure_by_gap, now.limit_by_gap, by_gap);
+      compare(at(0, -h),
+              at(0, h),
+              h,
+              now.pressure_by_slip,
+              now.limit_by_slip,
+              by_slip);
       // what a bond still carries where it is given up
       const double reach = law.reach(start, d);
       if (std::isfinite(reach))
         grow(beyond, std::abs(law.respond(start, reach, d).pressure));
     }
-  report(name + ": derivatives by the gap, deviation from differences", by_gap, 1e-6);
+  report(name + ": derivatives by the gap, deviation from differences",
+         by_gap,
+         1e-6);
   report(name + ": derivatives by the distance", by_slip, 1e-6);
   report(name + ": a hundred of them", n > 100);
   report(name + ": where it opens it carries", beyond, 1e-12);
@@ -187,10 +195,9 @@ check_energies(const std::string &name, const InterfaceLaw &law)
           stored = point.response().energy;
           for (unsigned int i = 0; i < steps; ++i)
             {
-              const bool is_carried =
-                point.step(motion.gap((i + 1.) / steps),
-                           motion.slid((i + 1.) / steps) -
-                             motion.slid(1. * i / steps));
+              const bool is_carried = point.step(motion.gap((i + 1.) / steps),
+                                                 motion.slid((i + 1.) / steps) -
+                                                   motion.slid(1. * i / steps));
               if (!is_carried)
                 break; // what opens has stored nothing; here it ends
               missing = point.work + point.lift - point.damage -
@@ -204,7 +211,9 @@ check_energies(const std::string &name, const InterfaceLaw &law)
       coarse += defect[0];
       fine += defect[1];
     }
-  report(name + ": energies along a motion in 4000 steps balance to", worst, 2e-5);
+  report(name + ": energies along a motion in 4000 steps balance to",
+         worst,
+         2e-5);
   report(name + ": and four times better than in 2000, to a quarter",
          std::abs(fine / coarse - 0.25) < 0.06 || worst < 1e-12);
   report(name + ": damage is not negative", -least, 1e-15);

@@ -327,12 +327,12 @@ check_aged_point()
   law.tangential_penalty = 585.;
   const FrictionLawPointer friction =
     law_of_text("set Friction law = rate and state\n"
-                                       "subsection Rate and state\n"
-                                       "  set Direct effect = 0.02\n"
-                                       "  set Evolution effect = 0.035\n"
-                                       "  set Reference speed = 1e-3\n"
-                                       "  set Sliding distance = 1e-4\n"
-                                       "  set Initial state = 1e3\nend\n");
+                "subsection Rate and state\n"
+                "  set Direct effect = 0.02\n"
+                "  set Evolution effect = 0.035\n"
+                "  set Reference speed = 1e-3\n"
+                "  set Sliding distance = 1e-4\n"
+                "  set Initial state = 1e3\nend\n");
   law.joint = friction_under_pressure({500., friction});
   ContactPointState state;
   state.status      = PointStatus::stick;

@@ -14,9 +14,9 @@ namespace Debond
   /** Numbers as they appear in the VTU array `state`. */
   enum class PointStatus : unsigned char
   {
-    open  = 0,
-    stick = 1,
-    slip  = 2,
+    open   = 0,
+    stick  = 1,
+    slip   = 2,
     pulled = 3 ///< across the interface only: it rubs nowhere
   };
 
@@ -46,7 +46,7 @@ namespace Debond
     serialize(Archive &archive, const unsigned int)
     {
       archive &status &has_partner &broken &joined &xi &gap &normal_gap;
-      archive                      &slip &damage;
+      archive &slip                                         &damage;
       for (double &variable : internal)
         archive &variable;
     }

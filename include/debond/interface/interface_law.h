@@ -40,10 +40,10 @@ namespace Debond
     double pressure         = 0; ///< p [MPa]; negative where it pulls
     double pressure_by_gap  = 0; ///< dp/dg_n [MPa/mm]
     double pressure_by_slip = 0; ///< dp/dd [MPa/mm]
-    double limit         = 0; ///< L >= 0 of the tangential traction [MPa]
-    double limit_by_gap  = 0; ///< dL/dg_n [MPa/mm]
-    double limit_by_slip = 0; ///< dL/dd [MPa/mm]
-    double energy        = 0; ///< stored across the interface [N/mm]
+    double limit            = 0; ///< L >= 0 of the tangential traction [MPa]
+    double limit_by_gap     = 0; ///< dL/dg_n [MPa/mm]
+    double limit_by_slip    = 0; ///< dL/dd [MPa/mm]
+    double energy           = 0; ///< stored across the interface [N/mm]
   };
 
 
@@ -157,8 +157,9 @@ namespace Debond
 
 
 
-  using InterfaceLawPlugin = LawPlugin<
-    InterfaceLawPointer (*)(const LawChoice &, const InterfaceLawParts &)>;
+  using InterfaceLawPlugin =
+    LawPlugin<InterfaceLawPointer (*)(const LawChoice &,
+                                      const InterfaceLawParts &)>;
 
   /** All laws, in the order of the choices. */
   const std::vector<InterfaceLawPlugin> &
@@ -171,8 +172,7 @@ namespace Debond
 
   /** The law that has been chosen. Throws EntryError. */
   InterfaceLawPointer
-  create_interface_law(const LawChoice         &choice,
-                       const InterfaceLawParts &parts);
+  create_interface_law(const LawChoice &choice, const InterfaceLawParts &parts);
 
   /** p = -eps_n g_n while that is positive, and L = mu p. */
   InterfaceLawPointer

@@ -18,7 +18,7 @@ namespace Debond
     /** Never null; made of what a scene says of it, friction_choice. */
     FrictionLawPointer friction = default_friction_law();
     LawChoice          friction_choice;
-    LawChoice          law_choice; ///< of the law of the interface
+    LawChoice          law_choice;        ///< of the law of the interface
     double        friction_starts_at = 0; ///< frictionless before this time
     double        viscosity      = 0; ///< eta [MPa per (mm per unit of time)]
     SlipDirection slip_direction = SlipDirection::integrated;

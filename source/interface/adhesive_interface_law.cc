@@ -181,6 +181,22 @@ namespace Debond
       {
         return true;
       }
+      double
+      opened(const PointHistory &history) const override
+      {
+        return history.damage;
+      }
+      double
+      characteristic_distance() const override
+      {
+        return std::min(g_0, bond->characteristic_distance());
+      }
+      // at 2 g_0
+      double
+      softening_by_opening() const override
+      {
+        return t_0 / (M_E * g_0);
+      }
 
     private:
       /** The bond of a point at the end of a step. */

@@ -225,6 +225,12 @@ namespace Debond
           (eps_n - eps_t) * (n * (gap.transpose() * dn)) -
             (response.pressure + eps_t * g_n) * dn,
           Eigen::Matrix<double, 3, W::size - W::trial_gap>::Zero();
+        result.dpath.setZero();
+        if (law.joint->opened(result.state) > law.joint->opened(start))
+          {
+            result.dpath.segment<3>(W::gap) = n.transpose();
+            result.dpath.segment<6>(W::a1)  = gap.transpose() * dn;
+          }
       }
 
       // The point slides, or opens: with p = 0 the same equations project it,

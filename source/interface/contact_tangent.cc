@@ -308,17 +308,19 @@ namespace Debond
 
 
 
-  // How g_s changes the update of the point has left, too, with the motion of
-  // xi_hat in it.
+  // How g_s and the opening of a point change its update has left, too, with
+  // the motion of xi_hat in it.
   //
   // The mean over the area that faced the implant at the start [mm] is the
-  // measure of a path of equilibrium: angle and torque may both turn back where
-  // a brittle bond snaps back, but g_s never falls. Newton's method is bordered
-  // with its derivative, which therefore is as exact as that of the forces.
-  MeanSlip
-  ContactInterface::mean_slip(const InterfaceConfiguration &configuration) const
+  // measure of a path of equilibrium: angle, force and torque may all turn back
+  // where a brittle bond snaps back, but neither g_s nor the largest opening
+  // ever falls. Newton's method is bordered with its derivative, which
+  // therefore is as exact as that of the forces.
+  PathLength
+  ContactInterface::path_length(
+    const InterfaceConfiguration &configuration) const
   {
-    MeanSlip result;
+    PathLength result;
     result.gradient = zero_sums(configuration);
     double area     = 0.;
     for (const SlavePoint &point : points)
@@ -327,14 +329,12 @@ namespace Debond
         if (!point.faces_implant)
           continue;
         area += point.JxW;
-        result.value += point.JxW * trial.state.slip;
-        // Only a sliding point changes it. Where it has not moved the length
-        // has no derivative; the gradient leaves it out.
-        if (!slides(trial.state.status) || mode_now.frictionless ||
-            trial.state.slip == point.accepted.slip)
+        result.value +=
+          point.JxW * (trial.state.slip + law.joint->opened(trial.state));
+        if (trial.state.status == PointStatus::open || trial.dpath.isZero(0.))
           continue;
         const Matrix<double, W::size, 1> d =
-          point.JxW * trial.dslip.transpose();
+          point.JxW * trial.dpath.transpose();
         const SurfaceBasis &now = trial.basis, &old = trial.old_basis;
         ControlNet         &master = result.gradient[master_side()];
         const Vector3d      by_gap = d.segment<3>(W::gap),
@@ -344,13 +344,14 @@ namespace Debond
           master.col(now.control_point[b]) += now.N_1[b] * d.segment<3>(W::a1) +
                                               now.N_2[b] * d.segment<3>(W::a2) -
                                               now.N[b] * by_gap;
-        for (unsigned int b = 0; b < old.size; ++b)
+        for (unsigned int b = 0; slides(trial.state.status) && b < old.size;
+             ++b)
           master.col(old.control_point[b]) +=
             along_old_gap(point, b) * d.segment<3>(W::old_gap) -
             old.N[b] * by_trial;
         result.by_chuck += d[W::turn] * trial.turn_by_chuck;
       }
-    // dimensionless gradient: mm of mean slip per mm of a control point
+    // dimensionless gradient: mm per mm of a control point
     result.value /= area;
     for (ControlNet &gradient : result.gradient)
       gradient /= area;

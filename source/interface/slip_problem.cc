@@ -207,6 +207,32 @@ namespace Debond
 
 
 
+  // y moves along the tangents, to which n is normal, so that g_n changes with
+  // the gap and as the normal turns.
+  inline Eigen::Matrix<double, 1, W::size>
+  SlipEquations::gap_along_w() const
+  {
+    Eigen::Matrix<double, 1, W::size> result =
+      Eigen::Matrix<double, 1, W::size>::Zero();
+    result.segment<3>(W::gap) = normal.n.transpose();
+    result.segment<6>(W::a1)  = gap.transpose() * normal.derivative();
+    return result;
+  }
+
+
+
+  inline Eigen::Matrix<double, 1, 2>
+  SlipEquations::gap_along_surface() const
+  {
+    const SurfaceGeometry &y = geometry;
+    const Vector3d        &n = normal.n;
+    Eigen::Matrix2d        bend;
+    bend << n.dot(y.a11), n.dot(y.a12), n.dot(y.a12), n.dot(y.a22);
+    return -gap.transpose() * normal.duals * bend;
+  }
+
+
+
   // Finding the interacting point.
   SlipProblem::SlipProblem(const ContactPointLaw &law,
                            const PointFriction   &friction,
@@ -417,8 +443,14 @@ namespace Debond
     result.dxi = -inverse * by_w.h;
     const Eigen::Matrix<double, 4, W::size> total =
       by_w.traction_and_distance + by_xi.traction_and_distance * result.dxi;
-    result.dt    = total.topRows<3>();
-    result.dslip = total.row(3);
+    result.dt = total.topRows<3>();
+    // where it has not moved the length has no derivative
+    result.dpath.setZero();
+    if (result.state.slip != friction.start.history.slip)
+      result.dpath = total.row(3);
+    if (friction.law.opened(result.state) >
+        friction.law.opened(friction.start.history))
+      result.dpath += e.gap_along_w() + e.gap_along_surface() * result.dxi;
   }
 
 

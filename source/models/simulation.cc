@@ -117,7 +117,7 @@ namespace Debond
       load_steps,
       load_steps.largest_slip_step > 0. ?
         load_steps.largest_slip_step :
-        scene.interface.friction->characteristic_distance() / 20.,
+        coupled_system.interface.get_law().characteristic_distance() / 20.,
       load_steps.path_ends_at_slip > 0. ? load_steps.path_ends_at_slip : R);
   }
 
@@ -340,11 +340,11 @@ namespace Debond
   Simulation::state() const
   {
     StepState result;
-    result.time      = coupled_system.time();
-    result.forces    = coupled_system.chuck_forces();
-    result.drive     = coupled_system.chuck.values(result.time);
-    result.mean_slip = coupled_system.mean_slip();
-    result.position  = coupled_system.chuck.position();
+    result.time        = coupled_system.time();
+    result.forces      = coupled_system.chuck_forces();
+    result.drive       = coupled_system.chuck.values(result.time);
+    result.path_length = coupled_system.path_length();
+    result.position    = coupled_system.chuck.position();
     return result;
   }
 

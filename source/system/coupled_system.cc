@@ -95,9 +95,8 @@ namespace Debond
     // rows of forces and moments beside them. It also stands for the chuck in
     // the preconditioner, where that has no other stiffness (CoupledTangent).
     for (unsigned int k = 0; k < 6; ++k)
-      path.stiffness[k] =
-        parameters.interface.normal_penalty *
-        interface.implant_area() * std::pow(scale_of(k), 2);
+      path.stiffness[k] = parameters.interface.normal_penalty *
+                          interface.implant_area() * std::pow(scale_of(k), 2);
   }
 
 
@@ -284,7 +283,7 @@ namespace Debond
     const TimedSection t(timer, "contact");
     // The mean sliding distance [mm] that the next step along a path goes on
     // from, taken while the trial states of the points are still there.
-    path.old_slip = mean_slip();
+    path.old_slip = path_length();
     interface.commit(configuration);
   }
 

@@ -44,8 +44,8 @@ namespace Debond
     rates = configuration.chuck->rates(time);
     // The exact gradient, in which xi_hat moves: without it Newton's method
     // would not be quadratic.
-    const MeanSlip mean   = interface.mean_slip(configuration);
-    const double   weight = reference / slip;
+    const PathLength mean   = interface.path_length(configuration);
+    const double     weight = reference / slip;
     add_in_unknowns(mean.gradient, configuration, weight, gradient);
     for (const auto &[component, row] : configuration.chuck_unknowns)
       gradient[row] += weight * mean.by_chuck[component];

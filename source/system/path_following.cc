@@ -10,7 +10,7 @@ namespace Debond
   PathFollowing::begin_phase(const StepState &accepted)
   {
     StepControl::begin_phase(accepted);
-    mean_slip   = accepted.mean_slip;
+    path_length = accepted.path_length;
     slip_size   = largest_slip;
     time_size   = planned;
     goes_to_end = slip_failed = time_failed = false;
@@ -51,7 +51,7 @@ namespace Debond
                       const StepState   &state,
                       const unsigned int iterations)
   {
-    const double slipped = state.mean_slip - mean_slip;
+    const double slipped = state.path_length - path_length;
     if (step.by_slip() && state.time > end)
       {
         slip_size = 0.5 * step.slip;
@@ -69,7 +69,7 @@ namespace Debond
     last_time_step                          = state.time - time;
     last_slip_step                          = slipped;
     time                                    = state.time;
-    mean_slip                               = state.mean_slip;
+    path_length                             = state.path_length;
     if (!step.by_slip())
       time_size = std::min(planned, 2. * time_size);
     else
@@ -112,7 +112,7 @@ namespace Debond
   std::string
   PathFollowing::reason_to_end() const
   {
-    if (mean_slip < end_slip)
+    if (path_length < end_slip)
       return StepControl::reason_to_end();
     Classic<std::ostringstream> reason;
     reason << "the mean sliding distance has reached " << end_slip

@@ -40,11 +40,12 @@ namespace Debond
     double       side_depth  = 0;
   };
 
-  /** Area mean of the sliding distance g_s over the contact face [mm], and its
+  /** Area mean of the sliding distance g_s and, of laws with strength in
+   *  tension, the opening of points over the contact face [mm], and its
    *  derivatives with respect to the positions of the control points of both
    *  surfaces, in space, and to the chuck where these stay: it turns the way of
    *  the points. */
-  struct MeanSlip
+  struct PathLength
   {
     double                      value = 0;
     NodalSums                   gradient;
@@ -274,8 +275,8 @@ namespace Debond
     }
 
     /** Of the last evaluate(). */
-    MeanSlip
-    mean_slip(const InterfaceConfiguration &configuration) const;
+    PathLength
+    path_length(const InterfaceConfiguration &configuration) const;
 
     /** Sums over all points of the last evaluate(). */
     InterfaceSummary

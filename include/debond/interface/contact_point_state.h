@@ -143,7 +143,8 @@ namespace Debond
     SurfaceBasis old_basis;                ///< at xi_hat^n; only when slipping
     Eigen::Matrix<double, 3, W::size> dt;  ///< dt/dw
     Eigen::Matrix<double, 2, W::size> dxi; ///< dxi_hat/dw
-    Eigen::Matrix<double, 1, W::size> dslip; ///< dg_s/dw; only when slipping
+    /** d(g_s + opening)/dw, which a path is measured by. */
+    Eigen::Matrix<double, 1, W::size> dpath;
     /** d turn / dq of the chuck, where a component of it is unknown. */
     Eigen::Matrix<double, 6, 1> turn_by_chuck =
       Eigen::Matrix<double, 6, 1>::Zero();

@@ -135,12 +135,35 @@ namespace Debond
     virtual FrictionCoefficient
     reported(const PointHistory &history, double phi_0) const;
 
-    /** Whether it has strength in tension. */
+    /** @name What kind of law it is */
+    //@{
+    /** It has strength in tension. */
     virtual bool
     pulls() const
     {
       return false;
     }
+    /** How far a point has been opened [mm], which never falls: with the
+     *  sliding distance what a path of equilibrium is measured by. */
+    virtual double
+    opened(const PointHistory &) const
+    {
+      return 0.;
+    }
+    /** Distance over which the interface changes [mm]. */
+    virtual double
+    characteristic_distance() const
+    {
+      return friction->characteristic_distance();
+    }
+    /** How fast the pull of a full bond falls as it opens at most [MPa/mm];
+     * more than the bodies are stiff is a jump. */
+    virtual double
+    softening_by_opening() const
+    {
+      return 0.;
+    }
+    //@}
 
     // What all laws share: eps_n [MPa/mm], and friction under pressure.
     const double             stiffness;

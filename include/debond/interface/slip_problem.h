@@ -102,6 +102,11 @@ namespace Debond
     /** With respect to the two parameters of the surface: for this point. */
     Derivative<2>
     along_surface() const;
+    /** The same of g_n. */
+    Eigen::Matrix<double, 1, W::size>
+    gap_along_w() const;
+    Eigen::Matrix<double, 1, 2>
+    gap_along_surface() const;
 
     /** -dL/d g_s / (eps_t + eta / dt) where the law softens, dimensionless:
      *  how fast the limit falls with the slip, relative to how fast the springs

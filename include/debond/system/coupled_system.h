@@ -166,9 +166,9 @@ namespace Debond
     /** Mean sliding distance of the trial state [mm], and 0 where no path is
      *  followed. */
     double
-    mean_slip() const
+    path_length() const
     {
-      return path.follow ? interface.mean_slip(configuration).value : 0.;
+      return path.follow ? interface.path_length(configuration).value : 0.;
     }
 
     /** Where a residual of the present state is largest, for messages. */

@@ -42,7 +42,7 @@ namespace Debond
     Chuck::Vector6 forces; ///< that the chuck exerts, generalised [N, N mm]
     /** What the scene prescribes, displacements and angles or loads. */
     Chuck::Vector6 drive;
-    double         mean_slip = 0; ///< [mm]; known along a path only
+    double         path_length = 0; ///< [mm]; known along a path only
     /** How the forces change with time; known with adaptive steps only. */
     Chuck::Vector6 force_rates = Chuck::Vector6::Zero();
     /** By how much the forces are off, going by steps of half the size; asked
@@ -355,7 +355,7 @@ namespace Debond
     bool
     is_finished() const override
     {
-      return StepControl::is_finished() || mean_slip >= end_slip;
+      return StepControl::is_finished() || path_length >= end_slip;
     }
     std::string
     reason_to_end() const override;
@@ -366,7 +366,7 @@ namespace Debond
     serialize(Archive &archive, const unsigned int version)
     {
       StepControl::serialize(archive, version);
-      archive &mean_slip &slip_size           &time_size;
+      archive &path_length &slip_size         &time_size;
       archive &last_time_step &last_slip_step &goes_to_end;
       archive &slip_failed                    &time_failed;
     }
@@ -376,7 +376,7 @@ namespace Debond
     reject_time(const Step &step);
 
     const double largest_slip, end_slip; ///< [mm]
-    double       mean_slip = 0;
+    double       path_length = 0;
     double       slip_size = 0, time_size = 0; ///< of the next step
     double       last_time_step = 0, last_slip_step = 0;
     /** The last slip step would have left the phase. */

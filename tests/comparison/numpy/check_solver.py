@@ -13,6 +13,7 @@ from scipy.optimize import brentq  # noqa: E402
 
 import friction  # noqa: E402
 import interface  # noqa: E402
+import joint  # noqa: E402
 import nurbs  # noqa: E402
 import scene_file  # noqa: E402
 import simulation  # noqa: E402
@@ -95,7 +96,7 @@ def stiff_bodies():
     """Torque between almost rigid bodies against the closed form at the same points, relative to its maximum."""
     law = friction.ModifiedCoulomb(.58, .4, .022, .74)
     bone, coin = small_solids(young=1e9)
-    contact = interface.Interface(coin, bone, +1, law, (600., 400.), 4, lambda x, y: 1.)
+    contact = interface.Interface(coin, bone, +1, joint.Friction(law, (600., 400.)), 4, lambda x, y: 1.)
     solver = simulation.Simulation(bone, coin, contact, contact.area.sum(), HEIGHT, 1e-9)
     solver.start([0., 0., -.005, 0., 0., 0.])
     r = np.hypot(*contact.positions(coin.points[:25])[:, :2].T)
@@ -173,8 +174,78 @@ def towing_along_a_line():
     return worst
 
 
+STRENGTH, OPENING = 1.5, .004
+
+
+def adhesive(share=.5):
+    return joint.Adhesive(friction.ModifiedCoulomb(.58, .4, .022, .74), (600., 400.), STRENGTH, OPENING, share)
+
+
+def history(count, **values):
+    """Of points that have touched and did nothing else yet, with some arrays changed."""
+    start = {'slid': 0., 'bonded': 1., 'kappa': 0., 'normal_gap': 0., 'bonds': True, **values}
+    return SimpleNamespace(**{name: np.full(count, value) for name, value in start.items()})
+
+
+def derivatives_of_laws():
+    """Derivatives of p and L by the gap and the way against differences, at random histories; relative."""
+    slid, bonded, kappa, gap, way = RANDOM.uniform(0, [[.04], [1], [.02], [.02], [.03]], (5, 2000))
+    begin = history(2000, slid=slid, bonded=bonded, kappa=np.where(kappa < .005, 0, kappa))
+    gap -= .002
+    law = friction.ModifiedCoulomb(.58, .4, .022, .74)
+    worst, step = 0., 1e-8
+    for joint_law in (adhesive(0.), adhesive(.5), adhesive(1.), joint.Dilatant(law, (600., 400.), .003, .02)):
+        for values, signs in ((joint_law.pressure, (1, 1)), (joint_law.string, (-1, 1))):
+            result = values(begin, way, gap)
+            for slope, sign, change in zip(result[1:], signs, ((0, step), (step, 0))):
+                sides = [values(begin, way + k * change[0], gap + k * change[1])[0] for k in (-1, 0, 1)]
+                smooth = np.abs(sides[0] - 2 * sides[1] + sides[2]) < 1e-4 * np.abs(sides[2] - sides[0])
+                difference = (sides[2] - sides[0]) / (2 * step)
+                worst = max(worst, (np.abs(sign * slope - difference) * smooth).max() / np.abs(slope).max())
+    return worst
+
+
+def adhesion():
+    """The adhesive law against closed forms: strength, work, straight way back, cohesion; relative."""
+    law, weights = adhesive(1.), np.polynomial.legendre.leggauss(40)
+    begin = history(1)
+    work = lost = worst = 0.
+    path = OPENING * np.array([0, 1, 1.5, 0, -.2, 0, 1.5, 4, 0, 4, 40])
+    for a, b in zip(path, path[1:]):
+        gaps = a + (b - a) * (1 + weights[0]) / 2
+        pull = np.array([-law.pressure(begin, np.zeros(1), np.full(1, gap))[0][0] for gap in gaps])
+        work += weights[1] @ pull * (b - a) / 2
+        end = np.full(1, b)
+        if min(a, b) >= 0:
+            exact = STRENGTH * gaps / OPENING * np.exp(1 - (gaps if b > begin.kappa else begin.kappa) / OPENING)
+            worst = max(worst, relative(pull, exact))
+        lost += law.damage(begin, np.zeros(1), end)[0]
+        worst = max(worst, abs(work - lost - law.stored(begin, np.zeros(1), end)[0]) / (STRENGTH * OPENING))
+        begin.kappa, begin.normal_gap = law.kappa(begin, end), end
+    whole = np.e * STRENGTH * OPENING
+    begin = history(1)
+    peak = -law.pressure(begin, np.zeros(1), np.full(1, OPENING))[0][0]
+    cohesion = 400 * law.string(begin, np.zeros(1), np.full(1, OPENING / 2))[0][0]
+    none = law.string(begin, np.zeros(1), np.full(1, 1.7 * OPENING))[0][0]
+    return max(worst, abs(lost / whole - 1), abs(peak / STRENGTH - 1), none,
+               abs(cohesion / (.58 * STRENGTH * (1 - np.sqrt(np.e) / 2)) - 1))
+
+
+def dissipation_of_bonds():
+    """The most negative damage or limit of traction in random motions, relative to the work of adhesion; 0 if none is."""
+    law, count = adhesive(1.), 3000
+    begin, least = history(count, bonded=RANDOM.uniform(0, 1, count)), 0.
+    for _ in range(60):
+        way = RANDOM.uniform(0, .005, count) * RANDOM.integers(0, 2, count)
+        gap = RANDOM.choice([.3, 1, 3]) * OPENING * RANDOM.uniform(-.2, 1, count)
+        least = min(least, law.damage(begin, way, gap).min(), law.string(begin, way, gap)[0].min())
+        begin.kappa, begin.normal_gap, begin.slid = law.kappa(begin, gap), gap, begin.slid + way
+    return abs(least) / (np.e * STRENGTH * OPENING)
+
+
 CHECKS = {derivatives_of_the_energy: 1e-7, rigid_motion: 1e-13, uniform_stress: 1e-12, points_on_a_disk: 1e-13,
-          stiff_bodies: 1e-4, reactions_of_the_top: 1e-10, towing_on_a_disk: 1e-11, towing_along_a_line: 1e-13}
+          stiff_bodies: 1e-4, reactions_of_the_top: 1e-10, towing_on_a_disk: 1e-11, towing_along_a_line: 1e-13,
+          derivatives_of_laws: 1e-5, adhesion: 1e-12, dissipation_of_bonds: 1e-15}
 
 
 def main():

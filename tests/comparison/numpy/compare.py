@@ -17,9 +17,9 @@ GROUPS = {
     'forces [N]': ['chuck_Fx_N', 'chuck_Fy_N', 'chuck_Fz_N', 'force_N'],
     'moments [N mm]': ['chuck_Mx_Nmm', 'chuck_My_Nmm', 'chuck_Mz_Nmm', 'torque_Nmm'],
     'pressure [MPa]': ['pressure_MPa'],
-    'shares and phi': ['share_stick', 'share_slip', 'share_open', 'phi_mean'],
+    'shares and phi': ['share_stick', 'share_slip', 'share_open', 'share_pulled', 'phi_mean'],
     'works and energies [N mm]': ['work_Nmm', 'energy_bulk_Nmm', 'energy_interface_Nmm', 'dissipation_Nmm',
-                                  'adhesive_work_Nmm', 'viscous_work_Nmm'],
+                                  'adhesive_work_Nmm', 'viscous_work_Nmm', 'damage_Nmm'],
 }
 COLUMNS = [column for group in GROUPS.values() for column in group]
 

@@ -62,21 +62,20 @@ def face_quadrature(solid, count):
 class Interface:
     """Slave points with their history: parameters xi of the interacting points, sliding distances g_s, states theta.
 
+    For bonds that pull: which points have `touched` the master, and the largest gap kappa [mm] since then.
     Their tangential gaps are parts along the master's tangents: they move along with it.
 
     slave, master     solids.Solid
     towards           +1 or -1: sign of a_1 x a_2 of the master's surface that points to the slave
-    law               one of those in friction.py
-    stiffness         normal and tangential, MPa/mm
+    law               one of those in joint.py, with a law of friction.py and both stiffnesses
     viscosity         MPa per (mm per unit of time)
     bonding           phi_0 as a function of reference positions x, y (m,)
     integrated        whether sliding points tow their partners, instead of pulling along the trial gap
     """
 
-    def __init__(self, slave, master, towards, law, stiffness, points_per_direction, bonding, viscosity=0.,
-                 integrated=False):
-        self.slave, self.master, self.towards, self.law = slave, master, towards, law
-        self.normal_stiffness, self.tangential_stiffness = stiffness
+    def __init__(self, slave, master, towards, law, points_per_direction, bonding, viscosity=0., integrated=False):
+        self.slave, self.master, self.towards, self.law, self.friction = slave, master, towards, law, law.friction
+        self.normal_stiffness, self.tangential_stiffness = law.normal, law.tangential
         self.viscosity, self.integrated = viscosity, integrated
         xi, self.area = face_quadrature(slave, points_per_direction)  # tractions are nominal
         self.face_area = self.area  # of the points that shares and the mean bonding state are those of
@@ -85,14 +84,16 @@ class Interface:
         self.bonded = np.broadcast_to(np.asarray(bonding(place[:, 0], place[:, 1]), float), self.area.shape)
         self.xi = np.full(xi.shape, 0.5)
         self.slid = np.zeros(len(xi))
-        self.theta = np.full(len(xi), self.law.initial_theta)
+        self.theta = np.full(len(xi), self.friction.initial_theta)
+        self.kappa, self.touched = np.zeros(len(xi)), np.zeros(len(xi), bool)
         self.beyond = np.zeros(len(xi), bool)
         self.nearest = self.xi.copy()  # parameters of the closest points of those beyond the edge
         self.accepted = None  # control points of slave and master in the accepted state
-        self.pressure, self.shear = np.zeros(len(xi)), np.zeros((len(xi), 3))  # of the accepted state
+        self.carried = np.zeros(len(xi), bool)  # in the accepted state
+        self.pressure, self.normal_gap, self.shear = np.zeros(len(xi)), np.zeros(len(xi)), np.zeros((len(xi), 3))
         self.gap_parts = np.zeros((len(xi), 2))  # of the tangential gap, g^1 and g^2
         self.viscous = np.zeros((len(xi), 3))  # traction, MPa
-        self.dissipation = self.viscous_work = self.adhesive_work = 0.  # N mm
+        self.dissipation = self.viscous_work = self.adhesive_work = self.damage = 0.  # N mm
 
     def positions(self, slave_points):
         """Current positions (m, 3) of the slave points; slave_points are those of the slave's control points."""
@@ -107,6 +108,11 @@ class Interface:
             self.xi[which] = np.where(beyond[:, None], 0.5, xi)  # anywhere: they have no partner
             self.nearest[which], self.beyond[which] = xi, beyond
         self.accepted = slave_points, master_points
+
+    def touch(self, within):
+        """Points that are so near the master [mm] at the start have touched it."""
+        place = self._place(self.accepted[1], self.xi)
+        self.touched = ~self.beyond & (np.abs(_dot(place.normal, self.accepted_positions() - place.point)) <= within)
 
     def leave_out_those_beyond(self):
         """Bone that does not face the implant at the start is not bonded, and no part of the contact face."""
@@ -166,21 +172,27 @@ class Interface:
         """How the points x (m, 3) begin a step at the place `start` of the master."""
         gap = np.einsum('mk,mki->mi', self.gap_parts, start.tangents)
         trial = x - start.point
-        return SimpleNamespace(slid=self.slid, bonded=self.bonded, theta=self.theta, friction=friction,
-                               duration=duration, point=start.point, trial=trial, gap=gap, motion=trial - gap,
-                               turn=turn, depth=self.pressure / self.normal_stiffness)
+        begin = SimpleNamespace(slid=self.slid, bonded=self.bonded, theta=self.theta, kappa=self.kappa,
+                                bonds=self.law.bonds(self.touched, self.bonded), normal_gap=self.normal_gap,
+                                pressure=self.pressure, friction=friction, duration=duration, point=start.point,
+                                trial=trial, gap=gap, motion=trial - gap, turn=turn)
+        begin.before = np.where(self.carried, self._reach(begin, 0 * self.slid, self.normal_gap)[0], 0)
+        return begin
 
-    def _reach(self, begin, way, depth):
+    def _reach(self, begin, way, normal_gap):
         """Tangential gap of sliding points [mm], and its derivatives by their depth and by their way in this step.
 
-        The gap bears mu p and the viscous traction.
+        The gap bears L, that is mu p in friction, and the viscous traction.
         """
         if not begin.friction:
             return 0 * way, 0 * way, 0 * way
-        mu, slope = self.law.coefficient(begin, way)
-        ratio = self.normal_stiffness / self.tangential_stiffness
-        viscous = self.viscosity / begin.duration / self.tangential_stiffness if begin.duration else 0.
-        return ratio * mu * depth + viscous * way, ratio * mu, ratio * slope * depth + viscous
+        reach, by_depth, by_way, resists = self.law.string(begin, way, normal_gap)
+        viscous = resists * self.viscosity / begin.duration / self.tangential_stiffness if begin.duration else 0.
+        return reach + viscous * way, by_depth, by_way + viscous
+
+    def _pressure(self, begin, way, normal_gap):
+        """p [MPa] and its derivatives by the normal gap and by the way, which spends nothing without friction."""
+        return self.law.pressure(begin, way if begin.friction else 0 * way, normal_gap)
 
     def respond(self, slave_points, master_points, friction=True, duration=1., all_stick=False, turn=0.):
         """State at given control points of both surfaces, from the accepted history, which does not change.
@@ -198,8 +210,8 @@ class Interface:
         begin = self._beginning(start, x, friction, duration, np.broadcast_to(turn, self.area.shape))
         normal_gap = _dot(start.normal, begin.trial)
         stretch = np.linalg.norm(begin.trial - normal_gap[:, None] * start.normal, axis=1)
-        closed = (normal_gap < 0) & ~beyond
-        sliding = closed & (stretch > self._reach(begin, 0 * stretch, -normal_gap)[0])
+        closed = self.law.carried(begin, normal_gap) & ~beyond
+        sliding = closed & (stretch > self._reach(begin, 0 * stretch, normal_gap)[0])
         if all_stick:
             sliding[:] = False
 
@@ -208,9 +220,8 @@ class Interface:
         state = self._place(master_points, np.clip(xi, 0, 1))
         state.start, state.begin, state.xi, state.beyond, state.gap = start, begin, xi, beyond, x - state.point
         state.normal_gap = _dot(state.normal, state.gap)
-        state.closed = closed & inside & (state.normal_gap < 0)
+        state.closed = closed & inside & self.law.carried(begin, state.normal_gap)
         state.sliding = sliding & state.closed
-        state.pressure = -self.normal_stiffness * state.normal_gap * state.closed
         tangential_gap = state.gap - state.normal_gap[:, None] * state.normal
         if self.integrated:
             place = _some(state, state.sliding)
@@ -222,9 +233,16 @@ class Interface:
         else:
             state.direction, state.trial_length = _direction(begin.trial, state.normal)
             state.way = np.linalg.norm(state.point - start.point, axis=1) * state.sliding
+        state.spent = np.maximum(state.way, 0)
+        state.pressure, state.by_gap, state.pressure_by_way = (
+            value * state.closed for value in self._pressure(begin, state.spent, state.normal_gap))
         state.shear = self.tangential_stiffness * tangential_gap * state.closed[:, None]
         state.traction = -state.pressure[:, None] * state.normal + state.shear
-        state.reach, state.by_depth, state.by_way = self._reach(begin, np.maximum(state.way, 0), -state.normal_gap)
+        state.reach, state.by_depth, state.by_way = self._reach(begin, state.spent, state.normal_gap)
+        state.limit = np.zeros(len(x))
+        if friction:
+            state.limit = self.law.string(begin, state.spent, state.normal_gap)[0] * self.tangential_stiffness
+        state.pulled = state.closed & (state.pressure < 0) & (state.limit == 0)
         return state
 
     def _slide(self, x, xi, master_points, begin):
@@ -249,7 +267,7 @@ class Interface:
         """Tangential gap beyond that in the direction of the trial gap, and how the partner should move (k, 3)."""
         tau, _ = _direction(begin.trial, place.normal)
         way = np.linalg.norm(place.point - begin.point, axis=1)
-        reach, _, by_way = self._reach(begin, way, -place.normal_gap)
+        reach, _, by_way = self._reach(begin, way, place.normal_gap)
         excess = place.gap - place.normal_gap[:, None] * place.normal - reach[:, None] * tau
         return excess, excess + ((1 / (1 + by_way) - 1) * _dot(excess, tau))[:, None] * tau
 
@@ -265,16 +283,16 @@ class Interface:
         The motion and the depth there may be altered by `further`, complex, and `deeper`.
         """
         rest = np.zeros(len(begin.trial))
-        depth = deeper - place.normal_gap
+        normal_gap = place.normal_gap - deeper
 
         def string(slid):
             """Where the distance is negative the law goes on with its slope, if that is positive."""
-            reach, _, slope = self._reach(begin, np.maximum(slid, 0), depth)
+            reach, _, slope = self._reach(begin, np.maximum(slid, 0), normal_gap)
             slope = np.where(slid < 0, np.maximum(slope, 0), slope)
             return reach + slope * np.minimum(slid, 0), slope
 
         return towing.tow(_in_plane(begin.gap, place), _in_plane(begin.motion, place) + further, begin.turn,
-                          self._reach(begin, rest, begin.depth)[0], self._reach(begin, rest, depth)[0], string)
+                          begin.before, self._reach(begin, rest, normal_gap)[0], string)
 
     def nodal_forces(self, state):
         """Forces on the control points of slave and master as they enter the residual, (., 3) each, Eq. (28)."""
@@ -305,11 +323,16 @@ class Interface:
         h = x - end
         trial = x - interpolation(state.start.numbers, state.start.values, slave)
 
-        by_gap, by_trial = self._gap_derivatives(state)
+        by_gap, by_trial, way_by_gap, way_by_trial = self._gap_derivatives(state)
         gap = _blocks(by_gap) @ h + _blocks(by_trial) @ trial
         normal = state.normal[:, :, None] * state.normal[:, None, :]
-        stiffness = self.tangential_stiffness * np.eye(3) + (self.normal_stiffness - self.tangential_stiffness) * normal
+        stiffness = (self.tangential_stiffness * np.eye(3)
+                     + (-state.by_gap - self.tangential_stiffness)[:, None, None] * normal)
         result = h.T @ (_blocks((self.area * state.closed)[:, None, None] * stiffness) @ gap)
+        if state.pressure_by_way.any():
+            push = -(self.area * state.pressure_by_way)[:, None] * state.normal
+            result = result + h.T @ (_blocks(push[:, :, None] * way_by_gap[:, None, :]) @ h
+                                     + _blocks(push[:, :, None] * way_by_trial[:, None, :]) @ trial)
         for k in range(2):  # the force on the master moves with the partner
             slope = interpolation(state.numbers, state.slopes[:, :, k], slave)
             weight = (self.area * state.sliding)[:, None, None]
@@ -318,7 +341,7 @@ class Interface:
         return result
 
     def _gap_derivatives(self, state):
-        """d gap = A h + B d trial: the blocks A, B (m, 3, 3)."""
+        """d gap = A h + B d trial: the blocks A, B (m, 3, 3), and the same of the way, (m, 3)."""
         if self.integrated:
             return self._towed_derivatives(state)
         tau = state.direction
@@ -330,49 +353,69 @@ class Interface:
                     + (state.reach / state.trial_length)[:, None, None] * (np.eye(3) - normal - along))
         by_gap[~state.sliding] = 0
         by_trial[~state.sliding] = np.eye(3)
-        return by_gap, by_trial
+        share = share * state.sliding
+        return by_gap, by_trial, (share * state.by_depth)[:, None] * state.normal, share[:, None] * tau
 
     def _towed_derivatives(self, state):
         """The same by differences of the towed gap; what else depends on the motion, as the turn does, is left out."""
         place, begin = _some(state, state.sliding), _some(state.begin, state.sliding)
-        gap = self._tow(place, begin).gap
-        step = 1e-6 * (np.abs(gap) + np.linalg.norm(begin.trial, axis=1))
+        towed = self._tow(place, begin)
+        step = 1e-6 * (np.abs(towed.gap) + np.linalg.norm(begin.trial, axis=1))
 
         def slope(**change):
-            return _in_space((self._tow(place, begin, **change).gap - gap) / step, place)
+            altered = self._tow(place, begin, **change)
+            return _in_space((altered.gap - towed.gap) / step, place), ((altered.slid - towed.slid) / step)[:, None]
 
         by_gap, by_trial = np.zeros((2, len(state.gap), 3, 3))
+        way_by_gap, way_by_trial = np.zeros((2, len(state.gap), 3))
         by_trial[:] = np.eye(3)
         first, second = _axes(place)
-        by_trial[state.sliding] = (slope(further=step)[:, :, None] * first[:, None, :]
-                                   + slope(further=1j * step)[:, :, None] * second[:, None, :])
-        by_gap[state.sliding] = (place.normal - slope(deeper=step))[:, :, None] * place.normal[:, None, :]
-        return by_gap, by_trial
+        along, across, deeper = slope(further=step), slope(further=1j * step), slope(deeper=step)
+        by_trial[state.sliding] = (along[0][:, :, None] * first[:, None, :]
+                                   + across[0][:, :, None] * second[:, None, :])
+        by_gap[state.sliding] = (place.normal - deeper[0])[:, :, None] * place.normal[:, None, :]
+        way_by_trial[state.sliding] = along[1] * first + across[1] * second
+        way_by_gap[state.sliding] = -deeper[1] * place.normal
+        return by_gap, by_trial, way_by_gap, way_by_trial
 
     def accept(self, state, slave_points, master_points, turn, carried):
         """Make the state the history; open points face the closest point of the master anew.
 
         turn (3, 3) is the rotation of the master's frame since the last state was accepted; carried (m, 3) by how much the
         chuck has moved the slave points over the master, were the solids rigid. Adds to the dissipation,
-        traction times way on the master, to its viscous part, and to its adhesive part, pressure times the integral of
-        mu - mu_b over the sliding distance; tractions and pressures are the means of those at both ends of the step.
+        traction times way on the master, to its viscous part, and to its adhesive part, in friction pressure times the
+        integral of mu - mu_b over the sliding distance; tractions and pressures are the means of those at both ends of
+        the step. What damages the bond is dissipated too, and what lifts the faces is not.
         """
         if (state.by_depth[state.closed] < 0).any():
             raise ArithmeticError('a coefficient of friction is negative')
         begin, way = state.begin, (state.point - state.start.point) * state.sliding[:, None]
         viscous = np.zeros(state.shear.shape)
         before, shear = self.pressure, self.shear @ turn.T
+        spent = state.spent if begin.friction else 0 * state.spent
+        damage = (self.area * self.law.damage(begin, spent, state.normal_gap))[state.closed].sum()
+        self.adhesive_work += damage
         if begin.friction:
             if begin.duration:
-                viscous = (self.viscosity / begin.duration * state.way)[:, None] * state.direction
-            spent = self.law.adhesive_strength(begin, state.way)
-            self.adhesive_work += (self.area * (state.pressure + self.pressure) / 2 * spent).sum()
+                resists = self.law.string(begin, state.spent, state.normal_gap)[3]
+                viscous = (resists * self.viscosity / begin.duration * state.way)[:, None] * state.direction
+            before_step = SimpleNamespace(pressure=before, limit=begin.before * self.tangential_stiffness)
+            self.adhesive_work += (self.area * self.law.adhesive_work(begin, state.way, before_step, state)).sum()
             self.slid = self.slid + state.way
-            self.theta = np.where(state.closed, self.law.theta(begin, state.way), self.theta)
-        self.dissipation += (self.area * _dot(state.shear + shear, way) / 2).sum()
+            self.theta = np.where(state.closed, self.friction.theta(begin, state.way), self.theta)
+        rise = self.law.rise(self.slid)[0]
+        lifted = rise - self.law.rise(begin.slid)[0]
+        self.damage += damage
+        self.dissipation += (self.area * (_dot(state.shear + shear, way) - (state.pressure + before) * lifted) / 2).sum()
+        self.dissipation += damage
         self.viscous_work += (self.area * _dot(viscous + self.viscous @ turn.T, way) / 2).sum()
-        self.xi, self.beyond = state.xi, state.beyond
+        self.xi, self.beyond, self.carried = state.xi, state.beyond, state.closed
         self.pressure, self.shear, self.viscous = state.pressure, state.shear, viscous
+        self.normal_gap = np.where(state.pressure > 0, rise - state.pressure / self.normal_stiffness,
+                                   np.where(state.closed, state.normal_gap, 0))
+        self.kappa = np.where(state.closed, self.law.kappa(begin, state.normal_gap), self.kappa)
+        self.bonded = np.where(self.law.gone(self.kappa), 0, self.bonded)
+        self.touched = self.touched | (state.closed & (state.normal_gap < 0))
         self.gap_parts = np.einsum('mki,mi->mk', state.dual, state.shear) / self.tangential_stiffness
         self.face(slave_points, master_points, ~state.closed)
         opens = state.opens = (before > 0) & ~state.closed
@@ -380,6 +423,7 @@ class Interface:
             place = self._place(master_points, self.xi)
             height = _dot(place.normal, self.positions(slave_points) - place.point)
             height[state.beyond | self.beyond] = state.normal_gap[state.beyond | self.beyond]
+            height -= self.law.rise(self.slid)[0]
             rubbed = np.linalg.norm(state.point - begin.point, axis=1)[opens]
             lost = self._lost(before[opens], shear[opens], height[opens], _some(state.start, opens), _some(begin, opens),
                               rubbed, carried[opens])
@@ -391,7 +435,7 @@ class Interface:
         mean = np.zeros(len(way))
         for part, weight in zip((1 + abscissae) / 2, weights / 2):
             there = SimpleNamespace(**{**vars(begin), 'duration': part * begin.duration})
-            mean += weight * self.law.coefficient(there, part * way)[0]
+            mean += weight * self.friction.coefficient(there, part * way)[0]
         return mean
 
     def _lost(self, pressure, shear, height, place, begin, rubbed, carried):
@@ -415,7 +459,7 @@ class Interface:
         beyond += np.maximum(0, _dot(shear, gap + of_solids) / 2)
 
         risen = np.maximum(0, -_dot(of_solids, place.normal))
-        little = 1e-4 * (self.law.coefficient(begin, 0 * depth)[0] * pressure / self.tangential_stiffness) ** 2
+        little = 1e-4 * (self.friction.coefficient(begin, 0 * depth)[0] * pressure / self.tangential_stiffness) ** 2
         softer = np.maximum(0, (_dot(of_solids, gap) + little * risen / depth) / (_dot(gap, gap) + little))[:, None]
         closed = (depth + risen) / (depth + risen + np.maximum(height, 0))
         motion = closed[:, None] * along(carried) + along(of_solids) - softer * gap
@@ -427,19 +471,20 @@ class Interface:
         for part in range(parts):
             trial = gap + motion / parts
             length = np.linalg.norm(trial, axis=1)
-            mu = self.law.coefficient(now, way)[0]  # at the speed of the part before
+            mu = self.friction.coefficient(now, way)[0]  # at the speed of the part before
             way = np.maximum(0, length - mu * pressure * (1 - (part + 1) / parts) / stiffness) / (1 + viscous)
             slip = (way / np.maximum(length, 1e-300))[:, None] * trial
             lost += stiffness * _dot(gap + trial - slip, slip) / 2
             gap = trial - slip
-            now.theta, now.slid = self.law.theta(now, way), now.slid + way
+            now.theta, now.slid = self.friction.theta(now, way), now.slid + way
         lost += stiffness * _dot(gap, gap) / 2  # viscosity has held it
         return np.where(height < 0, beyond, lost)
 
     def energy(self, state):
-        """Energy stored in the interface's two compliances, N mm."""
-        shear = (state.shear ** 2).sum(1) / self.tangential_stiffness
-        return 0.5 * (self.area * (state.pressure ** 2 / self.normal_stiffness + shear)).sum()
+        """Energy stored in the interface, N mm."""
+        shear = (state.shear ** 2).sum(1) / self.tangential_stiffness / 2
+        way = state.spent if state.begin.friction else 0 * state.spent
+        return (self.area * (self.law.stored(state.begin, way, state.normal_gap) * state.closed + shear)).sum()
 
 
 def _dot(a, b):

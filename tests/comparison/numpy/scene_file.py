@@ -9,6 +9,7 @@ import numpy as np
 
 import friction
 import interface
+import joint
 import simulation
 import solids
 
@@ -37,6 +38,9 @@ ENTRIES = {
     'Interface/Rate and state/Evolution effect': .015, 'Interface/Rate and state/Reference speed': 1e-3,
     'Interface/Rate and state/Sliding distance': .01, 'Interface/Rate and state/Initial state': 0.,
     'Interface/Rate and state/Evolution': ('ageing', 'slip'),
+    'Interface/Law': ('friction', 'adhesive', 'mixed mode', 'dilatant'),
+    'Interface/Adhesive/Strength': 0., 'Interface/Adhesive/Gap at strength': 1., 'Interface/Adhesive/Adhesive friction': 0.,
+    'Interface/Dilatant/Height': 0., 'Interface/Dilatant/Length': 1.,
     'Interface/Bonding/Pattern': ('homogeneous', 'expression'), 'Interface/Bonding/Initial bonding': 1.,
     'Interface/Bonding/Resolution': ('element', 'quadrature point'), 'Interface/Bonding/Expression': '1',
     'Load steps/Times': [0., 1., 2.], 'Load steps/Steps': [1., 1000.], 'Load steps/Adaptive': ('false',),
@@ -139,7 +143,7 @@ class Scene:
         return solids.coin(self.radius, self.height, _whole(get('Implant/Cells')), get('Implant/Layer grading'),
                            get('Implant/Young modulus'), get('Implant/Poisson ratio'), get('Implant/Material'))
 
-    def _law(self):
+    def _friction_law(self):
         get = self.entries.get
         law = get('Interface/Friction law')
         if law == 'rate and state':
@@ -153,6 +157,21 @@ class Scene:
             return friction.Table(unbroken, broken, rows['slip_mm'], rows['phi'])
         return friction.ModifiedCoulomb(broken if law == 'coulomb' else unbroken, broken,
                                         get('Interface/Sliding threshold'), get('Interface/Transition factor'))
+
+    def _law(self):
+        get = self.entries.get
+        law, friction_law = get('Interface/Law'), self._friction_law()
+        normal = get('Interface/Penalty stiffness')
+        stiffness = normal, get('Interface/Tangential penalty stiffness') or normal
+        if law == 'friction':
+            return joint.Friction(friction_law, stiffness)
+        if get('Interface/Friction law') == 'rate and state':
+            raise NotSupported('rate and state needs Law = friction')
+        if law == 'dilatant':
+            return joint.Dilatant(friction_law, stiffness, *(get('Interface/Dilatant/' + name)
+                                                             for name in ('Height', 'Length')))
+        return joint.Adhesive(friction_law, stiffness, *(get('Interface/Adhesive/' + name) for name in (
+            'Strength', 'Gap at strength', 'Adhesive friction')))
 
     def _bonding(self):
         """phi_0 as a function of x, y (m,) [mm]."""
@@ -169,12 +188,10 @@ class Scene:
     def simulation(self):
         get = self.entries.get
         bone, implant = self._bone(), self._implant()
-        normal = get('Interface/Penalty stiffness')
-        stiffness = normal, get('Interface/Tangential penalty stiffness') or normal
         slave, master, towards = (implant, bone, +1) if get('Interface/Slave') == 'implant' else (bone, implant, -1)
         points = int(get('Interface/Quadrature points'))
-        contact = interface.Interface(slave, master, towards, self._law(), stiffness, points, self._bonding(),
-                                      get('Interface/Viscosity'), get('Interface/Slip direction') == 'integrated')
+        contact = interface.Interface(slave, master, towards, self._law(), points, self._bonding(), get('Interface/Viscosity'),
+                                      get('Interface/Slip direction') == 'integrated')
         area = interface.face_quadrature(implant, points)[1].sum()
         return simulation.Simulation(bone, implant, contact, area, self.height, get('Load steps/Residual tolerance'))
 

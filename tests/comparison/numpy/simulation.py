@@ -95,6 +95,7 @@ class Simulation:
         self.interface.face(*self._control_points(), np.ones(len(self.interface.area), bool))
         if self.interface.slave is self.bone:
             self.interface.leave_out_those_beyond()
+        self.interface.touch(1e-12 * np.sqrt(self.contact_area / np.pi))
         self._solve(friction, 0.)
 
     def step(self, components, friction=True, duration=1.):
@@ -182,17 +183,19 @@ class Simulation:
         def share(which):
             return area[which].sum() / area.sum()
 
-        bonding = self.interface.bonded * self.interface.law.bonding(self.interface.slid)[0]
+        bonding = self.interface.law.bond(self.interface.bonded, self.interface.slid, self.interface.kappa)
         row = {'chuck_F%s_N' % axis: value for axis, value in zip('xyz', force)}
         row.update({'chuck_M%s_Nmm' % axis: value for axis, value in zip('xyz', moment)})
         row.update(torque_Nmm=moment @ self.rotation[:, 2], force_N=-force[2],
                    pressure_MPa=-force[2] / self.contact_area,
                    phi_mean=area @ bonding / area.sum(),
-                   share_stick=share(state.closed & ~state.sliding), share_slip=share(state.sliding),
-                   share_open=share(~state.closed),
+                   share_stick=share(state.closed & ~state.sliding & ~state.pulled),
+                   share_slip=share(state.sliding & ~state.pulled),
+                   share_open=share(~state.closed), share_pulled=share(state.pulled),
                    energy_bulk_Nmm=(self.bone.energy(self.bone_displacement)
                                     + self.implant.energy(self.implant_displacement)),
                    energy_interface_Nmm=self.interface.energy(state),
                    work_Nmm=self.work, dissipation_Nmm=self.interface.dissipation,
-                   adhesive_work_Nmm=self.interface.adhesive_work, viscous_work_Nmm=self.interface.viscous_work)
+                   adhesive_work_Nmm=self.interface.adhesive_work, viscous_work_Nmm=self.interface.viscous_work,
+                   damage_Nmm=self.interface.damage)
         return row

@@ -181,9 +181,14 @@ def adhesive(share=.5):
     return joint.Adhesive(friction.ModifiedCoulomb(.58, .4, .022, .74), (600., 400.), STRENGTH, OPENING, share)
 
 
+def mixed_mode(power_law=False):
+    law = friction.ModifiedCoulomb(.58, .4, .022, .74)
+    return joint.MixedMode(law, (600., 400.), (1.2, 2.), (.012, .04), 600., power_law, 1.6)
+
+
 def history(count, **values):
     """Of points that have touched and did nothing else yet, with some arrays changed."""
-    start = {'slid': 0., 'bonded': 1., 'kappa': 0., 'normal_gap': 0., 'bonds': True, **values}
+    start = {'slid': 0., 'bonded': 1., 'kappa': 0., 'omega': 0., 'normal_gap': 0., 'bonds': True, **values}
     return SimpleNamespace(**{name: np.full(count, value) for name, value in start.items()})
 
 
@@ -243,9 +248,67 @@ def dissipation_of_bonds():
     return abs(least) / (np.e * STRENGTH * OPENING)
 
 
+def derivatives_of_mixed_mode():
+    """Derivatives of omega and of the cohesive traction by the gap against differences, relative."""
+    count, step, worst = 2000, 1e-8, 0.
+    gap, normal = .02 * RANDOM.standard_normal((count, 3)), RANDOM.standard_normal((count, 3))
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    begin = history(count, bonded=RANDOM.uniform(0, 1, count), omega=RANDOM.uniform(0, 1, count))
+    for law in (mixed_mode(), mixed_mode(True)):
+        _, omega, by_gap, _, _, derivative = law.hold(begin, gap, normal)
+        for k in range(3):
+            change = step * np.eye(3)[k]
+            sides = [law.hold(begin, gap + sign * change, normal) for sign in (-1, 1)]
+            smooth = np.abs(sides[0][1] + sides[1][1] - 2 * omega) <= 1e-4 * np.abs(sides[0][1] - sides[1][1])
+            for exact, number in ((by_gap[:, k], 1), (derivative[:, :, k], 4)):
+                error = (sides[1][number] - sides[0][number]) / (2 * step) - exact
+                worst = max(worst, np.abs(error[smooth]).max() / np.abs(exact).max())
+    return worst
+
+
+def energies_of_mixed_mode():
+    """Work per area until the bond is broken, in several directions, against both criteria; relative."""
+    abscissae, weights = np.polynomial.legendre.leggauss(40)
+    worst = 0.
+    for power_law in (False, True):
+        law = mixed_mode(power_law)
+        for angle in np.linspace(0, np.pi / 2, 13):
+            direction = np.array([[0, np.sin(angle), np.cos(angle)]])
+            first = 1 / np.hypot(*(direction[0, [2, 1]] / law.onset))
+            last = brentq(lambda d, way=direction, law=law: law.broken(d * way[:, 2], d * way[:, 1])[0][0] - 1 + 1e-15,
+                          first, 1, xtol=1e-16)
+            work = np.zeros(3)
+            for a, b in ((0, first), (first, last)):
+                for distance, weight in zip(a + (b - a) * (1 + abscissae) / 2, weights * (b - a) / 2):
+                    bears = law.hold(history(1), distance * direction, np.array([[0., 0., 1.]]))
+                    work += weight * bears[4][0] * direction[0]
+            share = work[1] / work.sum()
+            if power_law:
+                exact = ((1 - share) / .012) ** 1.6 + (share / .04) ** 1.6
+                worst = max(worst, abs(work.sum() * exact ** (1 / 1.6) - 1))
+            else:
+                worst = max(worst, abs(work.sum() / (.012 + .028 * share ** 1.6) - 1))
+            onset = first * law.initial * direction[0] / [1, 2., 1.2]
+            worst = max(worst, abs(onset @ onset - 1))
+    return worst
+
+
+def damage_of_mixed_mode():
+    """How far omega falls in random motions, also of what it was before; 0 if it does not."""
+    count, worst = 2000, 0.
+    begin, gap, normal = history(count), np.zeros((count, 3)), np.tile([0., 0., 1.], (count, 1))
+    for _ in range(100):
+        gap = gap + .003 * RANDOM.standard_normal((count, 3))
+        omega = mixed_mode().hold(begin, gap, normal)[1]
+        worst = max(worst, (begin.omega - omega).max(), omega.max() - 1)
+        begin.omega = omega
+    return worst
+
+
 CHECKS = {derivatives_of_the_energy: 1e-7, rigid_motion: 1e-13, uniform_stress: 1e-12, points_on_a_disk: 1e-13,
           stiff_bodies: 1e-4, reactions_of_the_top: 1e-10, towing_on_a_disk: 1e-11, towing_along_a_line: 1e-13,
-          derivatives_of_laws: 1e-5, adhesion: 1e-12, dissipation_of_bonds: 1e-15}
+          derivatives_of_laws: 1e-5, adhesion: 1e-12, dissipation_of_bonds: 1e-15,
+          derivatives_of_mixed_mode: 1e-5, energies_of_mixed_mode: 1e-12, damage_of_mixed_mode: 0.}
 
 
 def main():

@@ -9,6 +9,8 @@ import scipy.sparse as sparse
 
 import towing
 
+ROUNDING = 1e-13  # mm: bonded points that touch have smaller gaps and neither slide nor pull
+
 
 def closest_points(surface, control_points, x, xi):
     """Parameters (m, 2) of the points of the surface closest to x (m, 3), and which x lie beyond its edge (m,).
@@ -62,7 +64,8 @@ def face_quadrature(solid, count):
 class Interface:
     """Slave points with their history: parameters xi of the interacting points, sliding distances g_s, states theta.
 
-    For bonds that pull: which points have `touched` the master, and the largest gap kappa [mm] since then.
+    For bonds that pull: which points have `touched` the master, and the largest gap kappa [mm] since then; or the place
+    xi_bond of the master where they have bonded, the gap from there that bears, and its damage omega.
     Their tangential gaps are parts along the master's tangents: they move along with it.
 
     slave, master     solids.Solid
@@ -86,6 +89,7 @@ class Interface:
         self.slid = np.zeros(len(xi))
         self.theta = np.full(len(xi), self.friction.initial_theta)
         self.kappa, self.touched = np.zeros(len(xi)), np.zeros(len(xi), bool)
+        self.omega, self.xi_bond, self.bond_gap = np.zeros(len(xi)), np.full(xi.shape, 0.5), np.zeros((len(xi), 3))
         self.beyond = np.zeros(len(xi), bool)
         self.nearest = self.xi.copy()  # parameters of the closest points of those beyond the edge
         self.accepted = None  # control points of slave and master in the accepted state
@@ -113,6 +117,7 @@ class Interface:
         """Points that are so near the master [mm] at the start have touched it."""
         place = self._place(self.accepted[1], self.xi)
         self.touched = ~self.beyond & (np.abs(_dot(place.normal, self.accepted_positions() - place.point)) <= within)
+        self.xi_bond = self.xi.copy()
 
     def leave_out_those_beyond(self):
         """Bone that does not face the implant at the start is not bonded, and no part of the contact face."""
@@ -173,7 +178,7 @@ class Interface:
         gap = np.einsum('mk,mki->mi', self.gap_parts, start.tangents)
         trial = x - start.point
         begin = SimpleNamespace(slid=self.slid, bonded=self.bonded, theta=self.theta, kappa=self.kappa,
-                                bonds=self.law.bonds(self.touched, self.bonded), normal_gap=self.normal_gap,
+                                omega=self.omega, bonds=self.law.bonds(self), normal_gap=self.normal_gap,
                                 pressure=self.pressure, friction=friction, duration=duration, point=start.point,
                                 trial=trial, gap=gap, motion=trial - gap, turn=turn)
         begin.before = np.where(self.carried, self._reach(begin, 0 * self.slid, self.normal_gap)[0], 0)
@@ -194,6 +199,13 @@ class Interface:
         """p [MPa] and its derivatives by the normal gap and by the way, which spends nothing without friction."""
         return self.law.pressure(begin, way if begin.friction else 0 * way, normal_gap)
 
+    def _hold(self, begin, x, master_points):
+        """What holds the points x (m, 3) at the places where they have bonded."""
+        held = self._place(master_points, self.xi_bond)
+        held.gap, held.omega, held.omega_by_gap, held.stiffness, held.traction, held.by_gap = self.law.hold(
+            begin, x - held.point, held.normal)
+        return held
+
     def respond(self, slave_points, master_points, friction=True, duration=1., all_stick=False, turn=0.):
         """State at given control points of both surfaces, from the accepted history, which does not change.
 
@@ -208,16 +220,21 @@ class Interface:
         xi[come], beyond[come] = entries, False
         start = self._place(master_points, xi)
         begin = self._beginning(start, x, friction, duration, np.broadcast_to(turn, self.area.shape))
+        held = None
+        if self.law.cohesive:
+            held = self._hold(begin, x, master_points)
+            begin.omega = held.omega  # at the end of the step
         normal_gap = _dot(start.normal, begin.trial)
         stretch = np.linalg.norm(begin.trial - normal_gap[:, None] * start.normal, axis=1)
         closed = self.law.carried(begin, normal_gap) & ~beyond
-        sliding = closed & (stretch > self._reach(begin, 0 * stretch, normal_gap)[0])
+        sliding = closed & (stretch > self._reach(begin, 0 * stretch, normal_gap)[0] + ROUNDING * begin.bonds)
         if all_stick:
             sliding[:] = False
 
         inside = np.ones(len(x), bool)
         xi[sliding], inside[sliding] = self._slide(x[sliding], xi[sliding], master_points, _some(begin, sliding))
         state = self._place(master_points, np.clip(xi, 0, 1))
+        state.held = held
         state.start, state.begin, state.xi, state.beyond, state.gap = start, begin, xi, beyond, x - state.point
         state.normal_gap = _dot(state.normal, state.gap)
         state.closed = closed & inside & self.law.carried(begin, state.normal_gap)
@@ -242,7 +259,8 @@ class Interface:
         state.limit = np.zeros(len(x))
         if friction:
             state.limit = self.law.string(begin, state.spent, state.normal_gap)[0] * self.tangential_stiffness
-        state.pulled = state.closed & (state.pressure < 0) & (state.limit == 0)
+        pressure = state.pressure - (_dot(held.traction, held.normal) if held else 0.)
+        state.pulled = state.closed & (pressure < -ROUNDING * self.normal_stiffness) & (state.limit == 0)
         return state
 
     def _slide(self, x, xi, master_points, begin):
@@ -301,6 +319,10 @@ class Interface:
         on_master = np.zeros((self.master.face.weights.size, 3))
         np.add.at(on_slave, self.numbers, self.values[..., None] * load[:, None])
         np.add.at(on_master, state.numbers, -state.values[..., None] * load[:, None])
+        if state.held:
+            load = self.area[:, None] * state.held.traction
+            np.add.at(on_slave, self.numbers, self.values[..., None] * load[:, None])
+            np.add.at(on_master, state.held.numbers, -state.held.values[..., None] * load[:, None])
         return on_slave, on_master
 
     def tangent(self, state):
@@ -325,10 +347,15 @@ class Interface:
 
         by_gap, by_trial, way_by_gap, way_by_trial = self._gap_derivatives(state)
         gap = _blocks(by_gap) @ h + _blocks(by_trial) @ trial
+        if state.held:
+            h_held = x - interpolation(state.held.numbers, state.held.values, slave)
+            gap = gap + _blocks(self._gap_by_omega(state)[:, :, None] * state.held.omega_by_gap[:, None, :]) @ h_held
         normal = state.normal[:, :, None] * state.normal[:, None, :]
         stiffness = (self.tangential_stiffness * np.eye(3)
                      + (-state.by_gap - self.tangential_stiffness)[:, None, None] * normal)
         result = h.T @ (_blocks((self.area * state.closed)[:, None, None] * stiffness) @ gap)
+        if state.held:
+            result = result + h_held.T @ (_blocks(self.area[:, None, None] * state.held.by_gap) @ h_held)
         if state.pressure_by_way.any():
             push = -(self.area * state.pressure_by_way)[:, None] * state.normal
             result = result + h.T @ (_blocks(push[:, :, None] * way_by_gap[:, None, :]) @ h
@@ -355,6 +382,18 @@ class Interface:
         by_trial[~state.sliding] = np.eye(3)
         share = share * state.sliding
         return by_gap, by_trial, (share * state.by_depth)[:, None] * state.normal, share[:, None] * tau
+
+    def _gap_by_omega(self, state):
+        """Derivative (m, 3) of the gap by the damage of the bond."""
+        if not self.integrated:
+            slope = self.law.by_omega(state.begin, state.normal_gap) / (1 + state.by_way) * state.begin.friction
+            return (slope * state.sliding)[:, None] * state.direction
+        result, step = np.zeros(state.gap.shape), 1e-6
+        place, begin = _some(state, state.sliding), _some(state.begin, state.sliding)
+        towed = self._tow(place, begin).gap
+        begin.omega = begin.omega + step
+        result[state.sliding] = _in_space((self._tow(place, begin).gap - towed) / step, place)
+        return result
 
     def _towed_derivatives(self, state):
         """The same by differences of the towed gap; what else depends on the motion, as the turn does, is left out."""
@@ -387,13 +426,18 @@ class Interface:
         integral of mu - mu_b over the sliding distance; tractions and pressures are the means of those at both ends of
         the step. What damages the bond is dissipated too, and what lifts the faces is not.
         """
-        if (state.by_depth[state.closed] < 0).any():
+        if (state.limit[state.closed] < 0).any():
             raise ArithmeticError('a coefficient of friction is negative')
         begin, way = state.begin, (state.point - state.start.point) * state.sliding[:, None]
         viscous = np.zeros(state.shear.shape)
         before, shear = self.pressure, self.shear @ turn.T
         spent = state.spent if begin.friction else 0 * state.spent
         damage = (self.area * self.law.damage(begin, spent, state.normal_gap))[state.closed].sum()
+        if state.held:
+            earlier = self.bond_gap @ turn.T
+            lost = begin.bonds * self.bonded * self.law.initial * (state.held.omega - self.omega) / 2
+            damage = (self.area * lost * _dot(state.held.gap, earlier)).sum()
+            self.omega, self.bond_gap = state.held.omega, state.held.gap
         self.adhesive_work += damage
         if begin.friction:
             if begin.duration:
@@ -415,7 +459,11 @@ class Interface:
                                    np.where(state.closed, state.normal_gap, 0))
         self.kappa = np.where(state.closed, self.law.kappa(begin, state.normal_gap), self.kappa)
         self.bonded = np.where(self.law.gone(self.kappa), 0, self.bonded)
-        self.touched = self.touched | (state.closed & (state.normal_gap < 0))
+        closes = ~self.touched & state.closed & (state.normal_gap < 0)
+        self.touched = self.touched | closes
+        if self.law.cohesive and closes.any():
+            x = self.positions(slave_points)[closes]
+            self.xi_bond[closes], _ = closest_points(self.master.face, master_points, x, self.xi[closes])
         self.gap_parts = np.einsum('mki,mi->mk', state.dual, state.shear) / self.tangential_stiffness
         self.face(slave_points, master_points, ~state.closed)
         opens = state.opens = (before > 0) & ~state.closed
@@ -484,7 +532,10 @@ class Interface:
         """Energy stored in the interface, N mm."""
         shear = (state.shear ** 2).sum(1) / self.tangential_stiffness / 2
         way = state.spent if state.begin.friction else 0 * state.spent
-        return (self.area * (self.law.stored(state.begin, way, state.normal_gap) * state.closed + shear)).sum()
+        stored = self.law.stored(state.begin, way, state.normal_gap) * state.closed + shear
+        if state.held:
+            stored = stored + _dot(state.held.traction, state.held.gap) / 2
+        return (self.area * stored).sum()
 
 
 def _dot(a, b):

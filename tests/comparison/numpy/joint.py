@@ -1,7 +1,8 @@
 """Laws of a point of the interface: what it bears in the normal direction, and the limit of its tangential traction.
 
-They get `begin`, the history with which a point begins the step (`slid`, `bonded`, `kappa`, `bonds`, `normal_gap`), the
-way that it slides in the step and its normal gap at the end [mm]. Arrays have the shape (m,), one entry per point.
+They get `begin`, the history with which a point begins the step (`slid`, `bonded`, `kappa`, `omega`, `bonds`,
+`normal_gap`), the way that it slides in the step and its normal gap at the end [mm]. Arrays have the shape (m,), one
+entry per point.
 
 friction    law of friction.py: mu and the decay s of the bond with the sliding distance
 stiffness   normal and tangential, MPa/mm
@@ -16,9 +17,11 @@ class Friction:
         self.friction = friction
         self.normal, self.tangential = stiffness
 
-    def bonds(self, touched, bonded):
-        """Whether a point may pull, which has `touched` the master in an accepted state."""
-        return np.zeros(touched.shape, bool)
+    cohesive = False  # whether bonded points are held at the places where they bonded, beside what is said here
+
+    def bonds(self, history):
+        """Whether a point may pull; it has `touched` the master in an accepted state."""
+        return np.zeros(history.touched.shape, bool)
 
     def carried(self, begin, gap):
         """Whether a point is carried that does not slide."""
@@ -46,9 +49,9 @@ class Friction:
         """Height [mm] that the faces have climbed, and its derivative."""
         return 0 * slid, 0 * slid
 
-    def bond(self, bonded, slid, kappa):
+    def bond(self, history):
         """phi."""
-        return bonded * self.friction.bonding(slid)[0]
+        return history.bonded * self.friction.bonding(history.slid)[0]
 
     def stored(self, begin, way, gap):
         """Energy per area in the normal direction, N/mm."""
@@ -99,8 +102,8 @@ class Adhesive(Friction):
         super().__init__(friction, stiffness)
         self.strength, self.opening, self.share = strength, opening, share
 
-    def bonds(self, touched, bonded):
-        return touched & (bonded > 0) & (self.strength > 0)
+    def bonds(self, history):
+        return history.touched & (history.bonded > 0) & (self.strength > 0)
 
     def kappa(self, begin, gap):
         return np.where(begin.bonds, np.maximum(begin.kappa, gap), begin.kappa)
@@ -121,8 +124,8 @@ class Adhesive(Friction):
         """K(kappa) of the whole bond, MPa/mm."""
         return self.strength / self.opening * np.exp(1 - kappa / self.opening)
 
-    def bond(self, bonded, slid, kappa):
-        return super().bond(bonded, slid, kappa) * self._left(kappa)[0]
+    def bond(self, history):
+        return super().bond(history) * self._left(history.kappa)[0]
 
     def pressure(self, begin, way, gap):
         s, by_way = self.friction.bonding(begin.slid + way)
@@ -180,3 +183,100 @@ class Adhesive(Friction):
             return super().adhesive_work(begin, way, before, after)
         pressure = (np.maximum(before.pressure, 0) + np.maximum(after.pressure, 0)) / 2
         return ((before.limit + after.limit) / 2 - self.friction.broken * pressure) * way
+
+
+class MixedMode(Friction):
+    """A bilinear cohesive law holds the bonded share of the area where it bonded; the broken share rubs with mu_b.
+
+    The gap (n, delta_t) [mm] from there bears phi_0 (1 - omega) K (<n>, delta_t) until it is broken, omega = 1. In a
+    fixed direction, let q be the gap as a multiple of that where damage begins, (<t_n>/N)^2 + (t/T)^2 = 1, and r the
+    same at the end, after the energy G of the criterion. Then omega = (1 - 1/q) r/(r - 1), and it never falls.
+
+    strengths   N and T, MPa
+    energies    G_I and G_II, N/mm
+    initial     stiffness K, MPa/mm
+    power_law   (G_i/G_I)^exponent + (G_ii/G_II)^exponent = 1 instead of Benzeggagh and Kenane's G
+    """
+
+    cohesive = True
+
+    def __init__(self, friction, stiffness, strengths, energies, initial, power_law, exponent):
+        super().__init__(friction, stiffness)
+        self.onset = np.array(strengths) / initial  # mm
+        self.energies, self.initial, self.power_law, self.exponent = energies, initial, power_law, exponent
+        if min(2 * energy / initial / onset ** 2 for energy, onset in zip(energies, self.onset)) <= 1:
+            raise ValueError('a bond breaks before it is damaged: more energy or stiffness')
+
+    def bonds(self, history):
+        return history.touched & (history.bonded > 0) & (history.omega < 1)
+
+    def bond(self, history):
+        return history.bonded * (1 - history.omega)
+
+    def pressure(self, begin, way, gap):
+        closed = gap < 0
+        return np.where(closed, -self.normal * gap, 0.), np.where(closed, -self.normal, 0.), 0 * way
+
+    def string(self, begin, way, gap):
+        ratio = self.normal / self.tangential * self.friction.broken
+        rubs = (1 - begin.bonds * begin.bonded * (1 - begin.omega)) * (gap < 0)
+        return ratio * rubs * -gap, ratio * rubs, 0 * way, gap < 0
+
+    def by_omega(self, begin, gap):
+        """Derivative of L / eps_t by omega, mm."""
+        return self.normal / self.tangential * self.friction.broken * begin.bonds * begin.bonded * np.maximum(-gap, 0)
+
+    def adhesive_work(self, begin, way, before, after):
+        return 0 * way
+
+    def energy_to_break(self, share):
+        """G [N/mm] where the `share` delta_t^2/delta^2 of the squared gap is tangential, and its derivative."""
+        first, second = self.energies
+        if self.power_law:
+            parts = (1 - share) / first, share / second
+            energy = (parts[0] ** self.exponent + parts[1] ** self.exponent) ** (-1 / self.exponent)
+            slopes = (np.maximum(part, 1e-300) ** (self.exponent - 1) for part in parts)
+            return energy, energy ** (1 + self.exponent) * (next(slopes) / first - next(slopes) / second)
+        slope = self.exponent * np.maximum(share, 1e-300) ** (self.exponent - 1)
+        return first + (second - first) * share ** self.exponent, (second - first) * slope
+
+    def broken(self, normal, tangential):
+        """omega on first opening to a gap [mm], and its derivatives by both parts of that."""
+        normal = np.maximum(normal, 0)
+        squared = np.maximum(normal ** 2 + tangential ** 2, 1e-300)
+        q = np.maximum(np.hypot(normal / self.onset[0], tangential / self.onset[1]), 1e-150)
+        share = tangential ** 2 / squared
+        energy, slope = self.energy_to_break(share)
+        r = 2 * energy * q ** 2 / (self.initial * squared)
+        omega = np.where(q > 1, (1 - 1 / q) * r / (r - 1), 0.)
+        softens = (omega > 0) & (omega < 1)
+        derivatives = []
+        for gap, onset, of_share in ((normal, self.onset[0], -2 * normal * share / squared),
+                                     (tangential, self.onset[1], 2 * tangential * (1 - share) / squared)):
+            of_q = gap / (onset ** 2 * q)
+            of_r = r * (slope * of_share / energy + 2 * of_q / q - 2 * gap / squared)
+            change = of_q / q ** 2 * r / (r - 1) - (1 - 1 / q) * of_r / (r - 1) ** 2
+            derivatives.append(np.where(softens, change, 0.))
+        return np.minimum(omega, 1), *derivatives
+
+    def hold(self, begin, gap, normal):
+        """Of bonded points with a gap (m, 3) from where they bonded, and the master's normal (m, 3) there.
+
+        The `gap` that bears, <n> and delta_t; omega and its derivative (m, 3); stiffness and traction (m, 3) with its
+        derivative (m, 3, 3). All is 0 where there is no bond.
+        """
+        along = (gap * normal).sum(1)
+        tangential = gap - along[:, None] * normal
+        length = np.linalg.norm(tangential, axis=1)
+        omega, by_normal, by_length = self.broken(along, length)
+        grows = begin.bonds & (omega > begin.omega)
+        omega = np.where(grows, omega, begin.omega)
+        opened = along > 0
+        bears = (tangential + np.where(opened, along, 0.)[:, None] * normal) * begin.bonds[:, None]
+        slope = ((by_normal * opened)[:, None] * normal
+                 + by_length[:, None] * tangential / np.maximum(length, 1e-300)[:, None]) * grows[:, None]
+        stiffness = begin.bonds * begin.bonded * (1 - omega) * self.initial
+        both = normal[:, :, None] * normal[:, None, :] * ~opened[:, None, None]
+        derivative = (stiffness[:, None, None] * (np.eye(3) - both)
+                      - (begin.bonded * self.initial)[:, None, None] * bears[:, :, None] * slope[:, None, :])
+        return bears, omega, slope, stiffness, stiffness[:, None] * bears, derivative

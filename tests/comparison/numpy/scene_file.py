@@ -41,6 +41,9 @@ ENTRIES = {
     'Interface/Law': ('friction', 'adhesive', 'mixed mode', 'dilatant'),
     'Interface/Adhesive/Strength': 0., 'Interface/Adhesive/Gap at strength': 1., 'Interface/Adhesive/Adhesive friction': 0.,
     'Interface/Dilatant/Height': 0., 'Interface/Dilatant/Length': 1.,
+    **{'Interface/Mixed mode/' + name: 1. for name in ('Normal strength', 'Shear strength', 'Fracture energy I',
+                                                       'Fracture energy II', 'Stiffness', 'Exponent')},
+    'Interface/Mixed mode/Criterion': ('benzeggagh-kenane', 'power law'),
     'Interface/Bonding/Pattern': ('homogeneous', 'expression'), 'Interface/Bonding/Initial bonding': 1.,
     'Interface/Bonding/Resolution': ('element', 'quadrature point'), 'Interface/Bonding/Expression': '1',
     'Load steps/Times': [0., 1., 2.], 'Load steps/Steps': [1., 1000.], 'Load steps/Adaptive': ('false',),
@@ -170,6 +173,12 @@ class Scene:
         if law == 'dilatant':
             return joint.Dilatant(friction_law, stiffness, *(get('Interface/Dilatant/' + name)
                                                              for name in ('Height', 'Length')))
+        if law == 'mixed mode':
+            normal, shear, first, second, initial, exponent = (get('Interface/Mixed mode/' + name) for name in (
+                'Normal strength', 'Shear strength', 'Fracture energy I', 'Fracture energy II', 'Stiffness', 'Exponent'))
+            power_law = get('Interface/Mixed mode/Criterion') == 'power law'
+            return joint.MixedMode(friction_law, stiffness, (normal, shear), (first, second), initial, power_law,
+                                   exponent)
         return joint.Adhesive(friction_law, stiffness, *(get('Interface/Adhesive/' + name) for name in (
             'Strength', 'Gap at strength', 'Adhesive friction')))
 

@@ -116,6 +116,7 @@ class Simulation:
         bulk = sparse.block_diag([self.bone.tangent(self.bone_displacement),
                                   self.implant.tangent(self.implant_displacement)], 'csr')
         least = 1e-6 * self.interface.normal_stiffness * self.contact_area * self.centre[2]  # N, where all is open
+        rounding = 1e-10 * least if self.interface.law.bonds(self.interface).any() else 0.  # of gaps of bonded points
         for self.iterations in range(60):
             first = self.iterations == 0
             self.state = self.interface.respond(*self._control_points(), friction, duration, all_stick=first,
@@ -126,7 +127,7 @@ class Simulation:
             residual = (internal + motion.T @ contact)[self.free]
             if not np.isfinite(residual).all():
                 break
-            if not first and np.linalg.norm(residual) <= self.tolerance * max(np.linalg.norm(contact), least):
+            if not first and np.linalg.norm(residual) <= max(self.tolerance * max(np.linalg.norm(contact), least), rounding):
                 self._accept()
                 return
             tangent = bulk + motion.T @ self.interface.tangent(self.state) @ motion
@@ -156,7 +157,12 @@ class Simulation:
         state, slave = self.state, self.interface.slave is self.implant
         force = self.interface.area[:, None] * (state.traction if slave else -state.traction)
         place = state.point + state.gap if slave else state.point
-        return force.sum(0), np.cross(place - self.centre - self.translation, force).sum(0)
+        total, moment = force.sum(0), np.cross(place - self.centre - self.translation, force).sum(0)
+        if state.held:
+            force = self.interface.area[:, None] * (state.held.traction if slave else -state.held.traction)
+            place = place if slave else state.held.point
+            total, moment = total + force.sum(0), moment + np.cross(place - self.centre - self.translation, force).sum(0)
+        return total, moment
 
     def top_reactions(self):
         """The same from the internal forces of the implant's top face.
@@ -183,7 +189,7 @@ class Simulation:
         def share(which):
             return area[which].sum() / area.sum()
 
-        bonding = self.interface.law.bond(self.interface.bonded, self.interface.slid, self.interface.kappa)
+        bonding = self.interface.law.bond(self.interface)
         row = {'chuck_F%s_N' % axis: value for axis, value in zip('xyz', force)}
         row.update({'chuck_M%s_Nmm' % axis: value for axis, value in zip('xyz', moment)})
         row.update(torque_Nmm=moment @ self.rotation[:, 2], force_N=-force[2],

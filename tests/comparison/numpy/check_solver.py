@@ -248,6 +248,35 @@ def dissipation_of_bonds():
     return abs(least) / (np.e * STRENGTH * OPENING)
 
 
+def stiff_bodies_bonded():
+    """Almost rigid bodies, pulled by half the opening, then twisted: force and torque against those of the points.
+
+    There r angle = g_s + L(g_s) / eps_t, by bisection; c = 1. Relative to the largest.
+    """
+    law = adhesive(1.)
+    bone, coin = small_solids(young=1e9)
+    contact = interface.Interface(coin, bone, +1, law, 4, lambda x, y: 1.)
+    solver = simulation.Simulation(bone, coin, contact, contact.area.sum(), HEIGHT, 1e-9)
+    solver.start(np.zeros(6))
+    solver.step([0., 0., OPENING / 2, 0., 0., 0.])
+    r = np.hypot(*contact.positions(coin.points[:25])[:, :2].T)
+    here, exact = [], []
+    for angle in np.radians(np.linspace(.05, 1.5, 30)):
+        solver.step([0., 0., OPENING / 2, 0., 0., angle])
+        here.append([solver.results()[name] for name in ('torque_Nmm', 'chuck_Fz_N')])
+        low, high = np.zeros_like(r), r * angle
+        for _ in range(60):
+            slid = (low + high) / 2
+            s = law.friction.bonding(slid)[0]
+            limit = (.4 + .18 * s) * s * STRENGTH * (1 - np.sqrt(np.e) / 2)
+            far = slid + limit / 400 > r * angle
+            low, high = np.where(far, low, slid), np.where(far, slid, high)
+        exact.append([contact.area @ (r * 400 * (r * angle - low)),
+                      contact.area @ law.friction.bonding(low)[0] * STRENGTH * np.sqrt(np.e) / 2])
+    here, exact = np.array(here), np.array(exact)
+    return max(relative(here[:, k], exact[:, k]) for k in range(2))
+
+
 def derivatives_of_mixed_mode():
     """Derivatives of omega and of the cohesive traction by the gap against differences, relative."""
     count, step, worst = 2000, 1e-8, 0.
@@ -307,7 +336,7 @@ def damage_of_mixed_mode():
 
 CHECKS = {derivatives_of_the_energy: 1e-7, rigid_motion: 1e-13, uniform_stress: 1e-12, points_on_a_disk: 1e-13,
           stiff_bodies: 1e-4, reactions_of_the_top: 1e-10, towing_on_a_disk: 1e-11, towing_along_a_line: 1e-13,
-          derivatives_of_laws: 1e-5, adhesion: 1e-12, dissipation_of_bonds: 1e-15,
+          derivatives_of_laws: 1e-5, adhesion: 1e-12, dissipation_of_bonds: 1e-15, stiff_bodies_bonded: 1e-4,
           derivatives_of_mixed_mode: 1e-5, energies_of_mixed_mode: 1e-12, damage_of_mixed_mode: 0.}
 
 

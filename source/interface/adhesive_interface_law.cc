@@ -50,7 +50,8 @@ namespace Debond
             result.pressure         = -K * g_n;
             result.pressure_by_gap  = -K * (now.grows ? 1. - g_n / g_0 : 1.);
             result.pressure_by_slip = -now.s_slope * pull(now.kappa) * g_n;
-            result.energy           = 0.5 * K * g_n * g_n;
+            // what is given up at the end of the step has become damage
+            result.energy = now.kappa > gone() ? 0. : 0.5 * K * g_n * g_n;
           }
         else
           {

@@ -40,11 +40,16 @@ namespace Debond
         start.duration > 0. ?
           lifting.viscosity / start.duration / lifting.stiffness :
           0.;
+      // the gap at which that much is carried
+      const auto gap_at = [&](const double pressure, const double distance) {
+        return (law.pulls() ? 0. : law.reach(start, distance)) -
+               pressure / law.stiffness;
+      };
       const auto per_pressure = [&](const double pressure,
                                     const double distance) {
         return std::max(
           0.,
-          law.respond(start, -pressure / law.stiffness, distance).limit /
+          law.respond(start, gap_at(pressure, distance), distance).limit /
             pressure);
       };
       Eigen::Vector3d gap = lifting.gap;
@@ -70,7 +75,7 @@ namespace Debond
             }
           else
             gap = trial;
-          start = law.begin(law.advance(start, -pressure / law.stiffness, way),
+          start = law.begin(law.advance(start, gap_at(pressure, way), way),
                             start.phi_0,
                             start.duration);
         }
@@ -161,7 +166,9 @@ namespace Debond
     // of the beginning, and where nothing has slid
     const InterfaceResponse at_start =
       joint.respond(start, point.accepted.normal_gap, 0.);
-    const double p = std::max(0., at_start.pressure), g_n = trial.normal_gap;
+    const double p   = std::max(0., at_start.pressure),
+                 g_n = trial.normal_gap -
+                       (joint.pulls() ? 0. : joint.reach(start, 0.));
     const Eigen::Vector3d &n          = motion.normal;
     const auto             tangential = [&n](const Eigen::Vector3d &v) {
       return Eigen::Vector3d(v - n.dot(v) * n);

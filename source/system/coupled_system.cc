@@ -68,7 +68,8 @@ namespace Debond
 
   // Two scales come with the scene. A residual is to be small compared with the
   // contact forces, which may be none: force_floor is the force [N] of a
-  // penetration of 1e-6 R over the whole face, eps_n A 1e-6 R.
+  // penetration of 1e-6 R over the whole face, eps_n A 1e-6 R. Where faces that
+  // only touch are bonded the rounding of positions, 1e-16 R, is a force.
   CoupledSystem::CoupledSystem(const ModelParameters    &parameters,
                                std::shared_ptr<BodyPair> bodies,
                                dealii::TimerOutput      *timer)
@@ -82,8 +83,11 @@ namespace Debond
     , interface(parameters.interface, bone.mesh(), implant.mesh())
     , R(parameters.implant.characteristic_radius())
     , timer(timer)
-    , force_floor(parameters.interface.normal_penalty *
-                  interface.implant_area() * 1e-6 * R)
+    , force_floor(
+        parameters.interface.normal_penalty * interface.implant_area() * R *
+        (interface.get_law().pulls() ?
+           std::max(1e-6, 1e-16 / parameters.load_steps.residual_tolerance) :
+           1e-6))
     , matrix(body, interface, configuration, path)
   {
     configuration.chuck = &chuck;

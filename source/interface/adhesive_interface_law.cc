@@ -60,6 +60,9 @@ namespace Debond
             if (g_n < 0.)
               result.energy = 0.5 * stiffness * g_n * g_n;
           }
+        // not by what p and L are at the end: that would be a jump within the
+        // step
+        result.resists = now.holds || result.pressure > 0.;
         if (start.frictionless)
           return result;
         // what is pressed, or held, across the interface

@@ -44,6 +44,7 @@ namespace Debond
           result.pressure_by_slip = stiffness * slope(slip);
         if (result.pressure > 0.)
           {
+            result.resists      = true;
             result.limit        = mu.mu * result.pressure;
             result.limit_by_gap = -mu.mu * stiffness;
             result.limit_by_slip =
@@ -52,10 +53,13 @@ namespace Debond
         return result;
       }
 
+      // Only a point that is closed climbs on its way.
       double
       reach(const PointStart &start, const double distance) const override
       {
-        return height(slipped(start, distance));
+        return height(start.history.normal_gap < PointHistory::far ?
+                        slipped(start, distance) :
+                        start.history.slip);
       }
 
       // The friction of the mean pressure, as without dilatancy.

@@ -31,6 +31,7 @@ namespace Debond
         result.energy          = 0.5 * stiffness * g_n * g_n; // the potential
         if (result.pressure > 0.)
           {
+            result.resists       = true;
             result.limit         = c.mu * result.pressure;
             result.limit_by_gap  = -c.mu * stiffness;
             result.limit_by_slip = c.dmu * result.pressure;

@@ -44,6 +44,8 @@ namespace Debond
     double limit_by_gap     = 0; ///< dL/dg_n [MPa/mm]
     double limit_by_slip    = 0; ///< dL/dd [MPa/mm]
     double energy           = 0; ///< stored across the interface [N/mm]
+    /** Whether the viscosity resists sliding, beside L. */
+    bool resists = false;
   };
 
 

@@ -29,12 +29,11 @@ namespace Debond
       double value, slope, resistance;
     };
     // The viscous part resists as fast as the point moves, and it pulls where a
-    // trial moves backwards; not where faces that do not rub follow each other.
+    // trial moves backwards.
     Limit
     limit(const InterfaceResponse &response, const double distance) const
     {
-      const double resistance =
-        response.pressure > 0. || response.limit > 0. ? viscous : 0.;
+      const double resistance = response.resists ? viscous : 0.;
       return {response.limit + resistance * distance,
               response.limit_by_slip + resistance,
               resistance};

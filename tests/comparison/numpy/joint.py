@@ -152,7 +152,7 @@ class Adhesive(Friction):
         by_gap = difference * phi_by_gap * limit + mu * (p_by_gap + cohesion * phi_by_gap)
         by_way = difference * phi_by_way * limit + mu * (p_by_way + cohesion * phi_by_way)
         return (*(np.where(bears, value, 0.) / self.tangential for value in (mu * limit, -by_gap, by_way)),
-                bears | (p > 0))
+                begin.bonds | (p > 0))
 
     def _stored(self, bonded, slid, kappa, gap):
         """Energy per area of bonds that pull, N/mm."""

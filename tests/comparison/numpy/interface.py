@@ -226,7 +226,8 @@ class Interface:
             begin.omega = held.omega  # at the end of the step
         normal_gap = _dot(start.normal, begin.trial)
         stretch = np.linalg.norm(begin.trial - normal_gap[:, None] * start.normal, axis=1)
-        closed = self.law.carried(begin, normal_gap) & ~beyond
+        climbs = self.carried & self.law.climbs  # faces that part may stay closed, by the way of this step
+        closed = (self.law.carried(begin, normal_gap) | climbs) & ~beyond
         sliding = closed & (stretch > self._reach(begin, 0 * stretch, normal_gap)[0] + ROUNDING * begin.bonds)
         if all_stick:
             sliding[:] = False
@@ -237,7 +238,7 @@ class Interface:
         state.held = held
         state.start, state.begin, state.xi, state.beyond, state.gap = start, begin, xi, beyond, x - state.point
         state.normal_gap = _dot(state.normal, state.gap)
-        state.closed = closed & inside & self.law.carried(begin, state.normal_gap)
+        state.closed = closed & inside & (self.law.carried(begin, state.normal_gap) | climbs)
         state.sliding = sliding & state.closed
         tangential_gap = state.gap - state.normal_gap[:, None] * state.normal
         if self.integrated:
@@ -251,6 +252,10 @@ class Interface:
             state.direction, state.trial_length = _direction(begin.trial, state.normal)
             state.way = np.linalg.norm(state.point - start.point, axis=1) * state.sliding
         state.spent = np.maximum(state.way, 0)
+        if climbs.any():
+            state.closed &= ~climbs | (self._pressure(begin, state.spent, state.normal_gap)[0] > 0)
+            state.sliding &= state.closed
+            state.way, state.spent = state.way * state.closed, state.spent * state.closed
         state.pressure, state.by_gap, state.pressure_by_way = (
             value * state.closed for value in self._pressure(begin, state.spent, state.normal_gap))
         state.shear = self.tangential_stiffness * tangential_gap * state.closed[:, None]

@@ -13,6 +13,8 @@ import numpy as np
 class Friction:
     """p = -eps_n g_n while closed, friction mu p, nothing in tension."""
 
+    climbs = False
+
     def __init__(self, friction, stiffness):
         self.friction = friction
         self.normal, self.tangential = stiffness
@@ -69,6 +71,8 @@ class Friction:
 class Dilatant(Friction):
     """Faces that climb by h = h_inf (1 - exp(-g_s/l)) as they slide: p = -eps_n (g_n - h) while that is positive."""
 
+    climbs = True  # a point that is closed stays so while its way lifts it
+
     def __init__(self, friction, stiffness, height, length):
         super().__init__(friction, stiffness)
         self.height, self.length = height, length
@@ -86,8 +90,9 @@ class Dilatant(Friction):
     def string(self, begin, way, gap):
         mu, by_way = self.friction.coefficient(begin, way)
         p, _, p_by_way = self.pressure(begin, way, gap)
-        return (mu * p / self.tangential, mu * self.normal / self.tangential,
-                (by_way * p + mu * p_by_way) / self.tangential, p > 0)
+        presses = p > 0
+        return (presses * mu * p / self.tangential, presses * mu * self.normal / self.tangential,
+                presses * (by_way * p + mu * p_by_way) / self.tangential, presses)
 
 
 class Adhesive(Friction):

@@ -132,20 +132,21 @@ namespace Debond
     std::string
     describe_softening(const InterfaceSummary &summary, const FrictionLaw &law)
     {
-      const double slope = summary.softening_slope / summary.softening_pressure;
       Classic<std::ostringstream> text;
       // A user can act on it: the numbers of the worst point, and the entries
-      // that move the bound p |d mu/d g_s| < eps_t.
+      // that move the bound -dL/dg_s < eps_t.
       text << "the friction law softens faster than the interface is stiff, so "
               "that its local solution is not unique and the bond would break "
               "in a jump: at a pressure of p = "
            << summary.softening_pressure
-           << " MPa the stiffness eps_t (with Viscosity: and eta over the "
-              "step's duration) makes p / eps_t = "
-           << summary.steepest_softening / slope
-           << " mm, and less than 1 / |d mu/d g_s| = " << 1. / slope
-           << " mm has one solution. What helps: Interface / Viscosity, a "
-              "larger Interface / Tangential penalty stiffness, a larger "
+           << " MPa the limit of the traction falls by up to "
+           << summary.softening_slope
+           << " MPa per mm of slip, and has one solution while that is less "
+              "than the stiffness eps_t (with Viscosity: and eta over the "
+              "step's duration), "
+           << summary.softening_slope / summary.steepest_softening
+           << " MPa/mm. What helps: Interface / Viscosity, a larger Interface "
+              "/ Tangential penalty stiffness, a larger "
            << law.entries_against_fall();
       return text.str();
     }

@@ -180,10 +180,11 @@ namespace Debond
         return result;
       }
 
-      bool
-      pulls() const override
+      // it falls steepest at 2 g_0
+      Tension
+      tension() const override
       {
-        return true;
+        return {t_0, M_E * t_0 * g_0, M_E * t_0 / g_0, t_0 / (M_E * g_0)};
       }
       double
       opened(const PointHistory &history) const override
@@ -194,12 +195,6 @@ namespace Debond
       characteristic_distance() const override
       {
         return std::min(g_0, bond->characteristic_distance());
-      }
-      // at 2 g_0
-      double
-      softening_by_opening() const override
-      {
-        return t_0 / (M_E * g_0);
       }
 
     private:

@@ -47,6 +47,8 @@ namespace Debond
         static_cast<SurfaceQuadraturePoint &>(points[q]) = places[q];
         points[q].accepted.internal = law.joint->friction->initial_variables();
       }
+    if (law.joint->is_cohesive())
+      shares.resize(points.size());
     for (const Side side : both_sides)
       // no forces before the first evaluate(); their size never changes
       forces[side].setZero(3, mesh[side]->surface().n_control_points());
@@ -232,6 +234,8 @@ namespace Debond
             point.accepted.joined     = true;
             point.accepted.normal_gap = 0.;
           }
+        if (!shares.empty())
+          shares[&point - points.data()].xi = projection.xi;
         if (point.accepted.has_partner)
           neighbour = &point;
       }
@@ -318,6 +322,8 @@ namespace Debond
     const auto        update = [&](const unsigned int q, NodalSums &sums) {
       SlavePoint         &point  = points[q];
       ContactPointResult &result = point.trial;
+      if (!shares.empty())
+        hold(q, configuration, mode, sums);
       // Most points beyond the edge stay there: they need no projection until
       // the surfaces may have come close enough. With the bone as slave that is
       // most of its face in the paper's test.
@@ -339,7 +345,7 @@ namespace Debond
                    surface,
                    rigid,
                    configuration,
-                   mode,
+                   shares.empty() ? mode : shares[q].with_damage(mode),
                    interpolate(point.basis, sides[slave].positions),
                    result);
       if (result.state.status == PointStatus::open)
@@ -354,6 +360,8 @@ namespace Debond
       spread(result.basis, -f, sums[master_side()]);
     };
     forces = sum_in_chunks(points.size(), zero_sums(configuration), update);
+    for (unsigned int q = 0; q < shares.size(); ++q)
+      points[q].trial.state.damage = shares[q].damage;
     // One point without a solution is enough to fail the iteration: a traction
     // that is guessed would converge to something. The first one in order is
     // remembered for the message, whichever thread has met it.
@@ -363,6 +371,29 @@ namespace Debond
       });
     failed = found == points.end() ? nullptr : &*found;
     return failed == nullptr;
+  }
+
+
+
+  // The share of a point that is held at the place where it has bonded pulls
+  // there, beside the share that rubs.
+  void
+  ContactInterface::hold(const unsigned int            q,
+                         const InterfaceConfiguration &configuration,
+                         const ContactPointMode       &mode,
+                         NodalSums                    &sums)
+  {
+    const SlavePoint &point = points[q];
+    CohesiveShare    &share = shares[q];
+    share.update(*law.joint,
+                 point.begin(*law.joint, mode),
+                 interpolate(point.basis, configuration.side[slave].positions),
+                 master(configuration));
+    if (!share.holds)
+      return;
+    const Eigen::Vector3d f = point.JxW * share.traction;
+    spread(point.basis, f, sums[slave]);
+    spread(share.basis, -f, sums[master_side()]);
   }
 
 
@@ -482,6 +513,11 @@ namespace Debond
     accepted_centre        = configuration.chuck->centre();
     unprojected            = 0;
     works.step_dissipation = 0.;
+    for (unsigned int q = 0; q < shares.size(); ++q)
+      works.add(shares[q], points[q], Q);
+    std::vector<bool> had_joined;
+    for (const SlavePoint &point : points)
+      had_joined.push_back(point.accepted.joined);
     for (SlavePoint &point : points)
       {
         // beyond the edge, and still too far to reach it
@@ -515,6 +551,28 @@ namespace Debond
         // surfaces have moved while apart.
         if (point.accepted.status == PointStatus::open)
           project_accepted(point, configuration, true);
+      }
+    accept_shares(configuration, had_joined);
+  }
+
+
+
+  // What has closed for the first time bonds to where its closest point is now.
+  void
+  ContactInterface::accept_shares(const InterfaceConfiguration &configuration,
+                                  const std::vector<bool>      &had_joined)
+  {
+    const Eigen::Matrix3d &Q = configuration.side[master_side()].frame;
+    for (unsigned int q = 0; q < shares.size(); ++q)
+      {
+        shares[q].gap = Q.transpose() * shares[q].bears;
+        if (points[q].accepted.joined && !had_joined[q])
+          shares[q].xi =
+            project(master(configuration),
+                    interpolate(points[q].basis,
+                                configuration.side[slave].positions),
+                    &points[q].accepted.xi)
+              .xi;
       }
   }
 
@@ -607,25 +665,44 @@ namespace Debond
     InterfaceSummary summary;
     double           area = 0.;
     // open, stick, slip, pulled: see PointStatus
-    const std::array<double *, 4> share{{&summary.share_open,
-                                         &summary.share_stick,
-                                         &summary.share_slip,
-                                         &summary.share_pulled}};
+    const std::array<double *, 4> share_of{{&summary.share_open,
+                                            &summary.share_stick,
+                                            &summary.share_slip,
+                                            &summary.share_pulled}};
     const double                  resistance =
       law.tangential_penalty + viscous_stiffness(law, mode_now);
-    for (const SlavePoint &point : points)
+    for (unsigned int q = 0; q < points.size(); ++q)
       {
+        const SlavePoint         &point = points[q];
         const ContactPointResult &trial = point.trial;
+        const CohesiveShare      *share = shares.empty() ? nullptr : &shares[q];
+        const bool                held =
+          share != nullptr && share->holds && share->damage < 1.;
         // int p dA [N]; it is no resultant, as the normals of a curved face
         // differ
-        summary.normal_force += point.JxW * trial.pressure;
+        const double pressure = trial.pressure + (held ? share->pressure : 0.);
+        summary.normal_force += point.JxW * pressure;
+        if (held)
+          summary.energy += point.JxW * share->energy;
+        if (pressure < 0.)
+          {
+            summary.pull -= point.JxW * pressure;
+            summary.pulled_area += point.JxW;
+            summary.opening_softening =
+              std::max(summary.opening_softening,
+                       point.phi_0 * law.joint->tension().softening);
+          }
         if (point.faces_implant)
           {
             // phi as reported() has it, of the trial state, and the share of
             // the area by its status; divided by the area below
             area += point.JxW;
             summary.phi_mean += point.JxW * friction(point).phi;
-            *share[static_cast<unsigned int>(trial.state.status)] += point.JxW;
+            const bool is_pulled =
+              held && trial.state.status == PointStatus::open;
+            *share_of[static_cast<unsigned int>(
+              is_pulled ? PointStatus::pulled : trial.state.status)] +=
+              point.JxW;
           }
         if (trial.state.status == PointStatus::open)
           {
@@ -667,7 +744,7 @@ namespace Debond
     find_side(summary);
     // means over the area that faced the implant at the start
     summary.phi_mean /= area;
-    for (double *part : share)
+    for (double *part : share_of)
       *part /= area;
     return summary;
   }

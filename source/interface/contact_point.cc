@@ -42,6 +42,9 @@ namespace Debond
     result.state.gap.setZero();
     result.dt.setZero();
     result.dxi.setZero();
+    result.dt_by_damage.setZero();
+    result.dxi_by_damage.setZero();
+    result.path_by_damage = 0.;
   }
 
 
@@ -125,13 +128,20 @@ namespace Debond
 
       // What the law is to know of the point. In the frictionless part of a
       // load history (`Friction starts at') nothing rubs and g_s does not grow.
+      PointStart
+      begin(const double phi_0) const
+      {
+        PointStart point =
+          law.joint->begin(start, phi_0, mode.duration, mode.frictionless);
+        if (law.joint->is_cohesive())
+          point.damage = mode.damage;
+        return point;
+      }
+
       PointFriction
       friction(const double phi_0) const
       {
-        return {
-          *law.joint,
-          law.joint->begin(start, phi_0, mode.duration, mode.frictionless),
-          viscous_stiffness(law, mode)};
+        return {*law.joint, begin(phi_0), viscous_stiffness(law, mode)};
       }
 
       // What the step starts from. The master has taken the parts of the old
@@ -225,6 +235,9 @@ namespace Debond
           (eps_n - eps_t) * (n * (gap.transpose() * dn)) -
             (response.pressure + eps_t * g_n) * dn,
           Eigen::Matrix<double, 3, W::size - W::trial_gap>::Zero();
+        result.dt_by_damage.setZero();
+        result.dxi_by_damage.setZero();
+        result.path_by_damage = 0.;
         result.dpath.setZero();
         if (law.joint->opened(result.state) > law.joint->opened(start))
           {

@@ -2,6 +2,7 @@
 #include <debond/interface/point_tangent.h>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace Debond
@@ -88,6 +89,63 @@ namespace Debond
           add(other(slave),
               old.control_point[b],
               {0., 0., 0., -old.N[b], along_old_gap(point, b)});
+      }
+
+      /** Of the share that is held, with its own xi: the first three of w. */
+      ColumnsOfPoint(const SlavePoint             &point,
+                     const CohesiveShare          &share,
+                     const Side                    slave,
+                     const InterfaceConfiguration &configuration,
+                     const std::vector<NodalSums> &by_chuck)
+        : configuration(configuration)
+        , by_chuck(by_chuck)
+      {
+        for (const auto &chuck : configuration.chuck_unknowns)
+          {
+            dw.col(n).setZero();
+            number[n++] = chuck.second;
+          }
+        for (unsigned int a = 0; a < point.basis.size; ++a)
+          add(slave,
+              point.basis.control_point[a],
+              {point.basis.N[a], 0., 0., 0., 0.});
+        for (unsigned int b = 0; b < share.basis.size; ++b)
+          add(other(slave),
+              share.basis.control_point[b],
+              {-share.basis.N[b],
+               share.basis.N_1[b],
+               share.basis.N_2[b],
+               0.,
+               0.});
+      }
+
+      // Of this share; and, as its damage changes the friction of the other
+      // one, which moves xi_hat, of that.
+      void
+      add_tangent(const SlavePoint     &point,
+                  const CohesiveShare  &share,
+                  const ColumnsOfPoint *rubbing,
+                  Eigen::MatrixXd      &matrix) const
+      {
+        const Vector3d       t = point.JxW * point.trial.traction;
+        Matrix<double, 9, 1> by_damage;
+        by_damage << point.JxW * point.trial.dt_by_damage,
+          -t * point.trial.dxi_by_damage[0], -t * point.trial.dxi_by_damage[1];
+        for (unsigned int j = 0; j < n; ++j)
+          {
+            const Matrix<double, 9, 1> column = dw.col(j).head<9>();
+            const Vector3d             force  = point.JxW * share.dt * column;
+            const Rows rows = dw.topLeftCorner(3, n).transpose() * force;
+            for (unsigned int i = 0; i < n; ++i)
+              matrix(number[i], number[j]) += rows[i];
+            if (rubbing == nullptr)
+              continue;
+            const Rows other_rows =
+              rubbing->dw.topLeftCorner(9, rubbing->n).transpose() * by_damage *
+              share.ddamage.dot(column);
+            for (unsigned int i = 0; i < rubbing->n; ++i)
+              matrix(rubbing->number[i], number[j]) += other_rows[i];
+          }
       }
 
       // A row is the force on g, a_1 and a_2 along their motion with the row's
@@ -253,6 +311,65 @@ namespace Debond
 
 
 
+  // Those of shares that are held: few scenes have any, so that nothing is
+  // gathered for them.
+  void
+  ContactInterface::add_products_of_shares(
+    const unsigned int              chunk,
+    const std::array<PaddedNet, 2> &moved,
+    std::array<PaddedNet, 2>       &sums) const
+  {
+    const auto spread_to = [&](const SurfaceBasis         &basis,
+                               const Eigen::Vector3d      &factors,
+                               const Matrix<double, 3, 3> &forces,
+                               const Side                  side) {
+      for (unsigned int b = 0; b < basis.size; ++b)
+        sums[side].col(basis.control_point[b]).head<3>() +=
+          factors[0] * basis.N[b] * forces.col(0) +
+          factors[1] * basis.N_1[b] * forces.col(1) +
+          factors[2] * basis.N_2[b] * forces.col(2);
+    };
+    const Side        master = other(slave);
+    const Vector3d    along_x(1., 0., 0.);
+    const std::size_t n = shares.size();
+    for (std::size_t q = n * chunk / n_chunks; q < n * (chunk + 1) / n_chunks;
+         ++q)
+      {
+        const SlavePoint    &point = points[q];
+        const CohesiveShare &share = shares[q];
+        if (!share.holds)
+          continue;
+        Matrix<double, 9, 1> w = Matrix<double, 9, 1>::Zero();
+        for (unsigned int a = 0; a < point.basis.size; ++a)
+          w.head<3>() +=
+            point.basis.N[a] *
+            moved[slave].col(point.basis.control_point[a]).head<3>();
+        for (unsigned int b = 0; b < share.basis.size; ++b)
+          {
+            const Vector3d y =
+              moved[master].col(share.basis.control_point[b]).head<3>();
+            w.head<3>() -= share.basis.N[b] * y;
+            w.segment<3>(3) += share.basis.N_1[b] * y;
+            w.segment<3>(6) += share.basis.N_2[b] * y;
+          }
+        Matrix<double, 3, 3> f = Matrix<double, 3, 3>::Zero();
+        f.col(0)               = point.JxW * share.dt * w;
+        spread_to(point.basis, along_x, f, slave);
+        spread_to(share.basis, -along_x, f, master);
+        if (point.trial.state.status == PointStatus::open)
+          continue;
+        // how the damage changes the friction of the other share
+        const double   damage = share.ddamage.dot(w);
+        const Vector3d t      = point.JxW * damage * point.trial.traction;
+        f << point.JxW * damage * point.trial.dt_by_damage,
+          t * point.trial.dxi_by_damage[0], t * point.trial.dxi_by_damage[1];
+        spread_to(point.basis, along_x, f, slave);
+        spread_to(point.trial.basis, Vector3d(-1., -1., -1.), f, master);
+      }
+  }
+
+
+
   // The tangent without a matrix, for iterative solvers: the unknowns move the
   // control points. GMRES needs no more than this product, where the matrix
   // would have to be summed first, point by point. Sums go as in evaluate():
@@ -277,6 +394,7 @@ namespace Debond
                                           chuck,
                                           forces[slave],
                                           forces[other(slave)]);
+                      add_products_of_shares(chunk, moved, forces);
                     });
     add_in_unknowns({{sums[0].topRows<3>(), sums[1].topRows<3>()}},
                     configuration,
@@ -300,10 +418,43 @@ namespace Debond
       by_chuck.push_back(
         nodal_motion(Eigen::VectorXd::Unit(matrix.cols(), unknown.second),
                      configuration));
-    for (const SlavePoint &point : points)
-      if (point.trial.state.status != PointStatus::open)
-        ColumnsOfPoint(point, slave, configuration, by_chuck)
-          .add_tangent(point, matrix);
+    for (unsigned int q = 0; q < points.size(); ++q)
+      {
+        const SlavePoint             &point = points[q];
+        std::optional<ColumnsOfPoint> rubbing;
+        if (point.trial.state.status != PointStatus::open)
+          {
+            rubbing.emplace(point, slave, configuration, by_chuck);
+            rubbing->add_tangent(point, matrix);
+          }
+        if (!shares.empty() && shares[q].holds)
+          ColumnsOfPoint(point, shares[q], slave, configuration, by_chuck)
+            .add_tangent(point,
+                         shares[q],
+                         rubbing ? &*rubbing : nullptr,
+                         matrix);
+      }
+  }
+
+
+
+  // The damage of a share that is held stands for its opening, and changes how
+  // far the share beside it slides.
+  void
+  ContactInterface::add_path_of_share(const unsigned int q,
+                                      NodalSums         &gradient) const
+  {
+    const SlavePoint          &point = points[q];
+    const CohesiveShare       &share = shares[q];
+    const Matrix<double, 9, 1> d =
+      point.JxW * (law.joint->length_of_damage() + point.trial.path_by_damage) *
+      share.ddamage.transpose();
+    spread(point.basis, d.head<3>(), gradient[slave]);
+    ControlNet &master = gradient[master_side()];
+    for (unsigned int b = 0; b < share.basis.size; ++b)
+      master.col(share.basis.control_point[b]) +=
+        share.basis.N_1[b] * d.segment<3>(3) +
+        share.basis.N_2[b] * d.segment<3>(6) - share.basis.N[b] * d.head<3>();
   }
 
 
@@ -323,14 +474,18 @@ namespace Debond
     PathLength result;
     result.gradient = zero_sums(configuration);
     double area     = 0.;
-    for (const SlavePoint &point : points)
+    for (unsigned int q = 0; q < points.size(); ++q)
       {
+        const SlavePoint         &point = points[q];
         const ContactPointResult &trial = point.trial;
         if (!point.faces_implant)
           continue;
         area += point.JxW;
         result.value +=
-          point.JxW * (trial.state.slip + law.joint->opened(trial.state));
+          point.JxW * (trial.state.slip + law.joint->opened(trial.state) +
+                       law.joint->length_of_damage() * trial.state.damage);
+        if (!shares.empty() && shares[q].holds)
+          add_path_of_share(q, result.gradient);
         if (trial.state.status == PointStatus::open || trial.dpath.isZero(0.))
           continue;
         const Matrix<double, W::size, 1> d =

@@ -17,7 +17,8 @@ namespace Debond
                       const double        duration,
                       const bool          frictionless) const
   {
-    PointStart start{history, phi_0, duration, frictionless, {}};
+    PointStart start{
+      history, phi_0, duration, frictionless, history.damage, {}};
     if (!frictionless)
       start.at_rest = friction->coefficient(start.friction(), 0.);
     return start;
@@ -62,7 +63,7 @@ namespace Debond
   InterfaceLaw::reported(const PointHistory &history, const double phi_0) const
   {
     return friction->reported(
-      PointStart{history, phi_0, 0., false, {}}.friction());
+      PointStart{history, phi_0, 0., false, history.damage, {}}.friction());
   }
 
 

@@ -129,6 +129,25 @@ namespace Debond
 
 
 
+  // What the trapezoid of the traction over the gap is more than what is stored
+  // after it than before: A_n and A being the stiffness at both ends, delta_n
+  // and delta the gaps, (A_n - A) delta_n . delta / 2.
+  void
+  InterfaceWork::add(const CohesiveShare   &share,
+                     const SlavePoint      &point,
+                     const Eigen::Matrix3d &frame)
+  {
+    if (!share.holds)
+      return;
+    const double lost = 0.5 * point.JxW * share.stiffness_by_damage *
+                        (point.accepted.damage - share.damage) *
+                        share.bears.dot(frame * share.gap);
+    for (double *work : {&damage, &adhesive, &dissipation, &friction})
+      *work += lost;
+  }
+
+
+
   // How a point has let go: where it was, its slave was at @p before.
   OpeningMotion
   ContactInterface::opening_motion(const SlavePoint             &point,
@@ -163,6 +182,8 @@ namespace Debond
     const ContactPointResult &trial = point.trial;
     const InterfaceLaw       &joint = *law.joint;
     PointStart                start = point.begin(joint, mode);
+    if (joint.is_cohesive()) // what is held beside is known
+      start.damage = start.history.damage = trial.state.damage;
     // of the beginning, and where nothing has slid
     const InterfaceResponse at_start =
       joint.respond(start, point.accepted.normal_gap, 0.);

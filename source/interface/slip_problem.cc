@@ -64,7 +64,8 @@ namespace Debond
     const double            length = g_t.norm();
     const InterfaceResponse held =
       friction.law.respond(friction.start, g_n, 0.);
-    held_by_gap = held.limit_by_gap;
+    held_by_gap    = held.limit_by_gap;
+    held_by_damage = held.limit_by_damage;
     towed.emplace(
       TowedGap::Step{friction.arc,
                      axes.transpose() * friction.old_gap,
@@ -202,6 +203,24 @@ namespace Debond
     result.h = along(excess) -
                tangents.transpose() *
                  (tangents + 1. / law.tangential_penalty * d.topRows<3>());
+    return result;
+  }
+
+
+
+  // L changes with it at the end, and so does the string that the point has
+  // been towed by.
+  inline SlipEquations::Derivative<1>
+  SlipEquations::along_damage() const
+  {
+    Derivative<1> result;
+    auto         &d = result.traction_and_distance;
+    d               = with(response.limit_by_damage * tau, 0.);
+    if (towed)
+      d += held_by_damage / law.tangential_penalty *
+           (by_towed() * towed->derivative.col(4));
+    result.h =
+      -1. / law.tangential_penalty * tangents.transpose() * d.topRows<3>();
     return result;
   }
 
@@ -444,6 +463,16 @@ namespace Debond
     const Eigen::Matrix<double, 4, W::size> total =
       by_w.traction_and_distance + by_xi.traction_and_distance * result.dxi;
     result.dt = total.topRows<3>();
+    if (friction.law.is_cohesive())
+      {
+        const auto by_damage = e.along_damage();
+        result.dxi_by_damage = -inverse * by_damage.h;
+        const Vector4d change =
+          by_damage.traction_and_distance +
+          by_xi.traction_and_distance * result.dxi_by_damage;
+        result.dt_by_damage   = change.head<3>();
+        result.path_by_damage = change[3];
+      }
     // where it has not moved the length has no derivative
     result.dpath.setZero();
     if (result.state.slip != friction.start.history.slip)

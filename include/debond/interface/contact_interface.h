@@ -2,6 +2,7 @@
 #define debond_interface_contact_interface_h
 
 #include <debond/interface/bonding_pattern.h>
+#include <debond/interface/cohesive_share.h>
 #include <debond/interface/interface_configuration.h>
 #include <debond/interface/interface_parameters.h>
 #include <debond/interface/point_tangent.h>
@@ -27,7 +28,10 @@ namespace Debond
      *  1. Zero for the explicit law, which does not ask. */
     double steepest_softening = 0;
     /** p, and -dL/d g_s of that point [MPa, MPa/mm]. */
-    double       softening_pressure = 0, softening_slope = 0;
+    double softening_pressure = 0, softening_slope = 0;
+    /** Sum and area of what pulls across the interface [N, mm^2], and how fast
+     *  that falls at most as it opens [MPa/mm]. */
+    double       pull = 0, pulled_area = 0, opening_softening = 0;
     double       max_penetration = 0; ///< [mm]
     double       max_traction    = 0; ///< [MPa]
     unsigned int bonded_opened =
@@ -99,6 +103,11 @@ namespace Debond
         const InterfaceLaw     &law,
         const ContactPointMode &mode,
         const Eigen::Matrix3d  &frame);
+    /** The work of damage of a share that is held. */
+    void
+    add(const CohesiveShare   &share,
+        const SlavePoint      &point,
+        const Eigen::Matrix3d &frame);
     /** The same of a point that opens. */
     void
     add_opening(const SlavePoint       &point,
@@ -309,6 +318,8 @@ namespace Debond
       tangent_is_gathered = false;
       for (SlavePoint &point : points)
         archive &point;
+      for (CohesiveShare &share : shares)
+        archive &share;
       archive &forces &accepted_positions &accepted_frame &accepted_centre;
       archive &works                                      &unprojected;
       if constexpr (is_in_memory<Archive>)
@@ -343,6 +354,15 @@ namespace Debond
     ContactPointState
     entry(const SlavePoint             &point,
           const InterfaceConfiguration &configuration) const;
+    void
+    hold(unsigned int                  q,
+         const InterfaceConfiguration &configuration,
+         const ContactPointMode       &mode,
+         NodalSums                    &sums);
+    void
+    accept_shares(const InterfaceConfiguration &configuration,
+                  const std::vector<bool>      &had_joined);
+
     /** Bound of how far points of the two surfaces have moved towards each
      *  other since the accepted configuration [mm]. */
     double
@@ -351,13 +371,21 @@ namespace Debond
     /** Unless it is gathered already. */
     void
     gather_tangent() const;
+    void
+    add_products_of_shares(unsigned int                    chunk,
+                           const std::array<PaddedNet, 2> &moved,
+                           std::array<PaddedNet, 2>       &sums) const;
+    void
+    add_path_of_share(unsigned int q, NodalSums &gradient) const;
 
-    const InterfaceParameters             parameters;
-    const ContactPointLaw                 law;
-    const Side                            slave;
-    std::array<const BulkSpace *, 2>      mesh;
-    const unsigned int                    n; ///< points per direction, element
-    std::vector<SlavePoint>               points;
+    const InterfaceParameters        parameters;
+    const ContactPointLaw            law;
+    const Side                       slave;
+    std::array<const BulkSpace *, 2> mesh;
+    const unsigned int               n; ///< points per direction, element
+    std::vector<SlavePoint>          points;
+    /** Of each point, by laws that hold one; else empty. */
+    std::vector<CohesiveShare>            shares;
     double                                area_of_implant = 0;
     std::unique_ptr<const BondingPattern> pattern;
     NodalSums                             forces, accepted_positions;

@@ -80,6 +80,8 @@ namespace Debond
      *  the bodies turns the way of the point over the master in the step, about
      *  the normal [rad]. */
     double turn = 0;
+    /** Of the share of the point that is held, at the end of the step. */
+    double damage = 0;
 
     /** See saved_state.h. */
     template <class Archive>
@@ -87,7 +89,7 @@ namespace Debond
     serialize(Archive &archive, const unsigned int)
     {
       archive &stick_first &touch_tolerance &frictionless &duration;
-      archive                                             &turn;
+      archive &turn                                       &damage;
     }
   };
 
@@ -145,6 +147,11 @@ namespace Debond
     Eigen::Matrix<double, 2, W::size> dxi; ///< dxi_hat/dw
     /** d(g_s + opening)/dw, which a path is measured by. */
     Eigen::Matrix<double, 1, W::size> dpath;
+    // Only of laws that hold a share of the area: how traction, xi_hat and path
+    // change with its damage.
+    Eigen::Vector3d dt_by_damage   = Eigen::Vector3d::Zero();
+    Eigen::Vector2d dxi_by_damage  = Eigen::Vector2d::Zero();
+    double          path_by_damage = 0;
     /** d turn / dq of the chuck, where a component of it is unknown. */
     Eigen::Matrix<double, 6, 1> turn_by_chuck =
       Eigen::Matrix<double, 6, 1>::Zero();

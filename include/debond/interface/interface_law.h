@@ -17,6 +17,8 @@ namespace Debond
     double       duration = 0; ///< of the step [unit of time], 0: none passes
     /** For now: nothing rubs, and slip does not count. */
     bool frictionless = false;
+    /** Of the share that is held, at the end of the step. */
+    double damage = 0;
     /** phi and mu with nothing slid in the step: asked for once. */
     FrictionCoefficient at_rest;
 
@@ -43,9 +45,34 @@ namespace Debond
     double limit            = 0; ///< L >= 0 of the tangential traction [MPa]
     double limit_by_gap     = 0; ///< dL/dg_n [MPa/mm]
     double limit_by_slip    = 0; ///< dL/dd [MPa/mm]
+    double limit_by_damage  = 0; ///< of the share that is held [MPa]
     double energy           = 0; ///< stored across the interface [N/mm]
     /** Whether the viscosity resists sliding, beside L. */
     bool resists = false;
+  };
+
+
+
+  /** What a full bond does in tension; 0 of laws without strength there. */
+  struct Tension
+  {
+    double strength  = 0; ///< [MPa]
+    double work      = 0; ///< of adhesion, to the end [N/mm]
+    double stiffness = 0; ///< as it begins to open [MPa/mm]
+    double softening = 0; ///< the steepest fall as it opens [MPa/mm]
+  };
+
+
+
+  /** The share of a point's area that is bonded to a place of the master, at a
+   *  gap to that place: the traction is the stiffness times the gap, without
+   *  its normal part where that presses. */
+  struct CohesiveResponse
+  {
+    double stiffness           = 0; ///< [MPa/mm]
+    double stiffness_by_damage = 0; ///< [MPa/mm]
+    double damage              = 0; ///< from 0 to 1, at the end of the step
+    double damage_by_normal = 0, damage_by_tangential = 0; ///< [1/mm]
   };
 
 
@@ -133,17 +160,44 @@ namespace Debond
                       double            pressure,
                       double            distance) const = 0;
 
+    /** @name Laws that hold a share of the area at the place where it bonded */
+    //@{
+    virtual bool
+    is_cohesive() const
+    {
+      return false;
+    }
+    /** What that share does at the gap @p g_n across the interface and the
+     *  distance @p delta_t along it [mm]. */
+    virtual CohesiveResponse
+    hold(const PointStart &, double /*g_n*/, double /*delta_t*/) const
+    {
+      return {};
+    }
+    /** The gap at which damage is 1, for the measure of a path [mm]. */
+    virtual double
+    length_of_damage() const
+    {
+      return 0.;
+    }
+    //@}
+
     /** phi and mu in an accepted state, for output. */
     virtual FrictionCoefficient
     reported(const PointHistory &history, double phi_0) const;
 
     /** @name What kind of law it is */
     //@{
-    /** It has strength in tension. */
-    virtual bool
+    /** What a full bond does in tension. */
+    virtual Tension
+    tension() const
+    {
+      return {};
+    }
+    bool
     pulls() const
     {
-      return false;
+      return tension().strength > 0.;
     }
     /** How far a point has been opened [mm], which never falls: with the
      *  sliding distance what a path of equilibrium is measured by. */
@@ -157,13 +211,6 @@ namespace Debond
     characteristic_distance() const
     {
       return friction->characteristic_distance();
-    }
-    /** How fast the pull of a full bond falls as it opens at most [MPa/mm];
-     * more than the bodies are stiff is a jump. */
-    virtual double
-    softening_by_opening() const
-    {
-      return 0.;
     }
     //@}
 

@@ -102,6 +102,9 @@ namespace Debond
     /** With respect to the two parameters of the surface: for this point. */
     Derivative<2>
     along_surface() const;
+    /** Traction, distance and h by the damage of the share that is held. */
+    Derivative<1>
+    along_damage() const;
     /** The same of g_n. */
     Eigen::Matrix<double, 1, W::size>
     gap_along_w() const;
@@ -196,7 +199,8 @@ namespace Debond
     // limit without sliding changes with the gap, for slip that is integrated
     Eigen::Matrix<double, 3, 2> axes;
     Eigen::Vector3d             along_gap;
-    double                      held_by_gap; ///< [MPa/mm]
+    double                      held_by_gap;        ///< [MPa/mm]
+    double                      held_by_damage = 0; ///< [MPa]
 
     // The length of the slip has a derivative along its own direction. The
     // excess may have a part along n only, as g - t_t / eps_t in Eq. (29).

@@ -266,6 +266,11 @@ class Interface:
             state.limit = self.law.string(begin, state.spent, state.normal_gap)[0] * self.tangential_stiffness
         pressure = state.pressure - (_dot(held.traction, held.normal) if held else 0.)
         state.pulled = state.closed & (pressure < -ROUNDING * self.normal_stiffness) & (state.limit == 0)
+        state.presses, state.apart = state.closed, ~state.closed
+        if self.law.cohesive:  # shares of the area are those of what rubs; what is held beside that is pulled
+            state.presses = state.closed & (state.normal_gap < -ROUNDING)
+            state.pulled = begin.bonds & (held.omega < 1) & ~state.presses
+            state.apart = ~state.presses & ~state.pulled
         return state
 
     def _slide(self, x, xi, master_points, begin):
@@ -488,7 +493,7 @@ class Interface:
         mean = np.zeros(len(way))
         for part, weight in zip((1 + abscissae) / 2, weights / 2):
             there = SimpleNamespace(**{**vars(begin), 'duration': part * begin.duration})
-            mean += weight * self.friction.coefficient(there, part * way)[0]
+            mean += weight * self.law.coefficient(there, part * way)
         return mean
 
     def _lost(self, pressure, shear, height, place, begin, rubbed, carried):
@@ -512,7 +517,7 @@ class Interface:
         beyond += np.maximum(0, _dot(shear, gap + of_solids) / 2)
 
         risen = np.maximum(0, -_dot(of_solids, place.normal))
-        little = 1e-4 * (self.friction.coefficient(begin, 0 * depth)[0] * pressure / self.tangential_stiffness) ** 2
+        little = 1e-4 * (self.law.coefficient(begin, 0 * depth) * pressure / self.tangential_stiffness) ** 2
         softer = np.maximum(0, (_dot(of_solids, gap) + little * risen / depth) / (_dot(gap, gap) + little))[:, None]
         closed = (depth + risen) / (depth + risen + np.maximum(height, 0))
         motion = closed[:, None] * along(carried) + along(of_solids) - softer * gap
@@ -524,7 +529,7 @@ class Interface:
         for part in range(parts):
             trial = gap + motion / parts
             length = np.linalg.norm(trial, axis=1)
-            mu = self.friction.coefficient(now, way)[0]  # at the speed of the part before
+            mu = self.law.coefficient(now, way)  # at the speed of the part before
             way = np.maximum(0, length - mu * pressure * (1 - (part + 1) / parts) / stiffness) / (1 + viscous)
             slip = (way / np.maximum(length, 1e-300))[:, None] * trial
             lost += stiffness * _dot(gap + trial - slip, slip) / 2

@@ -33,6 +33,10 @@ class Friction:
         """p [MPa], negative where the bond pulls, and its derivatives by the gap and by the way."""
         return -self.normal * gap, np.full(gap.shape, -self.normal), 0 * way
 
+    def coefficient(self, begin, way):
+        """L over the pressure, under pressure."""
+        return self.friction.coefficient(begin, way)[0]
+
     def string(self, begin, way, gap):
         """L / eps_t [mm], its derivatives by the depth -g_n and by the way, and whether viscosity resists."""
         mu, slope = self.friction.coefficient(begin, way)
@@ -226,6 +230,9 @@ class MixedMode(Friction):
         ratio = self.normal / self.tangential * self.friction.broken
         rubs = (1 - begin.bonds * begin.bonded * (1 - begin.omega)) * (gap < 0)
         return ratio * rubs * -gap, ratio * rubs, 0 * way, gap < 0
+
+    def coefficient(self, begin, way):
+        return self.friction.broken * (1 - begin.bonds * begin.bonded * (1 - begin.omega)) + 0 * way
 
     def by_omega(self, begin, gap):
         """Derivative of L / eps_t by omega, mm."""

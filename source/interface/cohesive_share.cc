@@ -1,0 +1,64 @@
+#include <debond/geometry/surface_geometry.h>
+#include <debond/interface/cohesive_share.h>
+#include <debond/interface/slip_problem.h>
+
+namespace Debond
+{
+  using Eigen::Matrix3d;
+  using Eigen::Vector3d;
+
+  // The gap to the place where it bonded, x - y(xi), has a part along the
+  // normal there and one along the face. What bears is all of it where it
+  // opens, and the part along the face where it is pressed: the pressure is
+  // that of the whole area, and acts at xi_hat.
+  void
+  CohesiveShare::update(const InterfaceLaw  &law,
+                        const PointStart    &start,
+                        const Vector3d      &x,
+                        const MasterSurface &master)
+  {
+    damage = start.history.damage;
+    holds  = start.history.joined && start.phi_0 > 0. && damage < 1.;
+    energy = pressure = 0.;
+    bears = traction = Vector3d::Zero();
+    if (!holds)
+      return;
+    SurfaceGeometry geometry;
+    master.surface->evaluate(xi, basis, false);
+    contract(basis, *master.positions, false, geometry);
+    const MasterNormal normal(geometry, master.outward_sign);
+    n                        = normal.n;
+    const Vector3d whole     = x - geometry.y;
+    const double   g_n       = n.dot(whole);
+    const Vector3d along     = whole - g_n * n;
+    const double   length    = along.norm();
+    const Vector3d direction = length > 0. ? Vector3d(along / length) : along;
+    const CohesiveResponse response = law.hold(start, g_n, length);
+    const bool             opens    = g_n > 0.;
+
+    damage              = response.damage;
+    stiffness_by_damage = response.stiffness_by_damage;
+    bears               = opens ? whole : along;
+    traction            = response.stiffness * bears;
+    energy              = 0.5 * response.stiffness * bears.squaredNorm();
+    pressure            = opens ? -response.stiffness * g_n : 0.;
+
+    // dg_n = n . dg + g . dn,   d|delta_t| = tau . (dg - g_n dn)
+    const Eigen::Matrix<double, 3, 6> dn = normal.derivative();
+    ddamage << response.damage_by_normal * n.transpose() +
+                 response.damage_by_tangential * direction.transpose(),
+      (response.damage_by_normal * whole.transpose() -
+       response.damage_by_tangential * g_n * direction.transpose()) *
+        dn;
+    Eigen::Matrix<double, 3, 9> dbears = Eigen::Matrix<double, 3, 9>::Zero();
+    dbears.leftCols<3>()               = Matrix3d::Identity();
+    if (!opens)
+      {
+        dbears.leftCols<3>() -= n * n.transpose();
+        dbears.rightCols<6>() =
+          -(n * whole.transpose() + g_n * Matrix3d::Identity()) * dn;
+      }
+    dt = response.stiffness * dbears +
+         response.stiffness_by_damage * bears * ddamage;
+  }
+} // namespace Debond

@@ -221,6 +221,67 @@ check_energies(const std::string &name, const InterfaceLaw &law)
 
 
 
+// The share that is held: derivatives of its damage; in a fixed direction the
+// work is that of a triangle, whose height is given by the strengths and whose
+// area by Benzeggagh and Kenane's criterion; damage never falls.
+void
+check_cohesion(const std::string &name, const InterfaceLaw &law)
+{
+  PointHistory history;
+  history.joined         = true;
+  double       deviation = 0., work = 0., strength = 0., falls = 0.;
+  const double N = 5., T = 5., G_I = 0.05, G_II = 0.1, K = 2000., eta = 2.;
+  for (const double angle : {0., 0.2, 0.7, 1.3, 0.5 * M_PI})
+    {
+      const double n = std::cos(angle), t = std::sin(angle), B = t * t,
+                   G          = G_I + (G_II - G_I) * std::pow(B, eta),
+                   onset      = 1. / std::hypot(n * K / N, t * K / T),
+                   end        = 2. * G / (K * onset);
+      const unsigned int m    = 100000;
+      double             area = 0., before = 0., largest = 0., damage = 0.;
+      for (unsigned int i = 1; i <= m; ++i)
+        {
+          const double           d = 1.01 * end * i / m;
+          const CohesiveResponse now =
+            law.hold(law.begin(history, 1.), n * d, t * d);
+          area += 0.5 * (before + now.stiffness * d) * 1.01 * end / m;
+          before  = now.stiffness * d;
+          largest = std::max(largest, before);
+          grow(falls, damage - now.damage);
+          damage         = now.damage;
+          const double h = 1e-7 * end;
+          if (i % 997 == 0 && damage > 0. && damage < 1.)
+            {
+              const auto at = [&](const double more_n, const double more_t) {
+                return law
+                  .hold(law.begin(history, 1.), n * d + more_n, t * d + more_t)
+                  .damage;
+              };
+              if (n > 0.1)
+                grow(deviation,
+                     end * std::abs((at(h, 0.) - at(-h, 0.)) / (2. * h) -
+                                    now.damage_by_normal));
+              if (t > 0.1)
+                grow(deviation,
+                     end * std::abs((at(0., h) - at(0., -h)) / (2. * h) -
+                                    now.damage_by_tangential));
+            }
+        }
+      grow(work, std::abs(area / G - 1.));
+      grow(strength, std::abs(largest / (K * onset) - 1.));
+      PointHistory damaged = history;
+      damaged.damage       = 0.5;
+      grow(falls,
+           0.5 - law.hold(law.begin(damaged, 1.), 0.1 * n * end, 0.).damage);
+    }
+  report(name + ": derivatives of the damage", deviation, 1e-6);
+  report(name + ": work to the end, deviation from the criterion", work, 1e-6);
+  report(name + ": largest traction, deviation from the onset", strength, 1e-4);
+  report(name + ": damage falls by", falls, 1e-15);
+}
+
+
+
 void
 check_entries()
 {
@@ -244,6 +305,8 @@ main()
       const InterfaceLawPointer law = law_called(plugin.name);
       check_derivatives(plugin.name, *law);
       check_energies(plugin.name, *law);
+      if (law->is_cohesive())
+        check_cohesion(plugin.name, *law);
     }
   check_entries();
 }

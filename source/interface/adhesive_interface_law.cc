@@ -316,6 +316,11 @@ namespace Debond
       [](const LawChoice &choice, const InterfaceLawParts &parts) {
         if (choice.number("Strength") == 0.)
           return friction_under_pressure(parts);
+        if (parts.opening_breaks_bond)
+          throw EntryError(
+            "Interface / Opening breaks bond",
+            "with Law = adhesive opening breaks a bond by as much as the law says: expected false",
+            "true");
         auto bond =
           std::dynamic_pointer_cast<const BondFriction>(parts.friction);
         if (!bond)

@@ -737,7 +737,7 @@ namespace Debond
         if (softening > summary.steepest_softening)
           {
             summary.steepest_softening = softening;
-            summary.softening_pressure = trial.pressure;
+            summary.softening_pressure = std::max(0., trial.pressure);
             summary.softening_slope    = slope;
           }
       }

@@ -14,10 +14,7 @@ namespace Debond
     class FrictionUnderPressure : public InterfaceLaw
     {
     public:
-      explicit FrictionUnderPressure(const InterfaceLawParts &parts)
-        : InterfaceLaw(parts)
-        , opening_breaks_bond(parts.opening_breaks_bond)
-      {}
+      using InterfaceLaw::InterfaceLaw;
 
       InterfaceResponse
       respond(const PointStart &start,
@@ -36,16 +33,6 @@ namespace Debond
             result.limit_by_gap  = -c.mu * stiffness;
             result.limit_by_slip = c.dmu * result.pressure;
           }
-        return result;
-      }
-
-      // In the paper's law a point that closes again is bonded as before; once
-      // broken, a bond stays so.
-      PointHistory
-      open(const PointHistory &history) const override
-      {
-        PointHistory result = InterfaceLaw::open(history);
-        result.broken       = history.broken || opening_breaks_bond;
         return result;
       }
 
@@ -86,9 +73,6 @@ namespace Debond
         return friction->steepest_fall(start.friction(), distance) *
                std::max(0., pressure);
       }
-
-    private:
-      const bool opening_breaks_bond;
     };
   } // namespace
 

@@ -7,6 +7,7 @@ namespace Debond
   InterfaceLaw::InterfaceLaw(const InterfaceLawParts &parts)
     : stiffness(parts.stiffness)
     , friction(parts.friction)
+    , opening_breaks_bond(parts.opening_breaks_bond)
   {}
 
 
@@ -48,12 +49,14 @@ namespace Debond
 
 
   // An open point carries nothing, but does not forget how far it has slid:
-  // damage does not heal.
+  // damage does not heal. In the paper's law a point that closes again is
+  // bonded as before; once broken, a bond stays so.
   PointHistory
   InterfaceLaw::open(const PointHistory &history) const
   {
     PointHistory result = history;
     result.normal_gap   = PointHistory::far;
+    result.broken       = history.broken || opening_breaks_bond;
     return result;
   }
 

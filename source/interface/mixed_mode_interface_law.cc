@@ -213,6 +213,11 @@ namespace Debond
                          "broken: it needs Friction law = modified coulomb, "
                          "coulomb, frictionless or table, with Friction update "
                          "= implicit");
+      if (parts.opening_breaks_bond)
+        throw EntryError(
+          "Interface / Opening breaks bond",
+          "with Law = mixed mode opening breaks a bond by as much as the law says: expected false",
+          "true");
       const double K = choice.number("Stiffness");
       for (const auto &[energy, strength] :
            {std::array<const char *, 2>{

@@ -243,6 +243,7 @@ namespace Debond
             const auto  &own  = stencil.point[a]->trial.state;
             const double part = stencil.weight[a] / weight;
             state.slip += part * own.slip;
+            state.damage += part * own.damage;
             for (unsigned int i = 0; i < state.internal.size(); ++i)
               state.internal[i] += part * own.internal[i];
           }

@@ -88,9 +88,48 @@ namespace Debond
 
 
 
+    // Of laws with strength in tension: whether cells are short enough for the
+    // zone over which a bond opens, and a point as stiff on both sides of 0.
+    void
+    judge_tension(const Scene &scene, const Note &note)
+    {
+      const Tension bond = scene.interface.joint()->tension();
+      if (bond.strength == 0.)
+        return;
+      double E = 0., cell = 0.;
+      for (const BodyParameters *body : {&scene.bone, &scene.implant})
+        if (!body->is_rigid() && (E == 0. || body->young_modulus < E))
+          {
+            E    = body->young_modulus;
+            cell = std::max(body->cell_width(0), body->cell_width(1));
+          }
+      const double zone = E * bond.work / (bond.strength * bond.strength);
+      note(E > 0. && zone < cell,
+           "cohesive zone",
+           "a bond that breaks along the face does so over some " +
+             to_text(zone, 3) +
+             " mm (E times the work of adhesion over strength^2), less than a "
+             "cell of " +
+             to_text(cell, 3) +
+             " mm: forces depend on the mesh, unless all breaks at once. Finer "
+             "Cells, or less strength with the same work");
+      const double eps_n = scene.interface.normal_penalty,
+                   ratio =
+                     std::max(eps_n / bond.stiffness, bond.stiffness / eps_n);
+      note(ratio > 10.,
+           "stiffness of the bond",
+           "pressed, the interface is as stiff as " + to_text(eps_n, 3) +
+             " MPa/mm (Penalty stiffness), pulled as " +
+             to_text(bond.stiffness, 3) +
+             " MPa/mm: they differ by more than ten");
+    }
+
+
+
     void
     judge_interface(const Scene &scene, const Note &note)
     {
+      judge_tension(scene, note);
       const FrictionLaw       &law     = *scene.interface.friction;
       const BondingParameters &bonding = scene.interface.bonding;
       note(

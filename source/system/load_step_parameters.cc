@@ -20,7 +20,8 @@ namespace Debond
         Allowed::choice("none | slip"),
         "`none': the program goes through the planned steps of the time, "
         "and jumps where the path of equilibrium snaps back. `slip': it "
-        "follows that path by prescribing the mean sliding distance, "
+        "follows that path by prescribing the mean of the sliding distance "
+        "and, of laws with strength in tension, of the opening, "
         "while the time, and with it everything the chuck prescribes, is "
         "found and may fall; each accepted step is a row. While "
         "everything sticks planned steps are taken.");
@@ -28,9 +29,10 @@ namespace Debond
                 parameters.largest_slip_step,
                 Allowed::number_from(0, "mm"),
                 "With Path following: largest step of the sliding distance, "
-                "averaged over the contact face [mm]. 0: a twentieth of the "
-                "distance over which friction falls, 2 a_s b_s, or of a_s if "
-                "that is less.");
+                "and of the opening, averaged over the contact face [mm]. 0: a "
+                "twentieth of the distance over which friction falls, 2 a_s "
+                "b_s, of a_s, or of the gap over which a bond opens, whichever "
+                "is least.");
       table.add("Path ends at slip",
                 parameters.path_ends_at_slip,
                 Allowed::number_from(0, "mm"),

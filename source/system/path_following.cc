@@ -115,8 +115,9 @@ namespace Debond
     if (path_length < end_slip)
       return StepControl::reason_to_end();
     Classic<std::ostringstream> reason;
-    reason << "the mean sliding distance has reached " << end_slip
-           << " mm (Load steps / Path ends at slip) at time " << time;
+    reason << "the mean of sliding distance and opening has reached "
+           << end_slip << " mm (Load steps / Path ends at slip) at time "
+           << time;
     return reason.str();
   }
 } // namespace Debond

@@ -646,7 +646,7 @@ deviation_by_turn(const Setting &setting, const ContactPointResult &result)
                   setting.law.tangential_penalty *
                     std::abs((varied[1].state.slip - varied[0].state.slip) /
                                (2. * h) -
-                             result.dslip[W::turn]) /
+                             result.dpath[W::turn]) /
                     scale);
 }
 

@@ -217,6 +217,7 @@ namespace Debond
     // What all laws share: eps_n [MPa/mm], and friction under pressure.
     const double             stiffness;
     const FrictionLawPointer friction;
+    const bool               opening_breaks_bond;
 
   protected:
     /** phi, mu and its slope after sliding by @p distance, which is negative

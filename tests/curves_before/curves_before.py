@@ -38,10 +38,10 @@ SCENES = {
 }
 FOLLOWS_PATH = {'snap_back_path'}
 LEFT_OUT = {'step', 'newton_iterations', 'variant'}
-ALONE = {'time', 'phi_mean', 'share_stick', 'share_slip', 'share_open', 'warnings'}
+ALONE = {'time', 'phi_mean', 'share_stick', 'share_slip', 'share_open', 'share_pulled', 'warnings'}
 DEFECTS = {'energy_defect', 'energy_defect_bound', 'reaction_defect'}
 # All others end in their unit: force_N, chuck_Mx_Nmm and energy_bulk_Nmm, pressure_MPa, chuck_ux_mm, chuck_rx_deg.
-ENERGIES = ('work', 'energy', 'dissipation', 'adhesive', 'viscous', 'released')
+ENERGIES = ('work', 'energy', 'dissipation', 'adhesive', 'viscous', 'released', 'damage')
 
 
 def kind_of(column):

@@ -1,6 +1,5 @@
 #include <debond/interface/bond_friction.h>
 #include <debond/interface/interface_law.h>
-#include <debond/support/input_error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -316,21 +315,8 @@ namespace Debond
       [](const LawChoice &choice, const InterfaceLawParts &parts) {
         if (choice.number("Strength") == 0.)
           return friction_under_pressure(parts);
-        if (parts.opening_breaks_bond)
-          throw EntryError(
-            "Interface / Opening breaks bond",
-            "with Law = adhesive opening breaks a bond by as much as the law says: expected false",
-            "true");
-        auto bond =
-          std::dynamic_pointer_cast<const BondFriction>(parts.friction);
-        if (!bond)
-          throw EntryError("Interface / Law",
-                           "the law adhesive needs a friction law whose bond "
-                           "breaks with the slip: modified coulomb, coulomb, "
-                           "frictionless or table, with Friction update = "
-                           "implicit");
-        return InterfaceLawPointer(
-          std::make_shared<Adhesive>(choice, parts, std::move(bond)));
+        return InterfaceLawPointer(std::make_shared<Adhesive>(
+          choice, parts, bond_that_opens(parts, "adhesive")));
       }};
   }
 } // namespace Debond

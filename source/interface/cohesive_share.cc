@@ -27,12 +27,12 @@ namespace Debond
     master.surface->evaluate(xi, basis, false);
     contract(basis, *master.positions, false, geometry);
     const MasterNormal normal(geometry, master.outward_sign);
-    n                        = normal.n;
-    const Vector3d whole     = x - geometry.y;
-    const double   g_n       = n.dot(whole);
-    const Vector3d along     = whole - g_n * n;
-    const double   length    = along.norm();
-    const Vector3d direction = length > 0. ? Vector3d(along / length) : along;
+    const Vector3d    &n      = normal.n;
+    const Vector3d     whole  = x - geometry.y;
+    const double       g_n    = n.dot(whole);
+    const Vector3d     along  = whole - g_n * n;
+    const double       length = along.norm();
+    const Vector3d direction  = length > 0. ? Vector3d(along / length) : along;
     const CohesiveResponse response = law.hold(start, g_n, length);
     const bool             opens    = g_n > 0.;
 

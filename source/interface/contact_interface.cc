@@ -515,9 +515,6 @@ namespace Debond
     works.step_dissipation = 0.;
     for (unsigned int q = 0; q < shares.size(); ++q)
       works.add(shares[q], points[q], Q);
-    std::vector<bool> had_joined;
-    for (const SlavePoint &point : points)
-      had_joined.push_back(point.accepted.joined);
     for (SlavePoint &point : points)
       {
         // beyond the edge, and still too far to reach it
@@ -552,27 +549,30 @@ namespace Debond
         if (point.accepted.status == PointStatus::open)
           project_accepted(point, configuration, true);
       }
-    accept_shares(configuration, had_joined);
+    accept_shares(configuration);
   }
 
 
 
-  // What has closed for the first time bonds to where its closest point is now.
+  // What has closed for the first time, and so was not held in this step, bonds
+  // to where its closest point is now.
   void
-  ContactInterface::accept_shares(const InterfaceConfiguration &configuration,
-                                  const std::vector<bool>      &had_joined)
+  ContactInterface::accept_shares(const InterfaceConfiguration &configuration)
   {
     const Eigen::Matrix3d &Q = configuration.side[master_side()].frame;
     for (unsigned int q = 0; q < shares.size(); ++q)
       {
-        shares[q].gap = Q.transpose() * shares[q].bears;
-        if (points[q].accepted.joined && !had_joined[q])
-          shares[q].xi =
-            project(master(configuration),
-                    interpolate(points[q].basis,
-                                configuration.side[slave].positions),
-                    &points[q].accepted.xi)
-              .xi;
+        SlavePoint    &point  = points[q];
+        CohesiveShare &share  = shares[q];
+        share.gap             = Q.transpose() * share.bears;
+        point.accepted.damage = share.damage;
+        if (point.accepted.joined && !share.holds && point.phi_0 > 0. &&
+            share.damage < 1.)
+          share.xi = project(master(configuration),
+                             interpolate(point.basis,
+                                         configuration.side[slave].positions),
+                             &point.accepted.xi)
+                       .xi;
       }
   }
 

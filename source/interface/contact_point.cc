@@ -42,9 +42,7 @@ namespace Debond
     result.state.gap.setZero();
     result.dt.setZero();
     result.dxi.setZero();
-    result.dt_by_damage.setZero();
-    result.dxi_by_damage.setZero();
-    result.path_by_damage = 0.;
+    result.by_damage = {};
   }
 
 
@@ -190,18 +188,17 @@ namespace Debond
       // step, a point that sticks returns to where it was when the load does.
       // g_s stays.
       void
-      stick(const PointFriction &friction,
-            const Vector3d      &gap,
-            const MasterNormal  &normal)
+      stick(const PointFriction     &friction,
+            const InterfaceResponse &response,
+            const Vector3d          &gap,
+            const MasterNormal      &normal)
       {
         // g_n and p: the spring eps_n pushes while g_n < 0; a law with strength
         // in tension pulls beyond.
-        const Vector3d         &n   = normal.n;
-        const double            g_n = n.dot(gap);
-        const InterfaceResponse response =
-          law.joint->respond(friction.start, g_n, 0.);
-        const double eps_n = -response.pressure_by_gap,
-                     eps_t = law.tangential_penalty;
+        const Vector3d &n     = normal.n;
+        const double    g_n   = n.dot(gap);
+        const double    eps_n = -response.pressure_by_gap,
+                     eps_t    = law.tangential_penalty;
         // xi_hat = xi_hat^n and g_s = g_s^n. The spring eps_t holds the point
         // with what is left of the gap in the tangent plane, (1 - n n^T) g,
         // which need not be zero: this gap is the elastic deformation of the
@@ -235,9 +232,7 @@ namespace Debond
           (eps_n - eps_t) * (n * (gap.transpose() * dn)) -
             (response.pressure + eps_t * g_n) * dn,
           Eigen::Matrix<double, 3, W::size - W::trial_gap>::Zero();
-        result.dt_by_damage.setZero();
-        result.dxi_by_damage.setZero();
-        result.path_by_damage = 0.;
+        result.by_damage = {};
         result.dpath.setZero();
         if (law.joint->opened(result.state) > law.joint->opened(start))
           {
@@ -377,7 +372,7 @@ namespace Debond
     // has moved yet.
     const bool rubs = limit > 0. || response.pressure >= 0.;
     if (closed && (mode.stick_first || (rubs && trial_traction <= limit)))
-      step.stick(friction, gap, normal);
+      step.stick(friction, response, gap, normal);
     else if (mode.stick_first)
       step.open(g_n);
     else

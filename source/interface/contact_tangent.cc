@@ -129,8 +129,8 @@ namespace Debond
       {
         const Vector3d       t = point.JxW * point.trial.traction;
         Matrix<double, 9, 1> by_damage;
-        by_damage << point.JxW * point.trial.dt_by_damage,
-          -t * point.trial.dxi_by_damage[0], -t * point.trial.dxi_by_damage[1];
+        by_damage << point.JxW * point.trial.by_damage.traction,
+          -t * point.trial.by_damage.xi[0], -t * point.trial.by_damage.xi[1];
         for (unsigned int j = 0; j < n; ++j)
           {
             const Matrix<double, 9, 1> column = dw.col(j).head<9>();
@@ -361,8 +361,8 @@ namespace Debond
         // how the damage changes the friction of the other share
         const double   damage = share.ddamage.dot(w);
         const Vector3d t      = point.JxW * damage * point.trial.traction;
-        f << point.JxW * damage * point.trial.dt_by_damage,
-          t * point.trial.dxi_by_damage[0], t * point.trial.dxi_by_damage[1];
+        f << point.JxW * damage * point.trial.by_damage.traction,
+          t * point.trial.by_damage.xi[0], t * point.trial.by_damage.xi[1];
         spread_to(point.basis, along_x, f, slave);
         spread_to(point.trial.basis, Vector3d(-1., -1., -1.), f, master);
       }
@@ -447,7 +447,7 @@ namespace Debond
     const SlavePoint          &point = points[q];
     const CohesiveShare       &share = shares[q];
     const Matrix<double, 9, 1> d =
-      point.JxW * (law.joint->length_of_damage() + point.trial.path_by_damage) *
+      point.JxW * (law.joint->length_of_damage() + point.trial.by_damage.path) *
       share.ddamage.transpose();
     spread(point.basis, d.head<3>(), gradient[slave]);
     ControlNet &master = gradient[master_side()];

@@ -62,40 +62,21 @@ namespace Debond
                         start.history.slip);
       }
 
-      // The friction of the mean pressure, as without dilatancy.
       PointWork
       work(const PointStart &start,
            const double      g_n,
            const double      distance) const override
       {
-        if (start.frictionless)
-          return {};
-        const FrictionState state = start.friction();
-        const double        p =
-          std::max(0., respond(start, start.history.normal_gap, 0.).pressure);
-        const double p_end =
-                       std::max(0., respond(start, g_n, distance).pressure),
-                     mean = 0.5 * (p + p_end),
-                     per_pressure =
-                       friction->friction_strength(state, distance);
-        PointWork result;
-        result.friction = mean * per_pressure;
-        result.friction_bound =
-          0.5 * std::abs(p - p_end) * per_pressure +
-          mean * friction->strength_bound(state, distance);
-        result.adhesive = mean * friction->adhesive_strength(state, distance);
+        const auto pressure = [&](const double gap, const double slid) {
+          return std::max(0., respond(start, gap, slid).pressure);
+        };
+        const double p     = pressure(start.history.normal_gap, 0.),
+                     p_end = pressure(g_n, distance);
+        PointWork result   = work_of_friction(start, p, p_end, distance);
         result.lift =
-          mean * (height(slipped(start, distance)) - height(state.slip));
+          0.5 * (p + p_end) *
+          (height(slipped(start, distance)) - height(start.history.slip));
         return result;
-      }
-
-      double
-      softening_by_slip(const PointStart &start,
-                        const double      pressure,
-                        const double      distance) const override
-      {
-        return friction->steepest_fall(start.friction(), distance) *
-               std::max(0., pressure);
       }
 
     private:

@@ -1,7 +1,6 @@
 #include <debond/interface/interface_law.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace Debond
 {
@@ -36,42 +35,16 @@ namespace Debond
         return result;
       }
 
-      // The law is integrated over the distance, with the pressure between its
-      // two ends. Of the friction the bond has its part, int (mu - mu_b) dg_s:
-      // D_adh, which tells what the adhesion costs without reading it off the
-      // torque curve as Eq. (20) does. What the mean pressure can be wrong by,
-      // and a speed that changes within the step, keeps a fast but stable fall
-      // from being reported as a jump.
       PointWork
       work(const PointStart &start,
            const double      g_n,
            const double      distance) const override
       {
-        if (start.frictionless)
-          return {};
-        const FrictionState state = start.friction();
-        const double p = std::max(0., -stiffness * start.history.normal_gap),
-                     p_end = std::max(0., -stiffness * g_n),
-                     mean  = 0.5 * (p + p_end),
-                     per_pressure =
-                       friction->friction_strength(state, distance);
-        PointWork result;
-        result.friction = mean * per_pressure;
-        result.friction_bound =
-          0.5 * std::abs(p - p_end) * per_pressure +
-          mean * friction->strength_bound(state, distance);
-        result.adhesive = mean * friction->adhesive_strength(state, distance);
-        return result;
-      }
-
-      // -dmu/dg_s where it is largest, from the accepted g_s on, times p.
-      double
-      softening_by_slip(const PointStart &start,
-                        const double      pressure,
-                        const double      distance) const override
-      {
-        return friction->steepest_fall(start.friction(), distance) *
-               std::max(0., pressure);
+        return work_of_friction(start,
+                                std::max(0.,
+                                         -stiffness * start.history.normal_gap),
+                                std::max(0., -stiffness * g_n),
+                                distance);
       }
     };
   } // namespace

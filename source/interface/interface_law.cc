@@ -1,6 +1,9 @@
+#include <debond/interface/bond_friction.h>
 #include <debond/interface/interface_law.h>
+#include <debond/support/input_error.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace Debond
 {
@@ -90,5 +93,65 @@ namespace Debond
         result.mu += result.dmu * distance;
       }
     return result;
+  }
+
+
+
+  // The law is integrated over the distance, with the pressure between its two
+  // ends. Of the friction the bond has its part, int (mu - mu_b) dg_s: D_adh,
+  // which tells what the adhesion costs without reading it off the torque curve
+  // as Eq. (20) does. What the mean pressure can be wrong by, and a speed that
+  // changes within the step, keeps a fast but stable fall from being reported
+  // as a jump.
+  PointWork
+  InterfaceLaw::work_of_friction(const PointStart &start,
+                                 const double      p,
+                                 const double      p_end,
+                                 const double      distance) const
+  {
+    if (start.frictionless)
+      return {};
+    const FrictionState state = start.friction();
+    const double        mean  = 0.5 * (p + p_end),
+                 per_pressure = friction->friction_strength(state, distance);
+    PointWork result;
+    result.friction       = mean * per_pressure;
+    result.friction_bound = 0.5 * std::abs(p - p_end) * per_pressure +
+                            mean * friction->strength_bound(state, distance);
+    result.adhesive = mean * friction->adhesive_strength(state, distance);
+    return result;
+  }
+
+
+
+  // -dmu/dg_s where it is largest, from the accepted g_s on, times p.
+  double
+  InterfaceLaw::softening_by_slip(const PointStart &start,
+                                  const double      pressure,
+                                  const double      distance) const
+  {
+    return friction->steepest_fall(start.friction(), distance) *
+           std::max(0., pressure);
+  }
+
+
+
+  std::shared_ptr<const BondFriction>
+  bond_that_opens(const InterfaceLawParts &parts, const std::string &law)
+  {
+    if (parts.opening_breaks_bond)
+      throw EntryError("Interface / Opening breaks bond",
+                       "with Law = " + law +
+                         " opening breaks a bond by as much as the law says: "
+                         "expected false",
+                       "true");
+    auto bond = std::dynamic_pointer_cast<const BondFriction>(parts.friction);
+    if (!bond)
+      throw EntryError("Interface / Law",
+                       "the law " + law +
+                         " needs a friction law whose bond breaks with the "
+                         "slip: modified coulomb, coulomb, frictionless or "
+                         "table, with Friction update = implicit");
+    return bond;
   }
 } // namespace Debond

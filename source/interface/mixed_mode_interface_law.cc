@@ -207,17 +207,6 @@ namespace Debond
     InterfaceLawPointer
     create(const LawChoice &choice, const InterfaceLawParts &parts)
     {
-      if (!std::dynamic_pointer_cast<const BondFriction>(parts.friction))
-        throw EntryError("Interface / Law",
-                         "the law mixed mode rubs with Friction coefficient "
-                         "broken: it needs Friction law = modified coulomb, "
-                         "coulomb, frictionless or table, with Friction update "
-                         "= implicit");
-      if (parts.opening_breaks_bond)
-        throw EntryError(
-          "Interface / Opening breaks bond",
-          "with Law = mixed mode opening breaks a bond by as much as the law says: expected false",
-          "true");
       const double K = choice.number("Stiffness");
       for (const auto &[energy, strength] :
            {std::array<const char *, 2>{
@@ -235,6 +224,7 @@ namespace Debond
                 "^2 / (2 Stiffness) = " + to_text(least) + " N/mm",
               choice.text(energy));
         }
+      bond_that_opens(parts, "mixed mode");
       return std::make_shared<MixedMode>(choice, parts);
     }
   } // namespace

@@ -466,12 +466,12 @@ namespace Debond
     if (friction.law.is_cohesive())
       {
         const auto by_damage = e.along_damage();
-        result.dxi_by_damage = -inverse * by_damage.h;
+        result.by_damage.xi  = -inverse * by_damage.h;
         const Vector4d change =
           by_damage.traction_and_distance +
-          by_xi.traction_and_distance * result.dxi_by_damage;
-        result.dt_by_damage   = change.head<3>();
-        result.path_by_damage = change[3];
+          by_xi.traction_and_distance * result.by_damage.xi;
+        result.by_damage.traction = change.head<3>();
+        result.by_damage.path     = change[3];
       }
     // where it has not moved the length has no derivative
     result.dpath.setZero();

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -136,25 +135,11 @@ check_law(const std::string &name)
 
 
 
-void
-check_entries()
-{
-  std::map<std::string, std::string> subsection;
-  bool                               same = true;
-  for (const FrictionLawPlugin &plugin : friction_law_plugins())
-    for (const LawEntry &entry : plugin.entries)
-      same = same &&
-             subsection.emplace(entry.name, entry.subsection).first->second ==
-               entry.subsection;
-  report("entries of the same name are the same entry", same);
-}
-
-
-
 int
 main()
 {
   for (const FrictionLawPlugin &plugin : friction_law_plugins())
     check_law(plugin.name);
-  check_entries();
+  report("entries of the same name are the same entry",
+         entries_are_shared(friction_law_plugins()));
 }

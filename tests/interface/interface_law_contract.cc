@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <random>
 #include <string>
 #include <vector>
@@ -282,21 +281,6 @@ check_cohesion(const std::string &name, const InterfaceLaw &law)
 
 
 
-void
-check_entries()
-{
-  std::map<std::string, std::string> subsection;
-  bool                               same = true;
-  for (const InterfaceLawPlugin &plugin : interface_law_plugins())
-    for (const LawEntry &entry : plugin.entries)
-      same = same &&
-             subsection.emplace(entry.name, entry.subsection).first->second ==
-               entry.subsection;
-  report("entries of the same name are the same entry", same);
-}
-
-
-
 int
 main()
 {
@@ -308,5 +292,6 @@ main()
       if (law->is_cohesive())
         check_cohesion(plugin.name, *law);
     }
-  check_entries();
+  report("entries of the same name are the same entry",
+         entries_are_shared(interface_law_plugins()));
 }

@@ -5,7 +5,24 @@
 #include <debond/interface/bond_friction.h>
 #include <debond/interface/interface_law.h>
 
+#include <map>
 #include <string>
+#include <vector>
+
+/** Whether entries of the same name are the same entry. */
+template <typename Plugin>
+bool
+entries_are_shared(const std::vector<Plugin> &plugins)
+{
+  std::map<std::string, std::string> subsection;
+  bool                               same = true;
+  for (const Plugin &plugin : plugins)
+    for (const Debond::LawEntry &entry : plugin.entries)
+      same = same &&
+             subsection.emplace(entry.name, entry.subsection).first->second ==
+               entry.subsection;
+  return same;
+}
 
 /** What entries in `Interface` of a scene choose. */
 template <typename Declare>

@@ -30,11 +30,15 @@ order(const std::vector<double> &history)
 
 
 /** Presses in, and turns by @p angle in one step that starts from where the
- *  implant was. */
+ *  implant was, lifted by @p lift [mm] meanwhile. */
 void
-check(const std::string &name, const std::string &changes, const double angle)
+check(const std::string &name,
+      const std::string &changes,
+      const double       angle,
+      const double       lift = 0.)
 {
-  const Scene scene = Scene::from_text(R"(
+  const Scene scene =
+    Scene::from_text(R"(
     subsection Bone
       set Material = linear
     end
@@ -48,7 +52,10 @@ check(const std::string &name, const std::string &changes, const double angle)
       subsection Rotation z
         set Value = max(t - 1, 0)
       end
-    end)" + changes);
+    end)" + changes,
+                     {"Chuck/Translation z/Value=-0.0049 * "
+                      "min(t, 1) + " +
+                      std::to_string(lift / angle) + " * max(t - 1, 0)"});
 
   CoupledSystem system(scene);
   NewtonOptions options;
@@ -69,7 +76,7 @@ check(const std::string &name, const std::string &changes, const double angle)
   const auto         summary = system.interface.summarise();
   report("  the step converges", result.converged);
   report("  more than a third of the interface slips",
-         summary.share_slip > 0.33);
+         summary.share_slip + summary.share_pulled > 0.33);
   std::cout << "  the law softens: " << (summary.max_softening > 0.)
             << std::endl;
   const bool is_quadratic = order(result.history) >= 1.8;
@@ -116,6 +123,10 @@ main()
       end
     end)";
 
+  const auto law = [](const std::string &name) {
+    return "\n    subsection Interface\n      set Law = " + name + "\n    end";
+  };
+
   check("Main scene", "", 1.);
   check("Stiff interface, before the law softens", stiff, 0.2);
   check("Rough interface", stiff + rough, 1.);
@@ -123,4 +134,10 @@ main()
   check("The bone is the slave", stiff + bone_is_slave, 0.7);
   check("Turned, tilted and shifted", stiff + tilted, 0.7);
   check("The same, the bone is the slave", stiff + tilted + bone_is_slave, 0.7);
+  check("Adhesive", law("adhesive") + tilted, 1.);
+  check("Adhesive, in tension", law("adhesive"), 0.4, 0.01);
+  check("Adhesive, pulled off", law("adhesive") + tilted, 0.4, 0.02);
+  check("Dilatant", law("dilatant") + tilted, 0.7);
+  check("Mixed mode, pressed", law("mixed mode"), 0.4);
+  check("Mixed mode, in tension", law("mixed mode") + tilted, 0.2, 0.015);
 }

@@ -46,7 +46,6 @@ namespace Debond
     double          energy = 0;          ///< [N/mm]
     double          stiffness_by_damage; ///< [MPa/mm]
     SurfaceBasis    basis;               ///< of the master
-    Eigen::Vector3d n;                   ///< of the master
 
     /** By the gap x - y and the tangents a_1 and a_2 there. */
     Eigen::Matrix<double, 3, 9> dt;      ///< of the traction

@@ -360,8 +360,7 @@ namespace Debond
          const ContactPointMode       &mode,
          NodalSums                    &sums);
     void
-    accept_shares(const InterfaceConfiguration &configuration,
-                  const std::vector<bool>      &had_joined);
+    accept_shares(const InterfaceConfiguration &configuration);
 
     /** Bound of how far points of the two surfaces have moved towards each
      *  other since the accepted configuration [mm]. */

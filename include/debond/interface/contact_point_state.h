@@ -147,11 +147,15 @@ namespace Debond
     Eigen::Matrix<double, 2, W::size> dxi; ///< dxi_hat/dw
     /** d(g_s + opening)/dw, which a path is measured by. */
     Eigen::Matrix<double, 1, W::size> dpath;
-    // Only of laws that hold a share of the area: how traction, xi_hat and path
-    // change with its damage.
-    Eigen::Vector3d dt_by_damage   = Eigen::Vector3d::Zero();
-    Eigen::Vector2d dxi_by_damage  = Eigen::Vector2d::Zero();
-    double          path_by_damage = 0;
+    /** How they change with the damage of the share that is held, by laws that
+     *  hold one. */
+    struct ByDamage
+    {
+      Eigen::Vector3d traction = Eigen::Vector3d::Zero();
+      Eigen::Vector2d xi       = Eigen::Vector2d::Zero();
+      double          path     = 0;
+    };
+    ByDamage by_damage;
     /** d turn / dq of the chuck, where a component of it is unknown. */
     Eigen::Matrix<double, 6, 1> turn_by_chuck =
       Eigen::Matrix<double, 6, 1>::Zero();

@@ -158,7 +158,7 @@ namespace Debond
     virtual double
     softening_by_slip(const PointStart &start,
                       double            pressure,
-                      double            distance) const = 0;
+                      double            distance) const;
 
     /** @name Laws that hold a share of the area at the place where it bonded */
     //@{
@@ -224,6 +224,13 @@ namespace Debond
      *  only at trial places. */
     FrictionCoefficient
     coefficient(const PointStart &start, double distance) const;
+    /** The work of a point that rubs with mu p from the pressure @p p to
+     *  @p p_end [MPa], none of which is less than 0. */
+    PointWork
+    work_of_friction(const PointStart &start,
+                     double            p,
+                     double            p_end,
+                     double            distance) const;
   };
 
   using InterfaceLawPointer = std::shared_ptr<const InterfaceLaw>;
@@ -233,6 +240,12 @@ namespace Debond
   using InterfaceLawPlugin =
     LawPlugin<InterfaceLawPointer (*)(const LawChoice &,
                                       const InterfaceLawParts &)>;
+
+  class BondFriction;
+  /** The bond of the friction law, for the law of the interface called @p law,
+   *  which breaks it by opening as well. Throws EntryError. */
+  std::shared_ptr<const BondFriction>
+  bond_that_opens(const InterfaceLawParts &parts, const std::string &law);
 
   /** All laws, in the order of the choices. */
   const std::vector<InterfaceLawPlugin> &

@@ -163,7 +163,7 @@ namespace Debond
     bool
     refactor_bulk();
 
-    /** Mean sliding distance of the trial state [mm], and 0 where no path is
+    /** What a path is measured by, in the trial state [mm]; 0 where none is
      *  followed. */
     double
     path_length() const

@@ -1,0 +1,236 @@
+#include <debond/interface/contact_interface.h>
+#include <debond/support/number_text.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+// What all points of the interface come to in a state: what a step is judged
+// by, and what messages say.
+namespace Debond
+{
+  // Open, stick or slip of all points in the trial state. Newton's method
+  // compares them over its iterations: states of all points that have been
+  // there before are a cycle between stick and slip.
+  std::vector<PointStatus>
+  ContactInterface::statuses() const
+  {
+    std::vector<PointStatus> result;
+    for (const SlavePoint &point : points)
+      result.push_back(point.trial.state.status);
+    return result;
+  }
+
+
+
+  // Whether contact is incomplete. What lies beside closed points on the
+  // surface of a linear body matters to open ones only (doc/solution.md).
+  bool
+  ContactInterface::has_open_points() const
+  {
+    const auto all = statuses();
+    return std::find(all.begin(), all.end(), PointStatus::open) != all.end();
+  }
+
+
+
+  // Surfaces that are pressed together touch over a patch. Open points inside
+  // of it tell that the faces of the elements cannot take the shape that a
+  // stiff interface asks for: each touches in some places only, with too large
+  // a pressure. Points lie in rows and columns over the whole surface, which
+  // are curved on a disk: one alone may leave the patch and come back.
+  unsigned int
+  ContactInterface::n_enclosed() const
+  {
+    const NurbsSurface &surface = mesh[slave]->surface();
+    if (!surface.is_one_patch())
+      return 0; // there are no rows
+    const auto elements = surface.n_elements_per_direction();
+    // element by element, and in each of them, the first parameter fastest
+    const auto number = [&](const unsigned int i, const unsigned int j) {
+      return ((j / n * elements[0] + i / n) * n + j % n) * n + i % n;
+    };
+    // in its row, its column, or both
+    std::vector<unsigned int> times_enclosed(points.size(), 0);
+    for (const bool is_row : {true, false})
+      for (unsigned int line = 0; line < n * elements[is_row]; ++line)
+        {
+          std::vector<unsigned int> since_closed; // open points
+          bool                      any_closed = false;
+          for (unsigned int k = 0; k < n * elements[!is_row]; ++k)
+            {
+              const unsigned int q = is_row ? number(k, line) : number(line, k);
+              if (points[q].accepted.status == PointStatus::open)
+                {
+                  if (points[q].accepted.has_partner) // not beyond the edge
+                    since_closed.push_back(q);
+                }
+              else
+                {
+                  for (const unsigned int open : since_closed)
+                    times_enclosed[open] += any_closed;
+                  since_closed.clear();
+                  any_closed = true;
+                }
+            }
+        }
+    return std::count(times_enclosed.begin(), times_enclosed.end(), 2u);
+  }
+
+
+
+  // What a step is judged by. Areas count where the implant is faced, forces
+  // and energies everywhere. The local problem of a sliding point has one
+  // solution while |dmu/dg_s| p < eps_t + eta/dt: the slope is asked for where
+  // it will be steepest, so that a step that ends beyond the steepest place is
+  // not missed.
+  //
+  // There p is the pressure of the trial state [MPa], and eps_t + eta/dt the
+  // resistance [MPa/mm] with which the elastic interface, and the viscosity,
+  // hold against the fall of the law. A ratio of one or more means that the
+  // bond would break in a jump of the traction, and that which of the solutions
+  // Newton's method has met is chance.
+  InterfaceSummary
+  ContactInterface::summarise() const
+  {
+    InterfaceSummary summary;
+    double           area = 0.;
+    // open, stick, slip, pulled: see PointStatus
+    const std::array<double *, 4> share_of{{&summary.share_open,
+                                            &summary.share_stick,
+                                            &summary.share_slip,
+                                            &summary.share_pulled}};
+    const double                  resistance =
+      law.tangential_penalty + viscous_stiffness(law, mode_now);
+    for (unsigned int q = 0; q < points.size(); ++q)
+      {
+        const SlavePoint         &point = points[q];
+        const ContactPointResult &trial = point.trial;
+        const CohesiveShare      *share = shares.empty() ? nullptr : &shares[q];
+        const bool                held =
+          share != nullptr && share->holds && share->damage < 1.;
+        // int p dA [N]; it is no resultant, as the normals of a curved face
+        // differ
+        const double pressure = trial.pressure + (held ? share->pressure : 0.);
+        summary.normal_force += point.JxW * pressure;
+        if (held)
+          summary.energy += point.JxW * share->energy;
+        if (pressure < 0.)
+          {
+            summary.pull -= point.JxW * pressure;
+            summary.pulled_area += point.JxW;
+            summary.opening_softening =
+              std::max(summary.opening_softening,
+                       point.phi_0 * law.joint->tension().softening);
+          }
+        if (point.faces_implant)
+          {
+            // phi as reported() has it, of the trial state, and the share of
+            // the area by its status; divided by the area below
+            area += point.JxW;
+            summary.phi_mean += point.JxW * friction(point).phi;
+            const bool is_pulled =
+              held && trial.state.status == PointStatus::open;
+            *share_of[static_cast<unsigned int>(
+              is_pulled ? PointStatus::pulled : trial.state.status)] +=
+              point.JxW;
+          }
+        if (trial.state.status == PointStatus::open)
+          {
+            // whether it was bonded: opening itself may have broken it
+            if (!law.joint->pulls() && law.joint->friction->has_bond() &&
+                point.accepted.status != PointStatus::open &&
+                point.friction(*law.joint, point.accepted).phi > 0.)
+              ++summary.bonded_opened;
+            continue;
+          }
+        // Energy of the springs eps_n and eps_t [N mm], the potential that Eq.
+        // (28) comes from; and the largest penetration -g_n [mm], which a
+        // push-in in wrong units shows.
+        ++summary.n_closed;
+        summary.energy += point.JxW * trial.energy;
+        summary.max_softening =
+          std::max(summary.max_softening, trial.softening);
+        summary.max_penetration =
+          std::max(summary.max_penetration, -trial.normal_gap);
+        summary.max_traction =
+          std::max(summary.max_traction, trial.traction.norm());
+        if (mode_now.frictionless)
+          continue;
+        // -dL/dg_s where it is largest, from the accepted g_s on [MPa/mm]. The
+        // steepest point is kept with its numbers, which the message of a run
+        // that ends here has to give.
+        const double slope =
+          law.joint->softening_by_slip(point.begin(*law.joint, mode_now),
+                                       trial.pressure,
+                                       trial.state.slip - point.accepted.slip);
+        const double softening = slope / resistance;
+        if (softening > summary.steepest_softening)
+          {
+            summary.steepest_softening = softening;
+            summary.softening_pressure = std::max(0., trial.pressure);
+            summary.softening_slope    = slope;
+          }
+      }
+    find_side(summary);
+    // means over the area that faced the implant at the start
+    summary.phi_mean /= area;
+    for (double *part : share_of)
+      *part /= area;
+    return summary;
+  }
+
+
+
+  // A body that comes from beside the other one, below its face, would run into
+  // its side, which is no contact face. What has come to it from above, and
+  // hangs over its edge, may well be pressed deeper while it slides in; other
+  // points have faced the master then.
+  void
+  ContactInterface::find_side(InterfaceSummary &summary) const
+  {
+    if (summary.n_closed == 0 ||
+        std::any_of(points.begin(), points.end(), [](const SlavePoint &point) {
+          return point.accepted.has_partner;
+        }))
+      return;
+    const MasterSurface before{&mesh[master_side()]->surface(),
+                               &accepted_positions[master_side()],
+                               mesh[master_side()]->outward_sign()};
+    for (const SlavePoint &point : points)
+      {
+        const double depth = -point.trial.normal_gap;
+        if (point.trial.state.status == PointStatus::open ||
+            -project(before,
+                     interpolate(point.basis, accepted_positions[slave]),
+                     &point.trial.state.xi)
+                .height < 0.5 * depth)
+          continue;
+        ++summary.n_from_side;
+        summary.side_depth = std::max(summary.side_depth, depth);
+      }
+  }
+
+
+
+  // Where the last evaluate() failed, in parameters of the slave's patch, which
+  // say which element it is; and how far the point had slid, which says which
+  // part of the law it was on.
+  std::string
+  ContactInterface::describe_failure() const
+  {
+    if (failed == nullptr)
+      return "";
+    Classic<std::ostringstream> text;
+    text << (failed->trial.negative_friction ?
+               "the friction law has a negative coefficient" :
+               "no solution of the friction law")
+         << " at the " << name_of(slave)
+         << "'s quadrature point at parameters (" << failed->xi[0] << ", "
+         << failed->xi[1] << "), g_s = " << failed->accepted.slip << " mm";
+    return text.str();
+  }
+} // namespace Debond

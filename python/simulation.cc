@@ -151,7 +151,10 @@ namespace
                                     "phi",
                                     "mu",
                                     "state",
-                                    "area_mm2"};
+                                    "area_mm2",
+                                    "left_by_opening",
+                                    "left_by_slip",
+                                    "mode_deg"};
       Columns           columns;
       for (const auto &point : profile_points(simulation->system().interface))
         for (unsigned int i = 0; i < n; ++i)

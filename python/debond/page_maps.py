@@ -10,7 +10,10 @@ import zlib
 from debond.page_data import n_rows, number, numbers, read_table, short, with_unit
 
 QUANTITIES = (("pressure_MPa", "Pressure", "MPa"), ("slip_mm", "Sliding distance g_s", "mm"), ("phi", "Bonding state phi", ""),
-              ("mu", "Friction coefficient mu", ""))
+              ("mu", "Friction coefficient mu", ""), ("left_by_opening", "Bond left by opening", ""),
+              ("left_by_slip", "Bond left by slip", ""),
+              ("mode_deg", "Mode of the traction: 0 opening, 90 sliding", "°"))
+STATES = (("open", (208, 208, 208)), ("sticks", (44, 30, 92)), ("slides", (224, 138, 30)), ("pulled, without friction", (58, 125, 68)))
 COLOURS = ((44, 30, 92), (208, 74, 98), (251, 233, 160))    # of the lowest, the middle and the highest value
 FINER = 2                                                   # pixels of a place of the grid, along each side
 SAME = 1e-3                                                 # what differs by less of the largest value is not told apart
@@ -70,17 +73,30 @@ def picture(grid, values, low, high, widths, is_round):
     for k in () if is_round else (k for k, value in enumerate(values) if value != value):
         for line in lines[k // grid.nx * FINER:(k // grid.nx + 1) * FINER]:
             line[k % grid.nx * FINER:(k % grid.nx + 1) * FINER] = b"\xff" * FINER
-    return "data:image/png;base64," + base64.b64encode(png(grid.nx * FINER, lines[::-1])).decode()
+    return "data:image/png;base64," + base64.b64encode(png(grid.nx * FINER, lines[::-1], colours_of_values())).decode()
 
 
-def png(width, lines):
-    """A PNG file with a palette, whose last colour is transparent."""
+def picture_of_states(grid, values):
+    """The same of states, each of which has its colour."""
+    lines = [bytearray(255 if value != value else int(value) for value in values[j * grid.nx:(j + 1) * grid.nx])
+             for j in range(grid.ny)]
+    palette = b"".join(bytes(colour) for _, colour in STATES)
+    return "data:image/png;base64," + base64.b64encode(png(grid.nx, lines[::-1], palette.ljust(765, b"\0"))).decode()
+
+
+def colours_of_values():
+    """A palette of 255 colours, from that of the lowest value to that of the highest."""
     palette = bytearray()
     for k in range(255):
         i, t = min(k // 127, 1), (k - 127 * min(k // 127, 1)) / 127
         palette += bytes(round(a + (b - a) * min(t, 1)) for a, b in zip(COLOURS[i], COLOURS[i + 1]))
+    return bytes(palette)
+
+
+def png(width, lines, palette):
+    """A PNG file with a palette, and 255 as a transparent colour."""
     chunks = ((b"IHDR", struct.pack(">IIBBBBB", width, len(lines), 8, 3, 0, 0, 0)),
-              (b"PLTE", bytes(palette) + b"\xff" * 3), (b"tRNS", b"\xff" * 255 + b"\0"),
+              (b"PLTE", palette + b"\xff" * 3), (b"tRNS", b"\xff" * 255 + b"\0"),
               (b"IDAT", zlib.compress(b"".join(b"\0" + line for line in lines), 6)), (b"IEND", b""))
     return b"\x89PNG\r\n\x1a\n" + b"".join(struct.pack(">I", len(content)) + kind + content +
                                           struct.pack(">I", zlib.crc32(kind + content)) for kind, content in chunks)
@@ -97,9 +113,12 @@ def maps_of(path):
     grid = Grid(*(numbers(table[name][:size]) for name in ("x_mm", "y_mm")))
     turns = any(number(angle) for _, angle, _ in events)
     places = [(f"{short(angle, 3)}°" if turns else f"time {short(time)}", event) for event, angle, time in events]
-    quantities = [[numbers(table[name][k * size:(k + 1) * size]) for k in range(len(events))] for name, _, _ in QUANTITIES]
+    shown = [one for one in QUANTITIES if one[0] in table]
+    quantities = [[numbers(table[name][k * size:(k + 1) * size]) for k in range(len(events))] for name, _, _ in shown]
     widths = widths_of(grid, [values for maps in quantities for values in maps])
-    return [maps_of_quantity(grid, places, maps, widths, words, unit) for maps, (_, words, unit) in zip(quantities, QUANTITIES)]
+    states = [numbers(table.get("state", [])[k * size:(k + 1) * size]) for k in range(len(events))]
+    return [maps_of_quantity(grid, places, maps, widths, words, unit) for maps, (_, words, unit) in zip(quantities, shown)] + [
+        maps_of_states(grid, places, states)]
 
 
 def maps_of_quantity(grid, places, maps, widths, words, unit):
@@ -124,4 +143,18 @@ def maps_of_quantity(grid, places, maps, widths, words, unit):
     else:
         notes = [f"At {', '.join(at)} it {text}." for text, at in notes.items()]
     return {"words": words, "unit": unit, "figures": figures, "notes": notes, "ratio": f"{grid.half_x:.6g} / {grid.half_y:.6g}",
-            "events": [f"{place}: {event}" for place, event in places]}
+            "events": [f"{place}: {event}" for place, event in places], "states": []}
+
+
+def maps_of_states(grid, places, maps):
+    """What points do at all events, but for those at which they do the same as before."""
+    figures, notes, before = [], [], None
+    for (place, event), values in zip(places, maps):
+        if before and all(a == b for a, b in zip(before, values) if a == a):
+            notes.append(f"At {place} it is the same.")
+        elif any(value == value for value in values):
+            before = values
+            figures.append({"place": place, "event": event, "round": grid.is_round(values), "image": picture_of_states(grid, values)})
+    met = sorted({int(value) for values in maps for value in values if value == value})
+    return {"words": "State", "unit": "", "figures": figures, "notes": notes, "ratio": f"{grid.half_x:.6g} / {grid.half_y:.6g}",
+            "events": [], "states": [(STATES[k][0], "#%02x%02x%02x" % STATES[k][1]) for k in met]}

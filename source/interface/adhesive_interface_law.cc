@@ -183,7 +183,7 @@ namespace Debond
       Tension
       tension() const override
       {
-        return {t_0, M_E * t_0 * g_0, M_E * t_0 / g_0, t_0 / (M_E * g_0)};
+        return {t_0, M_E * t_0 * g_0, M_E * t_0 / g_0, t_0 / (M_E * g_0), g_0};
       }
       double
       opened(const PointHistory &history) const override

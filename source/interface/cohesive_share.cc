@@ -20,14 +20,14 @@ namespace Debond
     damage = start.history.damage;
     holds  = start.history.joined && start.phi_0 > 0. && damage < 1.;
     energy = pressure = 0.;
-    bears = traction = Vector3d::Zero();
+    bears = traction = normal = Vector3d::Zero();
     if (!holds)
       return;
     SurfaceGeometry geometry;
     master.surface->evaluate(xi, basis, false);
     contract(basis, *master.positions, false, geometry);
-    const MasterNormal normal(geometry, master.outward_sign);
-    const Vector3d    &n      = normal.n;
+    const MasterNormal of_master(geometry, master.outward_sign);
+    const Vector3d    &n      = of_master.n;
     const Vector3d     whole  = x - geometry.y;
     const double       g_n    = n.dot(whole);
     const Vector3d     along  = whole - g_n * n;
@@ -36,6 +36,7 @@ namespace Debond
     const CohesiveResponse response = law.hold(start, g_n, length);
     const bool             opens    = g_n > 0.;
 
+    normal              = n;
     damage              = response.damage;
     stiffness_by_damage = response.stiffness_by_damage;
     bears               = opens ? whole : along;
@@ -44,7 +45,7 @@ namespace Debond
     pressure            = opens ? -response.stiffness * g_n : 0.;
 
     // dg_n = n . dg + g . dn,   d|delta_t| = tau . (dg - g_n dn)
-    const Eigen::Matrix<double, 3, 6> dn = normal.derivative();
+    const Eigen::Matrix<double, 3, 6> dn = of_master.derivative();
     ddamage << response.damage_by_normal * n.transpose() +
                  response.damage_by_tangential * direction.transpose(),
       (response.damage_by_normal * whole.transpose() -

@@ -295,6 +295,24 @@ namespace Debond
 
 
 
+  PointTraction
+  ContactInterface::traction(const SlavePoint &point) const
+  {
+    PointTraction result{point.trial.pressure,
+                         -point.trial.tangential_traction};
+    if (!shares.empty())
+      if (const CohesiveShare &share = shares[&point - points.data()];
+          share.holds)
+        {
+          result.pressure += share.pressure;
+          result.tangential -=
+            share.traction - share.normal.dot(share.traction) * share.normal;
+        }
+    return result;
+  }
+
+
+
   // What Newton's method asks for in each iteration: nodal forces, and the
   // derivatives at every point, for the surfaces as they are proposed. The
   // history of the points goes in and is not changed, so that an iteration owes

@@ -74,6 +74,19 @@ namespace Debond
 
 
 
+  // As if there were the other one alone.
+  BondLeft
+  InterfaceLaw::left_by_each(const PointHistory &history) const
+  {
+    PointHistory opening = history, slip = history;
+    opening.slip = 0.;
+    slip.damage  = 0.;
+    slip.broken  = false;
+    return {reported(opening, 1.).phi, reported(slip, 1.).phi};
+  }
+
+
+
   // A point cannot slide against what pulls it. Where Newton's method looks
   // there, at negative distances, mu goes on along its tangent, but never
   // rises: the distance alone would have a second solution there where

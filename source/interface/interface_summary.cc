@@ -26,6 +26,19 @@ namespace Debond
 
 
 
+  PointStatus
+  ContactInterface::status(const SlavePoint &point) const
+  {
+    const PointStatus of_rubbing = point.trial.state.status;
+    if (of_rubbing != PointStatus::open || shares.empty())
+      return of_rubbing;
+    const CohesiveShare &share = shares[&point - points.data()];
+    return share.holds && share.damage < 1. ? PointStatus::pulled :
+                                              PointStatus::open;
+  }
+
+
+
   // Whether contact is incomplete. What lies beside closed points on the
   // surface of a linear body matters to open ones only (doc/solution.md).
   bool
@@ -114,29 +127,20 @@ namespace Debond
           share != nullptr && share->holds && share->damage < 1.;
         // int p dA [N]; it is no resultant, as the normals of a curved face
         // differ
-        const double pressure = trial.pressure + (held ? share->pressure : 0.);
-        summary.normal_force += point.JxW * pressure;
+        summary.normal_force += point.JxW * traction(point).pressure;
         if (held)
           summary.energy += point.JxW * share->energy;
-        if (pressure < 0.)
-          {
-            summary.pull -= point.JxW * pressure;
-            summary.pulled_area += point.JxW;
-            summary.opening_softening =
-              std::max(summary.opening_softening,
-                       point.phi_0 * law.joint->tension().softening);
-          }
+        if (has_opened_beyond_strength(q))
+          summary.opening_softening =
+            std::max(summary.opening_softening,
+                     point.phi_0 * law.joint->tension().softening);
         if (point.faces_implant)
           {
             // phi as reported() has it, of the trial state, and the share of
             // the area by its status; divided by the area below
             area += point.JxW;
             summary.phi_mean += point.JxW * friction(point).phi;
-            const bool is_pulled =
-              held && trial.state.status == PointStatus::open;
-            *share_of[static_cast<unsigned int>(
-              is_pulled ? PointStatus::pulled : trial.state.status)] +=
-              point.JxW;
+            *share_of[static_cast<unsigned int>(status(point))] += point.JxW;
           }
         if (trial.state.status == PointStatus::open)
           {

@@ -122,6 +122,7 @@ namespace Debond
     const double    of_gap = point.JxW * (by_law.damage - by_law.lift);
     adhesive += point.JxW * by_law.adhesive;
     damage += point.JxW * by_law.damage;
+    adhesive_normal += point.JxW * by_law.damage;
     dissipation += of_gap;
     friction += of_gap + point.JxW * by_law.friction;
     friction_bound += point.JxW * by_law.friction_bound;
@@ -139,11 +140,13 @@ namespace Debond
   {
     if (!share.holds)
       return;
-    const double lost = 0.5 * point.JxW * share.stiffness_by_damage *
-                        (point.accepted.damage - share.damage) *
-                        share.bears.dot(frame * share.gap);
+    const Eigen::Vector3d gap    = frame * share.gap;
+    const double          factor = 0.5 * point.JxW * share.stiffness_by_damage *
+                          (point.accepted.damage - share.damage);
     for (double *work : {&damage, &adhesive, &dissipation, &friction})
-      *work += lost;
+      *work += factor * share.bears.dot(gap);
+    adhesive_normal +=
+      factor * share.normal.dot(share.bears) * share.normal.dot(gap);
   }
 
 

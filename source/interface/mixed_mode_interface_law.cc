@@ -173,7 +173,7 @@ namespace Debond
       Tension
       tension() const override
       {
-        return {N, G_I, K, N / (2. * G_I / N - N / K)};
+        return {N, G_I, K, N / (2. * G_I / N - N / K), N / K};
       }
 
     private:

@@ -38,7 +38,10 @@ namespace Debond
               point.phi,
               point.mu,
               double(point.sticks ? PointStatus::stick : PointStatus::slip),
-              2. * M_PI * r * R / n}});
+              2. * M_PI * r * R / n,
+              1.,
+              point.phi,
+              point.traction == 0. ? 0. : 90.}});
         }
       return points;
     }

@@ -71,6 +71,9 @@ namespace Debond
       lines.push_back(loads_in_words(end));
       if (const double pressure = value("pressure_MPa"); pressure > 0.)
         lines.push_back("Pressure before turning " + number(pressure) + " MPa");
+      add(value("pull_max_N"),
+          "Largest pull " + number(value("pull_max_N")) + " N at " +
+            number(value("pull_max_mm")) + " mm");
       add(stiffness,
           "Initial torsional stiffness " + number(stiffness) + " N mm/rad");
       add(breaks,

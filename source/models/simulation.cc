@@ -540,6 +540,7 @@ namespace Debond
     row.viscous_work_Nmm    = interface.work().viscous;
     row.share_pulled        = summary.share_pulled;
     row.damage_Nmm          = interface.work().damage;
+    row.adhesive_normal_Nmm = interface.work().adhesive_normal;
     row.warnings            = state_checks.take_violations();
     // With a compliant machine the scene prescribes the angle of the machine,
     // ahead of the chuck's by T / k.

@@ -62,6 +62,7 @@ namespace Debond
                    const CoupledSystem    &system,
                    const InterfaceSummary &summary,
                    const Chuck::Vector6   &forces_before,
+                   const double            compliance,
                    ReleasedEnergy         &released_energy,
                    const Note             &note)
     {
@@ -76,29 +77,20 @@ namespace Debond
                  work.friction_bound});
       const std::string change =
         describe_change(forces_before, forces, system.R);
-      // What bodies and machine store under the pull across the interface tells
-      // how compliant they are, over an area and by a stress, 2 E A / F^2.
-      const double elsewhere  = system.bulk_energy() + chuck.machine_energy(),
-                   compliance = 2. * elsewhere * summary.pulled_area /
-                                (summary.pull * summary.pull);
-      // unless they store it under other loads
-      const bool is_pull =
-        summary.pull > 1e-3 * system.interface.get_law().tension().strength *
-                         system.interface.implant_area() &&
-        summary.normal_force < -0.9 * summary.pull &&
-        forces.head<2>().norm() < 0.3 * summary.pull &&
-        forces.tail<3>().norm() < 0.3 * summary.pull * system.R;
-      const bool opens_unstably = summary.pull > 0. && is_pull &&
-                                  summary.opening_softening * compliance > 1.;
+      const bool opens_unstably =
+        summary.opening_softening > 0. &&
+        !(summary.opening_softening * compliance < 1.);
       if (opens_unstably && !parameters.load_steps.follow_path)
         note("opening bond",
              Text() << "as it opens the bond may soften by "
-                    << to_text(summary.opening_softening, 3)
-                    << " MPa/mm, and bodies and machine are as stiff as "
-                    << to_text(1. / compliance, 3)
-                    << " MPa/mm: there may be more than one state of "
-                       "equilibrium, and the load may not be followed through "
-                       "the fall. "
+                    << to_text(summary.opening_softening, 3) << " MPa/mm, and "
+                    << (std::isnan(compliance) ?
+                          "how stiff a bone that is not condensed is nobody "
+                          "knows" :
+                          "bodies and machine hold with no more than " +
+                            to_text(1. / compliance, 3) + " MPa/mm")
+                    << ": there may be more than one state of equilibrium, and "
+                       "the load may not be followed through the fall. "
                     << advice(parameters));
       if (released > 0.)
         note("jump",
@@ -111,7 +103,9 @@ namespace Debond
       // How compliant bodies and machine are, compared with the interface, is
       // what they store; four times, as the pressure's part tells nothing.
       else if (released_energy.may_hide_a_jump() &&
-               (summary.steepest_softening * (summary.energy + 4. * elsewhere) >
+               (summary.steepest_softening *
+                    (summary.energy +
+                     4. * (system.bulk_energy() + chuck.machine_energy())) >
                   summary.energy ||
                 opens_unstably))
         note("steep fall",
@@ -308,8 +302,17 @@ namespace Debond
                         system.interface.work().dissipation_bound});
     // the explicit law does not dissipate what InterfaceWork::friction says
     if (!parameters.interface.explicit_friction)
-      check_for_jump(
-        parameters, system, summary, before.forces, released_energy, note);
+      {
+        if (summary.opening_softening > 0. && compliance < 0.)
+          compliance = system.compliance_of_opening();
+        check_for_jump(parameters,
+                       system,
+                       summary,
+                       before.forces,
+                       compliance,
+                       released_energy,
+                       note);
+      }
     check_interface(parameters, system, summary, note);
     ask_for_strains(system, summary.max_traction);
 

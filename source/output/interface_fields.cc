@@ -212,14 +212,16 @@ namespace Debond
      *  master has no gap: the distance to the nearest border is none. An open
      *  point with a negative gap is beyond the border, too. */
     Eigen::Matrix<double, 6, 1>
-    continuous_values(const SlavePoint &point)
+    continuous_values(const ContactInterface &interface,
+                      const SlavePoint       &point)
     {
-      const ContactPointResult &trial = point.trial;
+      const ContactPointResult &trial    = point.trial;
+      const PointTraction       traction = interface.traction(point);
       const bool                is_beyond =
         trial.state.status == PointStatus::open &&
         (!trial.state.has_partner || trial.normal_gap < 0.);
       Eigen::Matrix<double, 6, 1> values;
-      values << trial.pressure, -trial.tangential_traction,
+      values << traction.pressure, traction.tangential,
         is_beyond ? 0. : trial.normal_gap, trial.state.slip;
       return values;
     }
@@ -307,16 +309,22 @@ namespace Debond
     const unsigned int   n = n_pieces(surface, 96, 4, 16);
     const auto           corners =
       dealii::QIterated<2>(dealii::QTrapezoid<1>(), n).get_points();
-    DrawnFace face({{"pressure_MPa", 1},
-                    {"traction_MPa", 3},
-                    {"gap_mm", 1},
-                    {"slip_mm", 1},
-                    {"phi_0", 1},
-                    {"phi", 1},
-                    {"mu", 1},
-                    {"state", 1},
-                    {"displacement", 3}},
-                   n);
+    std::vector<std::pair<std::string, unsigned int>> fields{
+      {"pressure_MPa", 1},
+      {"traction_MPa", 3},
+      {"gap_mm", 1},
+      {"slip_mm", 1},
+      {"phi_0", 1},
+      {"phi", 1},
+      {"mu", 1},
+      {"state", 1},
+      {"displacement", 3}};
+    if (law.pulls())
+      fields.insert(fields.end(),
+                    {{"left_by_opening", 1},
+                     {"left_by_slip", 1},
+                     {"mode_deg", 1}});
+    DrawnFace face(fields, n);
     for (unsigned int element = 0; element < surface.n_elements(); ++element)
       face.add_element([&](const unsigned int k, std::vector<double> &values) {
         const Eigen::Vector2d xi =
@@ -330,14 +338,25 @@ namespace Debond
           Eigen::Matrix<double, 6, 1>::Zero();
         for (unsigned int a = 0; a < 4; ++a)
           continuous +=
-            stencil.weight[a] * continuous_values(*stencil.point[a]);
+            stencil.weight[a] * continuous_values(interface, *stencil.point[a]);
         append_values(values, continuous);
         for (const double value :
              bonding_values(law, stencil, grid.stencil(element, xi, true)))
           values.push_back(value);
         values.push_back(
-          static_cast<double>(stencil.nearest->trial.state.status));
+          static_cast<double>(interface.status(*stencil.nearest)));
         append_values(values, displacement.y);
+        if (law.pulls())
+          {
+            const BondLeft left =
+              law.left_by_each(history_under_implant(stencil));
+            const PointTraction traction{continuous[0],
+                                         continuous.segment<3>(1)};
+            append_values(values,
+                          Eigen::Vector3d(left.by_opening,
+                                          left.by_slip,
+                                          traction.mode_deg()));
+          }
         return position.y;
       });
     dealii::DataOutBase::VtkFlags flags;

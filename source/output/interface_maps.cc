@@ -9,6 +9,7 @@
 #include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -18,8 +19,19 @@ namespace Debond
   {
     constexpr unsigned int n_across = 48; ///< places of the grid
 
-    // of an InterfacePoint
-    constexpr unsigned int of_pressure = 3, of_slip = 5, of_phi = 6, of_mu = 7;
+    struct Column
+    {
+      const char  *name;
+      unsigned int number; ///< in an InterfacePoint
+    };
+    constexpr std::array<Column, 5> columns{{{"pressure_MPa", 3},
+                                             {"slip_mm", 5},
+                                             {"phi", 6},
+                                             {"mu", 7},
+                                             {"state", 8}}};
+    /** Of laws with strength in tension. */
+    constexpr std::array<Column, 3> columns_of_opening{
+      {{"left_by_opening", 10}, {"left_by_slip", 11}, {"mode_deg", 12}}};
 
 
 
@@ -42,6 +54,7 @@ namespace Debond
     , is_mesh(scene.implant.mesh != nullptr)
     , half_x(0.5 * scene.implant.width(0))
     , half_y(0.5 * scene.implant.width(1))
+    , pulls(scene.interface.joint()->pulls())
   {}
 
 
@@ -153,17 +166,16 @@ namespace Debond
   {
     if (!wanted || n_rows == 0)
       return;
-    const std::vector<Snapshot> all   = in_order(last_row, points);
-    std::string                 table = csv_line({"event",
-                                                  "step",
-                                                  "time",
-                                                  "angle_deg",
-                                                  "x_mm",
-                                                  "y_mm",
-                                                  "pressure_MPa",
-                                                  "slip_mm",
-                                                  "phi",
-                                                  "mu"});
+    const std::vector<Snapshot> all = in_order(last_row, points);
+    std::vector<Column>         shown(columns.begin(), columns.end());
+    if (pulls)
+      shown.insert(shown.end(),
+                   columns_of_opening.begin(),
+                   columns_of_opening.end());
+    std::string table = "event,step,time,angle_deg,x_mm,y_mm";
+    for (const Column &column : shown)
+      table += "," + std::string(column.name);
+    table += "\n";
     const double dx = 2. * half_x / n_across, dy = 2. * half_y / n_across;
     for (const Snapshot &one : all)
       {
@@ -187,8 +199,9 @@ namespace Debond
                        closest(one.points, tree, place, reach);
               table +=
                 of_event + to_text(place[0], 6) + "," + to_text(place[1], 6);
-              for (const unsigned int q : {of_pressure, of_slip, of_phi, of_mu})
-                table += "," + (point ? to_text((*point)[q], 4) : "nan");
+              for (const Column &column : shown)
+                table +=
+                  "," + (point ? to_text((*point)[column.number], 4) : "nan");
               table += "\n";
             }
       }

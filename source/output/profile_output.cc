@@ -51,7 +51,7 @@ namespace Debond
     , reference(read_profiles(scene.output.reference_profiles))
     , wanted(!angles_to_come.empty())
     , table("angle_deg,x_mm,y_mm,r_mm,pressure_MPa,traction_MPa,slip_mm,phi,mu,"
-            "state,area_mm2\n")
+            "state,area_mm2,left_by_opening,left_by_slip,mode_deg\n")
   {
     std::sort(angles_to_come.begin(), angles_to_come.end());
     if (scene.output.friction_law_curve)
@@ -70,17 +70,22 @@ namespace Debond
         {
           const auto &X           = point.X;
           const auto &trial       = point.trial;
+          const auto  traction    = interface.traction(point);
           const auto  coefficient = interface.friction(point);
+          const auto  left = interface.get_law().left_by_each(trial.state);
           points.push_back({{X[0],
                              X[1],
                              std::hypot(X[0], X[1]),
-                             trial.pressure,
-                             trial.tangential_traction.norm(),
+                             traction.pressure,
+                             traction.tangential.norm(),
                              trial.state.slip,
                              coefficient.phi,
                              coefficient.mu,
-                             double(trial.state.status),
-                             point.JxW}});
+                             double(interface.status(point)),
+                             point.JxW,
+                             left.by_opening,
+                             left.by_slip,
+                             traction.mode_deg()}});
         }
     return points;
   }

@@ -474,9 +474,12 @@ namespace Debond
       "converged reason warnings remarks "
       "T_max_Nmm theta_max_deg theta_full_deg T_inf_Nmm "
       "theta_bonded_deg theta_debonding_deg "
-      "initial_stiffness_Nmm_per_rad pressure_MPa force_end_N "
+      "initial_stiffness_Nmm_per_rad pressure_MPa "
+      "pull_max_N pull_max_mm force_end_N "
       "E_deb_Nmm E_fric_Nmm W_adh_Nmm w_adh_N_per_m w_adh_star_N_per_m "
-      "D_adh_Nmm dissipation_Nmm viscous_dissipation_Nmm "
+      "D_adh_Nmm D_adh_normal_Nmm D_adh_tangential_Nmm "
+      "w_normal_N_per_m w_tangential_N_per_m "
+      "dissipation_Nmm viscous_dissipation_Nmm "
       "work_Nmm E_bulk_Nmm E_interface_Nmm "
       "e_mp e_rel difference_max difference_max_deg difference_mean "
       "reference_rows_used pressure_difference_rms slip_difference_rms "
@@ -544,12 +547,16 @@ namespace Debond
 
     const Rows       rows = fine_curve(steps);
     const Rotation   rotation(angles_and_torques(rows));
-    const TorqueRow *peak = &rows.front(), &end = rows.back();
-    double           energy_defect = 0, reaction_defect = 0;
+    const TorqueRow *peak = &rows.front(), *pull = peak, &end = rows.back();
+    double           energy_defect = 0, reaction_defect = 0, largest_force = 0;
     for (const TorqueRow &row : rows)
       {
         if (std::abs(row.torque_Nmm) > std::abs(peak->torque_Nmm))
           peak = &row;
+        if (row.force_N < pull->force_N)
+          pull = &row;
+        for (unsigned int k = 0; k < 3; ++k)
+          grow(largest_force, std::abs(row.chuck_reaction[k]));
         grow(energy_defect, std::abs(row.energy_defect));
         grow(reaction_defect, row.reaction_defect);
       }
@@ -562,12 +569,25 @@ namespace Debond
        {"pressure_MPa",
         pressure_before_rotation(rows, rotation, settings.phase_times)},
        {"D_adh_Nmm", end.adhesive_work_Nmm},
+       {"D_adh_normal_Nmm", end.adhesive_normal_Nmm},
+       {"D_adh_tangential_Nmm",
+        end.adhesive_work_Nmm - end.adhesive_normal_Nmm},
        {"dissipation_Nmm", end.dissipation_Nmm},
        {"viscous_dissipation_Nmm", end.viscous_work_Nmm},
        {"force_end_N", end.force_N},
        {"work_Nmm", end.work_Nmm},
        {"E_bulk_Nmm", end.energy_bulk_Nmm},
        {"E_interface_Nmm", end.energy_interface_Nmm}});
+    const double bonded = settings.contact_area_mm2 * settings.mean_phi_0;
+    if (settings.is_bonded && bonded > 0.)
+      for (const char *const part : {"normal", "tangential"})
+        measures[std::string("w_") + part + "_N_per_m"] =
+          1e3 * double(measures[std::string("D_adh_") + part + "_Nmm"]) /
+          bonded;
+    // less is what a force held at 0 is solved to
+    if (settings.is_bonded && -pull->force_N > 1e-6 * largest_force)
+      measures.update({{"pull_max_N", -pull->force_N},
+                       {"pull_max_mm", pull->chuck_position[2]}});
     if (rotation.direction != 0. && !rotation.reverses)
       {
         measures["theta_max_deg"] = peak->angle_deg;

@@ -42,6 +42,7 @@ namespace Debond
     bool            holds    = false;
     double          damage   = 0;        ///< at the end of the step
     double          pressure = 0;        ///< negative: the pull [MPa]
+    Eigen::Vector3d normal;              ///< of the master
     Eigen::Vector3d bears, traction;     ///< the gap that does [mm], [MPa]
     double          energy = 0;          ///< [N/mm]
     double          stiffness_by_damage; ///< [MPa/mm]

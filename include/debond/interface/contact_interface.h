@@ -7,6 +7,9 @@
 #include <debond/interface/interface_parameters.h>
 #include <debond/interface/point_tangent.h>
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,11 +32,11 @@ namespace Debond
     double steepest_softening = 0;
     /** p, and -dL/d g_s of that point [MPa, MPa/mm]. */
     double softening_pressure = 0, softening_slope = 0;
-    /** Sum and area of what pulls across the interface [N, mm^2], and how fast
-     *  that falls at most as it opens [MPa/mm]. */
-    double       pull = 0, pulled_area = 0, opening_softening = 0;
-    double       max_penetration = 0; ///< [mm]
-    double       max_traction    = 0; ///< [MPa]
+    /** How fast the pull of a point may fall as it opens, of those that have
+     *  opened in the step beyond their strength [MPa/mm]. */
+    double       opening_softening = 0;
+    double       max_penetration   = 0; ///< [mm]
+    double       max_traction      = 0; ///< [MPa]
     unsigned int bonded_opened =
       0; ///< points with phi > 0 that opened in this step
     unsigned int n_closed = 0;
@@ -54,6 +57,23 @@ namespace Debond
     double                      value = 0;
     NodalSums                   gradient;
     Eigen::Matrix<double, 6, 1> by_chuck = Eigen::Matrix<double, 6, 1>::Zero();
+  };
+
+  /** What a point carries, as it acts on the slave [MPa]. */
+  struct PointTraction
+  {
+    double          pressure   = 0; ///< negative where it pulls
+    Eigen::Vector3d tangential = Eigen::Vector3d::Zero();
+
+    /** Its angle to the normal where it pulls, and 90 degrees where it presses,
+     *  if it has a tangential part [deg]: 0 in mode I, 90 in modes II and III.
+     */
+    double
+    mode_deg() const
+    {
+      return std::atan2(tangential.norm(), std::max(0., -pressure)) * 180. /
+             M_PI;
+    }
   };
 
   /** How a point has moved in the step in which it opens. */
@@ -87,6 +107,9 @@ namespace Debond
     double viscous = 0;
     /** The part of it that opening makes up. */
     double damage = 0;
+    /** The part of `adhesive' that tractions across the interface have spent.
+     */
+    double adhesive_normal = 0;
     /** Work of friction with the integral of the law over the sliding distance
      *  instead of a trapezoid, and of viscosity: a step that jumps dissipates
      *  no more than that. */
@@ -122,7 +145,7 @@ namespace Debond
     serialize(Archive &archive, const unsigned int)
     {
       archive &dissipation &dissipation_bound &adhesive &viscous &friction
-        &friction_bound &step_dissipation &damage;
+        &friction_bound &step_dissipation &damage &adhesive_normal;
     }
   };
 
@@ -255,6 +278,24 @@ namespace Debond
     {
       return n;
     }
+    /** The traction of a point in its trial state, with that of the share that
+     *  is held [MPa]. */
+    PointTraction
+    traction(const SlavePoint &point) const;
+    /** How compliant the bodies are against tractions that open the bond, at
+     *  most, in the trial state, with the chuck at rest [mm/MPa]: times the
+     *  softening of a full bond it is less than 1 where the state is unique.
+     *  @p solve makes displacements of the unknowns of forces on them. */
+    double
+    compliance_of_opening(
+      const InterfaceConfiguration &configuration,
+      const unsigned int            n_unknowns,
+      const std::function<Eigen::VectorXd(const Eigen::VectorXd &)> &solve)
+      const;
+    /** What the point does, the share that is held included, in its trial
+     *  state. */
+    PointStatus
+    status(const SlavePoint &point) const;
     /** phi and mu of a point in its trial state. */
     FrictionCoefficient
     friction(const SlavePoint &point) const
@@ -343,6 +384,9 @@ namespace Debond
                    const ControlNet             &before) const;
     void
     find_side(InterfaceSummary &summary) const;
+    /** Point @p q, in the last step. */
+    bool
+    has_opened_beyond_strength(unsigned int q) const;
     void
     assign_bonding();
     Projection

@@ -60,6 +60,15 @@ namespace Debond
     double work      = 0; ///< of adhesion, to the end [N/mm]
     double stiffness = 0; ///< as it begins to open [MPa/mm]
     double softening = 0; ///< the steepest fall as it opens [MPa/mm]
+    double gap       = 0; ///< at the strength [mm]
+  };
+
+
+
+  /** Parts of a full bond: phi is phi_0 times both. */
+  struct BondLeft
+  {
+    double by_opening = 1, by_slip = 1;
   };
 
 
@@ -185,6 +194,10 @@ namespace Debond
     /** phi and mu in an accepted state, for output. */
     virtual FrictionCoefficient
     reported(const PointHistory &history, double phi_0) const;
+
+    /** What opening and what slip have each left of a full bond, for output. */
+    BondLeft
+    left_by_each(const PointHistory &history) const;
 
     /** @name What kind of law it is */
     //@{

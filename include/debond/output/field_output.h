@@ -39,7 +39,9 @@ namespace Debond
    *  - gap_mm, normal, negative in contact; 0 where `state` is 0 and the point
    *    has no partner because it lies beyond the master's edge;
    *  - slip_mm, the accumulated sliding distance g_s; phi_0, phi, mu;
-   *  - state: 0 open, 1 stick, 2 slip;
+   *  - state: 0 open, 1 stick, 2 slip, 3 pulled;
+   *  - of laws with strength in tension left_by_opening, left_by_slip and
+   *    mode_deg (BondLeft, PointTraction);
    *  - displacement [mm].
    * They are known at the quadrature points. Between these they are
    * interpolated bilinearly in the parameters of the surface, across the

@@ -12,11 +12,13 @@
 namespace Debond
 {
   /**
-   * Pressure, sliding distance, bond and friction coefficient on the contact
-   * face at the rows where something happens: sliding begins, half and all of
-   * what is in contact slides, half of the bond and all of it is broken, the
-   * load is largest, the run ends. Written to maps.csv at the end, as values on
-   * a grid of 48 x 48 places for pictures.
+   * Pressure, sliding distance, bond, friction coefficient and state on the
+   * contact face, of laws with strength in tension also what opening and slip
+   * have left of the bond and the mode of the traction, at the rows where
+   * something happens: sliding begins, half and all of what is in contact
+   * slides, half of the bond and all of it is broken, the load is largest, the
+   * run ends. Written to maps.csv at the end, as values on a grid of 48 x 48
+   * places for pictures.
    */
   class InterfaceMaps
   {
@@ -72,6 +74,7 @@ namespace Debond
     const double radius; ///< R [mm], of a torque's force
     const bool   is_round, is_mesh;
     const double half_x, half_y; ///< of the grid [mm]
+    const bool   pulls;          ///< the law has strength in tension
     unsigned int n_rows    = 0;
     double       first_phi = 0.,
            largest_load    = 0.;    ///< [N], of a snapshot

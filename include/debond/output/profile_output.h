@@ -20,8 +20,9 @@ namespace Debond
    *  reference position x, y and distance r from the axis [mm], pressure and
    *  magnitude of the tangential traction [MPa], accumulated sliding distance
    *  g_s [mm], bonding state phi, friction coefficient mu, PointStatus, area
-   *  that the point stands for [mm^2]. */
-  using InterfacePoint = std::array<double, 10>;
+   *  that the point stands for [mm^2], the parts of the bond that opening and
+   *  slip have left (BondLeft), PointTraction::mode_deg() [deg]. */
+  using InterfacePoint = std::array<double, 13>;
 
   /** Those of the slave points that face the implant, in the trial state. */
   std::vector<InterfacePoint>
@@ -58,7 +59,8 @@ namespace Debond
    * radius) at the rows whose angle first reaches one of `Output / Profile
    * angles`: reference position, pressure, magnitude of the tangential
    * traction, sliding distance, bonding state, friction coefficient, state,
-   * area that the point stands for.
+   * area that the point stands for, what opening and slip have left of the
+   * bond, and the mode of the traction.
    *
    * friction_law.csv holds phi and mu over the sliding distance g_s, if
    * `Output / Friction law curve` asks for it.

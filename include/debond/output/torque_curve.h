@@ -55,6 +55,8 @@ namespace Debond
     double released_energy_Nmm = 0;
     double share_pulled        = 0; ///< in tension, and without friction
     double damage_Nmm          = 0; ///< part of dissipation_Nmm, by opening
+    /** Part of adhesive_work_Nmm: of tractions across the interface. */
+    double adhesive_normal_Nmm = 0;
 
     /** What the curve between rows is drawn of: torque [N mm], chuck_reaction
      *  and chuck_position, by the unit of time. */
@@ -124,6 +126,7 @@ namespace Debond
       visit("released_energy_Nmm", released_energy_Nmm);
       visit("share_pulled", share_pulled);
       visit("damage_Nmm", damage_Nmm);
+      visit("adhesive_normal_Nmm", adhesive_normal_Nmm);
     }
 
     /** See serialization.h. */

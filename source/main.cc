@@ -63,11 +63,11 @@ namespace
        debond --compare DIR CURVE [--columns LIST]
        debond --report DIR
 
-Simulates the tangential debonding of an implant from bone as the scene file
-describes it, and writes torque curve, summary and fields into the directory
-that the scene names. A scene whose entries hold several values, {{a|b|c}}, is a
-study: all variants are run and gathered in study.csv. `mpirun -np N debond ...`
-deals a large bone out among N processes.
+Simulates how an implant comes off bone, as the scene file describes it, and
+writes curves, summary and fields into the directory that the scene names. A
+scene whose entries hold several values, {{a|b|c}}, is a study: all variants are
+run and gathered in study.csv. `mpirun -np N debond ...` deals a large bone out
+among N processes.
 
   --set ENTRY=VALUE   override an entry of the scene; may be repeated
                       --set "Interface/Penalty stiffness=1800"

@@ -116,9 +116,11 @@ def maps_of(path):
     shown = [one for one in QUANTITIES if one[0] in table]
     quantities = [[numbers(table[name][k * size:(k + 1) * size]) for k in range(len(events))] for name, _, _ in shown]
     widths = widths_of(grid, [values for maps in quantities for values in maps])
-    states = [numbers(table.get("state", [])[k * size:(k + 1) * size]) for k in range(len(events))]
-    return [maps_of_quantity(grid, places, maps, widths, words, unit) for maps, (_, words, unit) in zip(quantities, shown)] + [
-        maps_of_states(grid, places, states)]
+    result = [maps_of_quantity(grid, places, maps, widths, words, unit) for maps, (_, words, unit) in zip(quantities, shown)]
+    if "state" in table:
+        states = numbers(table["state"])
+        result.append(maps_of_states(grid, places, [states[k * size:(k + 1) * size] for k in range(len(events))]))
+    return result
 
 
 def maps_of_quantity(grid, places, maps, widths, words, unit):

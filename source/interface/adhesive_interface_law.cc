@@ -21,7 +21,8 @@ namespace Debond
     //   L = mu(phi) max(0, p + c phi t_0)
     //
     // with kappa the largest gap since the point has been closed: on the
-    // envelope while the gap grows, else straight to the origin.
+    // envelope while the gap grows, else straight to the origin. A viscosity
+    // eta pulls beside that with phi_0 s eta dg_n/dt while a bond opens.
     class Adhesive : public InterfaceLaw
     {
     public:
@@ -32,6 +33,7 @@ namespace Debond
         , t_0(choice.number("Strength"))
         , g_0(choice.number("Gap at strength"))
         , c(choice.number("Adhesive friction"))
+        , eta(choice.number("Opening viscosity"))
         , bond(std::move(bond))
       {}
 
@@ -41,41 +43,16 @@ namespace Debond
               const double      distance) const override
       {
         const Bond        now(*this, start, g_n, distance);
-        InterfaceResponse result;
-        if (g_n > 0. && now.holds)
+        InterfaceResponse result = without_viscosity(start, now, g_n);
+        const double      opened =
+          g_n - std::max(0., std::min(start.history.normal_gap, g_n));
+        if (g_n > 0. && opened > 0. && now.holds && start.duration > 0.)
           {
-            // on the envelope K falls as the gap grows, dK/dg_n = -K/g_0
-            const double K          = now.phi_0_s * pull(now.kappa);
-            result.pressure         = -K * g_n;
-            result.pressure_by_gap  = -K * (now.grows ? 1. - g_n / g_0 : 1.);
-            result.pressure_by_slip = -now.s_slope * pull(now.kappa) * g_n;
-            // what is given up at the end of the step has become damage
-            result.energy = now.kappa > gone() ? 0. : 0.5 * K * g_n * g_n;
-          }
-        else
-          {
-            result.pressure        = -stiffness * g_n;
-            result.pressure_by_gap = -stiffness;
-            if (g_n < 0.)
-              result.energy = 0.5 * stiffness * g_n * g_n;
-          }
-        // not by what p and L are at the end: that would be a jump within the
-        // step
-        result.resists = now.holds || result.pressure > 0.;
-        if (start.frictionless)
-          return result;
-        // what is pressed, or held, across the interface
-        const double cohesion = c * now.phi * t_0,
-                     held     = result.pressure + cohesion;
-        if (held > rounding * std::max(std::abs(result.pressure), cohesion))
-          {
-            const double mu    = bond->mu_b + now.phi * bond->drop,
-                         slope = bond->drop * held + mu * c * t_0; // by phi
-            result.limit       = mu * held;
-            result.limit_by_gap =
-              mu * result.pressure_by_gap + slope * now.phi_by_gap;
-            result.limit_by_slip =
-              mu * result.pressure_by_slip + slope * now.phi_by_slip;
+            const double resistance = eta / start.duration;
+            result.viscous_pressure = -now.phi_0_s * resistance * opened;
+            result.pressure += result.viscous_pressure;
+            result.pressure_by_gap -= now.phi_0_s * resistance;
+            result.pressure_by_slip -= now.s_slope * resistance * opened;
           }
         return result;
       }
@@ -183,7 +160,8 @@ namespace Debond
       Tension
       tension() const override
       {
-        return {t_0, M_E * t_0 * g_0, M_E * t_0 / g_0, t_0 / (M_E * g_0), g_0};
+        return {
+          t_0, M_E * t_0 * g_0, M_E * t_0 / g_0, t_0 / (M_E * g_0), g_0, eta};
       }
       double
       opened(const PointHistory &history) const override
@@ -229,6 +207,51 @@ namespace Debond
         double phi_0_s, s_slope;             ///< by the distance
         double phi, phi_by_slip, phi_by_gap; ///< [1, 1/mm, 1/mm]
       };
+
+      /** What is not made up by speed. */
+      InterfaceResponse
+      without_viscosity(const PointStart &start,
+                        const Bond       &now,
+                        const double      g_n) const
+      {
+        InterfaceResponse result;
+        if (g_n > 0. && now.holds)
+          {
+            // on the envelope K falls as the gap grows, dK/dg_n = -K/g_0
+            const double K          = now.phi_0_s * pull(now.kappa);
+            result.pressure         = -K * g_n;
+            result.pressure_by_gap  = -K * (now.grows ? 1. - g_n / g_0 : 1.);
+            result.pressure_by_slip = -now.s_slope * pull(now.kappa) * g_n;
+            // what is given up at the end of the step has become damage
+            result.energy = now.kappa > gone() ? 0. : 0.5 * K * g_n * g_n;
+          }
+        else
+          {
+            result.pressure        = -stiffness * g_n;
+            result.pressure_by_gap = -stiffness;
+            if (g_n < 0.)
+              result.energy = 0.5 * stiffness * g_n * g_n;
+          }
+        // not by what p and L are at the end: that would be a jump within the
+        // step
+        result.resists = now.holds || result.pressure > 0.;
+        if (start.frictionless)
+          return result;
+        // what is pressed, or held, across the interface
+        const double cohesion = c * now.phi * t_0,
+                     held     = result.pressure + cohesion;
+        if (held > rounding * std::max(std::abs(result.pressure), cohesion))
+          {
+            const double mu    = bond->mu_b + now.phi * bond->drop,
+                         slope = bond->drop * held + mu * c * t_0; // by phi
+            result.limit       = mu * held;
+            result.limit_by_gap =
+              mu * result.pressure_by_gap + slope * now.phi_by_gap;
+            result.limit_by_slip =
+              mu * result.pressure_by_slip + slope * now.phi_by_slip;
+          }
+        return result;
+      }
 
       /** Whether a point with this history is bonded. */
       bool
@@ -279,7 +302,7 @@ namespace Debond
       // of p + c phi t_0, which is zero beyond g_0 for c = 1
       static constexpr double rounding = 1e-14;
 
-      const double                              t_0, g_0, c;
+      const double                              t_0, g_0, c, eta;
       const std::shared_ptr<const BondFriction> bond;
     };
   } // namespace
@@ -311,7 +334,15 @@ namespace Debond
         "1",
         Allowed::number_between(0, 1, ""),
         "c, dimensionless: the part of the strength that adds to the pressure "
-        "in friction, mu (p + c phi t_0)."}},
+        "in friction, mu (p + c phi t_0)."},
+       {subsection,
+        "Opening viscosity",
+        "0",
+        Allowed::number_between(1e-15, 1e15, "MPa per (mm per unit of time)")
+          .or_number(0),
+        "eta [MPa per (mm per unit of time)]: a bond that opens with the speed v "
+        "pulls with phi_0 s eta v more. With it a bond that would open in a jump "
+        "opens in time instead, and results depend on the rate."}},
       [](const LawChoice &choice, const InterfaceLawParts &parts) {
         if (choice.number("Strength") == 0.)
           return friction_under_pressure(parts);

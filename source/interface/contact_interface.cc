@@ -557,7 +557,8 @@ namespace Debond
         point.accepted_traction = Q.transpose() * trial.tangential_traction;
         point.accepted_viscous_traction =
           Q.transpose() * trial.viscous_traction;
-        point.accepted_energy = trial.energy;
+        point.accepted_energy           = trial.energy;
+        point.accepted_viscous_pressure = trial.viscous_pressure;
         // What is open forgets its interacting point, or it would be pulled
         // back to it when it closes again somewhere else: the gap to the old
         // xi_hat would be a spring stretched over the distance that the

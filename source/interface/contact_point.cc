@@ -38,7 +38,7 @@ namespace Debond
     result.traction = result.tangential_traction = result.viscous_traction =
       result.slip_increment                      = Vector3d::Zero();
     result.normal_gap = result.energy = result.softening = result.path_to_edge =
-      result.pressure                                    = 0.;
+      result.pressure = result.viscous_pressure = 0.;
     result.state.gap.setZero();
     result.dt.setZero();
     result.dxi.setZero();
@@ -209,6 +209,7 @@ namespace Debond
           law.joint->advance(friction.start, g_n, 0.);
         result.normal_gap          = g_n;
         result.pressure            = response.pressure;
+        result.viscous_pressure    = response.viscous_pressure;
         result.state.gap           = normal.parts(gap);
         result.softening           = 0.;
         result.tangential_traction = eps_t * (gap - g_n * n);

@@ -118,6 +118,7 @@ namespace Debond
                                             &summary.share_pulled}};
     const double                  resistance =
       law.tangential_penalty + viscous_stiffness(law, mode_now);
+    const Tension tension = law.joint->tension();
     for (unsigned int q = 0; q < points.size(); ++q)
       {
         const SlavePoint         &point = points[q];
@@ -133,7 +134,10 @@ namespace Debond
         if (has_opened_beyond_strength(q))
           summary.opening_softening =
             std::max(summary.opening_softening,
-                     point.phi_0 * law.joint->tension().softening);
+                     point.phi_0 * (tension.softening -
+                                    (mode_now.duration > 0. ?
+                                       tension.viscosity / mode_now.duration :
+                                       0.)));
         if (point.faces_implant)
           {
             // phi as reported() has it, of the trial state, and the share of

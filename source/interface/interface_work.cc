@@ -111,20 +111,29 @@ namespace Debond
     dissipation += 0.5 * (old_traction + trial.tangential_traction).dot(slip);
     // The viscous traction is anything between its two ends. It stands in both
     // balances, of which the second takes the law for the rest.
-    const double viscous_part =
+    const double viscous_slip =
       0.5 * (frame * point.accepted_viscous_traction + trial.viscous_traction)
               .dot(slip);
+    // the same across the interface, whichever way the gap goes
+    const bool   was_open = point.accepted.normal_gap == PointHistory::far;
+    const double opened   = was_open ? 0. :
+                                       std::max(0., trial.normal_gap) -
+                                       std::max(0., point.accepted.normal_gap);
+    const double viscous_opening =
+      -0.5 * point.JxW *
+      (point.accepted_viscous_pressure + trial.viscous_pressure) * opened;
     for (double *work : {&viscous, &friction, &friction_bound})
-      *work += viscous_part;
+      *work += viscous_slip + viscous_opening;
     const PointWork by_law = law.work(point.begin(law, mode),
                                       trial.normal_gap,
                                       trial.state.slip - point.accepted.slip);
-    const double    of_gap = point.JxW * (by_law.damage - by_law.lift);
+    const double    of_gap =
+      viscous_opening + point.JxW * (by_law.damage - by_law.lift);
     adhesive += point.JxW * by_law.adhesive;
     damage += point.JxW * by_law.damage;
     adhesive_normal += point.JxW * by_law.damage;
     dissipation += of_gap;
-    friction += of_gap + point.JxW * by_law.friction;
+    friction += point.JxW * (by_law.damage - by_law.lift + by_law.friction);
     friction_bound += point.JxW * by_law.friction_bound;
   }
 

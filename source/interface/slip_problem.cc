@@ -432,9 +432,10 @@ namespace Debond
   void
   SlipProblem::report(ContactPointResult &result) const
   {
-    const SlipEquations &e = *equations;
-    result.normal_gap      = e.g_n;
-    result.pressure        = e.response.pressure;
+    const SlipEquations &e  = *equations;
+    result.normal_gap       = e.g_n;
+    result.pressure         = e.response.pressure;
+    result.viscous_pressure = e.response.viscous_pressure;
     result.state.gap =
       e.normal.parts(e.tangential_traction / law.tangential_penalty);
     result.softening           = e.softening();

@@ -415,7 +415,7 @@ namespace Debond
                  "carry; prescribing the displacement or angle instead, or "
                  "Load steps / Path following = slip, follows the fall";
     if (scene.interface.friction->depends_on_rate() &&
-        scene.interface.viscosity == 0.)
+        !scene.interface.is_viscous())
       message
         << ". Where friction falls with the speed faster than the springs "
            "pull there is no quasi-static solution; Interface / Viscosity "

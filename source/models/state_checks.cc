@@ -37,7 +37,7 @@ namespace Debond
     std::string
     advice(const ModelParameters &parameters)
     {
-      if (parameters.interface.viscosity > 0.)
+      if (parameters.interface.is_viscous())
         return "Smaller steps follow the viscous motion";
       if (parameters.interface.friction->depends_on_rate())
         return "Friction falls with the speed faster than the springs pull: "

@@ -584,8 +584,9 @@ namespace Debond
         measures[std::string("w_") + part + "_N_per_m"] =
           1e3 * double(measures[std::string("D_adh_") + part + "_Nmm"]) /
           bonded;
-    // less is what a force held at 0 is solved to
-    if (settings.is_bonded && -pull->force_N > 1e-6 * largest_force)
+    // less is what a force that is held at 0 is solved to
+    grow(largest_force, T_max / std::sqrt(settings.contact_area_mm2));
+    if (settings.is_bonded && -pull->force_N > 1e-3 * largest_force)
       measures.update({{"pull_max_N", -pull->force_N},
                        {"pull_max_mm", pull->chuck_position[2]}});
     if (rotation.direction != 0. && !rotation.reverses)

@@ -117,12 +117,16 @@ namespace Debond
       const std::string entry = "Load steps / Path following";
       if (scene.model != ModelKind::finite_elements)
         throw EntryError(entry, "it is for Model = finite elements");
-      if (scene.interface.viscosity > 0.)
-        throw EntryError(entry,
-                         "along a path of equilibrium the time may fall and is "
-                         "no clock for Interface / Viscosity = " +
-                           to_text(scene.interface.viscosity) +
-                           ": expected only one of them");
+      if (scene.interface.is_viscous())
+        throw EntryError(
+          entry,
+          "along a path of equilibrium the time may fall and is "
+          "no clock for Interface / " +
+            (scene.interface.viscosity > 0. ?
+               "Viscosity = " + to_text(scene.interface.viscosity) :
+               "Adhesive / Opening viscosity = " +
+                 to_text(scene.interface.joint()->tension().viscosity)) +
+            ": expected only one of them");
     }
 
 

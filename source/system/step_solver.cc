@@ -63,7 +63,7 @@ namespace Debond
     // halving the step is the remedy. A loaded component has no spring to be
     // relaxed.
     if (system.chuck.has_compliant_machine() &&
-        parameters.interface.viscosity == 0.)
+        !parameters.interface.is_viscous())
       list.push_back(beyond);
     return list;
   }

@@ -1,8 +1,8 @@
 // Law = adhesive between rigid bodies, against its formulas summed over the
 // program's own points and weights: a coin is pulled off, half bonded, too; is
 // pulled out, pressed back and pulled again; is twisted without a load, and
-// under pressure; is pulled and sheared. Energies balance, and without strength
-// all is as with Law = friction.
+// under pressure; is pulled and sheared; is pulled with a viscosity. Energies
+// balance, and without strength all is as with Law = friction.
 
 #include "driven_scene.h"
 
@@ -198,6 +198,68 @@ check_pull_and_shear()
 
 
 
+// With a viscosity a coin that is pulled at the speed v carries A eta v more
+// while it opens, and none on its way back.
+void
+check_viscosity()
+{
+  const double eta = 20., v = 0.0075;
+  const auto   rows =
+    run_scene("adhesive_viscous",
+              rigid_coin,
+              moves("Translation z",
+                    "if(t < 1, 0.0075 * t, 0.015 - 0.0075 * t)") +
+                steps("0, 1, 1.8", "60, 20") +
+                Overrides{"Interface/Adhesive/Opening viscosity=20"});
+  double out = 0., back = 0.;
+  for (const TorqueRow &row : rows)
+    {
+      const double g = row.chuck_position[2];
+      if (row.time > 1.)
+        grow(back,
+             std::abs(-row.force_N / A - envelope(0.0075) * g / 0.0075) / t_0);
+      else if (row.step > 0)
+        grow(out, std::abs(-row.force_N / A - envelope(g) - eta * v) / t_0);
+    }
+  report("viscous: eta v more, deviation over t_0", out, 1e-10);
+  report("viscous: nothing more on the way back, deviation over t_0",
+         back,
+         1e-10);
+  // trapezoids, of which the first step and the one that turns have a half
+  report("viscous work, deviation from A eta v times the way",
+         std::abs(
+           rows.back().viscous_work_Nmm /
+             (A * eta * v * (0.0075 - 0.5 * (0.0075 / 60. + 0.006 / 20.))) -
+           1.),
+         1e-10);
+  report("viscous: energies balance within the bound",
+         std::abs(rows.back().energy_defect) < rows.back().energy_defect_bound);
+}
+
+
+
+// The tolerance of adaptive steps holds for the axial force as for the torque.
+void
+check_adaptive_steps()
+{
+  const auto rows =
+    run_scene("adhesive_adaptive",
+              rigid_coin,
+              moves("Translation z", "0.11 * t") + steps("0, 1", "10") +
+                Overrides{"Load steps/Adaptive=true",
+                          "Load steps/Tolerance=1e-3"});
+  double force = 0.;
+  for (const TorqueRow &row : fine_curve(rows))
+    if (const double g = row.chuck_position[2]; g < 20. * g_0)
+      grow(force, std::abs(-row.force_N / A - envelope(g)) / t_0);
+  report("adaptive steps of a tolerance of 1e-3: force, deviation over A t_0",
+         force,
+         1e-3);
+  report("they are few", rows.size() < 60);
+}
+
+
+
 void
 check_without_strength()
 {
@@ -223,6 +285,8 @@ main()
     check_reload();
     check_twist();
     check_pull_and_shear();
+    check_viscosity();
+    check_adaptive_steps();
     check_without_strength();
   });
 }

@@ -165,7 +165,7 @@ def values_of_maps(directory):
     """{(quantity, event): values} of maps.csv."""
     found = {}
     for row in table(f"{directory}/maps.csv"):
-        for name in ("pressure_MPa", "slip_mm", "phi", "mu"):
+        for name in ("pressure_MPa", "slip_mm", "phi", "mu", "state"):
             found.setdefault((name, row["event"]), []).append(float(row[name]))
     return found
 
@@ -193,8 +193,16 @@ def test_maps(directory, text):
                 flat = sum(a == b for a, b in zip(across, across[1:]))
                 check(flat < n // 4, f"{flat} of {n} pixels across the face are as those beside them")
             check(lines[n // 2][n // 2] < 25 and min(rim) > 200, "the sliding distance is not that of a rotation")
-    check(text.count('class="round"') == len(drawn), "a round face is not round")
+    states = re.findall(r'(?s)src="data:image/png;base64,([^"]*)">\s*<figcaption>(.*?)</figcaption>', text.split("<h3>State</h3>")[1])
+    for image, caption in states:
+        lines, known = pixels(image)[0], values["state", caption.split(": ", 1)[1]]
+        drawn_states = [value for line in lines[::-1] for value in line]
+        check(all(a == b or (a == 255 and b != b) for a, b in zip(drawn_states, known)), f"states at {caption}")
+    check({"sticks", "slides"} <= set(re.findall(r"</svg>(\w+)</li>", text)), "states have no names")
+    check(text.count('class="round"') == len(drawn) + len(states) > len(drawn), "a round face is not round")
     for (name, event), known in values.items():
+        if name == "state":
+            continue
         heading = next(heading for heading, column in names.items() if column == name)
         known = [value for value in known if value == value]
         is_drawn = any((heading, event) == (one[0], one[1].split(": ", 1)[1]) for one in drawn)

@@ -198,7 +198,8 @@ namespace Debond
     bool
     depends_on_rate() const
     {
-      return law.viscosity > 0. || law.joint->friction->depends_on_rate();
+      return law.viscosity > 0. || law.joint->tension().viscosity > 0. ||
+             law.joint->friction->depends_on_rate();
     }
     /** Completes the derivatives of the last evaluate() by those with the
      *  components of the chuck that are unknowns of @p configuration, where it

@@ -78,6 +78,7 @@ namespace Debond
     Eigen::Vector3d accepted_traction         = Eigen::Vector3d::Zero();
     Eigen::Vector3d accepted_viscous_traction = Eigen::Vector3d::Zero();
     double          accepted_energy           = 0; ///< [N/mm]
+    double          accepted_viscous_pressure = 0; ///< [MPa]
   };
 
   /** A quadrature point of the slave surface: where it lies, its history, and
@@ -118,6 +119,7 @@ namespace Debond
         {
           archive &accepted &clearance       &accepted_traction;
           archive &accepted_viscous_traction &accepted_energy;
+          archive                            &accepted_viscous_pressure;
           if (Archive::is_loading::value)
             trial.state = accepted;
         }

@@ -102,7 +102,8 @@ namespace Debond
     bool              failed = false; ///< the local iteration found no solution
     bool              negative_friction = false; ///< or one with a negative mu
 
-    double pressure = 0; ///< p [MPa]; negative where it pulls
+    double pressure         = 0; ///< p [MPa]; negative where it pulls
+    double viscous_pressure = 0; ///< the part of it that speed makes up [MPa]
 
     /** t = eps_n g_n n + t_t [MPa], as it enters the residual of the slave. */
     Eigen::Vector3d traction            = Eigen::Vector3d::Zero();

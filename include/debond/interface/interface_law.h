@@ -47,6 +47,7 @@ namespace Debond
     double limit_by_slip    = 0; ///< dL/dd [MPa/mm]
     double limit_by_damage  = 0; ///< of the share that is held [MPa]
     double energy           = 0; ///< stored across the interface [N/mm]
+    double viscous_pressure = 0; ///< the part of p that speed makes up [MPa]
     /** Whether the viscosity resists sliding, beside L. */
     bool resists = false;
   };
@@ -61,6 +62,9 @@ namespace Debond
     double stiffness = 0; ///< as it begins to open [MPa/mm]
     double softening = 0; ///< the steepest fall as it opens [MPa/mm]
     double gap       = 0; ///< at the strength [mm]
+    /** Resistance to the speed it opens with [MPa per (mm per unit of time)].
+     */
+    double viscosity = 0;
   };
 
 

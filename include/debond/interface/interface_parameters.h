@@ -57,6 +57,13 @@ namespace Debond
       return law_choice.law.empty() || law_choice.law == "friction";
     }
 
+    /** Whether a viscosity resists sliding or opening. */
+    bool
+    is_viscous() const
+    {
+      return viscosity > 0. || joint()->tension().viscosity > 0.;
+    }
+
     /** What governs the points. */
     ContactPointLaw
     law() const;

@@ -1,0 +1,105 @@
+// How compliant bodies and machine are against tractions that open a bond,
+// against closed forms: a bar of bone under a block as wide, nu = 0, gives way
+// by H/E, an implant that deforms by its own H/E more, a machine by A/k, of
+// which half counts for a phi_0 of 1/2; rigid bodies do not, and nothing holds
+// a chuck under a load. A bond that falls by less than the bodies hold with is
+// pulled off without a warning, one that falls by more with one.
+
+#include "driven_scene.h"
+
+using namespace Debond;
+
+const std::string blocks = "subsection Bone\n"
+                           " set Size = 5, 5, 5\n"
+                           " set Cells = 3, 3, 2\n"
+                           " set Young modulus = 1000\n"
+                           " set Poisson ratio = 0\n"
+                           "end\n"
+                           "subsection Implant\n"
+                           " set Shape = block\n"
+                           " set Size = 5, 5, 3\n"
+                           " set Cells = 2, 2\n"
+                           " set Material = rigid\n"
+                           " set Young modulus = 500\n"
+                           " set Poisson ratio = 0\n"
+                           "end\n"
+                           "subsection Interface\n"
+                           " set Law = adhesive\n"
+                           "end\n"
+                           "subsection Chuck\n"
+                           " subsection Translation z\n"
+                           "  set Value = 0.12 * t\n"
+                           " end\n"
+                           " subsection Rotation z\n"
+                           "  set Value = 0\n"
+                           " end\n"
+                           "end\n"
+                           "subsection Load steps\n"
+                           " set Times = 0, 1\n"
+                           " set Steps = 200\n"
+                           "end\n";
+
+double
+compliance(const std::vector<std::string> &overrides)
+{
+  return DrivenScene(blocks, overrides).system.compliance_of_opening();
+}
+
+
+
+void
+check_compliance()
+{
+  const double bar     = 5. / 1000.;
+  const auto   differs = [](const double a, const double b) {
+    return std::abs(a / b - 1.);
+  };
+  report("a bar of bone", differs(compliance({}), bar), 1e-3);
+  report("bone and implant",
+         differs(compliance({"Implant/Material=linear"}), bar + 3. / 500.),
+         1e-3);
+  const std::string spring = "Chuck/Translation z/Stiffness=10000";
+  report("bone and machine",
+         differs(compliance({spring}), bar + 25. / 10000.),
+         1e-3);
+  report("half a bond",
+         differs(compliance({"Interface/Bonding/Initial bonding=0.5"}),
+                 0.5 * bar),
+         1e-3);
+  report("rigid bodies", compliance({"Bone/Material=rigid"}) == 0.);
+  report("a chuck under a load",
+         std::isinf(compliance({"Chuck/Translation z/Control=force",
+                                "Chuck/Translation z/Value=0.1 * t"})));
+}
+
+
+
+// It falls by t_0/(e g_0) at most, and the bar holds with E/H = 200 MPa/mm.
+void
+check_warning()
+{
+  for (const double softening : {0.95 * 200., 1.05 * 200.})
+    {
+      const std::string gap = std::to_string(5. / (std::exp(1.) * softening));
+      bool              warned = false;
+      for (const TorqueRow &row :
+           run_scene("opening_stability",
+                     blocks,
+                     {"Interface/Adhesive/Gap at strength=" + gap}))
+        warned = warned || row.warnings > 0;
+      report(softening < 200. ? "no warning of a bond that falls more slowly" :
+                                "a warning of one that falls faster",
+             warned == (softening > 200.));
+    }
+}
+
+
+
+int
+main()
+{
+  return run_test([] {
+    check_compliance();
+    check_warning();
+  });
+}

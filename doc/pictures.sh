@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the pictures of the pages again, and puts them into doc/images as PNG and, but for maps, as SVG: doc/pictures.sh NAME...
 #   geometry        the sketches of doc/model.md
-#   bodies          mesh, front and stresses (a minute); needs pvpython, see doc/results.md
+#   bodies          mesh, fronts and stresses (a minute); needs pvpython, see doc/results.md
 #   paper           the figures of doc/reproduction.md (ten minutes, most of them Fig. 13); fig_1, fig_4, ... alone: see
 #                   doc/paper/reproduce.sh
 #   stability       those of doc/stability.md (two minutes)
@@ -41,7 +41,12 @@ bodies() {
   at_angles --set "Load steps/Times=0, 1, 1.1, 1.15, 1.25, 1.5" --set "Load steps/Steps=1, 2, 2, 2, 4" \
     --set "Interface/Quadrature points=20" --set Output/Directory=output/front
   pvpython doc/paraview/debonding_front.py output/front --field mu slip_mm --angles 1 1.5 2.5 5 --width 1200 --output output/front.png
-  publish output/mesh output/stress output/front
+  "$DEBOND" prm/adhesion/coin_peeled.prm --force --set "Load steps/Times=0, 0.05, 0.1, 0.2, 0.5" --set "Output/Fields every=1000000" \
+    --set "Load steps/Steps=15, 15, 30, 45" --set "Bone/Cells=30, 30, 6" --set "Implant/Cells=8, 4" \
+    --set Output/Directory=output/peeled --set Output/Console=quiet
+  pvpython doc/paraview/debonding_front.py output/peeled --field state left_by_opening pressure_MPa --times 0.05 0.1 0.2 0.5 --width 1200 \
+    --output output/peeled.png
+  publish output/mesh output/stress output/front output/peeled
   "$DEBOND" prm/coin_mode3_spline.prm --force --set Output/Directory=output/opened
   pvpython doc/paraview/open_results.py output/opened --pictures output/opened/pictures --width 1400
   cp output/opened/pictures/view-0008.png doc/images/opened.png

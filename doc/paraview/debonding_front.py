@@ -16,8 +16,8 @@ import argparse
 import os
 import sys
 
-from open_results import (FIELDS, FONT, GREY, Mistake, check_fields, choose, even_choice, read_frames, read_title, rgb,
-                          round_numbers, run_with_a_screen, scale_of, set_colours)
+from open_results import (FIELDS, FONT, GREY, Mistake, check_fields, check_is_there, choose, even_choice, read_frames, read_title,
+                          rgb, round_numbers, run_with_a_screen, scale_of, set_colours)
 
 
 def read_arguments():
@@ -190,7 +190,10 @@ class Picture:
         """Both ends of the colours of a field: the same for all its pictures."""
         if field in self.arguments.range:
             return self.arguments.range[field]
-        return scale_of(field, [reader.PointData[field].GetRange() for reader in sum(self.readers, [])])
+        readers = sum(self.readers, [])
+        for reader in readers:
+            check_is_there(field, reader.PointData.keys())
+        return scale_of(field, [reader.PointData[field].GetRange() for reader in readers])
 
     def colour_function(self, field):
         colours = simple.GetColorTransferFunction(field)

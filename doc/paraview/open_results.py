@@ -40,10 +40,13 @@ FIELDS = {
     "slip_mm": ("gₛ [mm]", 0, None, "sliding distance [mm]"),
     "pressure_MPa": ("p [MPa]", None, None, "pressure [MPa]"),
     "gap_mm": ("gₙ [mm]", None, None, "normal gap [mm]"),
-    "state": ("state", 0, 2, "contact state"),
+    "state": ("state", 0, 3, "contact state"),
+    "left_by_opening": ("d", 0, 1, "what opening has left of the bond"),
+    "left_by_slip": ("s", 0, 1, "what slip has left of the bond"),
+    "mode_deg": ("ψ [°]", 0, 90, "angle of the traction to the normal [deg]"),
 }
 FACES = ["phi", "mu", "pressure_MPa", "state"]  # what is opened
-STATES = {"open": "#d8d8d8", "stick": "#fde725", "slip": "#6fb3bf"}
+STATES = {"open": "#d8d8d8", "stick": "#fde725", "slip": "#6fb3bf", "pulled": "#b5367a"}
 ARROWS = 13  # of the traction across the implant
 MOST_CELLS = 100000  # of a body whose cells have borders
 PALETTE = ["#440154", "#46327e", "#365c8d", "#277f8e", "#1fa187", "#4ac16d", "#a0da39", "#fde725"]  # as in doc/style.gp
@@ -306,7 +309,9 @@ class Opened:
                 reader.UpdatePipeline(time)
                 for array in reader.PointData:
                     ranges.setdefault(array.Name, []).append(array.GetRange(-1 if array.GetNumberOfComponents() > 1 else 0))
-        self.scales = {field: scale_of(field, ranges[field]) for field in FIELDS}
+        for field in self.fields:
+            check_is_there(field, ranges)
+        self.scales = {field: scale_of(field, ranges[field]) for field in FIELDS if field in ranges}
         self.has_stress = max(high for _, high in ranges["von_Mises_MPa"]) > 0
         self.scales["von_Mises_MPa"] = 0, max(high for _, high in ranges["von_Mises_MPa"]) or 1
         self.largest_traction = max(high for _, high in ranges["traction_MPa"])
@@ -438,6 +443,11 @@ def check_fields(option, fields):
     for field in fields:
         if field not in FIELDS:
             raise Mistake("%s %s: there is no such field; allowed are %s" % (option, field, ", ".join(FIELDS)))
+
+
+def check_is_there(field, known):
+    if field not in known:
+        raise Mistake("%s: these results do not have it: their law has no strength in tension" % field)
 
 
 def read_arguments():

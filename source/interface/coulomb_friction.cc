@@ -72,7 +72,7 @@ namespace Debond
       {
         const double s = slip / a_s;
         slope          = 0.;
-        if (s < 1.)
+        if (s < 1. || frictionless) // nothing wears it
           return 1.;
         if (s > 1. + 2. * b_s)
           return 0.;
@@ -94,7 +94,7 @@ namespace Debond
       integrated_decay(const double slip) const override
       {
         const double s = slip / a_s;
-        if (s < 1.)
+        if (s < 1. || frictionless)
           return slip;
         if (s > 1. + 2. * b_s)
           return a_s * (1. + b_s);
@@ -142,13 +142,13 @@ namespace Debond
           "0.022",
           Allowed::number_between(1e-9, 1e6, "mm"),
           "Sliding distance a_s [mm] up to which a point stays fully bonded. "
-          "Only used by modified coulomb."},
+          "Used by modified coulomb, and by coulomb with Law = adhesive."},
          {"",
           "Transition factor",
           "0.74",
           Allowed::number_between(1e-9, 1e6, ""),
           "Factor b_s, dimensionless: a point is fully debonded once it has "
-          "slid (1 + 2 b_s) a_s. Only used by modified coulomb."}});
+          "slid (1 + 2 b_s) a_s. Used as the Sliding threshold."}});
     }
 
 

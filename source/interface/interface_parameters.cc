@@ -117,7 +117,7 @@ namespace Debond
   BondingParameters
   InterfaceParameters::bonding_of_law() const
   {
-    if (friction->has_bond())
+    if (friction->has_bond() || joint()->pulls())
       return bonding;
     BondingParameters nothing;
     nothing.initial_bonding = 0.;

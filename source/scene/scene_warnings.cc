@@ -410,7 +410,8 @@ namespace Debond
     judge_entries(const Scene &scene, const Note &note)
     {
       const std::string &law_name = scene.interface.friction_choice.law;
-      const FrictionLaw &law      = *scene.interface.friction;
+      const bool is_bonded = law.has_bond() || scene.interface.joint()->pulls();
+      const FrictionLaw &law = *scene.interface.friction;
       const struct
       {
         const char *beginning; ///< of the names
@@ -439,8 +440,8 @@ namespace Debond
         {"Interface / Friction starts at",
          !law.is_frictionless(),
          "laws with friction"},
-        {"Interface / Bonding / ", law.has_bond(), "laws with a bond"},
-        {"Output / Observed bonding", law.has_bond(), "laws with a bond"}};
+        {"Interface / Bonding / ", is_bonded, "laws with a bond"},
+        {"Output / Observed bonding", is_bonded, "laws with a bond"}};
       for (const SceneEntry &entry : scene.changed_entries)
         {
           const std::string name = entry.full_name();

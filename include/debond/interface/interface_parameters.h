@@ -68,8 +68,8 @@ namespace Debond
     ContactPointLaw
     law() const;
 
-    /** What is bonded: nothing if the friction law has no bond, whatever the
-     *  scene says. */
+    /** What is bonded: nothing if neither friction nor tension knows a bond,
+     *  whatever the scene says. */
     BondingParameters
     bonding_of_law() const;
 

@@ -6,6 +6,7 @@
 #                   doc/paper/reproduce.sh
 #   stability       those of doc/stability.md (two minutes)
 #   convergence     that of doc/verification.md (some minutes)
+#   cap_pulled_off  that of a cap that is pulled off there (some minutes)
 #   ensemble        those of doc/partial_bonding.md (ten minutes)
 #   calibration     that of doc/calibration.md (a minute)
 #   step_error      that of friction that turns in doc/speed_and_accuracy.md (ten minutes; CalculiX, if it is there)
@@ -68,11 +69,12 @@ make_pictures() {
     fig_*) doc/paper/reproduce.sh "$1" && publish_figures "$1" ;;
     stability) doc/stability/stability.sh --draw --publish ;;
     convergence) doc/verification/convergence.sh && publish output/convergence ;;
+    cap_pulled_off) doc/verification/cap_pulled_off.sh && publish output/cap_pulled_off_force ;;
     step_error) doc/studies/step_error.py --publish ;;
     ensemble | work_precision) "doc/studies/$1.sh" --publish ;;
     all)
       local name
-      for name in geometry bodies paper stability convergence ensemble calibration step_error work_precision; do make_pictures $name; done
+      for name in geometry bodies paper stability convergence cap_pulled_off ensemble calibration step_error work_precision; do make_pictures $name; done
       ;;
     *)
       echo "pictures.sh: unknown name '$1'; the names stand at the top of this script" >&2
@@ -96,5 +98,5 @@ publish_figures() {
   done
 }
 
-if (($# == 0)); then sed -n '2,13s/^# //p' "$0"; exit 1; fi
+if (($# == 0)); then sed -n '2,14s/^# //p' "$0"; exit 1; fi
 for name in "$@"; do make_pictures "$name"; done

@@ -270,6 +270,22 @@ def calculix_scenes():
                  [list(line) for line in zip(names, *columns)])
 
 
+@numbers('minutes')
+def cap_pulled_off():
+    exact, lines = rows_of('prm/verification/data/cap_pulled_off.csv'), []
+    w = math.e * 5 * .005
+    for row in study_with_curves('prm/verification/cap_pulled_off.prm'):
+        E = row['Bone / Young modulus']
+        lam = 10 * (50 / (math.pi * w * (4 / 3 * E / .91) ** 2)) ** (1 / 3)
+        i = next(i for i, line in enumerate(exact) if line['lambda'] > lam)
+        share = math.log(lam / exact[i - 1]['lambda']) / math.log(exact[i]['lambda'] / exact[i - 1]['lambda'])
+        maugis, rings = ((1 - share) * exact[i - 1][name] + share * exact[i][name] for name in ('dugdale', 'exponential'))
+        pull = -min(line['force_N'] for line in row['curve']) / (math.pi * w * 50)
+        lines.append(['%.0f' % E, '%.3f' % lam, '%.3f' % maugis, '%.3f' % rings, '%.3f' % pull,
+                      '%+.2f %%' % (100 * (pull / rings - 1)), '%+.1f %%' % (100 * (pull / maugis - 1))])
+    return table(['E [MPa]', 'lambda', 'Maugis', 'rings', 'ours', 'from rings', 'from Maugis'], lines)
+
+
 SNAP_BACK = 'prm/stability/snap_back%s.prm'
 
 

@@ -2,15 +2,17 @@
 # doc/verification/cap_pulled_off.sh runs it.
 exact = "prm/verification/data/cap_pulled_off.csv"
 array E[6] = [10000, 4000, 2000, 1000, 500, 200]
-array pull[6]
+set print $ours
+print "lambda,pull"
 w = exp(1) * 5 * 0.005
 lambda(E) = 10 * (50 / (pi * w * (4. / 3 * E / 0.91)**2))**(1. / 3)
 set datafile separator comma
 set datafile columnheaders
 do for [i=1:6] {
   stats sprintf("output/cap_pulled_off/variant-%03d/torque.csv", i) using "force_N" nooutput
-  pull[i] = -STATS_min / (pi * w * 50)
+  print sprintf("%g,%g", lambda(E[i]), -STATS_min / (pi * w * 50))
 }
+unset print
 do for [format in "png svg"] {
   load "doc/style.gp"
   eval picture("output/cap_pulled_off_force", 1000, 600)
@@ -20,12 +22,12 @@ do for [format in "png svg"] {
   set yrange [1.45:2.05]
   set xlabel "Maugis' parameter λ (left: stiff bone, right: soft bone)"
   set ylabel "Largest pull / ({/:Italic π w R_c})"
-  set key bottom left
+  set key bottom left at graph 0.01, 0.12
   set label "DMT" at 3.6, 2.02
-  set label "JKR" at 0.034, 1.52
+  set label "JKR" at 3.6, 1.48
   plot 2 with lines linetype 3 dashtype 2 linecolor rgb grey notitle, 1.5 with lines linetype 3 dashtype 2 linecolor rgb grey notitle, \
     exact using "lambda":"dugdale" with lines linetype 1 title "Maugis: constant strength", \
     exact using "lambda":"exponential" with lines linetype 2 title "rings: shape of the law adhesive", \
-    pull using (lambda(E[$1])):2 with points linetype 4 pointsize 1.3 title "ours, {/:Italic E} = 10000 ... 200 MPa"
+    $ours using "lambda":"pull" with points linetype 4 pointsize 1.3 title "ours, {/:Italic E} = 10000 ... 200 MPa"
 }
 unset output

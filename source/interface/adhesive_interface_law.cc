@@ -49,10 +49,11 @@ namespace Debond
         if (g_n > 0. && opened > 0. && now.holds && start.duration > 0.)
           {
             const double resistance = eta / start.duration;
-            result.viscous_pressure = -now.phi_0_s * resistance * opened;
+            result.viscous_pressure = -now.phi * resistance * opened;
             result.pressure += result.viscous_pressure;
-            result.pressure_by_gap -= now.phi_0_s * resistance;
-            result.pressure_by_slip -= now.s_slope * resistance * opened;
+            result.pressure_by_gap -=
+              resistance * (now.phi + now.phi_by_gap * opened);
+            result.pressure_by_slip -= resistance * now.phi_by_slip * opened;
           }
         return result;
       }
@@ -89,10 +90,11 @@ namespace Debond
         return result;
       }
 
-      // Friction as a trapezoid. A bond of the strength phi_0 s that is opened
-      // up to kappa has taken W(kappa), less what it gives back, and one that
-      // is open loses what it stores as slip breaks it. With both at a time the
-      // mean: exact if one of them rests, never negative.
+      // Friction is integrated over the distance, between the gaps of both
+      // ends; D_adh takes a trapezoid. A bond of the strength phi_0 s that is
+      // opened up to kappa has taken W(kappa), less what it gives back, and one
+      // that is open loses what it stores as slip breaks it. With both at a
+      // time the mean: exact if one of them rests, never negative.
       PointWork
       work(const PointStart &start,
            const double      g_n,
@@ -102,11 +104,12 @@ namespace Debond
         const InterfaceResponse begin   = respond(start, g_start, 0.),
                                 end     = respond(start, g_n, distance);
         PointWork result;
-        if (!start.frictionless)
+        if (!start.frictionless && distance > 0.)
           {
-            result.friction = 0.5 * (begin.limit + end.limit) * distance;
-            result.friction_bound =
-              0.5 * std::abs(begin.limit - end.limit) * distance;
+            const double before   = integrated_limit(start, g_start, distance),
+                         after    = integrated_limit(start, g_n, distance);
+            result.friction       = 0.5 * (before + after);
+            result.friction_bound = 0.5 * std::abs(before - after);
           }
         const Bond before(*this, start, g_start, 0.),
           now(*this, start, g_n, distance);
@@ -123,9 +126,11 @@ namespace Debond
         const double pressed =
           0.5 * (std::max(0., begin.pressure) + std::max(0., end.pressure));
         result.adhesive =
-          result.damage + (start.frictionless ?
-                             0. :
-                             result.friction - bond->mu_b * pressed * distance);
+          result.damage +
+          (start.frictionless ?
+             0. :
+             (0.5 * (begin.limit + end.limit) - bond->mu_b * pressed) *
+               distance);
         return result;
       }
 
@@ -232,6 +237,11 @@ namespace Debond
             if (g_n < 0.)
               result.energy = 0.5 * stiffness * g_n * g_n;
           }
+        // The tangent of faces that touch, whichever way they will go: with the
+        // softer one the first correction may go beyond the largest pull.
+        if (now.holds && std::abs(g_n) < touching * g_0)
+          result.pressure_by_gap =
+            -std::max(stiffness, now.phi_0_s * pull(now.kappa));
         // not by what p and L are at the end: that would be a jump within the
         // step
         result.resists = now.holds || result.pressure > 0.;
@@ -251,6 +261,23 @@ namespace Debond
               mu * result.pressure_by_slip + slope * now.phi_by_slip;
           }
         return result;
+      }
+
+      /** Integral of L over the @p distance at a gap, by Simpson's rule [N/mm].
+       */
+      double
+      integrated_limit(const PointStart &start,
+                       const double      g_n,
+                       const double      distance) const
+      {
+        constexpr unsigned int n   = 32;
+        double                 sum = 0.;
+        for (unsigned int i = 0; i <= n; ++i)
+          sum += (i == 0 || i == n ? 1. :
+                  i % 2 == 1       ? 4. :
+                                     2.) *
+                 respond(start, g_n, distance * i / n).limit;
+        return sum * distance / (3. * n);
       }
 
       /** Whether a point with this history is bonded. */
@@ -301,6 +328,8 @@ namespace Debond
 
       // of p + c phi t_0, which is zero beyond g_0 for c = 1
       static constexpr double rounding = 1e-14;
+      // in parts of g_0
+      static constexpr double touching = 1e-9;
 
       const double                              t_0, g_0, c, eta;
       const std::shared_ptr<const BondFriction> bond;
@@ -341,7 +370,7 @@ namespace Debond
         Allowed::number_between(1e-15, 1e15, "MPa per (mm per unit of time)")
           .or_number(0),
         "eta [MPa per (mm per unit of time)]: a bond that opens with the speed v "
-        "pulls with phi_0 s eta v more. With it a bond that would open in a jump "
+        "pulls with phi eta v more. With it a bond that would open in a jump "
         "opens in time instead, and results depend on the rate."}},
       [](const LawChoice &choice, const InterfaceLawParts &parts) {
         if (choice.number("Strength") == 0.)

@@ -15,7 +15,8 @@ namespace Debond
   CohesiveShare::update(const InterfaceLaw  &law,
                         const PointStart    &start,
                         const Vector3d      &x,
-                        const MasterSurface &master)
+                        const MasterSurface &master,
+                        const bool           hold_bond)
   {
     damage = start.history.damage;
     holds  = start.history.joined && start.phi_0 > 0. && damage < 1.;
@@ -27,14 +28,20 @@ namespace Debond
     master.surface->evaluate(xi, basis, false);
     contract(basis, *master.positions, false, geometry);
     const MasterNormal of_master(geometry, master.outward_sign);
-    const Vector3d    &n      = of_master.n;
-    const Vector3d     whole  = x - geometry.y;
-    const double       g_n    = n.dot(whole);
-    const Vector3d     along  = whole - g_n * n;
-    const double       length = along.norm();
-    const Vector3d direction  = length > 0. ? Vector3d(along / length) : along;
-    const CohesiveResponse response = law.hold(start, g_n, length);
-    const bool             opens    = g_n > 0.;
+    const Vector3d    &n       = of_master.n;
+    const Vector3d     whole   = x - geometry.y;
+    const double       g_n     = n.dot(whole);
+    const Vector3d     along   = whole - g_n * n;
+    const double       length  = along.norm();
+    const Vector3d   direction = length > 0. ? Vector3d(along / length) : along;
+    CohesiveResponse response  = law.hold(start, g_n, length);
+    const bool       opens     = g_n > 0.;
+    if (hold_bond)
+      {
+        response.damage    = start.history.damage;
+        response.stiffness = response.stiffness_by_damage * (damage - 1.);
+        response.damage_by_normal = response.damage_by_tangential = 0.;
+      }
 
     normal              = n;
     damage              = response.damage;
@@ -61,5 +68,29 @@ namespace Debond
       }
     dt = response.stiffness * dbears +
          response.stiffness_by_damage * bears * ddamage;
+  }
+
+
+
+  // Integral of K phi_0 delta^2/2 over the damage, in parts of the way.
+  double
+  CohesiveShare::damage_work(const InterfaceLaw &law,
+                             PointStart          start,
+                             const Vector3d     &before) const
+  {
+    constexpr unsigned int n       = 50;
+    double                 work    = 0.;
+    double                 squared = before.squaredNorm();
+    for (unsigned int i = 1; i <= n; ++i)
+      {
+        const Vector3d gap = before + (bears - before) * i / n;
+        const double g_n = normal.dot(gap), along = (gap - g_n * normal).norm(),
+                     next = law.hold(start, g_n, along).damage;
+        work -= 0.25 * stiffness_by_damage * (next - start.history.damage) *
+                (squared + gap.squaredNorm());
+        start.history.damage = next;
+        squared              = gap.squaredNorm();
+      }
+    return work;
   }
 } // namespace Debond

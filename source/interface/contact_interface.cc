@@ -404,7 +404,8 @@ namespace Debond
     share.update(*law.joint,
                  point.begin(*law.joint, mode),
                  interpolate(point.basis, configuration.side[slave].positions),
-                 master(configuration));
+                 master(configuration),
+                 mode.hold_bond);
     if (!share.holds)
       return;
     const Eigen::Vector3d f = point.JxW * share.traction;
@@ -530,7 +531,7 @@ namespace Debond
     unprojected            = 0;
     works.step_dissipation = 0.;
     for (unsigned int q = 0; q < shares.size(); ++q)
-      works.add(shares[q], points[q], Q);
+      works.add(shares[q], points[q], *law.joint, mode_now, Q);
     for (SlavePoint &point : points)
       {
         // beyond the edge, and still too far to reach it

@@ -131,13 +131,8 @@ namespace Debond
         summary.normal_force += point.JxW * traction(point).pressure;
         if (held)
           summary.energy += point.JxW * share->energy;
-        if (has_opened_beyond_strength(q))
-          summary.opening_softening =
-            std::max(summary.opening_softening,
-                     point.phi_0 * (tension.softening -
-                                    (mode_now.duration > 0. ?
-                                       tension.viscosity / mode_now.duration :
-                                       0.)));
+        if (tension.viscosity == 0. && has_opened_beyond_strength(q))
+          summary.opening_softening = tension.softening;
         if (point.faces_implant)
           {
             // phi as reported() has it, of the trial state, and the share of

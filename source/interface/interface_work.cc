@@ -141,19 +141,26 @@ namespace Debond
 
   // What the trapezoid of the traction over the gap is more than what is stored
   // after it than before: A_n and A being the stiffness at both ends, delta_n
-  // and delta the gaps, (A_n - A) delta_n . delta / 2.
+  // and delta the gaps, (A_n - A) delta_n . delta / 2. That holds for any two
+  // states; what the law dissipates on the way between tells whether they are
+  // joined by equilibrium.
   void
-  InterfaceWork::add(const CohesiveShare   &share,
-                     const SlavePoint      &point,
-                     const Eigen::Matrix3d &frame)
+  InterfaceWork::add(const CohesiveShare    &share,
+                     const SlavePoint       &point,
+                     const InterfaceLaw     &law,
+                     const ContactPointMode &mode,
+                     const Eigen::Matrix3d  &frame)
   {
     if (!share.holds)
       return;
     const Eigen::Vector3d gap    = frame * share.gap;
     const double          factor = 0.5 * point.JxW * share.stiffness_by_damage *
                           (point.accepted.damage - share.damage);
-    for (double *work : {&damage, &adhesive, &dissipation, &friction})
+    for (double *work : {&damage, &adhesive, &dissipation})
       *work += factor * share.bears.dot(gap);
+    if (share.damage > point.accepted.damage)
+      friction +=
+        point.JxW * share.damage_work(law, point.begin(law, mode), gap);
     adhesive_normal +=
       factor * share.normal.dot(share.bears) * share.normal.dot(gap);
   }

@@ -44,6 +44,10 @@ namespace Debond
         result.pressure        = -stiffness * g_n;
         result.pressure_by_gap = -stiffness;
         result.energy          = 0.5 * stiffness * g_n * g_n;
+        // the tangent of faces that touch, whichever way they will go
+        if (start.history.joined && std::abs(g_n) < 1e-9 * N / K)
+          result.pressure_by_gap =
+            -std::max(stiffness, start.phi_0 * (1. - start.damage) * K);
         if (result.pressure > 0.)
           {
             result.resists = true;

@@ -14,8 +14,8 @@ namespace Debond
     const SlavePoint   &point = points[q];
     const InterfaceLaw &joint = *law.joint;
     if (!shares.empty())
-      return shares[q].holds && shares[q].pressure < 0. &&
-             shares[q].damage > point.accepted.damage;
+      return shares[q].holds && shares[q].damage > point.accepted.damage &&
+             shares[q].normal.dot(shares[q].bears) > 0.;
     return joint.pulls() && point.phi_0 > 0. &&
            point.trial.state.status != PointStatus::open &&
            joint.opened(point.trial.state) >

@@ -35,9 +35,10 @@ namespace Debond
 
     /** What follows the state where it jumps. */
     std::string
-    advice(const ModelParameters &parameters)
+    advice(const ModelParameters &parameters, const bool opens)
     {
-      if (parameters.interface.is_viscous())
+      if (opens ? parameters.interface.joint()->tension().viscosity > 0. :
+                  parameters.interface.is_viscous())
         return "Smaller steps follow the viscous motion";
       if (parameters.interface.friction->depends_on_rate())
         return "Friction falls with the speed faster than the springs pull: "
@@ -91,14 +92,20 @@ namespace Debond
                             to_text(1. / compliance, 3) + " MPa/mm")
                     << ": there may be more than one state of equilibrium, and "
                        "the load may not be followed through the fall. "
-                    << advice(parameters));
+                    << advice(parameters, true));
+      if (released_energy.missing() > 0. && system.interface.get_law().pulls())
+        note("step over equilibrium",
+             Text() << "in one step " << change << ", and the law dissipates "
+                    << released_energy.missing()
+                    << " N mm more than there was: the step went over states "
+                       "of equilibrium. Smaller steps do not");
       if (released > 0.)
         note("jump",
              Text() << "in one step " << change << ", and " << released
                     << " N mm of stored energy were released without "
                        "equilibrium: the load cannot be followed there, the "
                        "state jumped to another branch. "
-                    << advice(parameters));
+                    << advice(parameters, summary.opening_softening > 0.));
       // A jump needs a law that falls faster than all springs in series let go.
       // How compliant bodies and machine are, compared with the interface, is
       // what they store; four times, as the pressure's part tells nothing.

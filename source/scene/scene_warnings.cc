@@ -410,8 +410,8 @@ namespace Debond
     judge_entries(const Scene &scene, const Note &note)
     {
       const std::string &law_name = scene.interface.friction_choice.law;
+      const FrictionLaw &law      = *scene.interface.friction;
       const bool is_bonded = law.has_bond() || scene.interface.joint()->pulls();
-      const FrictionLaw &law = *scene.interface.friction;
       const struct
       {
         const char *beginning; ///< of the names

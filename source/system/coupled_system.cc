@@ -742,8 +742,8 @@ namespace Debond
       if (const auto &unknown = chuck.unknowns();
           !chuck.is_prescribed(k) &&
           std::find(unknown.begin(), unknown.end(), k) != unknown.end())
-        compliance += interface.implant_area() * std::pow(scale_of(k), 2) /
-                      -chuck.machine_stiffness(k);
+        compliance += interface.mean_seen_bonding() * interface.implant_area() *
+                      std::pow(scale_of(k), 2) / -chuck.machine_stiffness(k);
     return compliance;
   }
 } // namespace Debond

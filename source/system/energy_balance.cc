@@ -84,7 +84,8 @@ namespace Debond
   double
   ReleasedEnergy::add(const EnergyState &state)
   {
-    double excess = 0.;
+    constexpr double rounding = 1e-15; // [N mm]
+    double           excess   = 0.;
     if (started)
       {
         const Chuck::Vector6 dq = state.position - last.position;
@@ -98,13 +99,14 @@ namespace Debond
         const Chuck::Vector6 motion = dq.cwiseAbs();
         const double         bound =
           0.5 * change.cwiseMax(last_change).dot(motion.cwiseMax(last_motion)) +
-          state.bound - last.bound + 1e-6 * largest_work;
+          state.bound - last.bound + 1e-6 * largest_work + rounding;
         last_change = change;
         last_motion = motion;
         excess      = put_in - (state.stored - last.stored) -
                  (state.dissipated - last.dissipated);
         hidden = std::abs(excess) > 1e-3 * 0.5 * change.dot(motion) &&
                  falls_steeply(state, dq);
+        created = excess < -bound ? -excess : 0.;
         if (excess <= bound)
           excess = 0.;
         else // the next step is no part of the jump

@@ -29,7 +29,15 @@ namespace Debond
     update(const InterfaceLaw    &law,
            const PointStart      &start,
            const Eigen::Vector3d &x,
-           const MasterSurface   &master);
+           const MasterSurface   &master,
+           bool                   hold_bond);
+
+    /** What its damage dissipates per area on the straight way from the gap
+     *  @p before, by the law [N/mm]. */
+    double
+    damage_work(const InterfaceLaw    &law,
+                PointStart             start,
+                const Eigen::Vector3d &before) const;
 
     /** For the share that rubs. */
     ContactPointMode

@@ -32,8 +32,9 @@ namespace Debond
     double steepest_softening = 0;
     /** p, and -dL/d g_s of that point [MPa, MPa/mm]. */
     double softening_pressure = 0, softening_slope = 0;
-    /** How fast the pull of a point may fall as it opens, of those that have
-     *  opened in the step beyond their strength [MPa/mm]. */
+    /** How fast the pull of a full bond may fall as it opens, if a point has
+     *  opened beyond its strength in the step, and no viscosity resists that
+     *  [MPa/mm]. */
     double       opening_softening = 0;
     double       max_penetration   = 0; ///< [mm]
     double       max_traction      = 0; ///< [MPa]
@@ -128,9 +129,11 @@ namespace Debond
         const Eigen::Matrix3d  &frame);
     /** The work of damage of a share that is held. */
     void
-    add(const CohesiveShare   &share,
-        const SlavePoint      &point,
-        const Eigen::Matrix3d &frame);
+    add(const CohesiveShare    &share,
+        const SlavePoint       &point,
+        const InterfaceLaw     &law,
+        const ContactPointMode &mode,
+        const Eigen::Matrix3d  &frame);
     /** The same of a point that opens. */
     void
     add_opening(const SlavePoint       &point,

@@ -82,6 +82,9 @@ namespace Debond
     double turn = 0;
     /** Of the share of the point that is held, at the end of the step. */
     double damage = 0;
+    /** Shares that are held are damaged no further: a first Newton iteration
+     *  cannot break what the bodies would not have opened so far. */
+    bool hold_bond = false;
 
     /** See saved_state.h. */
     template <class Archive>
@@ -89,7 +92,7 @@ namespace Debond
     serialize(Archive &archive, const unsigned int)
     {
       archive &stick_first &touch_tolerance &frictionless &duration;
-      archive &turn                                       &damage;
+      archive &turn &damage                               &hold_bond;
     }
   };
 

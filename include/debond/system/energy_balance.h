@@ -148,6 +148,13 @@ namespace Debond
     {
       return hidden;
     }
+    /** By how much the law dissipates more in the last step than there was
+     *  [N mm]; 0 if bounds account for it. */
+    double
+    missing() const
+    {
+      return created;
+    }
     /** Sum over all steps [N mm]. */
     double
     total() const
@@ -181,6 +188,7 @@ namespace Debond
                    last_motion  = Chuck::Vector6::Zero();
     Chuck::Vector6 greatest     = Chuck::Vector6::Zero(); ///< forces, absolute
     bool           hidden       = false;
+    double         created      = 0;
     double         largest_work = 0, work = 0, released = 0;
     unsigned int   jumps = 0;
   };

@@ -44,9 +44,12 @@ namespace Debond
       {
         const Bond        now(*this, start, g_n, distance);
         InterfaceResponse result = without_viscosity(start, now, g_n);
-        const double      opened =
-          g_n - std::max(0., std::min(start.history.normal_gap, g_n));
-        if (g_n > 0. && opened > 0. && now.holds && start.duration > 0.)
+        // what begins to move, whichever way, has the tangent of what opens
+        const double before = std::max(0., start.history.normal_gap),
+                     moved  = before < PointHistory::far ? g_n - before : 0.,
+                     opened = std::max(0., moved);
+        if (now.holds && start.duration > 0. &&
+            std::min(g_n, moved) > -touching * g_0)
           {
             const double resistance = eta / start.duration;
             result.viscous_pressure = -now.phi * resistance * opened;

@@ -15,8 +15,7 @@ namespace Debond
   CohesiveShare::update(const InterfaceLaw  &law,
                         const PointStart    &start,
                         const Vector3d      &x,
-                        const MasterSurface &master,
-                        const bool           hold_bond)
+                        const MasterSurface &master)
   {
     damage = start.history.damage;
     holds  = start.history.joined && start.phi_0 > 0. && damage < 1.;
@@ -36,12 +35,6 @@ namespace Debond
     const Vector3d   direction = length > 0. ? Vector3d(along / length) : along;
     CohesiveResponse response  = law.hold(start, g_n, length);
     const bool       opens     = g_n > 0.;
-    if (hold_bond)
-      {
-        response.damage    = start.history.damage;
-        response.stiffness = response.stiffness_by_damage * (damage - 1.);
-        response.damage_by_normal = response.damage_by_tangential = 0.;
-      }
 
     normal              = n;
     damage              = response.damage;

@@ -404,8 +404,7 @@ namespace Debond
     share.update(*law.joint,
                  point.begin(*law.joint, mode),
                  interpolate(point.basis, configuration.side[slave].positions),
-                 master(configuration),
-                 mode.hold_bond);
+                 master(configuration));
     if (!share.holds)
       return;
     const Eigen::Vector3d f = point.JxW * share.traction;

@@ -438,8 +438,9 @@ namespace Debond
 
 
 
-  // The damage of a share that is held stands for its opening, and changes how
-  // far the share beside it slides.
+  // The damage of a share that is held stands for its opening. How far the
+  // share beside it slides does not count: that grows without any loss of bond,
+  // and on the way back as well.
   void
   ContactInterface::add_path_of_share(const unsigned int q,
                                       NodalSums         &gradient) const
@@ -447,8 +448,7 @@ namespace Debond
     const SlavePoint          &point = points[q];
     const CohesiveShare       &share = shares[q];
     const Matrix<double, 9, 1> d =
-      point.JxW * (law.joint->length_of_damage() + point.trial.by_damage.path) *
-      share.ddamage.transpose();
+      point.JxW * law.joint->length_of_damage() * share.ddamage.transpose();
     spread(point.basis, d.head<3>(), gradient[slave]);
     ControlNet &master = gradient[master_side()];
     for (unsigned int b = 0; b < share.basis.size; ++b)
@@ -482,11 +482,13 @@ namespace Debond
           continue;
         area += point.JxW;
         result.value +=
-          point.JxW * (trial.state.slip + law.joint->opened(trial.state) +
-                       law.joint->length_of_damage() * trial.state.damage);
+          point.JxW * (law.joint->is_cohesive() ?
+                         law.joint->length_of_damage() * trial.state.damage :
+                         trial.state.slip + law.joint->opened(trial.state));
         if (!shares.empty() && shares[q].holds)
           add_path_of_share(q, result.gradient);
-        if (trial.state.status == PointStatus::open || trial.dpath.isZero(0.))
+        if (law.joint->is_cohesive() ||
+            trial.state.status == PointStatus::open || trial.dpath.isZero(0.))
           continue;
         const Matrix<double, W::size, 1> d =
           point.JxW * trial.dpath.transpose();

@@ -76,7 +76,7 @@ namespace Debond
           for (unsigned int k = 0; k < n * elements[!is_row]; ++k)
             {
               const unsigned int q = is_row ? number(k, line) : number(line, k);
-              if (points[q].accepted.status == PointStatus::open)
+              if (status(points[q]) == PointStatus::open)
                 {
                   if (points[q].accepted.has_partner) // not beyond the edge
                     since_closed.push_back(q);

@@ -472,7 +472,6 @@ namespace Debond
           by_damage.traction_and_distance +
           by_xi.traction_and_distance * result.by_damage.xi;
         result.by_damage.traction = change.head<3>();
-        result.by_damage.path     = change[3];
       }
     // where it has not moved the length has no derivative
     result.dpath.setZero();

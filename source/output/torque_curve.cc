@@ -587,8 +587,13 @@ namespace Debond
     // less is what a force that is held at 0 is solved to
     grow(largest_force, T_max / std::sqrt(settings.contact_area_mm2));
     if (settings.is_bonded && -pull->force_N > 1e-3 * largest_force)
-      measures.update({{"pull_max_N", -pull->force_N},
-                       {"pull_max_mm", pull->chuck_position[2]}});
+      {
+        measures.update({{"pull_max_N", -pull->force_N},
+                         {"pull_max_mm", pull->chuck_position[2]}});
+        if (pull == &end)
+          measures["remarks"].push_back(
+            "pull_max_N: the pull is largest at the end: it may grow on");
+      }
     if (rotation.direction != 0. && !rotation.reverses)
       {
         measures["theta_max_deg"] = peak->angle_deg;

@@ -451,6 +451,12 @@ namespace Debond
             note(!row.is_read && name.rfind(row.beginning, 0) == 0,
                  name,
                  text + row.reader);
+          for (const InterfaceLawPlugin &plugin : interface_law_plugins())
+            for (const LawEntry &other : plugin.entries)
+              note(plugin.name != scene.interface.law_choice.law &&
+                     name == "Interface / " + other.subsection + " / " + other.name,
+                   name,
+                   text + "Law = " + plugin.name);
           bool is_of_law = false, is_of_others = false;
           for (const FrictionLawPlugin &plugin : friction_law_plugins())
             for (const LawEntry &other : plugin.entries)

@@ -170,8 +170,6 @@ namespace Debond
         // the first correction cannot make them cycle.
         ContactPointMode mode = options.points;
         mode.stick_first      = mode.stick_first && iteration == 0;
-        mode.hold_bond =
-          iteration == 0 && system.interface.get_law().is_cohesive();
         const auto residual =
           cautious_from > 0 ?
             evaluate_shortened(system, correction, mode, last_norm) :
@@ -191,7 +189,7 @@ namespace Debond
         // norm is that of the whole residual, interior included.
         if (error <= options.residual_tolerance)
           {
-            if (mode.stick_first || mode.hold_bond)
+            if (mode.stick_first)
               continue; // nothing to correct; now with the true law
             result.converged = true;
             return result;

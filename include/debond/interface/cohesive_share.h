@@ -29,8 +29,7 @@ namespace Debond
     update(const InterfaceLaw    &law,
            const PointStart      &start,
            const Eigen::Vector3d &x,
-           const MasterSurface   &master,
-           bool                   hold_bond);
+           const MasterSurface   &master);
 
     /** What its damage dissipates per area on the straight way from the gap
      *  @p before, by the law [N/mm]. */

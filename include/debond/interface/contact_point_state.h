@@ -82,9 +82,6 @@ namespace Debond
     double turn = 0;
     /** Of the share of the point that is held, at the end of the step. */
     double damage = 0;
-    /** Shares that are held are damaged no further: a first Newton iteration
-     *  cannot break what the bodies would not have opened so far. */
-    bool hold_bond = false;
 
     /** See saved_state.h. */
     template <class Archive>
@@ -92,7 +89,7 @@ namespace Debond
     serialize(Archive &archive, const unsigned int)
     {
       archive &stick_first &touch_tolerance &frictionless &duration;
-      archive &turn &damage                               &hold_bond;
+      archive &turn                                       &damage;
     }
   };
 
@@ -157,7 +154,6 @@ namespace Debond
     {
       Eigen::Vector3d traction = Eigen::Vector3d::Zero();
       Eigen::Vector2d xi       = Eigen::Vector2d::Zero();
-      double          path     = 0;
     };
     ByDamage by_damage;
     /** d turn / dq of the chuck, where a component of it is unknown. */

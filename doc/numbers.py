@@ -400,6 +400,26 @@ def shear_of_a_sphere():
     return table(['half of mu P', 'Q more than for the P found', 'prm/verification/'], lines)
 
 
+@numbers('minutes')
+def bonds_on_half_spaces():
+    """Largest loads against doc/verification/bonds_reference.py, the strength and Kendall's brittle bond."""
+    reference = {row['strength_MPa']: row for row in rows_of('prm/verification/data/bonds_on_half_space.csv')}
+    pull, twist = math.sqrt(8 * math.pi * 2.5 ** 3 * 18000 / .91 * .098), 8 / 3 * math.sqrt(math.pi * 18000 / 2.6 * .098 * 2.5 ** 5)
+    lines = []
+    for scene, what, column, load, brittle, weak, unit, strengths, first in (
+            ('kendall', 'pulled off, `adhesive`', 'pull_off', 'force_N', pull, math.pi * 2.5 ** 2, 'N', (5, 20, 40, 60, 100, 300), 0),
+            ('bonded_disk_torsion', 'twisted off, `adhesive`', 'twist_adhesive', 'torque_Nmm', twist, 2 * math.pi / 3 * 2.5 ** 3, 'N mm',
+             (5, 20, 40, 80, 200), 0),
+            ('bonded_disk_torsion', 'twisted off, `mixed mode`', 'twist_mixed_mode', 'torque_Nmm', twist, 2 * math.pi / 3 * 2.5 ** 3, 'N mm',
+             (5, 20, 40, 80, 200), 5)):
+        curves = study_with_curves('prm/verification/%s.prm' % scene)[first:]
+        ours = [max(abs(line[load]) for line in row['curve']) for row, _ in zip(curves, strengths)]
+        lines.append([what, ', '.join('%g' % strength for strength in strengths), ', '.join('%.2f' % F for F in ours) + ' ' + unit,
+                      ', '.join('%+.2f %%' % (100 * (F / (reference[strength][column] * brittle) - 1)) for F, strength in zip(ours, strengths)),
+                      '%+.2f %%' % (100 * (ours[0] / (weak * strengths[0]) - 1)), '%+.1f %%' % (100 * (ours[-1] / brittle - 1))])
+    return table(['bond', 'strength [MPa]', 'ours', 'from the other method', 'weakest from the strength', 'strongest from the brittle bond'], lines)
+
+
 @numbers('seconds')
 def foundation():
     rows = []

@@ -5,8 +5,9 @@
 #   paper           the figures of doc/reproduction.md (ten minutes, most of them Fig. 13); fig_1, fig_4, ... alone: see
 #                   doc/paper/reproduce.sh
 #   stability       those of doc/stability.md (two minutes)
-#   convergence     that of doc/verification.md (some minutes)
+#   convergence     that of half spaces in doc/verification.md (some minutes)
 #   cap_pulled_off  that of a cap that is pulled off there (some minutes)
+#   bonds           that of bonds on half spaces in doc/verification.md (a minute)
 #   ensemble        those of doc/partial_bonding.md (ten minutes)
 #   calibration     that of doc/calibration.md (a minute)
 #   step_error      that of friction that turns in doc/speed_and_accuracy.md (ten minutes; CalculiX, if it is there)
@@ -70,11 +71,12 @@ make_pictures() {
     stability) doc/stability/stability.sh --draw --publish ;;
     convergence) doc/verification/convergence.sh && publish output/convergence ;;
     cap_pulled_off) doc/verification/cap_pulled_off.sh && publish output/cap_pulled_off_force ;;
+    bonds) doc/verification/bonds_on_half_spaces.sh && publish output/bonds_on_half_spaces ;;
     step_error) doc/studies/step_error.py --publish ;;
     ensemble | work_precision) "doc/studies/$1.sh" --publish ;;
     all)
       local name
-      for name in geometry bodies paper stability convergence cap_pulled_off ensemble calibration step_error work_precision; do make_pictures $name; done
+      for name in geometry bodies paper stability convergence cap_pulled_off bonds ensemble calibration step_error work_precision; do make_pictures $name; done
       ;;
     *)
       echo "pictures.sh: unknown name '$1'; the names stand at the top of this script" >&2
@@ -98,5 +100,5 @@ publish_figures() {
   done
 }
 
-if (($# == 0)); then sed -n '2,14s/^# //p' "$0"; exit 1; fi
+if (($# == 0)); then sed -n '2,15s/^# //p' "$0"; exit 1; fi
 for name in "$@"; do make_pictures "$name"; done

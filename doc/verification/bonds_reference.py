@@ -10,7 +10,7 @@ import numpy as np
 from scipy.special import ellipe, ellipk, gamma, hyp2f1
 
 R, PULLED, SHEARED, WORK = 2.5, 18000 / (1 - .3 ** 2), 18000 / 2.6, .098  # radius [mm], E* and G [MPa], work [N/mm]
-STRENGTHS = (2, 3, 5, 7, 10, 14, 20, 30, 40, 60, 80, 100, 150, 200, 300, 400)
+STRENGTHS = (2, 3, 5, 7, 10, 14, 17, 20, 25, 30, 35, 40, 50, 60, 70, 80, 100, 120, 150, 200, 300, 400)
 RINGS = 300
 
 

@@ -15,13 +15,18 @@
 using namespace Debond;
 
 /** The order p in |r_k+1| ~ |r_k|^p that the last three residuals above the
- *  level of rounding show; 0 if there are no three. */
+ *  level of rounding show; 0 if there are no three. If the last of them is less
+ *  than the square of the one before, which is small, it is 2 at least, however
+ *  far that one had come at once. */
 double
 order(const std::vector<double> &history)
 {
   const double round_off = 1e-11;
   for (unsigned int k = history.size() - 1; k >= 2; --k)
-    if (history[k] > round_off)
+    if (history[k] > round_off && history[k - 1] < 0.01 &&
+        history[k] < history[k - 1] * history[k - 1])
+      return 2.;
+    else if (history[k] > round_off)
       return std::log(history[k] / history[k - 1]) /
              std::log(history[k - 1] / history[k - 2]);
   return 0.;

@@ -197,7 +197,7 @@ class Picture:
 
     def colour_function(self, field):
         colours = simple.GetColorTransferFunction(field)
-        set_colours(colours, field, None if field == "state" else self.scale(field))
+        set_colours(colours, field, None if field == "state" else self.scale(field), sum(self.readers, [])[0].PointData.keys())
         return colours
 
     def draw_colour_bar(self, colours, field, first_row):

@@ -46,7 +46,7 @@ FIELDS = {
     "mode_deg": ("ψ [°]", 0, 90, "angle of the traction to the normal [deg]"),
 }
 FACES = ["phi", "mu", "pressure_MPa", "state"]  # what is opened
-STATES = {"open": "#d8d8d8", "stick": "#fde725", "slip": "#6fb3bf", "pulled": "#b5367a"}
+STATES = {"open": "#d8d8d8", "stick": "#fde725", "slip": "#6fb3bf", "pulled": "#b5367a"}  # the last with strength in tension only
 ARROWS = 13  # of the traction across the implant
 MOST_CELLS = 100000  # of a body whose cells have borders
 PALETTE = ["#440154", "#46327e", "#365c8d", "#277f8e", "#1fa187", "#4ac16d", "#a0da39", "#fde725"]  # as in doc/style.gp
@@ -154,13 +154,14 @@ def scale_of(field, ranges):
     return float("%.6g" % low), float("%.6g" % high)
 
 
-def set_colours(colours, field, scale):
-    """Of a ParaView colour function."""
+def set_colours(colours, field, scale, fields=()):
+    """Of a ParaView colour function; @p fields are those that there are."""
     colours.AutomaticRescaleRangeMode = "Never"
     if field == "state":
         colours.InterpretValuesAsCategories = 1
-        colours.Annotations = sum(([str(i), " " + name] for i, name in enumerate(STATES)), [])
-        colours.IndexedColors = sum((rgb(colour) for colour in STATES.values()), [])
+        states = list(STATES.items())[:4 if "mode_deg" in fields else 3]
+        colours.Annotations = sum(([str(i), " " + name] for i, (name, _) in enumerate(states)), [])
+        colours.IndexedColors = sum((rgb(colour) for _, colour in states), [])
     else:
         colours.ColorSpace = "RGB"
         step = (scale[1] - scale[0]) / (len(PALETTE) - 1)
@@ -316,7 +317,7 @@ class Opened:
         self.scales["von_Mises_MPa"] = 0, max(high for _, high in ranges["von_Mises_MPa"]) or 1
         self.largest_traction = max(high for _, high in ranges["traction_MPa"])
         for field, scale in self.scales.items():
-            set_colours(simple.GetColorTransferFunction(field), field, scale)
+            set_colours(simple.GetColorTransferFunction(field), field, scale, ranges)
 
     def make_arrows(self):
         """On a square grid, above the face. The largest traction of all times is half as long again as the grid is wide."""

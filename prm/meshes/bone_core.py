@@ -9,6 +9,8 @@ of cells in the middle and rings of cells around it. Another body is another `pl
 import math
 import sys
 
+from gmsh_file import write
+
 RADIUS, HEIGHT = 6., 5.         # of the core
 SQUARE = 2.2                    # half the diagonal of the square, over sqrt(2)
 ACROSS, RINGS, LAYERS = 12, 8, 5  # cells across the square, rings around it, layers
@@ -54,17 +56,7 @@ def main():
         for layer in range(LAYERS):
             elements.append(('5 2 3 3', [node(column, layer + 1) for column in quad] + [node(column, layer) for column in quad]))
 
-    name = sys.argv[1] if len(sys.argv) > 1 else __file__.replace('.py', '.msh')
-    with open(name, 'w') as out:
-        out.write('$MeshFormat\n2.2 0 8\n$EndMeshFormat\n')
-        out.write('$PhysicalNames\n3\n2 1 "contact"\n2 2 "held"\n3 3 "bone"\n$EndPhysicalNames\n')
-        out.write('$Nodes\n%d\n' % len(nodes))
-        for k, x in enumerate(nodes):
-            out.write('%d %.6g %.6g %.6g\n' % (k + 1, *x))
-        out.write('$EndNodes\n$Elements\n%d\n' % len(elements))
-        for k, (kind, corners) in enumerate(elements):
-            out.write('%d %s %s\n' % (k + 1, kind, ' '.join(map(str, corners))))
-        out.write('$EndElements\n')
+    write(sys.argv[1] if len(sys.argv) > 1 else __file__.replace('.py', '.msh'), nodes, elements, digits=6)
 
 
 main()

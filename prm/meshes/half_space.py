@@ -10,6 +10,8 @@ the edge of the disk. Rings and layers become thinner towards this edge.
 import math
 import sys
 
+from gmsh_file import write
+
 RADIUS, SIZE = 2.5, 25.         # of the disk; radius and height of the bone
 SQUARE = 0.9                    # half the side of the square
 ACROSS = 2                      # cells across the square; a ring has four times as many
@@ -89,17 +91,7 @@ def main():
             middles = [tuple((p + q) // 2 for p, q in zip(corners[v], corners[w])) for v, w in EDGES]
             elements.append(('17 2 3 3', [node(*cell(a, b), layer + c) for a, b, c in corners + middles]))
 
-    name = sys.argv[1] if len(sys.argv) > 1 else __file__.replace('.py', '.msh')
-    with open(name, 'w') as out:
-        out.write('$MeshFormat\n2.2 0 8\n$EndMeshFormat\n')
-        out.write('$PhysicalNames\n3\n2 1 "contact"\n2 2 "held"\n3 3 "bone"\n$EndPhysicalNames\n')
-        out.write('$Nodes\n%d\n' % len(nodes))
-        for k, x in enumerate(nodes):
-            out.write('%d %.7g %.7g %.7g\n' % (k + 1, *x))
-        out.write('$EndNodes\n$Elements\n%d\n' % len(elements))
-        for k, (kind, corners) in enumerate(elements):
-            out.write('%d %s %s\n' % (k + 1, kind, ' '.join(map(str, corners))))
-        out.write('$EndElements\n')
+    write(sys.argv[1] if len(sys.argv) > 1 else __file__.replace('.py', '.msh'), nodes, elements, digits=7)
 
 
 main()

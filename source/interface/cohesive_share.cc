@@ -27,14 +27,14 @@ namespace Debond
     master.surface->evaluate(xi, basis, false);
     contract(basis, *master.positions, false, geometry);
     const MasterNormal of_master(geometry, master.outward_sign);
-    const Vector3d    &n       = of_master.n;
-    const Vector3d     whole   = x - geometry.y;
-    const double       g_n     = n.dot(whole);
-    const Vector3d     along   = whole - g_n * n;
-    const double       length  = along.norm();
-    const Vector3d   direction = length > 0. ? Vector3d(along / length) : along;
-    CohesiveResponse response  = law.hold(start, g_n, length);
-    const bool       opens     = g_n > 0.;
+    const Vector3d    &n      = of_master.n;
+    const Vector3d     whole  = x - geometry.y;
+    const double       g_n    = n.dot(whole);
+    const Vector3d     along  = whole - g_n * n;
+    const double       length = along.norm();
+    const Vector3d direction  = length > 0. ? Vector3d(along / length) : along;
+    const CohesiveResponse response = law.hold(start, g_n, length);
+    const bool             opens    = g_n > 0.;
 
     normal              = n;
     damage              = response.damage;

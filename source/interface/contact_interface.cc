@@ -295,19 +295,28 @@ namespace Debond
 
 
 
+  const CohesiveShare *
+  ContactInterface::held_share(const SlavePoint &point) const
+  {
+    if (shares.empty())
+      return nullptr;
+    const CohesiveShare &share = shares[&point - points.data()];
+    return share.holds ? &share : nullptr;
+  }
+
+
+
   PointTraction
   ContactInterface::traction(const SlavePoint &point) const
   {
     PointTraction result{point.trial.pressure,
                          -point.trial.tangential_traction};
-    if (!shares.empty())
-      if (const CohesiveShare &share = shares[&point - points.data()];
-          share.holds)
-        {
-          result.pressure += share.pressure;
-          result.tangential -=
-            share.traction - share.normal.dot(share.traction) * share.normal;
-        }
+    if (const CohesiveShare *const share = held_share(point))
+      {
+        result.pressure += share->pressure;
+        result.tangential -=
+          share->traction - share->normal.dot(share->traction) * share->normal;
+      }
     return result;
   }
 

@@ -30,11 +30,11 @@ namespace Debond
   ContactInterface::status(const SlavePoint &point) const
   {
     const PointStatus of_rubbing = point.trial.state.status;
-    if (of_rubbing != PointStatus::open || shares.empty())
+    if (of_rubbing != PointStatus::open)
       return of_rubbing;
-    const CohesiveShare &share = shares[&point - points.data()];
-    return share.holds && share.damage < 1. ? PointStatus::pulled :
-                                              PointStatus::open;
+    const CohesiveShare *const share = held_share(point);
+    return share && share->damage < 1. ? PointStatus::pulled :
+                                         PointStatus::open;
   }
 
 
@@ -119,19 +119,15 @@ namespace Debond
     const double                  resistance =
       law.tangential_penalty + viscous_stiffness(law, mode_now);
     const Tension tension = law.joint->tension();
-    for (unsigned int q = 0; q < points.size(); ++q)
+    for (const SlavePoint &point : points)
       {
-        const SlavePoint         &point = points[q];
         const ContactPointResult &trial = point.trial;
-        const CohesiveShare      *share = shares.empty() ? nullptr : &shares[q];
-        const bool                held =
-          share != nullptr && share->holds && share->damage < 1.;
         // int p dA [N]; it is no resultant, as the normals of a curved face
         // differ
         summary.normal_force += point.JxW * traction(point).pressure;
-        if (held)
+        if (const CohesiveShare *const share = held_share(point))
           summary.energy += point.JxW * share->energy;
-        if (tension.viscosity == 0. && has_opened_beyond_strength(q))
+        if (tension.viscosity == 0. && has_opened_beyond_strength(point))
           summary.opening_softening = tension.softening;
         if (point.faces_implant)
           {

@@ -9,13 +9,15 @@
 namespace Debond
 {
   bool
-  ContactInterface::has_opened_beyond_strength(const unsigned int q) const
+  ContactInterface::has_opened_beyond_strength(const SlavePoint &point) const
   {
-    const SlavePoint   &point = points[q];
     const InterfaceLaw &joint = *law.joint;
-    if (!shares.empty())
-      return shares[q].holds && shares[q].damage > point.accepted.damage &&
-             shares[q].normal.dot(shares[q].bears) > 0.;
+    if (joint.is_cohesive())
+      {
+        const CohesiveShare *const share = held_share(point);
+        return share && share->damage > point.accepted.damage &&
+               share->normal.dot(share->bears) > 0.;
+      }
     return joint.pulls() && point.phi_0 > 0. &&
            point.trial.state.status != PointStatus::open &&
            joint.opened(point.trial.state) >

@@ -62,8 +62,7 @@ namespace Debond
     // With viscosity nothing jumps in steps that are short enough, so that
     // halving the step is the remedy. A loaded component has no spring to be
     // relaxed.
-    if (system.chuck.has_compliant_machine() &&
-        !parameters.interface.is_viscous())
+    if (system.chuck.has_compliant_machine() && !system.interface.is_viscous())
       list.push_back(beyond);
     return list;
   }

@@ -66,6 +66,10 @@ check_compliance()
          differs(compliance({"Interface/Bonding/Initial bonding=0.5"}),
                  0.5 * bar),
          1e-3);
+  report("half a bond, bone and machine",
+         differs(compliance({"Interface/Bonding/Initial bonding=0.5", spring}),
+                 0.5 * (bar + 25. / 10000.)),
+         1e-3);
   report("rigid bodies", compliance({"Bone/Material=rigid"}) == 0.);
   report("a chuck under a load",
          std::isinf(compliance({"Chuck/Translation z/Control=force",

@@ -201,8 +201,12 @@ namespace Debond
     bool
     depends_on_rate() const
     {
-      return law.viscosity > 0. || law.joint->tension().viscosity > 0. ||
-             law.joint->friction->depends_on_rate();
+      return is_viscous() || law.joint->friction->depends_on_rate();
+    }
+    bool
+    is_viscous() const
+    {
+      return law.is_viscous();
     }
     /** Completes the derivatives of the last evaluate() by those with the
      *  components of the chuck that are unknowns of @p configuration, where it
@@ -388,9 +392,12 @@ namespace Debond
                    const ControlNet             &before) const;
     void
     find_side(InterfaceSummary &summary) const;
-    /** Point @p q, in the last step. */
+    /** The share of a point that is held; null: none is. */
+    const CohesiveShare *
+    held_share(const SlavePoint &point) const;
+    /** In the last step. */
     bool
-    has_opened_beyond_strength(unsigned int q) const;
+    has_opened_beyond_strength(const SlavePoint &point) const;
     void
     assign_bonding();
     Projection

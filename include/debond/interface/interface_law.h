@@ -304,6 +304,13 @@ namespace Debond
      *  it slides with. */
     double        viscosity      = 0;
     SlipDirection slip_direction = SlipDirection::integrated;
+
+    /** Whether a viscosity resists sliding or opening. */
+    bool
+    is_viscous() const
+    {
+      return viscosity > 0. || joint->tension().viscosity > 0.;
+    }
   };
 } // namespace Debond
 #endif

@@ -57,11 +57,11 @@ namespace Debond
       return law_choice.law.empty() || law_choice.law == "friction";
     }
 
-    /** Whether a viscosity resists sliding or opening. */
+    /** See ContactPointLaw; makes the law. */
     bool
     is_viscous() const
     {
-      return viscosity > 0. || joint()->tension().viscosity > 0.;
+      return law().is_viscous();
     }
 
     /** What governs the points. */

@@ -28,29 +28,18 @@ namespace Debond
 
 
 
-  // int (mu - mu_b) dg_s [mm], exactly: the work per pressure that goes into
-  // the bond in this step. Times p and summed over the face it is D_adh, which
-  // does not depend on how a curve is read, as the W_adh of Eq. (20) does.
-  double
-  BondFriction::adhesive_strength(const FrictionState &start,
-                                  const double         distance) const
-  {
-    return start.phi_0 * drop *
-           (integrated_decay(start.slip + distance) -
-            integrated_decay(start.slip));
-  }
-
-
-
-  // int mu dg_s [mm]: debonded friction, and the bond on top of it. The balance
-  // that tells whether a step has jumped compares it with the work of the
-  // machine: a trapezoid between the two ends of a step would hold for any two
-  // states.
+  // int mu dg_s [mm], exactly: debonded friction, and the bond on top of it,
+  // whose part times p and summed over the face is D_adh, which does not depend
+  // on how a curve is read, as the W_adh of Eq. (20) does. The balance that
+  // tells whether a step has jumped compares it with the work of the machine: a
+  // trapezoid between the two ends of a step would hold for any two states.
   double
   BondFriction::friction_strength(const FrictionState &start,
                                   const double         distance) const
   {
-    return mu_b * distance + adhesive_strength(start, distance);
+    return mu_b * distance + start.phi_0 * drop *
+                               (integrated_decay(start.slip + distance) -
+                                integrated_decay(start.slip));
   }
 
 

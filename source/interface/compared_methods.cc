@@ -125,12 +125,6 @@ namespace Debond
       {
         return law->friction_strength(start, distance);
       }
-      double
-      adhesive_strength(const FrictionState &start,
-                        const double         distance) const override
-      {
-        return law->adhesive_strength(start, distance);
-      }
       FrictionCoefficient
       reported(const FrictionState &state) const override
       {
@@ -145,6 +139,11 @@ namespace Debond
       has_bond() const override
       {
         return law->has_bond();
+      }
+      double
+      mu_without_bond() const override
+      {
+        return law->mu_without_bond();
       }
       double
       characteristic_distance() const override

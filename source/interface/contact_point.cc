@@ -133,6 +133,7 @@ namespace Debond
           law.joint->begin(start, phi_0, mode.duration, mode.frictionless);
         if (law.joint->is_cohesive())
           point.damage = mode.damage;
+        law.joint->ask_at_rest(point);
         return point;
       }
 

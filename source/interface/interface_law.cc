@@ -21,11 +21,15 @@ namespace Debond
                       const double        duration,
                       const bool          frictionless) const
   {
-    PointStart start{
-      history, phi_0, duration, frictionless, history.damage, {}};
-    if (!frictionless)
-      start.at_rest = friction->coefficient(start.friction(), 0.);
-    return start;
+    return {history, phi_0, duration, frictionless, history.damage};
+  }
+
+
+
+  void
+  InterfaceLaw::ask_at_rest(PointStart &start) const
+  {
+    start.at_rest = coefficient(start, 0.);
   }
 
 
@@ -68,8 +72,7 @@ namespace Debond
   FrictionCoefficient
   InterfaceLaw::reported(const PointHistory &history, const double phi_0) const
   {
-    return friction->reported(
-      PointStart{history, phi_0, 0., false, history.damage, {}}.friction());
+    return friction->reported(begin(history, phi_0).friction());
   }
 
 
@@ -97,9 +100,11 @@ namespace Debond
   {
     if (start.frictionless)
       return {};
-    FrictionCoefficient result =
-      distance > 0. ? friction->coefficient(start.friction(), distance) :
-                      start.at_rest;
+    if (distance > 0.)
+      return friction->coefficient(start.friction(), distance);
+    FrictionCoefficient result = start.at_rest ?
+                                   *start.at_rest :
+                                   friction->coefficient(start.friction(), 0.);
     if (distance < 0.)
       {
         result.dmu = std::max(0., result.dmu);
@@ -122,7 +127,7 @@ namespace Debond
                                  const double      p_end,
                                  const double      distance) const
   {
-    if (start.frictionless)
+    if (start.frictionless || distance == 0.)
       return {};
     const FrictionState state = start.friction();
     const double        mean  = 0.5 * (p + p_end),
@@ -131,7 +136,9 @@ namespace Debond
     result.friction       = mean * per_pressure;
     result.friction_bound = 0.5 * std::abs(p - p_end) * per_pressure +
                             mean * friction->strength_bound(state, distance);
-    result.adhesive = mean * friction->adhesive_strength(state, distance);
+    if (friction->has_bond())
+      result.adhesive =
+        mean * (per_pressure - friction->mu_without_bond() * distance);
     return result;
   }
 

@@ -50,6 +50,19 @@ namespace Debond
 
 
 
+  bool
+  ContactInterface::is_detached() const
+  {
+    return law.joint->pulls() &&
+           std::none_of(
+             points.begin(), points.end(), [this](const SlavePoint &point) {
+               return point.trial.pressure > 0. ||
+                      point.friction(*law.joint, point.trial.state).phi > 0.;
+             });
+  }
+
+
+
   // Surfaces that are pressed together touch over a patch. Open points inside
   // of it tell that the faces of the elements cannot take the shape that a
   // stiff interface asks for: each touches in some places only, with too large
@@ -122,9 +135,6 @@ namespace Debond
     for (const SlavePoint &point : points)
       {
         const ContactPointResult &trial = point.trial;
-        // int p dA [N]; it is no resultant, as the normals of a curved face
-        // differ
-        summary.normal_force += point.JxW * traction(point).pressure;
         if (const CohesiveShare *const share = held_share(point))
           summary.energy += point.JxW * share->energy;
         if (tension.viscosity == 0. && has_opened_beyond_strength(point))

@@ -344,7 +344,10 @@ namespace Debond
     result.forces      = coupled_system.chuck_forces();
     result.drive       = coupled_system.chuck.values(result.time);
     result.path_length = coupled_system.path_length();
-    result.position    = coupled_system.chuck.position();
+    result.is_detached = scene.load_steps.follow_path &&
+                         coupled_system.is_held_by_contact() &&
+                         coupled_system.interface.is_detached();
+    result.position = coupled_system.chuck.position();
     return result;
   }
 

@@ -96,6 +96,13 @@ namespace Debond
       const Tension bond = scene.interface.joint()->tension();
       if (bond.strength == 0.)
         return;
+      const double length = bond.work / bond.strength,
+                   R      = scene.implant.characteristic_radius();
+      note(R >= 0.1 && length > 0.1 * R,
+           "opening of the bond",
+           "the bond opens over some " + to_text(length, 3) +
+             " mm (work over strength), more than a tenth of the radius: "
+             "lengths are mm, 5 um is 0.005, and works N/mm, 68 N/m is 0.068");
       double E = 0., cell = 0.;
       for (const BodyParameters *body : {&scene.bone, &scene.implant})
         if (!body->is_rigid() && (E == 0. || body->young_modulus < E))
@@ -454,7 +461,8 @@ namespace Debond
           for (const InterfaceLawPlugin &plugin : interface_law_plugins())
             for (const LawEntry &other : plugin.entries)
               note(plugin.name != scene.interface.law_choice.law &&
-                     name == "Interface / " + other.subsection + " / " + other.name,
+                     name ==
+                       "Interface / " + other.subsection + " / " + other.name,
                    name,
                    text + "Law = " + plugin.name);
           bool is_of_law = false, is_of_others = false;

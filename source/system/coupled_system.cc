@@ -285,9 +285,8 @@ namespace Debond
     chuck.commit(parameter);
     update_configuration();
     const TimedSection t(timer, "contact");
-    // The mean sliding distance [mm] that the next step along a path goes on
-    // from, taken while the trial states of the points are still there.
-    path.old_slip = path_length();
+    // while the points still know what they came from
+    path.length = path_length();
     interface.commit(configuration);
   }
 
@@ -431,6 +430,21 @@ namespace Debond
 
 
 
+  // What pulls at a loaded component is the contact alone: no spring holds it,
+  // and the implant's stiffness does not resist a motion of its own frame.
+  // Without contact, or without friction against a moment about z, nothing
+  // stops it, and there is no solution.
+  bool
+  CoupledSystem::is_held_by_contact() const
+  {
+    const auto &unknown = chuck.unknowns();
+    return std::any_of(unknown.begin(), unknown.end(), [this](const auto k) {
+      return chuck.is_loaded(k);
+    });
+  }
+
+
+
   // One Newton correction, station 9 of doc/walk.md,
   //
   //   (S + Q^T (df/dx) Q) dv_c = -r,
@@ -448,17 +462,7 @@ namespace Debond
                        const double    relative_tolerance)
   {
     Correction result;
-    // What pulls at a loaded component is the contact alone: no spring holds
-    // it, and the implant's stiffness does not resist a motion of its own
-    // frame. Without contact, or without friction against a moment about z,
-    // nothing stops it, and there is no solution.
-    const auto is_loaded = [this](const auto &unknown) {
-      return !chuck.is_prescribed(unknown.first) &&
-             chuck.machine_stiffness(unknown.first) == 0.;
-    };
-    const auto &components = configuration.chuck_unknowns;
-    if (std::any_of(components.begin(), components.end(), is_loaded) &&
-        interface.summarise().n_closed == 0)
+    if (is_held_by_contact() && interface.summarise().n_closed == 0)
       {
         result.why = "a loaded chuck has nothing to act against: the bodies "
                      "are not in contact";
@@ -488,12 +492,11 @@ namespace Debond
     if (!result.unknowns.allFinite())
       result.why = "the system of equations is singular";
     else
-      for (const auto &unknown : components)
-        if (is_loaded(unknown) && std::abs(result.unknowns[unknown.second]) >
-                                    (is_rotation(unknown.first) ? 1. : 10. * R))
+      for (const auto &[k, row] : configuration.chuck_unknowns)
+        if (chuck.is_loaded(k) &&
+            std::abs(result.unknowns[row]) > (is_rotation(k) ? 1. : 10. * R))
           result.why = std::string("the loaded chuck component ") +
-                       ChuckParameters::names[unknown.first] +
-                       " meets no resistance";
+                       ChuckParameters::names[k] + " meets no resistance";
     if (!result.why.empty())
       {
         solver.forget();

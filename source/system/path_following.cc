@@ -70,6 +70,7 @@ namespace Debond
     last_slip_step                          = slipped;
     time                                    = state.time;
     path_length                             = state.path_length;
+    is_detached                             = state.is_detached;
     if (!step.by_slip())
       time_size = std::min(planned, 2. * time_size);
     else
@@ -112,12 +113,17 @@ namespace Debond
   std::string
   PathFollowing::reason_to_end() const
   {
-    if (path_length < end_slip)
-      return StepControl::reason_to_end();
     Classic<std::ostringstream> reason;
-    reason << "the mean of sliding distance and opening has reached "
-           << end_slip << " mm (Load steps / Path ends at slip) at time "
-           << time;
+    if (is_detached)
+      reason << "the bond is gone, and nothing is left that a load could act "
+                "against, at time "
+             << time;
+    else if (path_length >= end_slip)
+      reason << "the mean of sliding distance and opening has reached "
+             << end_slip << " mm (Load steps / Path ends at slip) at time "
+             << time;
+    else
+      return StepControl::reason_to_end();
     return reason.str();
   }
 } // namespace Debond

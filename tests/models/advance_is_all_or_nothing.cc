@@ -104,8 +104,7 @@ struct State
         add(v);
     const InterfaceSummary summary = system.interface.summarise();
     numbers.insert(numbers.end(),
-                   {summary.normal_force,
-                    summary.phi_mean,
+                   {summary.phi_mean,
                     summary.energy,
                     summary.steepest_softening,
                     summary.max_traction,

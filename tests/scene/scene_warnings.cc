@@ -48,6 +48,14 @@ main()
   show({"Interface/Sliding threshold=22"});
   show({"Interface/Sliding threshold=22e-6"});
   show({"Interface/Sliding threshold=22e-6", law + "law=coulomb"});
+  show({"Interface/Law=adhesive"});
+  show({"Interface/Law=adhesive", "Interface/Adhesive/Gap at strength=5"});
+  show({"Interface/Law=adhesive",
+        "Interface/Adhesive/Strength=300",
+        "Interface/Adhesive/Gap at strength=1e-4"});
+  show({"Interface/Law=mixed mode",
+        "Interface/Mixed mode/Fracture energy I=68",
+        "Interface/Mixed mode/Fracture energy II=68"});
   show({"Interface/Bonding/Pattern=random",
         "Interface/Bonding/Bonded fraction=0.5"});
   show({"Interface/Bonding/Pattern=random",

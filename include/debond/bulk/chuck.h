@@ -171,6 +171,11 @@ namespace Debond
     {
       return prescribed[k];
     }
+    bool
+    is_loaded(const unsigned int k) const
+    {
+      return loaded[k];
+    }
 
     const Vector6 &
     position() const

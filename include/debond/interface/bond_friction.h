@@ -27,13 +27,9 @@ namespace Debond
     // mu and dmu/dg_s at the end of a step: what limits the traction, Eq. (30)
     FrictionCoefficient
     coefficient(const FrictionState &start, double distance) const override;
-    // int mu dg_s and int (mu - mu_b) dg_s over the step [mm]: works per
-    // pressure
+    // int mu dg_s over the step [mm]: work per pressure
     double
     friction_strength(const FrictionState &start,
-                      double               distance) const override;
-    double
-    adhesive_strength(const FrictionState &start,
                       double               distance) const override;
     // the largest -dmu/dg_s ahead [1/mm], for the uniqueness of the local
     // solution

@@ -20,8 +20,7 @@ namespace Debond
    *  largest among them. */
   struct InterfaceSummary
   {
-    double normal_force = 0; ///< int p dA [N]
-    double phi_mean     = 0; ///< area mean over the implant's contact face
+    double phi_mean    = 0; ///< area mean over the implant's contact face
     double share_stick = 0, share_slip = 0, share_open = 0, share_pulled = 0;
     double energy = 0; ///< stored [N mm]
     /** Largest -dL/d g_s / (eps_t + eta / dt). */
@@ -48,11 +47,11 @@ namespace Debond
     double       side_depth  = 0;
   };
 
-  /** Area mean of the sliding distance g_s and, of laws with strength in
-   *  tension, the opening of points over the contact face [mm], and its
-   *  derivatives with respect to the positions of the control points of both
-   *  surfaces, in space, and to the chuck where these stay: it turns the way of
-   *  the points. */
+  /** How much in a step the area mean grows of the sliding distance g_s and, of
+   *  laws with strength in tension, the opening of points over the contact face
+   *  [mm], and its derivatives with respect to the positions of the control
+   * points of both surfaces, in space, and to the chuck where these stay: it
+   * turns the way of the points. */
   struct PathLength
   {
     double                      value = 0;
@@ -270,6 +269,11 @@ namespace Debond
     bool
     has_open_points() const;
 
+    /** Whether it has left nothing of a bond with strength in tension, and
+     *  presses nowhere. */
+    bool
+    is_detached() const;
+
     /** How many points were left open between closed ones of their row and of
      *  their column of the surface in the accepted state. */
     unsigned int
@@ -334,7 +338,7 @@ namespace Debond
 
     /** Of the last evaluate(). */
     PathLength
-    path_length(const InterfaceConfiguration &configuration) const;
+    path_growth(const InterfaceConfiguration &configuration) const;
 
     /** Sums over all points of the last evaluate(). */
     InterfaceSummary

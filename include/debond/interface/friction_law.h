@@ -119,10 +119,12 @@ namespace Debond
     }
 
     /** The part of it that the bond accounts for: integral of mu - mu_b. */
-    virtual double
-    adhesive_strength(const FrictionState &, double) const
+    double
+    adhesive_strength(const FrictionState &start, const double distance) const
     {
-      return 0.;
+      return has_bond() ? friction_strength(start, distance) -
+                            mu_without_bond() * distance :
+                          0.;
     }
     //@}
 
@@ -175,19 +177,19 @@ namespace Debond
     }
     //@}
 
+    /** mu of what has no bond; asked for where there is one. */
+    virtual double
+    mu_without_bond() const
+    {
+      return 0.;
+    }
+
     /** @name For closed forms; of laws that do not depend on the rate */
     //@{
     /** Sliding distances [mm], ascending, between which mu is smooth; up to the
      *  first and from the last on it is constant. */
     virtual const std::vector<double> &
     kinks() const;
-
-    /** mu of what has no bond. */
-    virtual double
-    mu_without_bond() const
-    {
-      return 0.;
-    }
     //@}
   };
 

@@ -4,6 +4,7 @@
 #include <debond/interface/friction_law.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,9 @@ namespace Debond
     bool frictionless = false;
     /** Of the share that is held, at the end of the step. */
     double damage = 0;
-    /** phi and mu with nothing slid in the step: asked for once. */
-    FrictionCoefficient at_rest;
+    /** phi and mu with nothing slid in the step, where that is asked for more
+     *  than once: see InterfaceLaw::ask_at_rest(). */
+    std::optional<FrictionCoefficient> at_rest = std::nullopt;
 
     /** What the friction law is to know. */
     FrictionState
@@ -137,6 +139,10 @@ namespace Debond
           double              phi_0,
           double              duration     = 0.,
           bool                frictionless = false) const;
+
+    /** Once for all places that respond() will be asked at. */
+    void
+    ask_at_rest(PointStart &start) const;
 
     /** At the end of the step, at the gap @p g_n [mm], after sliding by
      *  @p distance [mm]. Goes on smoothly beyond reach(), where Newton's method

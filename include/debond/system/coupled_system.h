@@ -149,6 +149,9 @@ namespace Debond
     {
       return bone.whole() ? &effort_of_multigrid : nullptr;
     }
+    /** Whether a component is loaded, so that contact alone holds it. */
+    bool
+    is_held_by_contact() const;
     /** Adds @p fraction of a correction to the trial state. */
     void
     correct(const Correction &correction, double fraction = 1.);
@@ -168,7 +171,9 @@ namespace Debond
     double
     path_length() const
     {
-      return path.follow ? interface.path_length(configuration).value : 0.;
+      return path.follow ?
+               path.length + interface.path_growth(configuration).value :
+               0.;
     }
 
     /** Where a residual of the present state is largest, for messages. */
@@ -258,7 +263,7 @@ namespace Debond
     serialize(Archive &archive, const unsigned int)
     {
       archive &bone &implant &chuck &interface;
-      archive &path.old_slip &trial_time;
+      archive &path.length &trial_time;
       for (Body::Residual &residual : bulk_residual)
         {
           archive &residual.energy;

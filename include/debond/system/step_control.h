@@ -43,6 +43,8 @@ namespace Debond
     /** What the scene prescribes, displacements and angles or loads. */
     Chuck::Vector6 drive;
     double         path_length = 0; ///< [mm]; known along a path only
+    /** Along a path: a load has nothing left to act against. */
+    bool is_detached = false;
     /** How the forces change with time; known with adaptive steps only. */
     Chuck::Vector6 force_rates = Chuck::Vector6::Zero();
     /** By how much the forces are off, going by steps of half the size; asked
@@ -355,7 +357,8 @@ namespace Debond
     bool
     is_finished() const override
     {
-      return StepControl::is_finished() || path_length >= end_slip;
+      return StepControl::is_finished() || is_detached ||
+             path_length >= end_slip;
     }
     std::string
     reason_to_end() const override;
@@ -368,7 +371,7 @@ namespace Debond
       StepControl::serialize(archive, version);
       archive &path_length &slip_size         &time_size;
       archive &last_time_step &last_slip_step &goes_to_end;
-      archive &slip_failed                    &time_failed;
+      archive &slip_failed &time_failed       &is_detached;
     }
 
   private:
@@ -377,6 +380,7 @@ namespace Debond
 
     const double largest_slip, end_slip; ///< [mm]
     double       path_length = 0;
+    bool         is_detached = false;
     double       slip_size = 0, time_size = 0; ///< of the next step
     double       last_time_step = 0, last_slip_step = 0;
     /** The last slip step would have left the phase. */

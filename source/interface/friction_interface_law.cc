@@ -20,17 +20,17 @@ namespace Debond
               const double      g_n,
               const double      distance) const override
       {
-        const FrictionCoefficient c = coefficient(start, distance);
-        InterfaceResponse         result;
+        InterfaceResponse result;
         result.pressure        = -stiffness * g_n;
         result.pressure_by_gap = -stiffness;
         result.energy          = 0.5 * stiffness * g_n * g_n; // the potential
         if (result.pressure > 0.)
           {
-            result.resists       = true;
-            result.limit         = c.mu * result.pressure;
-            result.limit_by_gap  = -c.mu * stiffness;
-            result.limit_by_slip = c.dmu * result.pressure;
+            const FrictionCoefficient c = coefficient(start, distance);
+            result.resists              = true;
+            result.limit                = c.mu * result.pressure;
+            result.limit_by_gap         = -c.mu * stiffness;
+            result.limit_by_slip        = c.dmu * result.pressure;
           }
         return result;
       }

@@ -90,31 +90,6 @@ namespace Debond
 
 
 
-  // A point cannot slide against what pulls it. Where Newton's method looks
-  // there, at negative distances, mu goes on along its tangent, but never
-  // rises: the distance alone would have a second solution there where
-  // friction rises with the speed, a rise one where it falls steeply.
-  FrictionCoefficient
-  InterfaceLaw::coefficient(const PointStart &start,
-                            const double      distance) const
-  {
-    if (start.frictionless)
-      return {};
-    if (distance > 0.)
-      return friction->coefficient(start.friction(), distance);
-    FrictionCoefficient result = start.at_rest ?
-                                   *start.at_rest :
-                                   friction->coefficient(start.friction(), 0.);
-    if (distance < 0.)
-      {
-        result.dmu = std::max(0., result.dmu);
-        result.mu += result.dmu * distance;
-      }
-    return result;
-  }
-
-
-
   // The law is integrated over the distance, with the pressure between its two
   // ends. Of the friction the bond has its part, int (mu - mu_b) dg_s: D_adh,
   // which tells what the adhesion costs without reading it off the torque curve

@@ -137,7 +137,8 @@ namespace Debond
         const ContactPointResult &trial = point.trial;
         if (const CohesiveShare *const share = held_share(point))
           summary.energy += point.JxW * share->energy;
-        if (tension.viscosity == 0. && has_opened_beyond_strength(point))
+        if (tension.strength > 0. && tension.viscosity == 0. &&
+            has_opened_beyond_strength(point))
           summary.opening_softening = tension.softening;
         if (point.faces_implant)
           {

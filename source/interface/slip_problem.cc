@@ -475,7 +475,7 @@ namespace Debond
       }
     // By the limit at the beginning of the step, which Newton's method does not
     // change.
-    result.slip_counts = !friction.law.pulls() || friction.old_limit > 0.;
+    result.slip_counts = friction.old_limit > 0. || !friction.law.pulls();
     // where it has not moved the length has no derivative
     result.dpath.setZero();
     if (result.slip_counts && result.state.slip != friction.start.history.slip)

@@ -73,10 +73,12 @@ namespace Debond
       if (here.traction != 0.) // else the stiffness may be zero, too
         sum.stored_energy +=
           0.5 * here.traction * here.traction / disk.stiffness * dA;
-      sum.adhesive_work +=
-        p * disk.friction->adhesive_strength({phi_0}, here.slip) * dA;
-      sum.dissipation +=
+      const double spent =
         p * disk.friction->friction_strength({phi_0}, here.slip) * dA;
+      sum.dissipation += spent;
+      if (disk.friction->has_bond())
+        sum.adhesive_work +=
+          spent - p * disk.friction->mu_without_bond() * here.slip * dA;
     };
 
     // The fields are smooth between kinks, so that Gauss points do.

@@ -118,7 +118,8 @@ check(const std::string               &name,
                   parameters.mu_broken);
         sum *= (to - from) / (3. * n);
         grow(integral,
-             std::abs(law->adhesive_strength({phi_0, from}, to - from) - sum) /
+             std::abs(law->friction_strength({phi_0, from}, to - from) -
+                      parameters.mu_broken * (to - from) - sum) /
                a_s);
       }
   report("  deviation of the integral of mu - mu_b, in a_s", integral, 1e-8);
@@ -142,7 +143,6 @@ main()
          constant.mu == mu_b && constant.dmu == 0. &&
            coulomb()->coefficient({}, 0.).mu == mu_b &&
            coulomb()->steepest_fall({}) == 0. &&
-           coulomb()->adhesive_strength({}, 1.) == 0. &&
            coulomb()->friction_strength({}, 1.) == mu_b);
   report("  its bond still decays",
          coulomb()->coefficient({}, 0.).phi == 1. &&
@@ -152,6 +152,5 @@ main()
          frictionless->coefficient({}, 0.).mu == 0. &&
            frictionless->coefficient({}, 0.03).dmu == 0. &&
            frictionless->steepest_fall({}) == 0. &&
-           frictionless->friction_strength({}, 1.) == 0. &&
-           frictionless->adhesive_strength({}, 1.) == 0.);
+           frictionless->friction_strength({}, 1.) == 0.);
 }

@@ -118,14 +118,6 @@ namespace Debond
       return 0.;
     }
 
-    /** The part of it that the bond accounts for: integral of mu - mu_b. */
-    double
-    adhesive_strength(const FrictionState &start, const double distance) const
-    {
-      return has_bond() ? friction_strength(start, distance) -
-                            mu_without_bond() * distance :
-                          0.;
-    }
     //@}
 
     /** @name Uniqueness */

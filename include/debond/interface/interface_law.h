@@ -3,6 +3,7 @@
 
 #include <debond/interface/friction_law.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -244,9 +245,27 @@ namespace Debond
 
   protected:
     /** phi, mu and its slope after sliding by @p distance, which is negative
-     *  only at trial places. */
+     *  only at trial places. A point cannot slide against what pulls it. Where
+     *  Newton's method looks there mu goes on along its tangent, but never
+     *  rises: the distance alone would have a second solution there where
+     *  friction rises with the speed, a rise one where it falls steeply. */
     FrictionCoefficient
-    coefficient(const PointStart &start, double distance) const;
+    coefficient(const PointStart &start, const double distance) const
+    {
+      if (start.frictionless)
+        return {};
+      if (distance > 0.)
+        return friction->coefficient(start.friction(), distance);
+      FrictionCoefficient result =
+        start.at_rest ? *start.at_rest :
+                        friction->coefficient(start.friction(), 0.);
+      if (distance < 0.)
+        {
+          result.dmu = std::max(0., result.dmu);
+          result.mu += result.dmu * distance;
+        }
+      return result;
+    }
     /** The work of a point that rubs with mu p from the pressure @p p to
      *  @p p_end [MPa], none of which is less than 0. */
     PointWork

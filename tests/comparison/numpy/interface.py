@@ -468,7 +468,9 @@ class Interface:
         self.normal_gap = np.where(state.pressure > 0, rise - state.pressure / self.normal_stiffness,
                                    np.where(state.closed, state.normal_gap, 0))
         self.kappa = np.where(state.closed, self.law.kappa(begin, state.normal_gap), self.kappa)
-        self.bonded = np.where(self.law.gone(self.kappa), 0, self.bonded)
+        torn = begin.bonds & ~state.closed & (not self.law.cohesive)  # only the edge of the master opens a bond
+        self.dissipation += (self.area * self.law.stored(begin, 0 * spent, begin.normal_gap))[torn & (before < 0)].sum()
+        self.bonded = np.where(torn | self.law.gone(self.kappa), 0, self.bonded)
         closes = ~self.touched & state.closed & (state.normal_gap < 0)
         self.touched = self.touched | closes
         if self.law.cohesive and closes.any():

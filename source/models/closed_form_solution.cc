@@ -326,6 +326,7 @@ namespace Debond
                                     TorsionModel::undefined :
                                     -load.push;
       row.chuck_position[twist] = row.angle_deg;
+      row.machine_uz_mm         = row.chuck_position[push];
       for (const auto &jump : solution.jumps)
         if (jump.machine_angle < std::abs(load.angle))
           row.released_energy_Nmm += jump.released_energy;

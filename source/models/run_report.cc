@@ -25,12 +25,11 @@ namespace Debond
       const auto  &f = end.chuck_reaction;
       const double largest =
         std::max({std::abs(f[0]), std::abs(f[1]), std::abs(f[2])});
-      const auto force = [&](const unsigned int k) {
-        return to_text(std::abs(f[k]) < 1e-9 * largest ? 0. : f[k], 6);
+      const auto known = [&](const double load) { // N, or N mm
+        return to_text(std::abs(load) < 1e-9 * largest ? 0. : load, 6);
       };
-      return "At the end: torque " + to_text(end.torque_Nmm, 6) +
-             " N mm, force " + force(0) + ", " + force(1) + ", " + force(2) +
-             " N";
+      return "At the end: torque " + known(end.torque_Nmm) + " N mm, force " +
+             known(f[0]) + ", " + known(f[1]) + ", " + known(f[2]) + " N";
     }
 
 
@@ -87,8 +86,9 @@ namespace Debond
         add(D_adh, "Work on adhesion " + number(D_adh) + " N mm by the law");
       // of closed forms, sums over rows: they say how coarse these are
       add(unbalanced,
-          "Checks: energy to " + to_text(defect, 2) +
-            " of the work, forces on both sides of the implant to " +
+          "Checks: energy to " + to_text(std::abs(end.energy_defect), 2) +
+            " of the work, in each row to " + to_text(defect, 2) +
+            " of that so far, forces on both sides of the implant to " +
             to_text(unbalanced, 2));
       add(value("wall_seconds"),
           to_text(value("wall_seconds"), 2) + " s" +

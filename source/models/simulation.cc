@@ -545,10 +545,11 @@ namespace Debond
     row.damage_Nmm          = interface.work().damage;
     row.adhesive_normal_Nmm = interface.work().adhesive_normal;
     row.warnings            = state_checks.take_violations();
-    // With a compliant machine the scene prescribes the angle of the machine,
-    // ahead of the chuck's by T / k.
-    row.machine_angle_deg =
-      chuck.machine_position()[ChuckComponent::rotation_z] * 180. / M_PI;
+    // With a compliant machine the scene prescribes the place of the machine,
+    // ahead of the chuck's by T / k or F / k.
+    const Chuck::Vector6 machine = chuck.machine_position();
+    row.machine_angle_deg   = machine[ChuckComponent::rotation_z] * 180. / M_PI;
+    row.machine_uz_mm       = machine[ChuckComponent::translation_z];
     row.released_energy_Nmm = state_checks.released().total();
     // Force and moment about the chuck's centre C + u, and where it is.
     for (unsigned int k = 0; k < 6; ++k)

@@ -57,6 +57,8 @@ namespace Debond
     double damage_Nmm          = 0; ///< part of dissipation_Nmm, by opening
     /** Part of adhesive_work_Nmm: of tractions across the interface. */
     double adhesive_normal_Nmm = 0;
+    /** Of the machine along z, as machine_angle_deg. */
+    double machine_uz_mm = 0;
 
     /** What the curve between rows is drawn of: torque [N mm], chuck_reaction
      *  and chuck_position, by the unit of time. */
@@ -127,6 +129,7 @@ namespace Debond
       visit("share_pulled", share_pulled);
       visit("damage_Nmm", damage_Nmm);
       visit("adhesive_normal_Nmm", adhesive_normal_Nmm);
+      visit("machine_uz_mm", machine_uz_mm);
     }
 
     /** See serialization.h. */

@@ -43,8 +43,6 @@ namespace Debond
     /** What the scene prescribes, displacements and angles or loads. */
     Chuck::Vector6 drive;
     double         path_length = 0; ///< [mm]; known along a path only
-    /** Along a path: a load has nothing left to act against. */
-    bool is_detached = false;
     /** How the forces change with time; known with adaptive steps only. */
     Chuck::Vector6 force_rates = Chuck::Vector6::Zero();
     /** By how much the forces are off, going by steps of half the size; asked
@@ -54,6 +52,8 @@ namespace Debond
      *  with adaptive steps only. */
     Chuck::Vector6 position       = Chuck::Vector6::Zero(),
                    position_rates = Chuck::Vector6::Zero();
+    /** Along a path: a load has nothing left to act against. */
+    bool is_detached = false;
   };
 
   /**

@@ -26,15 +26,17 @@ namespace Debond
 
 
 
+  // What is held at its place sticks there, unless it is pulled; what rubs
+  // beside it tells after that.
   PointStatus
   ContactInterface::status(const SlavePoint &point) const
   {
-    const PointStatus of_rubbing = point.trial.state.status;
-    if (of_rubbing != PointStatus::open)
-      return of_rubbing;
     const CohesiveShare *const share = held_share(point);
-    return share && share->damage < 1. ? PointStatus::pulled :
-                                         PointStatus::open;
+    if (!share || share->damage == 1.)
+      return point.trial.state.status;
+    return share->normal.dot(share->bears) > mode_now.touch_tolerance ?
+             PointStatus::pulled :
+             PointStatus::stick;
   }
 
 

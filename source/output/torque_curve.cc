@@ -243,6 +243,7 @@ namespace Debond
     why_no_adhesion(const Rows          &rows,
                     const Rotation      &rotation,
                     const CurveSettings &settings,
+                    const double         T_max,
                     const double         theta_full_deg)
     {
       const TorqueRow &start = rows[rotation.first_row - 1], &end = rows.back();
@@ -253,6 +254,9 @@ namespace Debond
       // The work of friction from theta_full on is several times that of the
       // bond. Before, friction of the push-in may be released.
       auto first = rows.begin() + rotation.first_row - 1;
+      // beside the shear [MPa], what a force of 0 is solved to
+      const double negligible =
+        std::max(0., 1e-6 * T_max / std::pow(settings.contact_area_mm2, 1.5));
       for (const double largest_change : {0.1, 0.01})
         {
           const auto [least, most] =
@@ -261,13 +265,13 @@ namespace Debond
                                 [](const TorqueRow &a, const TorqueRow &b) {
                                   return a.pressure_MPa < b.pressure_MPa;
                                 });
-          if (most->pressure_MPa <= 0.)
-            return "nothing is pressed while it turns: there is no torque";
+          if (most->pressure_MPa <= negligible)
+            return "nothing is pressed while it turns";
           if (most->pressure_MPa - least->pressure_MPa >
               largest_change * std::abs(most->pressure_MPa))
             return Text() << "the pressure goes from " << least->pressure_MPa
                           << " to " << most->pressure_MPa
-                          << " MPa while it turns: friction at the end is not "
+                          << " MPa from there on: friction at the end is not "
                              "that before";
           while (first + 1 != rows.end() &&
                  rotation.direction * (first->angle_deg - theta_full_deg) < 0.)
@@ -394,7 +398,7 @@ namespace Debond
                                       to_text(released, 4) +
                                       " N mm that jumps have released");
       const std::string why =
-        why_no_adhesion(rows, rotation, settings, energies.from_deg);
+        why_no_adhesion(rows, rotation, settings, T_max, energies.from_deg);
       if (!why.empty())
         {
           measures["remarks"].push_back("E_fric, W_adh, w_adh: null, " + why);
@@ -499,6 +503,34 @@ namespace Debond
 
   namespace
   {
+    /** The largest pull, in @p row. A parabola through the rows beside it tells
+     *  what steps that are too long have missed. */
+    void
+    measure_pull(const Rows &rows, const TorqueRow &row, Measures &measures)
+    {
+      measures.update(
+        {{"pull_max_N", -row.force_N}, {"pull_max_mm", row.chuck_position[2]}});
+      const auto add = [&measures](const std::string &remark) {
+        measures["remarks"].push_back("pull_max_N: " + remark);
+      };
+      if (&row == &rows.back())
+        return add("the pull is largest at the end: it may grow on");
+      if (&row == &rows.front() || row.is_curved())
+        return;
+      const TorqueRow &before = *(&row - 1), &after = *(&row + 1);
+      const double t_1 = row.time - before.time, t_2 = after.time - row.time;
+      const double rise   = (before.force_N - row.force_N) / t_1,
+                   fall   = (row.force_N - after.force_N) / t_2,
+                   slope  = (rise * t_2 + fall * t_1) / (t_1 + t_2),
+                   missed = slope * slope * (t_1 + t_2) / 4. /
+                            std::abs(rise - fall) / -row.force_N;
+      if (t_1 > 0. && t_2 > 0. && missed > 0.005)
+        add("it may be " + to_text(100. * missed, 2) +
+            " % more: the rows beside it are far away, shorter steps tell");
+    }
+
+
+
     /** Stiffness, and between which rows the bond begins to break. */
     void
     measure_beginning(const Rows                   &rows,
@@ -586,14 +618,10 @@ namespace Debond
           bonded;
     // less is what a force that is held at 0 is solved to
     grow(largest_force, T_max / std::sqrt(settings.contact_area_mm2));
-    if (settings.is_bonded && -pull->force_N > 1e-3 * largest_force)
-      {
-        measures.update({{"pull_max_N", -pull->force_N},
-                         {"pull_max_mm", pull->chuck_position[2]}});
-        if (pull == &end)
-          measures["remarks"].push_back(
-            "pull_max_N: the pull is largest at the end: it may grow on");
-      }
+    const bool pulls =
+      settings.is_bonded && -pull->force_N > 1e-3 * largest_force;
+    if (pulls)
+      measure_pull(rows, *pull, measures);
     if (rotation.direction != 0. && !rotation.reverses)
       {
         measures["theta_max_deg"] = peak->angle_deg;
@@ -603,7 +631,7 @@ namespace Debond
           CurveComparison(angles_and_torques(rows), settings.reference)
             .put_into(measures);
       }
-    else
+    else if (rotation.reverses || !pulls)
       measures["remarks"].push_back(
         std::string("angles and energies of a rotation: null, ") +
         (rotation.reverses ? "the rotation reverses" : "nothing rotates"));

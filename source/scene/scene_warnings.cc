@@ -128,7 +128,7 @@ namespace Debond
            "pressed, the interface is as stiff as " + to_text(eps_n, 3) +
              " MPa/mm (Penalty stiffness), pulled as " +
              to_text(bond.stiffness, 3) +
-             " MPa/mm: they differ by more than ten");
+             " MPa/mm: they differ by a factor of more than ten");
     }
 
 
@@ -252,7 +252,8 @@ namespace Debond
       note(*least >= 0. && *most > 0. && scene.interface.is_friction_only(),
            "direction of the push",
            entry + " is never negative: it pulls the implant off the bone. "
-                   "What presses is negative");
+                   "What presses is negative; Interface / Law = adhesive "
+                   "holds against a pull");
       const double push = -*least; // a machine's springs may take a larger one
       note(!z.is_unknown() && push > std::max(bone.penetration_limit(),
                                               implant.penetration_limit()),

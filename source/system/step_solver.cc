@@ -129,7 +129,8 @@ namespace Debond
   {
     /** Why the bond would break in a jump. */
     std::string
-    describe_softening(const InterfaceSummary &summary, const FrictionLaw &law)
+    describe_softening(const InterfaceSummary    &summary,
+                       const InterfaceParameters &interface)
     {
       Classic<std::ostringstream> text;
       // A user can act on it: the numbers of the worst point, and the entries
@@ -146,7 +147,9 @@ namespace Debond
            << summary.softening_slope / summary.steepest_softening
            << " MPa/mm. What helps: Interface / Viscosity, a larger Interface "
               "/ Tangential penalty stiffness, a larger "
-           << law.entries_against_fall();
+           << interface.friction->entries_against_fall();
+      if (interface.joint()->pulls())
+        text << ", a smaller Adhesive friction or Strength";
       return text.str();
     }
   } // namespace
@@ -206,9 +209,8 @@ namespace Debond
                       !parameters.interface.friction->depends_on_rate();
     // a step that failed has failed already; this may be why
     if (!result.unique)
-      result.why +=
-        (result.why.empty() ? "" : "; ") +
-        describe_softening(result.interface, *parameters.interface.friction);
+      result.why += (result.why.empty() ? "" : "; ") +
+                    describe_softening(result.interface, parameters.interface);
     // A trial that is not accepted leaves no trace, so that the next attempt
     // starts from the same state as this one did.
     if (!result.is_acceptable())

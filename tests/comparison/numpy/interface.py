@@ -267,9 +267,12 @@ class Interface:
         pressure = state.pressure - (_dot(held.traction, held.normal) if held else 0.)
         state.pulled = state.closed & (pressure < -ROUNDING * self.normal_stiffness) & (state.limit == 0)
         state.presses, state.apart = state.closed, ~state.closed
-        if self.law.cohesive:  # shares of the area are those of what rubs; what is held beside that is pulled
-            state.presses = state.closed & (state.normal_gap < -ROUNDING)
-            state.pulled = begin.bonds & (held.omega < 1) & ~state.presses
+        state.slips = state.sliding
+        if self.law.cohesive:  # what is held sticks or is pulled, and what is broken rubs or is apart
+            holds = begin.bonds & (held.omega < 1)
+            state.pulled = holds & (_dot(held.gap, held.normal) > ROUNDING)
+            state.presses = holds & ~state.pulled | ~holds & state.closed & (state.normal_gap < -ROUNDING)
+            state.slips = state.sliding & ~holds
             state.apart = ~state.presses & ~state.pulled
         return state
 

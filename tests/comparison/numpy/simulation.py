@@ -195,8 +195,8 @@ class Simulation:
         row.update(torque_Nmm=moment @ self.rotation[:, 2], force_N=-force[2],
                    pressure_MPa=-force[2] / self.contact_area,
                    phi_mean=area @ bonding / area.sum(),
-                   share_stick=share(state.presses & ~state.sliding & ~state.pulled),
-                   share_slip=share(state.presses & state.sliding & ~state.pulled),
+                   share_stick=share(state.presses & ~state.slips & ~state.pulled),
+                   share_slip=share(state.presses & state.slips & ~state.pulled),
                    share_open=share(state.apart), share_pulled=share(state.pulled),
                    energy_bulk_Nmm=(self.bone.energy(self.bone_displacement)
                                     + self.implant.energy(self.implant_displacement)),

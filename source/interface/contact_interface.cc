@@ -226,8 +226,9 @@ namespace Debond
           point.accepted.xi = neighbour->accepted.xi;
         const Projection projection =
           project_accepted(point, configuration, neighbour != nullptr);
-        // faces that touch have grown together
-        if (projection.faces && projection.height <= touch_tolerance)
+        // faces that touch have grown together; what overlaps has touched once
+        // it is in equilibrium
+        if (projection.faces && std::abs(projection.height) <= touch_tolerance)
           {
             point.accepted.joined     = true;
             point.accepted.normal_gap = 0.;

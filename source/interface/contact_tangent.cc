@@ -2,6 +2,7 @@
 #include <debond/interface/point_tangent.h>
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -467,11 +468,8 @@ namespace Debond
   // where a brittle bond snaps back, but neither g_s nor the largest opening
   // ever falls. Newton's method is bordered with its derivative, which
   // therefore is as exact as that of the forces.
-  //
-  // Slip without friction behind a bond that pulls does not count: it grows
-  // whichever way the path goes.
   PathLength
-  ContactInterface::path_growth(
+  ContactInterface::path_length(
     const InterfaceConfiguration &configuration) const
   {
     PathLength result;
@@ -481,33 +479,31 @@ namespace Debond
       {
         const SlavePoint         &point = points[q];
         const ContactPointResult &trial = point.trial;
-        const ContactPointState  &now = trial.state, &before = point.accepted;
         if (!point.faces_implant)
           continue;
         area += point.JxW;
         result.value +=
-          point.JxW *
-          (law.joint->is_cohesive() ?
-             law.joint->length_of_damage() * (now.damage - before.damage) :
-             (trial.slip_counts ? now.slip - before.slip : 0.) +
-               law.joint->opened(now) - law.joint->opened(before));
+          point.JxW * (law.joint->is_cohesive() ?
+                         law.joint->length_of_damage() * trial.state.damage :
+                         trial.state.slip + law.joint->opened(trial.state));
         if (!shares.empty() && shares[q].holds)
           add_path_of_share(q, result.gradient);
-        if (law.joint->is_cohesive() || now.status == PointStatus::open ||
-            trial.dpath.isZero(0.))
+        if (law.joint->is_cohesive() ||
+            trial.state.status == PointStatus::open || trial.dpath.isZero(0.))
           continue;
         const Matrix<double, W::size, 1> d =
           point.JxW * trial.dpath.transpose();
-        const SurfaceBasis &here = trial.basis, &old = trial.old_basis;
+        const SurfaceBasis &now = trial.basis, &old = trial.old_basis;
         ControlNet         &master = result.gradient[master_side()];
         const Vector3d      by_gap = d.segment<3>(W::gap),
                        by_trial    = d.segment<3>(W::trial_gap);
         spread(point.basis, by_gap + by_trial, result.gradient[slave]);
-        for (unsigned int b = 0; b < here.size; ++b)
-          master.col(here.control_point[b]) +=
-            here.N_1[b] * d.segment<3>(W::a1) +
-            here.N_2[b] * d.segment<3>(W::a2) - here.N[b] * by_gap;
-        for (unsigned int b = 0; slides(now.status) && b < old.size; ++b)
+        for (unsigned int b = 0; b < now.size; ++b)
+          master.col(now.control_point[b]) += now.N_1[b] * d.segment<3>(W::a1) +
+                                              now.N_2[b] * d.segment<3>(W::a2) -
+                                              now.N[b] * by_gap;
+        for (unsigned int b = 0; slides(trial.state.status) && b < old.size;
+             ++b)
           master.col(old.control_point[b]) +=
             along_old_gap(point, b) * d.segment<3>(W::old_gap) -
             old.N[b] * by_trial;
@@ -519,5 +515,23 @@ namespace Debond
       gradient /= area;
     result.by_chuck /= area;
     return result;
+  }
+
+
+
+  double
+  ContactInterface::path_left() const
+  {
+    if (!law.joint->is_cohesive())
+      return std::numeric_limits<double>::infinity();
+    double left = 0., area = 0.;
+    for (const SlavePoint &point : points)
+      if (point.faces_implant)
+        {
+          area += point.JxW;
+          if (point.trial.state.joined && point.phi_0 > 0.)
+            left += point.JxW * (1. - point.trial.state.damage);
+        }
+    return law.joint->length_of_damage() * left / area;
   }
 } // namespace Debond

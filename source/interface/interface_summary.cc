@@ -55,11 +55,14 @@ namespace Debond
   bool
   ContactInterface::is_detached() const
   {
+    constexpr double nothing = 1e-6; // of a bond
     return law.joint->pulls() &&
            std::none_of(
              points.begin(), points.end(), [this](const SlavePoint &point) {
+               const ContactPointState &state = point.trial.state;
                return point.trial.pressure > 0. ||
-                      point.friction(*law.joint, point.trial.state).phi > 0.;
+                      (state.joined &&
+                       point.friction(*law.joint, state).phi > nothing);
              });
   }
 
@@ -150,6 +153,7 @@ namespace Debond
             summary.phi_mean += point.JxW * friction(point).phi;
             *share_of[static_cast<unsigned int>(status(point))] += point.JxW;
           }
+        summary.n_closed += status(point) != PointStatus::open;
         if (trial.state.status == PointStatus::open)
           {
             // whether it was bonded: opening itself may have broken it
@@ -162,7 +166,6 @@ namespace Debond
         // Energy of the springs eps_n and eps_t [N mm], the potential that Eq.
         // (28) comes from; and the largest penetration -g_n [mm], which a
         // push-in in wrong units shows.
-        ++summary.n_closed;
         summary.energy += point.JxW * trial.energy;
         summary.max_softening =
           std::max(summary.max_softening, trial.softening);

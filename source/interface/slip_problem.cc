@@ -473,12 +473,9 @@ namespace Debond
           by_xi.traction_and_distance * result.by_damage.xi;
         result.by_damage.traction = change.head<3>();
       }
-    // By the limit at the beginning of the step, which Newton's method does not
-    // change.
-    result.slip_counts = friction.old_limit > 0. || !friction.law.pulls();
     // where it has not moved the length has no derivative
     result.dpath.setZero();
-    if (result.slip_counts && result.state.slip != friction.start.history.slip)
+    if (result.state.slip != friction.start.history.slip)
       result.dpath = total.row(3);
     if (friction.law.opened(result.state) >
         friction.law.opened(friction.start.history))

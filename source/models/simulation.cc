@@ -344,9 +344,12 @@ namespace Debond
     result.forces      = coupled_system.chuck_forces();
     result.drive       = coupled_system.chuck.values(result.time);
     result.path_length = coupled_system.path_length();
-    result.is_detached = scene.load_steps.follow_path &&
-                         coupled_system.is_held_by_contact() &&
-                         coupled_system.interface.is_detached();
+    if (scene.load_steps.follow_path)
+      {
+        result.path_left   = coupled_system.interface.path_left();
+        result.is_detached = coupled_system.is_held_by_contact() &&
+                             coupled_system.interface.is_detached();
+      }
     result.position = coupled_system.chuck.position();
     return result;
   }
@@ -412,8 +415,10 @@ namespace Debond
             << ", angle "
             << chuck.position()[ChuckComponent::rotation_z] * 180. / M_PI
             << " deg, with the smallest allowed part of a step: " << result.why;
-    if (!scene.load_steps.follow_path && !chuck.unknowns().empty() &&
-        result.interface.n_closed > 0)
+    if (scene.load_steps.follow_path)
+      message << ". A path may end at a limit point, as doc/solution.md says "
+                 "(Following the path)";
+    else if (!chuck.unknowns().empty() && result.interface.n_closed > 0)
       message << ". A prescribed load may be more than the interface can "
                  "carry; prescribing the displacement or angle instead, or "
                  "Load steps / Path following = slip, follows the fall";

@@ -285,8 +285,9 @@ namespace Debond
     chuck.commit(parameter);
     update_configuration();
     const TimedSection t(timer, "contact");
-    // while the points still know what they came from
-    path.length = path_length();
+    // The mean sliding distance [mm] that the next step along a path goes on
+    // from, taken while the trial states of the points are still there.
+    path.old_slip = path_length();
     interface.commit(configuration);
   }
 

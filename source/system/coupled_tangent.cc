@@ -44,12 +44,12 @@ namespace Debond
     rates = configuration.chuck->rates(time);
     // The exact gradient, in which xi_hat moves: without it Newton's method
     // would not be quadratic.
-    const PathLength mean   = interface.path_growth(configuration);
+    const PathLength mean   = interface.path_length(configuration);
     const double     weight = reference / slip;
     add_in_unknowns(mean.gradient, configuration, weight, gradient);
     for (const auto &[component, row] : configuration.chuck_unknowns)
       gradient[row] += weight * mean.by_chuck[component];
-    return weight * (mean.value - slip);
+    return weight * (mean.value - old_slip - slip);
   }
 
 

@@ -23,18 +23,20 @@ namespace Debond
   {
     Step step;
     step.extrapolate = has_previous;
-    if (has_previous && last_slip_step > 0. && !goes_to_end)
+    // where damage ends the steps become as small as what is left
+    const double left = std::min(0.5 * path_left, largest_slip);
+    if (has_previous && last_slip_step > 0. && !goes_to_end &&
+        left > 1e-2 * parameters.smallest_step_fraction * largest_slip)
       {
         // no further than a straight line can be trusted, or a planned step
-        step.ratio = std::min(slip_size / last_slip_step, 2.);
+        step.ratio = std::min(std::min(slip_size, left) / last_slip_step, 2.);
         if (last_time_step > 0.)
           step.ratio = std::min(step.ratio, planned / last_time_step);
         step.slip = step.ratio * last_slip_step;
         step.time = time + step.ratio * last_time_step;
         // where time falls, and where much slides until the end
-        if (time_failed ||
-            (!slip_failed && step.time < end &&
-             (last_time_step <= 0. || step.slip >= 0.25 * largest_slip)))
+        if (time_failed || (!slip_failed && step.time < end &&
+                            (last_time_step <= 0. || step.slip >= 0.25 * left)))
           return step;
       }
     step.slip  = 0.;
@@ -70,6 +72,7 @@ namespace Debond
     last_slip_step                          = slipped;
     time                                    = state.time;
     path_length                             = state.path_length;
+    path_left                               = state.path_left;
     is_detached                             = state.is_detached;
     if (!step.by_slip())
       time_size = std::min(planned, 2. * time_size);

@@ -91,7 +91,7 @@ check(const std::string &slave)
   Eigen::RowVectorXd       difference(n);
   const auto               mean = [&]() {
     system.evaluate(mode);
-    return system.interface.path_growth(system.configuration).value;
+    return system.interface.path_length(system.configuration).value;
   };
   for (unsigned int j = 0; j < n; ++j)
     {

@@ -38,8 +38,8 @@ namespace Debond
     double       max_penetration   = 0; ///< [mm]
     double       max_traction      = 0; ///< [MPa]
     unsigned int bonded_opened =
-      0; ///< points with phi > 0 that opened in this step
-    unsigned int n_closed = 0;
+      0;                       ///< points with phi > 0 that opened in this step
+    unsigned int n_closed = 0; ///< or held apart by a bond
     /** Where nothing faced the master before: points that came over its edge
      *  from below its surface and are closed now, and how deep they are at most
      *  [mm]. */
@@ -47,11 +47,11 @@ namespace Debond
     double       side_depth  = 0;
   };
 
-  /** How much in a step the area mean grows of the sliding distance g_s and, of
-   *  laws with strength in tension, the opening of points over the contact face
-   *  [mm], and its derivatives with respect to the positions of the control
-   * points of both surfaces, in space, and to the chuck where these stay: it
-   * turns the way of the points. */
+  /** Area mean of the sliding distance g_s and, of laws with strength in
+   *  tension, the opening of points over the contact face [mm], and its
+   *  derivatives with respect to the positions of the control points of both
+   *  surfaces, in space, and to the chuck where these stay: it turns the way of
+   *  the points. */
   struct PathLength
   {
     double                      value = 0;
@@ -338,7 +338,10 @@ namespace Debond
 
     /** Of the last evaluate(). */
     PathLength
-    path_growth(const InterfaceConfiguration &configuration) const;
+    path_length(const InterfaceConfiguration &configuration) const;
+    /** How much the measure can still grow [mm]: that of damage ends. */
+    double
+    path_left() const;
 
     /** Sums over all points of the last evaluate(). */
     InterfaceSummary

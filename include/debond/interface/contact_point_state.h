@@ -146,10 +146,7 @@ namespace Debond
     SurfaceBasis old_basis;                ///< at xi_hat^n; only when slipping
     Eigen::Matrix<double, 3, W::size> dt;  ///< dt/dw
     Eigen::Matrix<double, 2, W::size> dxi; ///< dxi_hat/dw
-    /** Whether its slip counts where a path is measured: what slides without
-     *  friction dissipates nothing. */
-    bool slip_counts = true;
-    /** d(g_s + opening)/dw, which a path is measured by; g_s if it counts. */
+    /** d(g_s + opening)/dw, which a path is measured by. */
     Eigen::Matrix<double, 1, W::size> dpath;
     /** How they change with the damage of the share that is held, by laws that
      *  hold one. */

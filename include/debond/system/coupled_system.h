@@ -171,9 +171,7 @@ namespace Debond
     double
     path_length() const
     {
-      return path.follow ?
-               path.length + interface.path_growth(configuration).value :
-               0.;
+      return path.follow ? interface.path_length(configuration).value : 0.;
     }
 
     /** Where a residual of the present state is largest, for messages. */
@@ -263,7 +261,7 @@ namespace Debond
     serialize(Archive &archive, const unsigned int)
     {
       archive &bone &implant &chuck &interface;
-      archive &path.length &trial_time;
+      archive &path.old_slip &trial_time;
       for (Body::Residual &residual : bulk_residual)
         {
           archive &residual.energy;

@@ -19,8 +19,8 @@ namespace Debond
     bool         follow = false;
     unsigned int number = 0; ///< of the time among the unknowns
     /** Growth of the mean slip in this step [mm]; 0: the time is given. */
-    double slip   = 0;
-    double length = 0; ///< up to the accepted state [mm]
+    double slip     = 0;
+    double old_slip = 0; ///< mean slip of the accepted state [mm]
     /** Of the whole face against each component of the chuck: eps_n A [N/mm],
      *  or eps_n A R^2 [N mm] for rotations. It gives the equations of q_k along
      *  a path the size of the others, and is D of CoupledTangent. */

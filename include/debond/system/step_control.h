@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <string>
 
 namespace Debond
@@ -52,6 +53,8 @@ namespace Debond
      *  with adaptive steps only. */
     Chuck::Vector6 position       = Chuck::Vector6::Zero(),
                    position_rates = Chuck::Vector6::Zero();
+    /** Along a path: how much path_length can still grow [mm]. */
+    double path_left = std::numeric_limits<double>::infinity();
     /** Along a path: a load has nothing left to act against. */
     bool is_detached = false;
   };
@@ -372,6 +375,7 @@ namespace Debond
       archive &path_length &slip_size         &time_size;
       archive &last_time_step &last_slip_step &goes_to_end;
       archive &slip_failed &time_failed       &is_detached;
+      archive                                 &path_left;
     }
 
   private:
@@ -380,6 +384,7 @@ namespace Debond
 
     const double largest_slip, end_slip; ///< [mm]
     double       path_length = 0;
+    double       path_left   = std::numeric_limits<double>::infinity();
     bool         is_detached = false;
     double       slip_size = 0, time_size = 0; ///< of the next step
     double       last_time_step = 0, last_slip_step = 0;

@@ -151,8 +151,10 @@ namespace Debond
       {
         friction.old_gap =
           start.gap[0] * old.geometry.a1 + start.gap[1] * old.geometry.a2;
+        PointStart before = friction.start;
+        before.damage     = start.damage;
         friction.old_limit =
-          law.joint->respond(friction.start, start.normal_gap, 0.).limit /
+          law.joint->respond(before, start.normal_gap, 0.).limit /
           law.tangential_penalty;
         friction.arc = Arc(mode.turn);
       }

@@ -479,7 +479,9 @@ class Interface:
         if self.law.cohesive and closes.any():
             x = self.positions(slave_points)[closes]
             self.xi_bond[closes], _ = closest_points(self.master.face, master_points, x, self.xi[closes])
-        self.gap_parts = np.einsum('mki,mi->mk', state.dual, state.shear) / self.tangential_stiffness
+        gap = state.shear / self.tangential_stiffness
+        gap[np.linalg.norm(gap, axis=1) <= ROUNDING] = 0  # rounding has no direction that a string could have
+        self.gap_parts = np.einsum('mki,mi->mk', state.dual, gap)
         self.face(slave_points, master_points, ~state.closed)
         opens = state.opens = (before > 0) & ~state.closed
         if begin.friction and opens.any():

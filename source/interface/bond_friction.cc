@@ -2,32 +2,6 @@
 
 namespace Debond
 {
-  // Eq. (11), mu = mu_b + phi (mu_ub - mu_b), with phi = phi_0 s(g_s). The law
-  // is implicit: g_s is the sliding distance at the end of the step, g_s^n plus
-  // what the point slides in it, Eq. (32). So softening follows the slip
-  // without the lag of a step, and Newton's method needs dmu/dg_s.
-  //
-  // mu is mu_ub where the bond is whole and mu_b where it is gone. phi never
-  // rises, since g_s never falls and s never rises: damage does not heal. phi_0
-  // is that of the point, 0 if its bond has been broken by opening. mu at g_s^n
-  // instead would leave a torque up to 9 % too high while the bond softens in
-  // 50 steps, right at its maximum and at the end (doc/model.md, `Friction
-  // update').
-  FrictionCoefficient
-  BondFriction::coefficient(const FrictionState &start,
-                            const double         distance) const
-  {
-    FrictionCoefficient result;
-    double              slope;
-    // phi and mu are dimensionless, dmu/dg_s in 1/mm
-    result.phi = start.phi_0 * decay(start.slip + distance, slope);
-    result.mu  = mu_b + result.phi * drop;
-    result.dmu = start.phi_0 * slope * drop;
-    return result;
-  }
-
-
-
   // int mu dg_s [mm], exactly: debonded friction, and the bond on top of it,
   // whose part times p and summed over the face is D_adh, which does not depend
   // on how a curve is read, as the W_adh of Eq. (20) does. The balance that

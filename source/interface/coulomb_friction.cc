@@ -16,7 +16,7 @@ namespace Debond
      *  between. With mu_ub = mu_b it is Coulomb's law. The defaults are those
      *  of data set 1 with mu_b = 0.4: a_s = 0.022 mm and b_s = 0.74, so that a
      *  point is debonded once it has slid (1 + 2 b_s) a_s = 54.6 um. */
-    class ModifiedCoulomb : public BondFriction
+    class ModifiedCoulomb final : public BondFriction
     {
     public:
       explicit ModifiedCoulomb(const ModifiedCoulombParameters &parameters)
@@ -57,6 +57,16 @@ namespace Debond
       entries_against_fall() const override
       {
         return "Sliding threshold or Transition factor";
+      }
+
+      // as that of all such laws, without a call for the decay
+      FrictionCoefficient
+      coefficient(const FrictionState &start,
+                  const double         distance) const override
+      {
+        double       slope;
+        const double s = decay(start.slip + distance, slope);
+        return of_decay(start.phi_0, s, slope);
       }
 
     protected:

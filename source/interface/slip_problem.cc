@@ -284,8 +284,7 @@ namespace Debond
     for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
       {
         const double   error = distance_error();
-        const Vector2d step =
-          -equations->along_surface().h.inverse() * equations->h;
+        const Vector2d step  = -along_surface().h.inverse() * equations->h;
         if (!step.allFinite())
           return SlipOutcome::not_found;
         if (step.cwiseAbs().maxCoeff() < 1e-15 || error <= round_off())
@@ -310,11 +309,11 @@ namespace Debond
   // The step of Newton's method within an element. Parameters at a side beyond
   // which it leads stay, and the other one has a step of its own.
   SlipProblem::ElementStep
-  SlipProblem::step_in_element(const NurbsSurface::Place &place) const
+  SlipProblem::step_in_element(const NurbsSurface::Place &place)
   {
     const auto            box   = master.surface->element_bounds(place.element);
     const SlipEquations  &e     = *equations;
-    const Eigen::Matrix2d slope = e.along_surface().h;
+    const Eigen::Matrix2d slope = along_surface().h;
     ElementStep           result{-slope.inverse() * e.h};
     for (unsigned int d = 0; d < 2; ++d)
       result.beyond[d] = (place.xi[d] <= box[0][d] && result.step[d] < 0.) ||
@@ -430,7 +429,7 @@ namespace Debond
   // tangential gap; what friction dissipates is summed up elsewhere, from
   // traction and slip.
   void
-  SlipProblem::report(ContactPointResult &result) const
+  SlipProblem::report(ContactPointResult &result)
   {
     const SlipEquations &e  = *equations;
     result.normal_gap       = e.g_n;
@@ -449,20 +448,20 @@ namespace Debond
     // the history of the point once the step is accepted
     static_cast<PointHistory &>(result.state) =
       friction.law.advance(friction.start, e.g_n, e.distance);
-    const auto by_w  = e.along_w();
-    const auto by_xi = e.along_surface();
+    const auto by_w = e.along_w();
+    along_surface();
     // what a ridge holds does not move
-    Eigen::Matrix2d inverse = by_xi.h.inverse();
+    Eigen::Matrix2d inverse = by_xi->h.inverse();
     for (unsigned int d = 0; d < 2; ++d)
       if (held[d])
         {
           inverse.setZero();
           if (!held[1 - d])
-            inverse(1 - d, 1 - d) = 1. / by_xi.h(1 - d, 1 - d);
+            inverse(1 - d, 1 - d) = 1. / by_xi->h(1 - d, 1 - d);
         }
     result.dxi = -inverse * by_w.h;
     const Eigen::Matrix<double, 4, W::size> total =
-      by_w.traction_and_distance + by_xi.traction_and_distance * result.dxi;
+      by_w.traction_and_distance + by_xi->traction_and_distance * result.dxi;
     result.dt = total.topRows<3>();
     if (friction.law.is_cohesive())
       {
@@ -470,7 +469,7 @@ namespace Debond
         result.by_damage.xi  = -inverse * by_damage.h;
         const Vector4d change =
           by_damage.traction_and_distance +
-          by_xi.traction_and_distance * result.by_damage.xi;
+          by_xi->traction_and_distance * result.by_damage.xi;
         result.by_damage.traction = change.head<3>();
       }
     // where it has not moved the length has no derivative
@@ -501,6 +500,7 @@ namespace Debond
     master.surface->evaluate_in_element(place.element, place.xi, basis, true);
     contract(basis, *master.positions, true, geometry);
     equations.emplace(law, friction, x, y_old, geometry, master.outward_sign);
+    by_xi.reset();
   }
 
 

@@ -24,9 +24,17 @@ namespace Debond
       , drop(mu_unbroken - mu_broken)
     {}
 
-    // mu and dmu/dg_s at the end of a step: what limits the traction, Eq. (30)
+    // mu and dmu/dg_s at the end of a step: what limits the traction, Eq. (30).
+    // Each sliding point asks a few times in a step: a class may do this again
+    // where its own decay() is known.
     FrictionCoefficient
-    coefficient(const FrictionState &start, double distance) const override;
+    coefficient(const FrictionState &start,
+                const double         distance) const override
+    {
+      double       slope;
+      const double s = decay(start.slip + distance, slope);
+      return of_decay(start.phi_0, s, slope);
+    }
     // int mu dg_s over the step [mm]: work per pressure
     double
     friction_strength(const FrictionState &start,
@@ -64,6 +72,29 @@ namespace Debond
     steepest_decay(double slip) const = 0;
 
     const double mu_b, drop; ///< mu_ub - mu_b
+
+  protected:
+    // Eq. (11), mu = mu_b + phi (mu_ub - mu_b), with phi = phi_0 s(g_s). The
+    // law is implicit: g_s is the sliding distance at the end of the step,
+    // g_s^n plus what the point slides in it, Eq. (32). So softening follows
+    // the slip without the lag of a step, and Newton's method needs dmu/dg_s.
+    //
+    // mu is mu_ub where the bond is whole and mu_b where it is gone. phi never
+    // rises, since g_s never falls and s never rises: damage does not heal.
+    // phi_0 is that of the point, 0 if its bond has been broken by opening. mu
+    // at g_s^n instead would leave a torque up to 9 % too high while the bond
+    // softens in 50 steps, right at its maximum and at the end (doc/model.md,
+    // `Friction update').
+    FrictionCoefficient
+    of_decay(const double phi_0, const double s, const double slope) const
+    {
+      FrictionCoefficient result;
+      // phi and mu are dimensionless, dmu/dg_s in 1/mm
+      result.phi = phi_0 * s;
+      result.mu  = mu_b + result.phi * drop;
+      result.dmu = phi_0 * slope * drop;
+      return result;
+    }
   };
 
 

@@ -117,7 +117,6 @@ namespace Debond
     {
       return 0.;
     }
-
     //@}
 
     /** @name Uniqueness */
@@ -158,6 +157,12 @@ namespace Debond
     {
       return false;
     }
+    /** mu of what has no bond; asked for where there is one. */
+    virtual double
+    mu_without_bond() const
+    {
+      return 0.;
+    }
     /** Distance over which mu changes [mm]. */
     virtual double
     characteristic_distance() const = 0;
@@ -168,13 +173,6 @@ namespace Debond
       return "";
     }
     //@}
-
-    /** mu of what has no bond; asked for where there is one. */
-    virtual double
-    mu_without_bond() const
-    {
-      return 0.;
-    }
 
     /** @name For closed forms; of laws that do not depend on the rate */
     //@{

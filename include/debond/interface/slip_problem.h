@@ -256,7 +256,7 @@ namespace Debond
     /** Writes the rest of the sliding point, the motion of xi_hat eliminated.
      */
     void
-    report(ContactPointResult &result) const;
+    report(ContactPointResult &result);
 
     /** Where the last iteration ended. */
     const SlipEquations &
@@ -266,6 +266,15 @@ namespace Debond
     }
 
   private:
+    /** What changes there with xi_hat; once for each place. */
+    const SlipEquations::Derivative<2> &
+    along_surface()
+    {
+      if (!by_xi)
+        by_xi = equations->along_surface();
+      return *by_xi;
+    }
+
     // Everything at a trial xi_hat; the distance [mm] by which the equations
     // are missed there; and the line search, which halves a step until that
     // distance is smaller.
@@ -291,7 +300,7 @@ namespace Debond
       std::array<bool, 2> beyond{{false, false}};
     };
     ElementStep
-    step_in_element(const NurbsSurface::Place &place) const;
+    step_in_element(const NurbsSurface::Place &place);
     SlipOutcome
     solve_with_ridges(const Eigen::Vector2d &start, ContactPointResult &result);
 
@@ -305,8 +314,9 @@ namespace Debond
     // The master at the last trial place, and the equations there. They refer
     // to the geometry, so that a new place needs new equations; they are made
     // in place, without allocation.
-    SurfaceGeometry              geometry;
-    std::optional<SlipEquations> equations;
+    SurfaceGeometry                             geometry;
+    std::optional<SlipEquations>                equations;
+    std::optional<SlipEquations::Derivative<2>> by_xi;
   };
 } // namespace Debond
 #endif

@@ -11,10 +11,12 @@ namespace Debond
 {
   namespace
   {
-    const std::array<std::pair<dealii::types::boundary_id, unsigned int>, 3>
+    const std::array<std::pair<dealii::types::boundary_id, unsigned int>, 5>
       supports{{{Boundary::held, 7}, // bit c: component c
                 {Boundary::slides_x, 1},
-                {Boundary::slides_y, 2}}};
+                {Boundary::slides_y, 2},
+                {Boundary::slides_z, 4},
+                {Boundary::axial, 3}}};
   } // namespace
 
 

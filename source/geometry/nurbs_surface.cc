@@ -109,12 +109,16 @@ namespace Debond
   NurbsSurface::NurbsSurface(
     const unsigned int                            degree,
     const std::vector<std::vector<unsigned int>> &control_points_of_faces,
-    const ControlNet                             &control_points)
+    const ControlNet                             &control_points,
+    const std::vector<double>                    &weights)
     : knot_vectors{{KnotVector::graded(degree, 1),
                     KnotVector::graded(degree, 1)}}
     , points(control_points)
-    , weight(control_points.cols(), 1.)
-    , is_rational(false)
+    , weight(weights.empty() ? std::vector<double>(control_points.cols(), 1.) :
+                               weights)
+    , is_rational(std::any_of(weight.begin(),
+                              weight.end(),
+                              [](const double w) { return w != 1.; }))
     , n_in_row(std::ceil(std::sqrt(double(control_points_of_faces.size()))))
   {
     for (const auto &each : control_points_of_faces)

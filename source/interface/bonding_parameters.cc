@@ -151,7 +151,12 @@ namespace Debond
       throw EntryError(bonding_section + "Pattern",
                        "it needs the name of a file: " + bonding_section +
                          "File");
-    if (is_disk && !implant.geometry().is_round() && !implant.mesh)
+    if (pattern == Kind::file && implant.geometry().has_side(implant))
+      throw EntryError(bonding_section + "Pattern",
+                       "places in a file are seen from above: around a side "
+                       "expected image or expression");
+    if (is_disk && !implant.geometry().is_round() &&
+        implant.shape != BodyShape::file)
       throw EntryError(bonding_section + "Pattern",
                        "it is for round implants: Implant / Shape = coin, cap "
                        "or file");

@@ -1,6 +1,7 @@
 #include <debond/bulk/bulk_space.h>
 #include <debond/interface/bonding_pattern.h>
 #include <debond/interface/bonding_source.h>
+#include <debond/shapes/body_geometry.h>
 #include <debond/shapes/body_parameters.h>
 #include <debond/support/number_text.h>
 
@@ -25,7 +26,8 @@ namespace Debond
       {
         Part &part = all_parts[part_of(q)];
         part.area += points[q].JxW;
-        part.centre += points[q].JxW * points[q].X.head<2>();
+        part.centre +=
+          points[q].JxW * implant.geometry().on_face(implant, points[q].X);
       }
     for (Part &part : all_parts)
       part.centre /= part.area;

@@ -3,6 +3,7 @@
 #include <debond/input/expression_parser.h>
 #include <debond/input/input_file.h>
 #include <debond/interface/bonding_source.h>
+#include <debond/shapes/body_geometry.h>
 #include <debond/shapes/body_parameters.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
@@ -64,11 +65,12 @@ namespace Debond
     /** By element the area means of @p function, by at least @p n x @p n and
      *  some @p n_across quadrature points across the face; else its values. */
     std::vector<double>
-    values_of(const PlaceFunction &function,
-              const bool           by_element,
-              const NurbsSurface  &surface,
-              const unsigned int   n,
-              const unsigned int   n_across)
+    values_of(const PlaceFunction  &function,
+              const BodyParameters &implant,
+              const bool            by_element,
+              const NurbsSurface   &surface,
+              const unsigned int    n,
+              const unsigned int    n_across)
     {
       const unsigned int across =
         n * surface.n_elements_across(); // points of one copy
@@ -83,7 +85,8 @@ namespace Debond
           for (const auto &point :
                element_quadrature(surface, element, quadrature))
             {
-              const double value = function(point.X.head<2>());
+              const double value =
+                function(implant.geometry().on_face(implant, point.X));
               if (!by_element)
                 values.push_back(value);
               sum += point.JxW * value;
@@ -109,7 +112,8 @@ namespace Debond
       GreyImage            image = read_grey_image(parameters.file,
                                         bonding_section + "File",
                                         parameters.white_level);
-      const Eigen::Array2d size(implant.width(0), implant.width(1));
+      const auto           box   = implant.geometry().box_of_face(implant);
+      const Eigen::Array2d size  = box[1] - box[0];
       const double ratio = image.width / size[0] / (image.height / size[1]);
       if (std::max(ratio, 1. / ratio) > 1.02)
         remark = "the picture of " + std::to_string(image.width) + " x " +
@@ -121,10 +125,11 @@ namespace Debond
       if (by_element)
         image = image.reduced_to(256);
       return values_of(
-        [&image, &size](const Eigen::Vector2d &place) {
-          const Eigen::Array2d uv = place.array() / size + 0.5;
+        [&](const Eigen::Vector2d &place) {
+          const Eigen::Array2d uv = (place - box[0]).array() / size;
           return image.at(uv[0], uv[1]);
         },
+        implant,
         by_element,
         surface,
         n,
@@ -332,6 +337,7 @@ namespace Debond
         parameters, implant, by_element, surface, n, remark);
     return values_of(function_of_expression(parameters.expression,
                                             implant.characteristic_radius()),
+                     implant,
                      by_element,
                      surface,
                      n,

@@ -32,6 +32,7 @@ namespace Debond
     , law(parameters.law())
     , slave(parameters.slave)
     , mesh{{&bone, &implant}}
+    , master_is_level(mesh[other(slave)]->surface().is_level())
     , n(parameters.points_per_element(bone.parameters(), implant.parameters()))
   {
     // n x n Gauss points per element. A point carries its weight JxW [mm^2] of
@@ -89,6 +90,14 @@ namespace Debond
 
 
 
+  const BodyParameters &
+  ContactInterface::implant() const
+  {
+    return mesh[Side::implant]->parameters();
+  }
+
+
+
   // The area mean of phi_0 as the quadrature points see it, dimensionless. With
   // the bone as slave points meet the edge of a bonded area only as closely as
   // they lie, so that this differs from the mean of the pattern; Simulation
@@ -116,7 +125,8 @@ namespace Debond
   {
     return {&mesh[master_side()]->surface(),
             &configuration.side[master_side()].positions,
-            mesh[master_side()]->outward_sign()};
+            mesh[master_side()]->outward_sign(),
+            master_is_level};
   }
 
 
@@ -251,12 +261,14 @@ namespace Debond
     turn_by_chuck(const RigidMotion            &rigid,
                   const InterfaceConfiguration &configuration,
                   const Eigen::Vector3d        &old_x,
-                  const Side                    slave)
+                  const Side                    slave,
+                  const RigidMotion::Normal    &normal)
     {
       Chuck::Vector6 result = Chuck::Vector6::Zero();
       if (configuration.chuck_unknowns.empty())
         return result;
-      const RigidMotion::TurnGradient by = rigid.gradient_of_turn(old_x, slave);
+      const RigidMotion::TurnGradient by =
+        rigid.gradient_of_turn(old_x, slave, normal);
       for (const auto &unknown : configuration.chuck_unknowns)
         {
           const unsigned int k = unknown.first;
@@ -265,6 +277,24 @@ namespace Debond
                                    by.centre[k];
         }
       return result;
+    }
+
+
+
+    /** That of the master at rest at @p xi, in its frame @p Q. */
+    RigidMotion::Normal
+    normal_of(const MasterSurface   &master,
+              const Eigen::Vector2d &xi,
+              const Eigen::Matrix3d &Q)
+    {
+      const NurbsSurface &surface = *master.surface;
+      if (master.is_level)
+        return {master.outward_sign * Q.col(2), true};
+      SurfaceBasis    basis;
+      SurfaceGeometry geometry;
+      surface.evaluate(xi, basis, false);
+      contract(basis, surface.control_points(), false, geometry);
+      return {Q * MasterNormal(geometry, master.outward_sign).n, false};
     }
 
 
@@ -286,9 +316,13 @@ namespace Debond
     {
       if (law.slip_direction == SlipDirection::integrated)
         {
-          mode.turn = rigid.turn_of_way(old_x, slave);
+          const RigidMotion::Normal normal =
+            normal_of(surface,
+                      start.xi,
+                      configuration.side[other(slave)].frame);
+          mode.turn = rigid.turn_of_way(old_x, slave, normal);
           result.turn_by_chuck =
-            turn_by_chuck(rigid, configuration, old_x, slave);
+            turn_by_chuck(rigid, configuration, old_x, slave, normal);
         }
       update_contact_point(law, start, point.phi_0, x, surface, mode, result);
     }
@@ -504,15 +538,24 @@ namespace Debond
     tangent_is_gathered = false;
     if (law.slip_direction != SlipDirection::integrated)
       return;
-    const RigidMotion rigid({accepted_frame, accepted_centre},
+    const RigidMotion   rigid({accepted_frame, accepted_centre},
                             Place::of_implant(configuration));
+    const MasterSurface surface = master(configuration);
     for (SlavePoint &point : points)
       if (slides(point.trial.state.status))
-        point.trial.turn_by_chuck =
-          turn_by_chuck(rigid,
-                        configuration,
-                        interpolate(point.basis, accepted_positions[slave]),
-                        slave);
+        {
+          // one that came over the edge in this step began it there
+          const ContactPointState &start =
+            point.accepted.has_partner ? point.accepted : point.trial.state;
+          point.trial.turn_by_chuck =
+            turn_by_chuck(rigid,
+                          configuration,
+                          interpolate(point.basis, accepted_positions[slave]),
+                          slave,
+                          normal_of(surface,
+                                    start.xi,
+                                    configuration.side[master_side()].frame));
+        }
   }
 
 

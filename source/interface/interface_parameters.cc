@@ -44,6 +44,13 @@ namespace Debond
               friction_starts_at,
               Allowed::number("time"),
               "Time before which the interface is frictionless.");
+    table.add("Interference",
+              interference,
+              Allowed::text("an expression in t"),
+              "By how much the implant is thicker than the bore that it is "
+              "in, on the diameter [mm], an expression in the time t; "
+              "negative: thinner. What it is at the first time is there before "
+              "anything moves.");
     table.add("Opening breaks bond",
               opening_breaks_bond,
               Allowed::choice("false | true"),

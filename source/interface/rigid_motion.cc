@@ -22,7 +22,6 @@ namespace Debond
     : turn(place.frame * old_place.frame.transpose())
     , old_centre(old_place.centre)
     , centre(place.centre)
-    , implant_axis(place.frame.col(2))
   {
     const Eigen::AngleAxisd rotation(turn);
     axis = rotation.angle() * rotation.axis();
@@ -31,25 +30,43 @@ namespace Debond
 
 
   inline RigidMotion::Way
-  RigidMotion::way(const Vector3d &x, const Side slave) const
+  RigidMotion::way(const Vector3d &x,
+                   const Side      slave,
+                   const Normal   &normal) const
   {
     const auto velocity = [&](const Vector3d &r) {
       return Vector3d(centre - old_centre + axis.cross(r));
     };
-    const Vector3d r     = x - old_centre;
-    const Vector3d first = velocity(r);
-    if (slave == Side::implant)
-      return {Vector3d::UnitZ(), first, velocity(turn * r)};
-    // it stays, and is seen from the implant
-    return {-implant_axis, turn * first, velocity(x - centre)};
+    const bool            is_implant = slave == Side::implant;
+    const Vector3d        r          = x - old_centre;
+    const Vector3d       &n          = normal.n;
+    const Eigen::Matrix3d identity   = Eigen::Matrix3d::Identity();
+    Way                   result{n, velocity(r), velocity(turn * r), identity};
+    if (!is_implant) // it stays, and is seen from the implant
+      {
+        result.first = turn * result.first;
+        result.last  = velocity(x - centre);
+      }
+    if (normal.is_same)
+      return result;
+    // the rotation that takes one normal to the other, for what is normal to
+    // the first: v - (n_2 . v) (n_1 + n_2) / (1 + n_1 . n_2)
+    result.n = is_implant ? Vector3d(turn * n) : Vector3d(turn.transpose() * n);
+    result.rolled =
+      identity - (n + result.n) * result.n.transpose() / (1. + n.dot(result.n));
+    result.first -= n.dot(result.first) * n;
+    result.first = result.rolled * result.first;
+    return result;
   }
 
 
 
   double
-  RigidMotion::turn_of_way(const Vector3d &x, const Side slave) const
+  RigidMotion::turn_of_way(const Vector3d &x,
+                           const Side      slave,
+                           const Normal   &normal) const
   {
-    const auto [n, first, last] = way(x, slave);
+    const auto [n, first, last, rolled] = way(x, slave, normal);
     // along the axis alone it goes nowhere over the master, but for rounding
     const double sine   = n.dot(first.cross(last)),
                  cosine = first.dot(last) - n.dot(first) * n.dot(last);
@@ -67,12 +84,18 @@ namespace Debond
   //
   //   J^-1 psi = psi - a x psi / 2 + c a x (a x psi),
   //   c = 1 / t^2 - (1 + cos t) / (2 t sin t).
+  //
+  // That the normal turns with the slave, where it does, is left out: it is of
+  // second order in the step.
   RigidMotion::TurnGradient
-  RigidMotion::gradient_of_turn(const Vector3d &x, const Side slave) const
+  RigidMotion::gradient_of_turn(const Vector3d &x,
+                                const Side      slave,
+                                const Normal   &normal) const
   {
-    const auto [n, first, last] = way(x, slave);
-    const Vector3d normal       = first.cross(last);
-    const double   f_n = n.dot(first), l_n = n.dot(last), sine = n.dot(normal),
+    const auto [n, first, last, rolled] = way(x, slave, normal);
+    const Vector3d across_both          = first.cross(last);
+    const double   f_n = n.dot(first), l_n = n.dot(last),
+                 sine   = n.dot(across_both),
                  cosine = first.dot(last) - f_n * l_n,
                  square = sine * sine + cosine * cosine;
     TurnGradient by;
@@ -80,11 +103,12 @@ namespace Debond
       return by;
     const double   by_sine = cosine / square, by_cosine = -sine / square;
     const Vector3d by_first =
-                     by_sine * last.cross(n) + by_cosine * (last - l_n * n),
+                     rolled.transpose() *
+                     (by_sine * last.cross(n) + by_cosine * (last - l_n * n)),
                    by_last =
                      by_sine * n.cross(first) + by_cosine * (first - f_n * n),
-                   by_n =
-                     by_sine * normal - by_cosine * (l_n * first + f_n * last);
+                   by_n = by_sine * across_both -
+                          by_cosine * (l_n * first + f_n * last);
 
     // the first velocity is turned, or the lever arm of the last one
     const bool     is_bone = slave == Side::bone;
@@ -104,7 +128,7 @@ namespace Debond
     if (is_bone)
       {
         by.centre -= by_arm;
-        by.spin += first.cross(by_first) - implant_axis.cross(by_n);
+        by.spin += first.cross(by_first) + n.cross(by_n);
       }
     else
       by.spin += arm.cross(by_arm);

@@ -306,7 +306,8 @@ namespace Debond
                         system.chuck.position(),
                         system.bulk_energy() + summary.energy,
                         system.interface.work().dissipation,
-                        system.interface.work().dissipation_bound});
+                        system.interface.work().dissipation_bound,
+                        system.press_fit.work()});
     // the explicit law does not dissipate what InterfaceWork::friction says
     if (!parameters.interface.explicit_friction)
       {

@@ -52,8 +52,7 @@ namespace Debond
     , radius(scene.implant.characteristic_radius())
     , is_round(scene.implant.geometry().is_round())
     , is_mesh(scene.implant.mesh != nullptr)
-    , half_x(0.5 * scene.implant.width(0))
-    , half_y(0.5 * scene.implant.width(1))
+    , box(scene.implant.geometry().box_of_face(scene.implant))
     , pulls(scene.interface.joint()->pulls())
   {}
 
@@ -176,7 +175,8 @@ namespace Debond
     for (const Column &column : shown)
       table += "," + std::string(column.name);
     table += "\n";
-    const double dx = 2. * half_x / n_across, dy = 2. * half_y / n_across;
+    const Eigen::Vector2d size = box[1] - box[0];
+    const double          dx = size[0] / n_across, dy = size[1] / n_across;
     for (const Snapshot &one : all)
       {
         const auto        tree = tree_of(one.points);
@@ -185,16 +185,15 @@ namespace Debond
           to_text(one.time, 6) + "," + to_text(one.angle_deg, 6) + ",";
         const double reach =
           is_mesh ?
-            std::max(
-              {dx, dy, std::sqrt(4. * half_x * half_y / one.points.size())}) :
+            std::max({dx, dy, std::sqrt(size.prod() / one.points.size())}) :
             std::numeric_limits<double>::infinity();
         for (unsigned int j = 0; j < n_across; ++j)
           for (unsigned int i = 0; i < n_across; ++i)
             {
-              const dealii::Point<2> place((i + 0.5) * dx - half_x,
-                                           (j + 0.5) * dy - half_y);
+              const dealii::Point<2> place(box[0][0] + (i + 0.5) * dx,
+                                           box[0][1] + (j + 0.5) * dy);
               const auto *const      point =
-                is_round && place.norm() > half_x ?
+                is_round && place.norm() > box[1][0] ?
                        nullptr :
                        closest(one.points, tree, place, reach);
               table +=

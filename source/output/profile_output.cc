@@ -3,6 +3,7 @@
 #include <debond/output/profile_output.h>
 #include <debond/output/result_files.h>
 #include <debond/scene/scene.h>
+#include <debond/shapes/body_geometry.h>
 #include <debond/support/number_text.h>
 
 #include <deal.II/base/point.h>
@@ -64,17 +65,19 @@ namespace Debond
   std::vector<InterfacePoint>
   profile_points(const ContactInterface &interface)
   {
+    const BodyParameters       &implant = interface.implant();
     std::vector<InterfacePoint> points;
     for (const SlavePoint &point : interface.get_points())
       if (point.faces_implant)
         {
           const auto &X           = point.X;
+          const auto  place       = implant.geometry().on_face(implant, X);
           const auto &trial       = point.trial;
           const auto  traction    = interface.traction(point);
           const auto  coefficient = interface.friction(point);
           const auto  left = interface.get_law().left_by_each(trial.state);
-          points.push_back({{X[0],
-                             X[1],
+          points.push_back({{place[0],
+                             place[1],
                              std::hypot(X[0], X[1]),
                              traction.pressure,
                              traction.tangential.norm(),

@@ -97,8 +97,8 @@ namespace Debond
   {
     interface.bonding.identity = identity_of(interface.bonding.file);
     interface.friction         = create_friction_law(interface.friction_choice);
-    bone.read_mesh("Bone");
-    implant.read_mesh("Implant");
+    implant.make_mesh("Implant", implant);
+    bone.make_mesh("Bone", implant);
     bone.rim = {{0.5 * implant.width(0), 0.5 * implant.width(1)}};
     bone.read_modulus(implant.characteristic_radius());
   }

@@ -17,6 +17,11 @@ namespace Debond
     void
     check_faces(const BodyParameters &bone, const BodyParameters &implant)
     {
+      if (implant.geometry().has_side(implant) && bone.geometry().is_lattice())
+        throw EntryError("Implant / Shape",
+                         "a " + implant.geometry().name() +
+                           " is in the bone, and a " + bone.geometry().name() +
+                           " is below it: expected Bone / Shape = sleeve");
       for (unsigned int d = 0; d < 2; ++d)
         if (implant.width(d) > bone.width(d))
           throw EntryError("Implant / " + implant.geometry().entries().front(),
@@ -67,6 +72,46 @@ namespace Debond
 
 
 
+    /** The same of the interference. */
+    bool
+    check_interference(const Scene &scene, const std::vector<double> &times)
+    {
+      const char *const entry = "Interface / Interference";
+      const double      R     = scene.implant.characteristic_radius();
+      bool              moves = false, varies = false;
+      try
+        {
+          const auto value =
+            read_time_function(scene.interface.interference, R);
+          for (const double time : times)
+            {
+              if (!(std::abs(value(time)) < R))
+                throw InputError("it is " + to_text(value(time)) +
+                                 " mm at t = " + to_text(time) +
+                                 ": expected less than the implant's radius");
+              moves  = moves || value(time) != 0.;
+              varies = varies || value(time) != value(times.front());
+            }
+        }
+      catch (const InputError &error)
+        {
+          throw EntryError(entry, error.what());
+        }
+      if (moves && !scene.implant.geometry().has_side(scene.implant))
+        throw EntryError(entry,
+                         "a " + scene.implant.geometry().name() +
+                           " is in no bore: expected 0",
+                         scene.interface.interference);
+      if (varies && (scene.load_steps.adaptive || scene.load_steps.follow_path))
+        throw EntryError(entry,
+                         "it changes with time: expected planned steps, Load "
+                         "steps / Adaptive = false and Follow path = false",
+                         scene.interface.interference);
+      return moves;
+    }
+
+
+
     /** Also between planned steps, which may be few where they are adaptive. */
     void
     check_tables(const Scene &scene)
@@ -86,7 +131,7 @@ namespace Debond
       scene.chuck.check();
       check_component(scene, ChuckComponent::rotation_z, times);
       check_tables(scene);
-      bool moves = false;
+      bool moves = check_interference(scene, times);
       for (unsigned int c = 0; c < ChuckParameters::n_components; ++c)
         {
           const ChuckComponentParameters &component = scene.chuck.component[c];
@@ -100,11 +145,12 @@ namespace Debond
           moves                 = moves || this_moves;
         }
       if (!moves)
-        throw EntryError("",
-                         "nothing moves in this scene: all six chuck "
-                         "components have constant values and none carries a "
-                         "load. Give for instance Chuck / Translation z / "
-                         "Value = -0.0049 * min(t, 1)");
+        throw EntryError(
+          "",
+          "nothing moves in this scene: all six chuck "
+          "components have constant values, none carries a "
+          "load, and there is no interference. Give for instance Chuck / Translation z / "
+          "Value = -0.0049 * min(t, 1)");
     }
 
 

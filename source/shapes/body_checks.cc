@@ -42,7 +42,6 @@ namespace Debond
     void
     check_cells(const BodyParameters &body, const EntryCheck &refuse)
     {
-      check_number_of_cells(body, refuse);
       // nine control points over one face: 2 x 2 Gauss points do not see all
       // their motions, and the stiffness is singular
       refuse(!body.is_rigid() && body.contact_surface == SurfaceKind::nurbs &&
@@ -109,12 +108,19 @@ namespace Debond
             std::pair("Radius", body.radius != usual.radius),
             std::pair("Height", body.height != usual.height),
             std::pair("Cap radius", body.cap_radius != usual.cap_radius),
+            std::pair("Inner radius", body.inner_radius != usual.inner_radius),
+            std::pair("Outer radius", body.outer_radius != usual.outer_radius),
+            std::pair("Ends", body.ends != usual.ends),
+            std::pair("Taper angle", body.taper_angle != usual.taper_angle),
+            std::pair("Pitch", body.pitch != usual.pitch),
+            std::pair("Thread depth", body.thread_depth != usual.thread_depth),
+            std::pair("Starts", body.starts != usual.starts),
             std::pair("Mesh file", body.mesh_file != usual.mesh_file)})
         refuse(is_set && std::find(own.begin(), own.end(), entry) == own.end(),
                entry,
                "it has no meaning for this Shape, " + geometry.name() +
                  ": give " + boost::join(own, " and "));
-      refuse(body.mesh && body.cells != usual.cells,
+      refuse(body.shape == BodyShape::file && body.cells != usual.cells,
              "Cells",
              "the cells are those of a file: leave it out");
       geometry.check(body, refuse);
@@ -135,9 +141,8 @@ namespace Debond
     check_shape(*this,
                 section == "Bone" ? BodyParameters() : default_implant(),
                 refuse);
-    if (mesh)
-      check_number_of_cells(*this, refuse);
-    else
+    check_number_of_cells(*this, refuse);
+    if (geometry().is_lattice())
       check_cells(*this, refuse);
   }
 } // namespace Debond

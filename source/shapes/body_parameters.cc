@@ -1,7 +1,7 @@
 #include <debond/input/entry_table.h>
 #include <debond/shapes/body_geometry.h>
 #include <debond/shapes/body_parameters.h>
-#include <debond/shapes/mesh_builder.h>
+#include <debond/shapes/mesh_file.h>
 #include <debond/shapes/modulus_field.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
@@ -24,6 +24,12 @@ namespace Debond
   BodyParameters::thickness() const
   {
     return geometry().thickness(*this);
+  }
+
+  double
+  BodyParameters::chuck_height() const
+  {
+    return geometry().chuck_height(*this);
   }
 
   double
@@ -56,16 +62,11 @@ namespace Debond
 
 
   void
-  BodyParameters::read_mesh(const std::string &section)
+  BodyParameters::make_mesh(const std::string    &section,
+                            const BodyParameters &implant)
   {
     mesh.reset();
-    if (shape != BodyShape::file)
-      return;
-    if (mesh_file.empty())
-      throw EntryError(section + " / Shape",
-                       "it needs the name of a file: " + section +
-                         " / Mesh file");
-    mesh = read_mesh_file(mesh_file, section + " / Mesh file");
+    mesh = geometry().make_mesh(*this, implant, section);
   }
 
 
@@ -105,6 +106,7 @@ namespace Debond
     BodyParameters implant;
     implant.shape         = BodyShape::coin;
     implant.size          = {{5, 5, 3}};
+    implant.height        = 3;
     implant.cells         = {{3, 3, 2}};
     implant.young_modulus = 113000;
     return implant;
@@ -135,10 +137,27 @@ namespace Debond
               "Edge lengths [mm] of the block of bone in x, y and z. Its top "
               "face is at z = 0, centred below the implant; its bottom is "
               "held, its sides slide along themselves.");
+    table.add("Outer radius",
+              outer_radius,
+              allowed_length,
+              "Outer radius [mm] of a sleeve; the inner one is that of the "
+              "implant.");
+    table.add("Height",
+              height,
+              AllowedValues(allowed_length).or_number(0),
+              "Height [mm] of a sleeve, from its top at z = 0 down; 0: that of "
+              "the implant.");
+    table.add("Ends",
+              ends,
+              Allowed::choice("free | slide | axial | held"),
+              "How top and bottom of a sleeve are held. `slide': they do not "
+              "move along the axis. `axial': they move along the axis only. "
+              "`held': not at all.");
     table.add("Cells",
               cells,
               Allowed::list(allowed_cells, 3, 3),
-              "Number of cells in x, y and z.");
+              "Number of cells in x, y and z; of a sleeve around, radial and "
+              "along.");
     table.add(
       "Lateral grading",
       lateral_grading,
@@ -192,14 +211,40 @@ namespace Debond
   {
     table.enter_subsection("Implant");
     declare_shape(table, false);
-    table.add("Radius",
-              radius,
+    table.add(
+      "Radius",
+      radius,
+      allowed_length,
+      "Radius R [mm] of a coin, a cap or a pin; of a taper at z = 0, of "
+      "a screw half way between crest and valley.");
+    table.add("Inner radius",
+              inner_radius,
+              AllowedValues(allowed_length).or_number(0),
+              "Inner radius [mm] of a hollow pin; 0: it is solid.");
+    table.add("Taper angle",
+              taper_angle,
+              Allowed::number_between(0, 60, "degrees"),
+              "Angle [deg] between the side of a taper and its axis, half of "
+              "that of the cone; below it is thinner.");
+    table.add(
+      "Pitch",
+      pitch,
+      allowed_length,
+      "Distance [mm] along the axis between neighbouring crests of the "
+      "thread of a screw. In a turn it comes out by this times Starts.");
+    table.add("Thread depth",
+              thread_depth,
               allowed_length,
-              "Radius R [mm] of a coin or a cap.");
+              "Height [mm] of the thread of a screw.");
+    table.add("Starts",
+              starts,
+              Allowed::whole_number(1, 100),
+              "Number of threads of a screw.");
     table.add("Height",
               height,
               allowed_length,
-              "Height [mm] of a coin or a cap, on its axis.");
+              "Height [mm] of a coin or a cap, on its axis; of a pin that of "
+              "its side.");
     table.add("Cap radius",
               cap_radius,
               Allowed::number_between(1e-6, 1e9, "mm"),
@@ -216,14 +261,16 @@ namespace Debond
       read_entry(text, numbers);
       cells = {{numbers.front(), numbers[numbers.size() - 2], numbers.back()}};
     };
-    table.add("Cells",
-              cells[0] == cells[1] ?
-                entry_text(std::vector<unsigned int>{cells[0], cells[2]}) :
-                entry_text(cells),
-              set_cells,
-              Allowed::list(allowed_cells, 2, 3),
-              "Number of cells in x, y and z. Two numbers n, m mean n, n, m: "
-              "of a coin and a cap across the disk and along the axis.");
+    table.add(
+      "Cells",
+      cells[0] == cells[1] ?
+        entry_text(std::vector<unsigned int>{cells[0], cells[2]}) :
+        entry_text(cells),
+      set_cells,
+      Allowed::list(allowed_cells, 2, 3),
+      "Number of cells in x, y and z. Two numbers n, m mean n, n, m: "
+      "of a coin and a cap across the disk and along the axis. Of a pin "
+      "around, radial and along; around a solid one 4, 8, 12, ...");
     declare_material(table, false);
     table.leave_subsection();
   }
@@ -236,10 +283,10 @@ namespace Debond
     std::string names,
       text = is_bone ? "Shape of the bone. " :
                        "Shape of the implant. Its contact face touches z = 0 "
-                       "with its centre at the origin; its flat top face is "
-                       "held by the rigid chuck. ";
+                       "with its centre at the origin, but for those in the "
+                       "bone; its flat top face is held by the rigid chuck. ";
     for (const BodyGeometry *const each : body_geometries())
-      if (each->is_for_bone() || !is_bone)
+      if (is_bone ? each->is_for_bone() : each->is_for_implant())
         {
           names += (names.empty() ? "" : " | ") + each->name();
           text += "`" + each->name() + "': " + each->description() + ". ";
@@ -262,8 +309,9 @@ namespace Debond
               "the working directory: Gmsh (.msh), Abaqus (.inp) or VTK "
               "(.vtk); lengths in mm, the contact face near z = 0, the chuck "
               "on the z axis. Names of groups of faces say what they are: "
-              "contact, held, and slides x or slides y for what is held along "
-              "x or y only; the others are free. The contact face is bilinear, "
+              "contact, held, slides x, slides y and slides z for what is held "
+              "along x, y or z only, and axial for what moves along z only; "
+              "the others are free. The contact face is bilinear, "
               "or of degree two with Element = quadratic, which files of the "
               "second order need.");
   }

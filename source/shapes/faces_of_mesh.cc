@@ -44,19 +44,46 @@ namespace Debond
 
   namespace
   {
-    /** Of values at the n x n nodes of a face the coefficients of Bernstein
-     *  polynomials, first one direction, then the other. */
+    /** Weights of the control points in the middle of lines along both
+     *  parameters of a face; opposite sides have the same. */
+    std::array<double, 2>
+    weights_along(const FileMesh                                       &mesh,
+                  const dealii::Triangulation<3>::active_cell_iterator &cell,
+                  const ContactFace                                    &face)
+    {
+      std::array<double, 2> result;
+      const unsigned int    first = face.number % 2 << face.across();
+      for (unsigned int d = 0; d < 2; ++d)
+        {
+          const auto found =
+            mesh.weights.find(vertices_of({0, 1}, [&](const unsigned int c) {
+              return cell->vertex_index(first + (c << face.axes[d]));
+            }));
+          result[d] = found == mesh.weights.end() ? 1. : found->second;
+        }
+      return result;
+    }
+
+
+
+    /** Of values at the n x n nodes of a face the control points, first one
+     *  direction, then the other: those in the middle of a line have the
+     *  weights @p w, those at its ends 1. */
     void
-    interpolate(Eigen::Matrix3Xd &x, const unsigned int n)
+    interpolate(Eigen::Matrix3Xd            &x,
+                const unsigned int           n,
+                const std::array<double, 2> &w)
     {
       if (n == 3)
-        for (const unsigned int step : {1, 3})
+        for (const unsigned int d : {0, 1})
           for (unsigned int line = 0; line < 3; ++line)
             {
-              const unsigned int first = line * (4 - step);
+              const unsigned int step  = d == 0 ? 1 : 3,
+                                 first = line * (4 - step);
               x.col(first + step) =
-                2. * x.col(first + step) -
-                0.5 * (x.col(first) + x.col(first + 2 * step));
+                ((1. + w[d]) * x.col(first + step) -
+                 0.5 * (x.col(first) + x.col(first + 2 * step))) /
+                w[d];
             }
     }
   } // namespace
@@ -80,6 +107,7 @@ namespace Debond
     std::map<dealii::types::global_dof_index, unsigned int> control_point_of;
     std::vector<std::vector<unsigned int>>                  faces;
     ControlNet                                              net(3, 0);
+    std::vector<double>                                     weights;
     for (const auto &[cell, number] : cells_at_contact_face(mesh.triangulation))
       {
         const ContactFace face   = ContactFace::of(number, side);
@@ -105,12 +133,19 @@ namespace Debond
               control_point_of.size());
             control_points.push_back(found.first->second);
           }
-        interpolate(x, n);
+        const auto w = degree == 2 ? weights_along(mesh, cell, face) :
+                                     std::array<double, 2>{{1., 1.}};
+        interpolate(x, n, w);
         net.conservativeResize(3, control_point_of.size());
+        weights.resize(net.cols());
         for (unsigned int k = 0; k < n * n; ++k)
-          net.col(control_points[k]) = x.col(k);
+          {
+            net.col(control_points[k]) = x.col(k);
+            weights[control_points[k]] =
+              (k % n == 1 ? w[0] : 1.) * (k / n == 1 ? w[1] : 1.);
+          }
         faces.push_back(std::move(control_points));
       }
-    return NurbsSurface(degree, faces, net);
+    return NurbsSurface(degree, faces, net, weights);
   }
 } // namespace Debond

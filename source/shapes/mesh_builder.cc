@@ -273,6 +273,10 @@ namespace Debond
                      at_place(x) + " and " + at_place(given.first->second) +
                      ": merge duplicate nodes");
           }
+    for (const StoredMesh::Arc &arc : stored.arcs)
+      mesh->weights[vertices_of({0, 1}, [&](const unsigned int c) {
+        return vertex[arc.ends[c]];
+      })] = arc.weight;
     std::vector<Point> on_face;
     for (const auto &[corners, face] : faces)
       if (face.id == Boundary::contact)

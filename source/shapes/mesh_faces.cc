@@ -56,7 +56,9 @@ namespace Debond
         {"contact", Boundary::contact},
         {"held", Boundary::held},
         {"slides x", Boundary::slides_x},
-        {"slides y", Boundary::slides_y}};
+        {"slides y", Boundary::slides_y},
+        {"slides z", Boundary::slides_z},
+        {"axial", Boundary::axial}};
       boost::to_lower(name, std::locale::classic());
       std::replace(name.begin(), name.end(), '_', ' ');
       std::replace(name.begin(), name.end(), '-', ' ');
@@ -138,7 +140,7 @@ namespace Debond
       if (given.count(id) == 0)
         refuse(std::string("no face is named ") + name + ": expected " +
                "groups of faces named contact and held, and slides x, "
-               "slides y if needed; there is " +
+               "slides y, slides z, axial if needed; there is " +
                (names.empty() ? "none" : names));
   }
 

@@ -1,9 +1,11 @@
 #include <debond/shapes/body_geometry.h>
 #include <debond/shapes/body_parameters.h>
 #include <debond/shapes/faces_of_mesh.h>
+#include <debond/shapes/mesh_builder.h>
+#include <debond/support/input_error.h>
 
 #include <algorithm>
-#include <tuple>
+#include <string>
 
 namespace Debond
 {
@@ -28,6 +30,11 @@ namespace Debond
       {
         return true;
       }
+      bool
+      is_lattice() const override
+      {
+        return false;
+      }
       std::vector<std::string>
       entries() const override
       {
@@ -37,25 +44,11 @@ namespace Debond
       void
       check(const BodyParameters &body, const EntryCheck &refuse) const override
       {
-        for (const auto &[is_set, entry, expected] :
-             {std::make_tuple(body.element == ElementKind::spline,
-                              "Element",
-                              "trilinear or quadratic"),
-              std::make_tuple(body.coarser_below, "Coarser below", "false"),
-              std::make_tuple(body.cells_under_implant > 0,
-                              "Cells under implant",
-                              "0"),
-              std::make_tuple(body.lateral_grading != 1.,
-                              "Lateral grading",
-                              "1"),
-              std::make_tuple(body.layer_grading != 1., "Layer grading", "1"),
-              std::make_tuple(body.bulk_solver == BulkSolver::lattice,
-                              "Bulk solver",
-                              "auto, direct or multigrid")})
-          refuse(is_set,
-                 entry,
-                 std::string("the cells are those of a file: expected ") +
-                   expected);
+        const std::string of_file = "the cells are those of a file";
+        refuse_entries_of_lattices(body, of_file, refuse);
+        refuse(body.layer_grading != 1.,
+               "Layer grading",
+               of_file + ": expected 1");
         refuse(body.mesh && body.mesh->order == 2 &&
                  body.element == ElementKind::trilinear,
                "Element",
@@ -75,6 +68,18 @@ namespace Debond
       {
         const auto &[lower, upper] = body.mesh->box.get_boundary_points();
         return std::max(-lower[2], upper[2]);
+      }
+
+      std::shared_ptr<const FileMesh>
+      make_mesh(const BodyParameters &body,
+                const BodyParameters &,
+                const std::string &section) const override
+      {
+        if (body.mesh_file.empty())
+          throw EntryError(section + " / Shape",
+                           "it needs the name of a file: " + section +
+                             " / Mesh file");
+        return read_mesh_file(body.mesh_file, section + " / Mesh file");
       }
 
       NurbsSurface

@@ -148,7 +148,7 @@ namespace Debond
       read_faces()
       {
         static const std::vector<std::string> names{
-          "", "contact", "held", "slides x", "slides y"};
+          "", "contact", "held", "slides x", "slides y", "slides z", "axial"};
         if (!find("CELL_DATA") || !find("MaterialID"))
           return;
         const bool is_field = at < words.size() && words[at] == "1";

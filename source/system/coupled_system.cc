@@ -78,9 +78,10 @@ namespace Debond
     , implant(*both_bodies->implant)
     , body{{&bone, &implant}}
     , chuck(parameters.chuck,
-            Eigen::Vector3d(0, 0, parameters.implant.thickness()),
+            Eigen::Vector3d(0, 0, parameters.implant.chuck_height()),
             parameters.implant.characteristic_radius())
     , interface(parameters.interface, bone.mesh(), implant.mesh())
+    , press_fit(parameters.interface, parameters.implant, implant.surface())
     , R(parameters.implant.characteristic_radius())
     , timer(timer)
     , force_floor(
@@ -107,7 +108,8 @@ namespace Debond
 
   // Where the control points of the two surfaces are in space [mm]: x = X + v
   // on the bone, whose frame stands still, and x = C + u + Q (X - C + v) on the
-  // implant. The contact law sees the bodies through these positions only.
+  // implant, where a press fit has its part in v. The contact law sees the
+  // bodies through these positions only.
   //
   // v is the displacement in the body's own frame, of the order of the elastic
   // deformation even after a full turn of the implant. Stored as positions in
@@ -118,9 +120,11 @@ namespace Debond
   {
     configuration.side[Side::bone].positions =
       bone.surface().control_points() + bone.contact_displacement();
+    ControlNet v = implant.contact_displacement();
+    if (!press_fit.is_none())
+      v += press_fit.offset();
     configuration.side[Side::implant].positions =
-      chuck.map_points(implant.surface().control_points(),
-                       implant.contact_displacement());
+      chuck.map_points(implant.surface().control_points(), v);
     configuration.side[Side::implant].frame = chuck.rotation();
   }
 
@@ -262,6 +266,7 @@ namespace Debond
       each->predict(parameter, extrapolate);
     chuck.predict(parameter, extrapolate);
     chuck.prescribe(time);
+    press_fit.set(time);
     trial_time = time;
     path.slip  = 0.;
   }
@@ -289,6 +294,8 @@ namespace Debond
     // from, taken while the trial states of the points are still there.
     path.old_slip = path_length();
     interface.commit(configuration);
+    press_fit.commit(chuck.rotation().transpose() *
+                     interface.force(Side::implant));
   }
 
 
@@ -303,6 +310,7 @@ namespace Debond
     for (Body *each : body)
       each->rollback();
     chuck.rollback();
+    press_fit.rollback();
   }
 
 

@@ -11,7 +11,8 @@ namespace Debond
     if (started)
       {
         const Chuck::Vector6 dq = state.position - last.position;
-        W += 0.5 * (state.forces + last.forces).dot(dq);
+        W += 0.5 * (state.forces + last.forces).dot(dq) + state.press_fit -
+             last.press_fit;
         bound +=
           0.5 * (state.forces - last.forces).cwiseAbs().dot(dq.cwiseAbs());
         // Sliding points work along the chords of their paths. With tractions

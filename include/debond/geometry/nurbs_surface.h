@@ -67,13 +67,15 @@ namespace Debond
                  const ControlNet          &control_points,
                  const std::vector<double> &weights);
 
-    /** Patches of one element each, such as the faces of a mesh, with weights
-     *  1: of each its (p+1)^2 control points, first index fastest. Patches meet
-     *  where the control points at both ends of their sides are the same.
-     *  Throws std::invalid_argument if more than two meet at a side. */
+    /** Patches of one element each, such as the faces of a mesh: of each its
+     *  (p+1)^2 control points, first index fastest. No weights: they are 1.
+     *  Patches meet where the control points at both ends of their sides are
+     *  the same. Throws std::invalid_argument if more than two meet at a side.
+     */
     NurbsSurface(unsigned int                                  degree,
                  const std::vector<std::vector<unsigned int>> &faces,
-                 const ControlNet                             &control_points);
+                 const ControlNet                             &control_points,
+                 const std::vector<double>                    &weights = {});
 
     unsigned int
     degree() const
@@ -114,6 +116,13 @@ namespace Debond
     has_ridges() const
     {
       return degree() == 1 || !is_one_patch();
+    }
+
+    /** Whether it lies in a plane z = const. */
+    bool
+    is_level() const
+    {
+      return (points.row(2).array() == points(2, 0)).all();
     }
 
     /** Of one patch; of several that of each. */

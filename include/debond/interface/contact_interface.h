@@ -325,6 +325,8 @@ namespace Debond
     {
       return *pattern;
     }
+    const BodyParameters &
+    implant() const;
     const InterfaceParameters &
     get_parameters() const
     {
@@ -443,6 +445,7 @@ namespace Debond
     const ContactPointLaw            law;
     const Side                       slave;
     std::array<const BulkSpace *, 2> mesh;
+    const bool                       master_is_level;
     const unsigned int               n; ///< points per direction, element
     std::vector<SlavePoint>          points;
     /** Of each point, by laws that hold one; else empty. */

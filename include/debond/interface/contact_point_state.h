@@ -59,6 +59,8 @@ namespace Debond
     const ControlNet   *positions = nullptr; ///< spatial [mm]
     /** +-1 such that this times a_1 x a_2 points to the slave. */
     double outward_sign = 1;
+    /** Whether it is a plane z = const at rest. */
+    bool is_level = false;
   };
 
   /** How the update is to be done. */

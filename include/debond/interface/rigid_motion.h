@@ -30,11 +30,23 @@ namespace Debond
       return slave == Side::implant ? motion : Eigen::Vector3d(-motion);
     }
 
+    /** The master's normal towards the slave where a point was, carried along
+     *  with the master to the end, and whether it is the same everywhere. */
+    struct Normal
+    {
+      Eigen::Vector3d n;
+      bool            is_same = true;
+    };
+
     /** The angle by which it turns the way of a point of the slave that was at
-     *  @p x over the master, about the master's axis towards the slave at the
-     *  end [rad]. */
+     *  @p x over the master, about the @p normal [rad]. Where that differs from
+     *  place to place it turns with the slave, and the way is straight if it is
+     *  so in the plane that rolls along: about an axis, on a cylinder, it is.
+     */
     double
-    turn_of_way(const Eigen::Vector3d &x, Side slave) const;
+    turn_of_way(const Eigen::Vector3d &x,
+                Side                   slave,
+                const Normal          &normal) const;
 
     /** Derivatives of that angle by the place of the implant at the end. */
     struct TurnGradient
@@ -43,22 +55,25 @@ namespace Debond
       Eigen::Vector3d spin = Eigen::Vector3d::Zero(); ///< by that of the frame
     };
     TurnGradient
-    gradient_of_turn(const Eigen::Vector3d &x, Side slave) const;
+    gradient_of_turn(const Eigen::Vector3d &x,
+                     Side                   slave,
+                     const Normal          &normal) const;
 
     Eigen::Matrix3d turn;               ///< from beginning to end
     Eigen::Vector3d axis;               ///< of the turn, times its angle [rad]
     Eigen::Vector3d old_centre, centre; ///< [mm]
-    Eigen::Vector3d implant_axis;       ///< e_z of its frame at the end
 
   private:
     /** Velocities over the master at both ends of the step, times its duration
-     *  [mm], and the master's axis. */
+     *  [mm], the first one rolled to the end; the normal there; and how the
+     *  first one was rolled. */
     struct Way
     {
       Eigen::Vector3d n, first, last;
+      Eigen::Matrix3d rolled;
     };
     Way
-    way(const Eigen::Vector3d &x, Side slave) const;
+    way(const Eigen::Vector3d &x, Side slave, const Normal &normal) const;
   };
 } // namespace Debond
 #endif

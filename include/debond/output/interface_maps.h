@@ -4,6 +4,9 @@
 #include <debond/output/profile_output.h>
 #include <debond/output/torque_curve.h>
 
+#include <Eigen/Core>
+
+#include <array>
 #include <functional>
 #include <set>
 #include <string>
@@ -73,8 +76,8 @@ namespace Debond
     const bool   wanted;
     const double radius; ///< R [mm], of a torque's force
     const bool   is_round, is_mesh;
-    const double half_x, half_y; ///< of the grid [mm]
-    const bool   pulls;          ///< the law has strength in tension
+    const std::array<Eigen::Vector2d, 2> box; ///< of the grid [mm]
+    const bool   pulls; ///< the law has strength in tension
     unsigned int n_rows    = 0;
     double       first_phi = 0.,
            largest_load    = 0.;    ///< [N], of a snapshot

@@ -4,20 +4,24 @@
 #include <debond/geometry/nurbs_surface.h>
 #include <debond/shapes/side.h>
 
+#include <array>
+#include <cmath>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace Debond
 {
   struct BodyParameters;
+  struct FileMesh;
 
   /**
    * A shape of a body: its contact face, its size, and what the scene says of
    * it. There is one of each shape, in a file of its own; the numbers are those
    * of the body's parameters.
    *
-   * A shape that is not that of a mesh has a contact face of cells[0] x
+   * A shape without a mesh of its own has a contact face of cells[0] x
    * cells[1] elements, which touches z = 0 with its centre at the origin, and a
    * flat far face at the distance thickness(). Its cells stand in columns
    * between them.
@@ -39,6 +43,11 @@ namespace Debond
     is_for_bone() const
     {
       return false;
+    }
+    virtual bool
+    is_for_implant() const
+    {
+      return true;
     }
     /** Entries that give its size; the first one says how wide it is. */
     virtual std::vector<std::string>
@@ -62,6 +71,43 @@ namespace Debond
     /** How far it reaches from the axis while it turns. */
     virtual double
     reach(const BodyParameters &body) const;
+    /** Height of the chuck's centre. */
+    virtual double
+    chuck_height(const BodyParameters &body) const
+    {
+      return thickness(body);
+    }
+    /** Radius of the contact face at the height @p z, and at an @p angle from
+     *  the x axis [rad], of an implant that is in the bone with its side; 0 of
+     *  others. */
+    virtual double
+    radius_of_side(const BodyParameters &, double /*z*/, double /*angle*/) const
+    {
+      return 0.;
+    }
+    bool
+    has_side(const BodyParameters &body) const
+    {
+      return radius_of_side(body, 0., 0.) > 0.;
+    }
+    /** How a point @p X of that face, or one of its control points, moves while
+     *  the radius grows, per length. */
+    virtual Eigen::Vector3d
+    outwards(const BodyParameters &body, const Eigen::Vector3d &X) const
+    {
+      return Eigen::Vector3d(X[0], X[1], 0.) /
+             radius_of_side(body, X[2], std::atan2(X[1], X[0]));
+    }
+    /** Where a point of the contact face is in the face's own two coordinates
+     *  [mm], for patterns and maps: x and y, or around a side and along z. */
+    virtual Eigen::Vector2d
+    on_face(const BodyParameters &, const Eigen::Vector3d &X) const
+    {
+      return X.head<2>();
+    }
+    /** The rectangle around the face in these. */
+    virtual std::array<Eigen::Vector2d, 2>
+    box_of_face(const BodyParameters &body) const;
     /** Area of the contact face [mm^2] where there is a closed form; 0: the sum
      *  of its elements. */
     virtual double
@@ -78,6 +124,18 @@ namespace Debond
     }
     //@}
 
+    /** Whether its cells stand in columns: it has no mesh. */
+    virtual bool
+    is_lattice() const
+    {
+      return true;
+    }
+    /** Whether a side is round. */
+    virtual bool
+    is_round_about_axis() const
+    {
+      return true;
+    }
     /** Whether the contact face is a circle seen from above. */
     virtual bool
     is_round() const
@@ -91,10 +149,26 @@ namespace Debond
       return false;
     }
 
-    /** The contact face in the reference configuration. */
+    /** The cells of a shape that are no lattice, else null. A bone may have a
+     *  bore for the @p implant. Throws EntryError; @p section is "Bone" or
+     *  "Implant". */
+    virtual std::shared_ptr<const FileMesh>
+    make_mesh(const BodyParameters &body,
+              const BodyParameters &implant,
+              const std::string    &section) const;
+
+    /** The contact face in the reference configuration, once there are cells.
+     */
     virtual NurbsSurface
     contact_face(const BodyParameters &body, Side side) const = 0;
   };
+
+  /** Refuses what belongs to cells in columns, with the @p reason why the
+   *  shape of @p body has none. */
+  void
+  refuse_entries_of_lattices(const BodyParameters           &body,
+                             const std::string              &reason,
+                             const BodyGeometry::EntryCheck &refuse);
 
   /** All shapes, in the order of BodyShape. */
   const std::vector<const BodyGeometry *> &

@@ -23,7 +23,19 @@ namespace Debond
     coin,
     cap,
     block,
-    file
+    file,
+    pin,
+    sleeve,
+    taper,
+    screw
+  };
+  /** How both ends of a sleeve are held. */
+  enum class SleeveEnds
+  {
+    free,
+    slide, ///< no motion along the axis
+    axial, ///< only motion along the axis
+    held
   };
   /** In the order of their cost, and of the choices of the entry. Those after
    *  `linear' have large strains. */
@@ -58,15 +70,21 @@ namespace Debond
   {
     BodyShape             shape = BodyShape::block;
     std::array<double, 3> size{{12.5, 12.5, 5}}; ///< block [mm]
-    double                radius     = 2.5;      ///< coin, cap [mm]
-    double                height     = 3;        ///< coin, cap: axis [mm]
-    double                cap_radius = 50;       ///< of the sphere [mm]
-    /** `Mesh file`, and what is in it if the shape is that of a file; see
-     *  read_mesh(). */
-    std::string                     mesh_file;
+    double                radius       = 2.5;    ///< coin, cap, pin [mm]
+    double                inner_radius = 0;      ///< pin [mm]; 0: solid
+    double                outer_radius = 10;     ///< sleeve [mm]
+    /** Coin, cap, pin: on the axis; sleeve, where 0 is that of the pin [mm]. */
+    double       height      = 0;
+    SleeveEnds   ends        = SleeveEnds::free;
+    double       taper_angle = 3;               ///< half of the cone's [deg]
+    double       pitch = 1, thread_depth = 0.2; ///< screw [mm]
+    unsigned int starts     = 1;                ///< screw
+    double       cap_radius = 50;               ///< of the sphere [mm]
+    std::string  mesh_file;
+    /** Of a shape that is no lattice; see make_mesh(). */
     std::shared_ptr<const FileMesh> mesh;
     /** Number of cells in x, y, z; z along the axis (`Cells = n, m` becomes
-     *  n, n, m). */
+     *  n, n, m). Around, radial and along of pin and sleeve. */
     std::array<unsigned int, 3> cells{{15, 15, 2}};
     ElementKind                 element         = ElementKind::trilinear;
     double                      lateral_grading = 1; ///< bone
@@ -115,6 +133,9 @@ namespace Debond
      *  reaches from z = 0. */
     double
     thickness() const;
+    /** Of the chuck's centre at rest [mm]. */
+    double
+    chuck_height() const;
     /** A tenth of the thickness [mm]: what penetrates deeper has most likely a
      *  wrong unit. */
     double
@@ -155,9 +176,10 @@ namespace Debond
     std::array<std::array<double, 3>, 2>
     corners_of_bone() const;
 
-    /** Reads the mesh if the shape is that of a file. Throws EntryError. */
+    /** Makes or reads the mesh of a shape that has one; see
+     *  BodyGeometry::make_mesh(). Throws EntryError. */
     void
-    read_mesh(const std::string &section);
+    make_mesh(const std::string &section, const BodyParameters &implant);
     /** Makes `modulus` and the mean young_modulus of the expression and the
      *  voxels, if there are any. @p radius: R of the expression [mm]. Throws
      *  EntryError. */

@@ -16,6 +16,8 @@ namespace Debond
     constexpr Id held     = 2; ///< does not move
     constexpr Id slides_x = 3; ///< held along x only
     constexpr Id slides_y = 4; ///< held along y only
+    constexpr Id slides_z = 5; ///< held along z only
+    constexpr Id axial    = 6; ///< moves along z only
   }                            // namespace Boundary
 } // namespace Debond
 #endif

@@ -46,6 +46,9 @@ namespace Debond
     using Vertices = std::array<unsigned int, 8>;
     /** Nodes in the middle of edges, faces and cells, of order 2. */
     std::map<Vertices, dealii::Point<3>> middles;
+    /** Of edges of the contact face that are arcs, the weight of the control
+     *  point in their middle; of all others it is 1. */
+    std::map<Vertices, double> weights;
   };
 
   /** Of the corners @p numbers of a cell with these vertices. */

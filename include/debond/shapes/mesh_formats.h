@@ -47,6 +47,15 @@ namespace Debond
     /** Corners of the faces of each named group. Of a triangle the last one is
      *  none. */
     std::map<std::string, std::vector<std::array<unsigned int, 4>>> groups;
+    /** Edges of the contact face that are arcs of circles, exactly: both ends,
+     *  and the weight of the control point between, the cosine of half the
+     *  angle. */
+    struct Arc
+    {
+      std::array<unsigned int, 2> ends;
+      double                      weight;
+    };
+    std::vector<Arc> arcs;
 
     /** One with nodes at these places. */
     void
@@ -63,7 +72,7 @@ namespace Debond
   StoredMesh
   read_abaqus_mesh(const std::string &filename, const FileRefusal &refuse);
 
-  /** Legacy files of VTK: the groups are 1 to 4 of the data MaterialID of
+  /** Legacy files of VTK: the groups are 1 to 6 of the data MaterialID of
    *  quadrilaterals, the boundary ids. */
   StoredMesh
   read_vtk_mesh(const std::string &filename, const FileRefusal &refuse);

@@ -6,6 +6,7 @@
 #include <debond/interface/contact_interface.h>
 #include <debond/system/coupled_tangent.h>
 #include <debond/system/load_step_parameters.h>
+#include <debond/system/press_fit.h>
 #include <debond/system/whole_solver.h>
 
 #include <memory>
@@ -251,6 +252,7 @@ namespace Debond
     const std::array<Body *, 2> body; ///< the two by their side
     Chuck                       chuck;
     ContactInterface            interface;
+    PressFit                    press_fit;
     /** Surfaces in space as of the last evaluate() or commit(). */
     InterfaceConfiguration configuration;
     const double           R; ///< characteristic radius of the implant [mm]
@@ -260,7 +262,7 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &bone &implant &chuck &interface;
+      archive &bone &implant &chuck &interface &press_fit;
       archive &path.old_slip &trial_time;
       for (Body::Residual &residual : bulk_residual)
         {

@@ -15,13 +15,14 @@ namespace Debond
     double         stored     = 0; ///< [N mm]
     double         dissipated = 0; ///< [N mm]
     double         bound = 0; ///< of errors of the two above, sum so far [N mm]
+    double         press_fit = 0; ///< work of an interference [N mm]
 
     /** See serialization.h. */
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &forces &position &stored &dissipated &bound;
+      archive &forces &position &stored &dissipated &bound &press_fit;
     }
   };
 
@@ -29,11 +30,11 @@ namespace Debond
 
   /**
    * The energy balance W = E_bulk + E_interface + D, counted from the first
-   * row. W is the work of the chuck, a trapezoid of the generalised forces over
-   * the motion of the six components; the trapezoid's own error is bounded by
-   * half the sum of |dF| |dq|. The bound of one phase of the load, a push-in in
-   * one step say, is no excuse for a fault in another one: each is judged by
-   * what is gathered in it.
+   * row. W is the work of an interference that changes and that of the chuck, a
+   * trapezoid of the generalised forces over the motion of the six components;
+   * the trapezoid's own error is bounded by half the sum of |dF| |dq|. The
+   * bound of one phase of the load, a push-in in one step say, is no excuse for
+   * a fault in another one: each is judged by what is gathered in it.
    */
   class EnergyBalance
   {

@@ -1,0 +1,102 @@
+#include <debond/shapes/body_parameters.h>
+#include <debond/shapes/revolved_shape.h>
+#include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
+
+namespace Debond
+{
+  namespace
+  {
+    /** Bone around the side of an implant. */
+    class Sleeve : public RevolvedShape
+    {
+    public:
+      std::string
+      name() const override
+      {
+        return "sleeve";
+      }
+      std::string
+      description() const override
+      {
+        return "a tube around the side of the implant, given by Outer radius "
+               "and Height, whose top is at z = 0; its outer face is held, and "
+               "its ends as Ends says";
+      }
+      bool
+      is_for_bone() const override
+      {
+        return true;
+      }
+      bool
+      is_for_implant() const override
+      {
+        return false;
+      }
+      std::vector<std::string>
+      entries() const override
+      {
+        return {"Outer radius", "Height", "Ends"};
+      }
+
+      void
+      check(const BodyParameters &body, const EntryCheck &refuse) const override
+      {
+        check_cells(body, false, refuse);
+      }
+
+      double
+      width(const BodyParameters &body, const unsigned int) const override
+      {
+        return 2. * body.outer_radius;
+      }
+
+    protected:
+      RevolvedBody
+      revolved(const BodyParameters &body,
+               const BodyParameters &implant) const override
+      {
+        const BodyGeometry &inside = implant.geometry();
+        RevolvedBody        result;
+        result.height = body.height > 0. ? body.height : implant.height;
+        if (!inside.has_side(implant))
+          throw EntryError("Bone / Shape",
+                           "a sleeve is around the side of an implant, and a " +
+                             inside.name() +
+                             " touches bone below it: expected a block, or "
+                             "another Implant / Shape");
+        if (const double r = 0.5 * inside.width(implant, 0);
+            r >= body.outer_radius)
+          throw EntryError("Bone / Outer radius",
+                           "the implant fills it: expected more than " +
+                             to_text(r) + " mm",
+                           to_text(body.outer_radius));
+        if (!(inside.radius_of_side(implant, -result.height, 0.) > 0.))
+          throw EntryError("Bone / Height",
+                           "it is beyond the tip of the implant",
+                           to_text(result.height));
+        result.is_round = inside.is_round_about_axis();
+        result.inner = [&implant, &inside](const double z, const double angle) {
+          return inside.radius_of_side(implant, z, angle);
+        };
+        result.outer = [&body](double, double) { return body.outer_radius; };
+        result.contact_is_inner = true;
+        result.opposite         = "held";
+        // as the files of meshes call it
+        static const char *const names[]{"free", "slides z", "axial", "held"};
+        result.bottom = result.top =
+          names[static_cast<unsigned int>(body.ends)];
+        return result;
+      }
+    };
+  } // namespace
+
+
+
+  const BodyGeometry &
+  sleeve_geometry()
+  {
+    static const Sleeve sleeve;
+    return sleeve;
+  }
+} // namespace Debond

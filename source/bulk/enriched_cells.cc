@@ -40,7 +40,13 @@ namespace Debond
     std::shared_ptr<const HyperelasticMaterial> material)
     : mesh(mesh)
     , bulk_material(std::move(material))
-    , line(mesh.degree() == 2 && !mesh.has_splines() ? 3 : 2)
+    // nine control points of a patch that shares its border only have motions
+    // that two points along an edge do not see
+    , line(
+        (mesh.degree() == 2 && !mesh.has_splines()) ||
+            (mesh.surface().degree() == 2 && !mesh.surface().is_one_patch()) ?
+          3 :
+          2)
     , quadrature(line.size())
   {
     const BodyParameters    &body = mesh.parameters();

@@ -177,10 +177,27 @@ namespace Debond
       Tension
       tension() const override
       {
-        return {N, G_I, K, N / (2. * G_I / N - N / K), N / K};
+        return {N, G_I, K, softening(), N / K};
       }
 
     private:
+      /** The steepest fall of the traction along any straight gap [MPa/mm]:
+       *  K/(r - 1), in mode I N / (2 G_I/N - N/K). */
+      double
+      softening() const
+      {
+        constexpr unsigned int n_mixtures = 64;
+        double                 result     = 0., slope;
+        for (unsigned int i = 0; i <= n_mixtures; ++i)
+          {
+            const double B = static_cast<double>(i) / n_mixtures,
+                         r = 2. * energy(B, slope) * K *
+                             ((1. - B) / (N * N) + B / (T * T));
+            result = std::max(result, K / (r - 1.));
+          }
+        return result;
+      }
+
       /** G [N/mm] of the criterion, by the share B of the squared gap that lies
        *  along the face; and dG/dB. */
       double

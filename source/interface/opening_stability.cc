@@ -15,8 +15,7 @@ namespace Debond
     if (joint.is_cohesive())
       {
         const CohesiveShare *const share = held_share(point);
-        return share && share->damage > point.accepted.damage &&
-               share->normal.dot(share->bears) > 0.;
+        return share && share->damage > point.accepted.damage;
       }
     return joint.pulls() && point.phi_0 > 0. &&
            point.trial.state.status != PointStatus::open &&
@@ -31,7 +30,8 @@ namespace Debond
   // 1, C being the compliance of the bodies: tractions to gaps, both normal to
   // the face. Power iteration finds it, as compliance falls with the wave
   // number. The bodies move along the face as they like: that no friction holds
-  // them can but raise it.
+  // them can but raise it. A share that is held softens in all directions, and
+  // counts tractions and gaps in all of them.
   double
   ContactInterface::compliance_of_opening(
     const InterfaceConfiguration &configuration,
@@ -41,20 +41,26 @@ namespace Debond
     struct Place
     {
       const SlavePoint *point;
-      SurfaceBasis      basis; ///< of the master
-      Eigen::Vector3d   normal;
-      double            traction; ///< [MPa]
+      SurfaceBasis      basis;    ///< of the master
+      Eigen::Matrix3d   opens;    ///< projection on what opens the bond
+      Eigen::Vector3d   traction; ///< [MPa]
     };
     const MasterSurface surface = master(configuration);
     std::vector<Place>  places;
     for (const SlavePoint &point : points)
       if (point.phi_0 > 0. && point.trial.state.has_partner)
         {
-          Place           place{&point, {}, {}, point.phi_0};
+          Place           place{&point, {}, Eigen::Matrix3d::Identity(), {}};
           SurfaceGeometry geometry;
           surface.surface->evaluate(point.trial.state.xi, place.basis, false);
           contract(place.basis, *surface.positions, false, geometry);
-          place.normal = MasterNormal(geometry, surface.outward_sign).n;
+          const Eigen::Vector3d n =
+            MasterNormal(geometry, surface.outward_sign).n;
+          if (!law.joint->is_cohesive())
+            place.opens = n * n.transpose();
+          // not along a motion that is none of the bodies
+          place.traction =
+            point.phi_0 * place.opens * Eigen::Vector3d(0.4, 0.5, 1.);
           places.push_back(place);
         }
     constexpr unsigned int most_iterations = 100;
@@ -66,11 +72,10 @@ namespace Debond
         double    squared = 0., gaps_squared = 0.;
         for (const Place &place : places)
           {
-            const Eigen::Vector3d f =
-              place.point->JxW * place.traction * place.normal;
+            const Eigen::Vector3d f = place.point->JxW * place.traction;
             spread(place.point->basis, f, forces[slave]);
             spread(place.basis, -f, forces[master_side()]);
-            squared += place.point->JxW * place.traction * place.traction /
+            squared += place.point->JxW * place.traction.squaredNorm() /
                        place.point->phi_0;
           }
         Eigen::VectorXd loads = Eigen::VectorXd::Zero(n_unknowns);
@@ -78,10 +83,11 @@ namespace Debond
         const NodalSums motion = nodal_motion(solve(loads), configuration);
         for (Place &place : places)
           {
-            const double gap =
-              place.normal.dot(interpolate(place.point->basis, motion[slave]) -
-                               interpolate(place.basis, motion[master_side()]));
-            gaps_squared += place.point->JxW * place.point->phi_0 * gap * gap;
+            const Eigen::Vector3d gap =
+              place.opens * (interpolate(place.point->basis, motion[slave]) -
+                             interpolate(place.basis, motion[master_side()]));
+            gaps_squared +=
+              place.point->JxW * place.point->phi_0 * gap.squaredNorm();
             place.traction = place.point->phi_0 * gap;
           }
         const double before = compliance;

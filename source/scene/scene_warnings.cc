@@ -402,9 +402,13 @@ namespace Debond
                entry + " is " + to_text(values[0]) + " at all times from " +
                  to_text(times.front()) + " to " + to_text(times.back()) +
                  ", and changes later: do Load steps / Times end too early?");
-          if (k < ChuckComponent::translation_z && !component.loaded)
+          // in a bore there is no push, and no rim that leaves the bone
+          const bool is_above =
+            !scene.implant.geometry().has_side(scene.implant);
+          if (is_above && k < ChuckComponent::translation_z &&
+              !component.loaded)
             judge_crossing(scene, k, entry, values, note);
-          if (k == ChuckComponent::translation_z)
+          if (is_above && k == ChuckComponent::translation_z)
             judge_push(scene, entry, values, note);
           if (k == ChuckComponent::rotation_z)
             judge_rotation(scene, entry, values, note);

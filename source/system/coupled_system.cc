@@ -707,9 +707,14 @@ namespace Debond
     ControlNet arm          = implant.surface().control_points().colwise() - C;
     if (!implant.has_small_strains())
       arm += implant.contact_displacement();
-    Chuck::Vector6 contact =
-      resultant(chuck.rotation().transpose() * interface.force(Side::implant),
-                arm);
+    // what acts where the body is held does not pass through it
+    ControlNet force =
+      chuck.rotation().transpose() * interface.force(Side::implant);
+    for (unsigned int A = 0; A < force.cols(); ++A)
+      for (unsigned int c = 0; c < 3; ++c)
+        if (implant.mesh().is_fixed(implant.mesh().control_point_node(A), c))
+          force(c, A) = 0.;
+    Chuck::Vector6 contact    = resultant(force, arm);
     Chuck::Vector6 support    = support_reaction(Side::implant, C);
     Chuck::Vector6 difference = contact - support;
     for (Chuck::Vector6 *forces : {&contact, &support, &difference})

@@ -71,6 +71,14 @@ check_compliance()
                  0.5 * (bar + 25. / 10000.)),
          1e-3);
   report("rigid bodies", compliance({"Bone/Material=rigid"}) == 0.);
+  const std::vector<std::string> sideways{
+    "Bone/Material=rigid", "Chuck/Translation x/Stiffness=10000"};
+  report("along the face nothing opens", compliance(sideways) == 0.);
+  std::vector<std::string> sheared = sideways;
+  sheared.push_back("Interface/Law=mixed mode");
+  report("but breaks a share that is held",
+         differs(compliance(sheared), 25. / 10000.),
+         1e-3);
   report("a chuck under a load",
          std::isinf(compliance({"Chuck/Translation z/Control=force",
                                 "Chuck/Translation z/Value=0.1 * t"})));
@@ -105,11 +113,45 @@ check_warning()
 
 
 
+// A machine of 10000 N/mm shears a face of 25 mm^2 between rigid blocks: it
+// holds with 400 MPa/mm. In pure shear a bilinear bond falls by T / (2 G_II/T -
+// T/K), in mode I far more slowly.
+void
+check_shear()
+{
+  const double T = 5., K = 10000.;
+  for (const double softening : {0.95 * 400., 1.05 * 400.})
+    {
+      const double G      = 0.5 * T * (T / softening + T / K);
+      bool         warned = false;
+      for (const TorqueRow &row : run_scene(
+             "opening_stability",
+             blocks,
+             {"Bone/Material=rigid",
+              "Interface/Law=mixed mode",
+              "Interface/Mixed mode/Stiffness=" + std::to_string(K),
+              "Interface/Mixed mode/Shear strength=" + std::to_string(T),
+              "Interface/Mixed mode/Fracture energy I=1",
+              "Interface/Mixed mode/Fracture energy II=" + std::to_string(G),
+              "Chuck/Translation z/Value=0",
+              "Chuck/Translation x/Value=0.05 * t",
+              "Chuck/Translation x/Stiffness=10000"}))
+        warned = warned || row.warnings > 0;
+      report(softening < 400. ?
+               "no warning of a sheared bond that falls more slowly" :
+               "a warning of one that falls faster",
+             warned == (softening > 400.));
+    }
+}
+
+
+
 int
 main()
 {
   return run_test([] {
     check_compliance();
     check_warning();
+    check_shear();
   });
 }

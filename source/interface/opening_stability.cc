@@ -13,10 +13,7 @@ namespace Debond
   {
     const InterfaceLaw &joint = *law.joint;
     if (joint.is_cohesive())
-      {
-        const CohesiveShare *const share = held_share(point);
-        return share && share->damage > point.accepted.damage;
-      }
+      return point.trial.state.damage > point.accepted.damage;
     return joint.pulls() && point.phi_0 > 0. &&
            point.trial.state.status != PointStatus::open &&
            joint.opened(point.trial.state) >

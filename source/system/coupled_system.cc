@@ -727,6 +727,18 @@ namespace Debond
 
 
 
+  namespace
+  {
+    bool
+    opens_face(const unsigned int k)
+    {
+      return k == ChuckComponent::translation_z ||
+             k == ChuckComponent::rotation_x || k == ChuckComponent::rotation_y;
+    }
+  } // namespace
+
+
+
   // The compliances of bodies and machine add up, and the largest eigenvalue of
   // the sum is not more than the sum of the largest ones.
   double
@@ -753,10 +765,9 @@ namespace Debond
       interface.compliance_of_opening(at_rest,
                                       bone.n_unknowns() + implant.n_unknowns(),
                                       solve);
-    for (const unsigned int k : {ChuckComponent::translation_z,
-                                 ChuckComponent::rotation_x,
-                                 ChuckComponent::rotation_y})
+    for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
       if (const auto &unknown = chuck.unknowns();
+          (opens_face(k) || interface.get_law().is_cohesive()) &&
           !chuck.is_prescribed(k) &&
           std::find(unknown.begin(), unknown.end(), k) != unknown.end())
         compliance += interface.mean_seen_bonding() * interface.implant_area() *

@@ -1,0 +1,206 @@
+// Pin, taper and screw, and the sleeves around them.
+// - Contact faces: circles and cones are exact, threads fall with the order of
+//   the faces; normals point out of the bodies; the face of a bore is that of
+//   the implant; a thicker implant has the larger radius, exactly.
+// - Cells: uniform strain leaves no force inside (patch test) but for what
+// Gauss
+//   points miss of rational functions, which falls; the sum of all forces is
+//   zero, and volumes tend to those of the bodies.
+
+#include <debond/bulk/bulk_space.h>
+#include <debond/bulk/enriched_cells.h>
+#include <debond/bulk/neo_hookean.h>
+#include <debond/scene/scene.h>
+#include <debond/shapes/body_geometry.h>
+
+#include <cmath>
+
+#include "checks.h"
+
+using namespace Debond;
+
+Scene
+scene_of(const std::string &shape, const unsigned int n)
+{
+  const std::string        cells = std::to_string(8 * n);
+  std::vector<std::string> entries{"Bone/Cells=" + cells + ", 3, " +
+                                     std::to_string(4 * n),
+                                   "Implant/Cells=" + cells + ", 2, " +
+                                     std::to_string(4 * n)};
+  if (shape == "screw")
+    entries.push_back("Implant/Pitch=3"); // a turn
+  return Scene::from_text("subsection Bone\n"
+                          " set Shape = sleeve\n"
+                          " set Outer radius = 6\n"
+                          " set Element = quadratic\n"
+                          "end\n"
+                          "subsection Implant\n"
+                          " set Shape = " +
+                            shape +
+                            "\n"
+                            " set Radius = 2\n"
+                            " set Height = 3\n"
+                            " set Element = quadratic\n"
+                            "end\n"
+                            "subsection Chuck\n"
+                            " subsection Rotation z\n"
+                            "  set Value = t\n"
+                            " end\n"
+                            "end\n",
+                          entries);
+}
+
+
+
+/** Largest distance of points of a face from the side of the implant, along the
+ *  radius; whether normals point out of the body. */
+double
+distance_from_side(const BodyParameters &implant,
+                   const BodyParameters &body,
+                   const Side            side,
+                   bool                 &points_outwards)
+{
+  const NurbsSurface face   = make_contact_surface(body, side);
+  double             result = 0.;
+  for (const auto &point : surface_quadrature(face, 6))
+    {
+      const auto  &X = point.X;
+      const double r =
+        implant.geometry().radius_of_side(implant,
+                                          X[2],
+                                          std::atan2(X[1], X[0]));
+      grow(result, std::abs(std::hypot(X[0], X[1]) - r));
+      SurfaceGeometry geometry;
+      contract(point.basis, face.control_points(), false, geometry);
+      const double outwards =
+        (side == Side::bone ? 1. : -1.) *
+        geometry.a1.cross(geometry.a2).head<2>().dot(X.head<2>());
+      points_outwards =
+        points_outwards && (side == Side::implant) == (outwards > 0.);
+    }
+  return result;
+}
+
+
+
+/** Largest force at nodes inside, and the sum of all, for a uniform strain,
+ * over the largest at all; and the volume. */
+struct Patch
+{
+  double inside = 0, sum = 0, volume = 0;
+};
+Patch
+patch_test(const BodyParameters &body, const Side side, const bool is_hollow)
+{
+  const BulkSpace     mesh(body, side);
+  const NeoHookean    material = NeoHookean::from_young(18000., 0.3);
+  const EnrichedCells cells(mesh, material_of(material));
+  Eigen::Matrix3d     H;
+  H << 2e-3, -1e-3, 3e-3, 4e-3, 1e-3, -2e-3, 1e-3, 5e-3, -3e-3;
+  Eigen::VectorXd v(3 * mesh.n_nodes());
+  for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
+    v.segment<3>(3 * node) = H * mesh.reference_position(node);
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(v.size());
+  double          energy;
+  cells.internal_forces(v, force, energy);
+  mesh.condense(force);
+
+  Patch           result;
+  Eigen::Vector3d sum     = Eigen::Vector3d::Zero();
+  const double    largest = force.lpNorm<Eigen::Infinity>();
+  for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
+    {
+      const Eigen::Vector3d &X       = mesh.reference_position(node);
+      const double           r       = X.head<2>().norm();
+      const bool             at_axis = !is_hollow && r < 1.5;
+      sum += force.segment<3>(3 * node);
+      if (X[2] > -2.99 && X[2] < -0.01 &&
+          (at_axis || (side == Side::bone && r > 2.4 && r < 5.9)))
+        grow(result.inside, force.segment<3>(3 * node).norm() / largest);
+    }
+  result.sum    = sum.norm() / largest;
+  result.volume = cells.volume();
+  return result;
+}
+
+
+
+void
+check(const std::string &shape, const double volume)
+{
+  std::cout << shape << std::endl;
+  double distance[2], of_volume[2], inside[2] = {0., 0.}, sum = 0.;
+  bool   points_outwards = true;
+  for (unsigned int n = 1; n <= 2; ++n)
+    {
+      const Scene  scene   = scene_of(shape, n);
+      const double of_bone = distance_from_side(scene.implant,
+                                                scene.bone,
+                                                Side::bone,
+                                                points_outwards);
+      distance[n - 1]      = distance_from_side(scene.implant,
+                                           scene.implant,
+                                           Side::implant,
+                                           points_outwards);
+      grow(distance[n - 1], of_bone);
+      const Patch implant = patch_test(scene.implant, Side::implant, false),
+                  bone    = patch_test(scene.bone, Side::bone, true);
+      for (const Patch &one : {implant, bone})
+        {
+          grow(inside[n - 1], one.inside);
+          grow(sum, one.sum);
+        }
+      of_volume[n - 1] =
+        std::abs(implant.volume / volume - 1.) +
+        std::abs(bone.volume / (M_PI * 36. * 3. - volume) - 1.);
+    }
+  if (shape == "screw")
+    report("  order of the thread", std::log2(distance[0] / distance[1]) > 2.5);
+  else
+    report("  distance from circles [mm]", distance[1], 1e-14);
+  report("  normals point out of the bodies", points_outwards);
+  report("  order of volumes", std::log2(of_volume[0] / of_volume[1]) > 3.);
+  if (shape == "screw")
+    report("  forces inside", inside[1], 1e-12);
+  else
+    report("  order of forces inside", std::log2(inside[0] / inside[1]) > 3.);
+  report("  sum of forces", sum, 1e-12);
+}
+
+
+
+// Every point of the face, which is that of its control points, moves along the
+// radius.
+void
+check_press_fit(const std::string &shape)
+{
+  const Scene           scene   = scene_of(shape, 1);
+  const BodyParameters &implant = scene.implant;
+  const NurbsSurface    face    = make_contact_surface(implant);
+  ControlNet            grown   = face.control_points();
+  for (unsigned int A = 0; A < grown.cols(); ++A)
+    grown.col(A) +=
+      0.1 * implant.geometry().outwards(implant, face.control_points().col(A));
+  double error = 0.;
+  for (const auto &point : surface_quadrature(face, 5))
+    grow(error,
+         std::abs(interpolate(point.basis, grown).head<2>().norm() -
+                  point.X.head<2>().norm() - 0.1));
+  report(shape + ": a radius that grows by 0.1 mm", error, 1e-14);
+}
+
+
+
+int
+main()
+{
+  return run_test([] {
+    check("pin", M_PI * 4. * 3.);
+    const double low = 2. - 3. * std::tan(3. * M_PI / 180.);
+    check("taper", M_PI * (4. + 2. * low + low * low));
+    // R^2 + d^2/8, the mean of the square over whole turns
+    check("screw", M_PI * (4. + 0.2 * 0.2 / 8.) * 3.);
+    check_press_fit("pin");
+    check_press_fit("taper");
+  });
+}

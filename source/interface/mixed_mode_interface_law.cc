@@ -180,22 +180,30 @@ namespace Debond
         return {N, G_I, K, softening(), N / K};
       }
 
+      /** The least r of all mixtures of modes: the gap at which nothing is left
+       *  over that where damage begins. */
+      double
+      least_ratio() const
+      {
+        constexpr unsigned int n_mixtures = 256;
+        double                 result     = 2. * G_I * K / (N * N), slope;
+        for (unsigned int i = 1; i <= n_mixtures; ++i)
+          {
+            const double B = static_cast<double>(i) / n_mixtures;
+            result         = std::min(result,
+                              2. * energy(B, slope) * K *
+                                ((1. - B) / (N * N) + B / (T * T)));
+          }
+        return result;
+      }
+
     private:
       /** The steepest fall of the traction along any straight gap [MPa/mm]:
        *  K/(r - 1), in mode I N / (2 G_I/N - N/K). */
       double
       softening() const
       {
-        constexpr unsigned int n_mixtures = 64;
-        double                 result     = 0., slope;
-        for (unsigned int i = 0; i <= n_mixtures; ++i)
-          {
-            const double B = static_cast<double>(i) / n_mixtures,
-                         r = 2. * energy(B, slope) * K *
-                             ((1. - B) / (N * N) + B / (T * T));
-            result = std::max(result, K / (r - 1.));
-          }
-        return result;
+        return K / (least_ratio() - 1.);
       }
 
       /** G [N/mm] of the criterion, by the share B of the squared gap that lies
@@ -246,7 +254,14 @@ namespace Debond
               choice.text(energy));
         }
       bond_that_opens(parts, "mixed mode");
-      return std::make_shared<MixedMode>(choice, parts);
+      const auto law = std::make_shared<MixedMode>(choice, parts);
+      if (law->least_ratio() <= 1.)
+        throw EntryError("Interface / Mixed mode / Exponent",
+                         "under a mixture of modes a bond would be broken "
+                         "before it is damaged: expected a smaller one, a "
+                         "larger Stiffness or larger fracture energies",
+                         choice.text("Exponent"));
+      return law;
     }
   } // namespace
 

@@ -1,3 +1,4 @@
+#include <debond/bulk/chuck.h>
 #include <debond/interface/contact_interface.h>
 
 #include <algorithm>
@@ -22,6 +23,45 @@ namespace Debond
 
 
 
+  Eigen::Matrix3d
+  ContactInterface::what_opens(const SlavePoint             &point,
+                               const InterfaceConfiguration &configuration,
+                               SurfaceBasis                 &basis) const
+  {
+    const MasterSurface surface = master(configuration);
+    SurfaceGeometry     geometry;
+    surface.surface->evaluate(point.trial.state.xi, basis, false);
+    if (law.joint->is_cohesive())
+      return Eigen::Matrix3d::Identity();
+    contract(basis, *surface.positions, false, geometry);
+    const Eigen::Vector3d n = MasterNormal(geometry, surface.outward_sign).n;
+    return n * n.transpose();
+  }
+
+
+
+  double
+  ContactInterface::opening_by_chuck(
+    const InterfaceConfiguration &configuration,
+    const unsigned int            component) const
+  {
+    SurfaceBasis basis;
+    double       sum = 0.;
+    for (const SlavePoint &point : points)
+      if (point.phi_0 > 0. && point.trial.state.has_partner)
+        {
+          const Eigen::Vector3d motion = configuration.chuck->velocity(
+            component,
+            interpolate(point.basis, configuration.side[slave].positions));
+          sum +=
+            point.JxW * point.phi_0 *
+            (what_opens(point, configuration, basis) * motion).squaredNorm();
+        }
+    return sum;
+  }
+
+
+
   // The softening of a point is that of a full bond times phi_0. So the state
   // is unique while this times the largest eigenvalue of phi_0 C is less than
   // 1, C being the compliance of the bodies: tractions to gaps, both normal to
@@ -42,19 +82,12 @@ namespace Debond
       Eigen::Matrix3d   opens;    ///< projection on what opens the bond
       Eigen::Vector3d   traction; ///< [MPa]
     };
-    const MasterSurface surface = master(configuration);
-    std::vector<Place>  places;
+    std::vector<Place> places;
     for (const SlavePoint &point : points)
       if (point.phi_0 > 0. && point.trial.state.has_partner)
         {
-          Place           place{&point, {}, Eigen::Matrix3d::Identity(), {}};
-          SurfaceGeometry geometry;
-          surface.surface->evaluate(point.trial.state.xi, place.basis, false);
-          contract(place.basis, *surface.positions, false, geometry);
-          const Eigen::Vector3d n =
-            MasterNormal(geometry, surface.outward_sign).n;
-          if (!law.joint->is_cohesive())
-            place.opens = n * n.transpose();
+          Place place{&point, {}, {}, {}};
+          place.opens = what_opens(point, configuration, place.basis);
           // not along a motion that is none of the bodies
           place.traction =
             point.phi_0 * place.opens * Eigen::Vector3d(0.4, 0.5, 1.);

@@ -68,7 +68,7 @@ namespace Debond
                ", 99.9 % of it up to " + number(theta_full) + " deg" :
                ""));
       lines.push_back(loads_in_words(end));
-      if (const double pressure = value("pressure_MPa"); pressure > 0.)
+      if (const double pressure = value("pressure_MPa"); pressure > 1e-9)
         lines.push_back("Pressure before turning " + number(pressure) + " MPa");
       add(value("pull_max_N"),
           "Largest pull " + number(value("pull_max_N")) + " N at " +

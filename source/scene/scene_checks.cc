@@ -105,7 +105,7 @@ namespace Debond
       if (varies && (scene.load_steps.adaptive || scene.load_steps.follow_path))
         throw EntryError(entry,
                          "it changes with time: expected planned steps, Load "
-                         "steps / Adaptive = false and Follow path = false",
+                         "steps / Adaptive = false and Path following = none",
                          scene.interface.interference);
       return moves;
     }
@@ -145,12 +145,11 @@ namespace Debond
           moves                 = moves || this_moves;
         }
       if (!moves)
-        throw EntryError(
-          "",
-          "nothing moves in this scene: all six chuck "
-          "components have constant values, none carries a "
-          "load, and there is no interference. Give for instance Chuck / Translation z / "
-          "Value = -0.0049 * min(t, 1)");
+        throw EntryError("",
+                         "nothing moves in this scene: all six chuck "
+                         "components have constant values and none carries a "
+                         "load. Give for instance Chuck / Translation z / "
+                         "Value = -0.0049 * min(t, 1)");
     }
 
 

@@ -106,7 +106,9 @@ namespace Debond
       for (const auto &[entry, is_set] :
            {std::pair("Size", body.size != usual.size),
             std::pair("Radius", body.radius != usual.radius),
-            std::pair("Height", body.height != usual.height),
+            std::pair("Height",
+                      body.height != usual.height ||
+                        body.sleeve_height != usual.sleeve_height),
             std::pair("Cap radius", body.cap_radius != usual.cap_radius),
             std::pair("Inner radius", body.inner_radius != usual.inner_radius),
             std::pair("Outer radius", body.outer_radius != usual.outer_radius),

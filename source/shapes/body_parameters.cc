@@ -106,7 +106,6 @@ namespace Debond
     BodyParameters implant;
     implant.shape         = BodyShape::coin;
     implant.size          = {{5, 5, 3}};
-    implant.height        = 3;
     implant.cells         = {{3, 3, 2}};
     implant.young_modulus = 113000;
     return implant;
@@ -143,7 +142,7 @@ namespace Debond
               "Outer radius [mm] of a sleeve; the inner one is that of the "
               "implant.");
     table.add("Height",
-              height,
+              sleeve_height,
               AllowedValues(allowed_length).or_number(0),
               "Height [mm] of a sleeve, from its top at z = 0 down; 0: that of "
               "the implant.");

@@ -28,13 +28,18 @@ namespace Debond
   void
   Pin::check(const BodyParameters &body, const EntryCheck &refuse) const
   {
-    const double thinnest = std::min(radius_of_side(body, 0., 0.),
-                                     radius_of_side(body, -body.height, 0.));
-    refuse(body.inner_radius >= thinnest,
+    refuse(body.inner_radius >= thinnest(body),
            "Inner radius",
            "the implant has no wall: expected less than its radius, " +
-             to_text(thinnest) + " mm");
+             to_text(thinnest(body)) + " mm");
     check_cells(body, body.inner_radius == 0., refuse);
+  }
+
+  double
+  Pin::thinnest(const BodyParameters &body) const
+  {
+    return std::min(radius_of_side(body, 0., 0.),
+                    radius_of_side(body, -body.height, 0.));
   }
 
   double

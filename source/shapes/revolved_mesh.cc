@@ -237,13 +237,9 @@ namespace Debond
 
 
   std::shared_ptr<const FileMesh>
-  mesh_of_revolution(const RevolvedBody &body)
+  mesh_of_revolution(const RevolvedBody &body, const FileRefusal &refuse)
   {
     const MeshOfRevolution made(body);
-    return MeshBuilder(made.stored,
-                       [](const std::string &why) {
-                         throw std::logic_error("mesh of revolution: " + why);
-                       })
-      .mesh;
+    return MeshBuilder(made.stored, refuse).mesh;
   }
 } // namespace Debond

@@ -1,6 +1,7 @@
 #include <debond/shapes/body_parameters.h>
 #include <debond/shapes/faces_of_mesh.h>
 #include <debond/shapes/revolved_shape.h>
+#include <debond/support/input_error.h>
 
 #include <string>
 
@@ -15,7 +16,10 @@ namespace Debond
     RevolvedBody result = revolved(body, implant);
     result.cells        = body.cells;
     result.grading      = body.layer_grading;
-    return mesh_of_revolution(result);
+    return mesh_of_revolution(result, [&section](const std::string &why) {
+      throw EntryError(section + " / Cells",
+                       "no mesh of this shape comes of them: " + why);
+    });
   }
 
 

@@ -44,7 +44,22 @@ namespace Debond
                "the thread is deeper than the screw is thick: expected less "
                "than its Radius, " +
                  to_text(body.radius) + " mm");
+        check_cells_of_side(body, body.height, body.cells, refuse);
         Pin::check(body, refuse);
+      }
+      void
+      check_cells_of_side(const BodyParameters              &body,
+                          const double                       height,
+                          const std::array<unsigned int, 3> &cells,
+                          const EntryCheck &refuse) const override
+      {
+        const double around = 4. * body.starts,
+                     along  = std::ceil(4. * height / body.pitch - 1e-9);
+        refuse(cells[0] < around || cells[2] < along,
+               "Cells",
+               "they do not show the thread, which needs four to each wave: "
+               "expected at least " +
+                 to_text(around) + " around and " + to_text(along) + " along");
       }
 
       double
@@ -66,6 +81,11 @@ namespace Debond
         return body.radius +
                0.5 * body.thread_depth *
                  std::cos(2. * M_PI * z / body.pitch - body.starts * angle);
+      }
+      double
+      thinnest(const BodyParameters &body) const override
+      {
+        return body.radius - 0.5 * body.thread_depth;
       }
       bool
       is_round_about_axis() const override

@@ -58,7 +58,8 @@ namespace Debond
       {
         const BodyGeometry &inside = implant.geometry();
         RevolvedBody        result;
-        result.height = body.height > 0. ? body.height : implant.height;
+        result.height =
+          body.sleeve_height > 0. ? body.sleeve_height : implant.height;
         if (!inside.has_side(implant))
           throw EntryError("Bone / Shape",
                            "a sleeve is around the side of an implant, and a " +
@@ -75,6 +76,16 @@ namespace Debond
           throw EntryError("Bone / Height",
                            "it is beyond the tip of the implant",
                            to_text(result.height));
+        inside.check_cells_of_side(implant,
+                                   result.height,
+                                   body.cells,
+                                   [](const bool         is_mistake,
+                                      const std::string &entry,
+                                      const std::string &message) {
+                                     if (is_mistake)
+                                       throw EntryError("Bone / " + entry,
+                                                        message);
+                                   });
         result.is_round = inside.is_round_about_axis();
         result.inner = [&implant, &inside](const double z, const double angle) {
           return inside.radius_of_side(implant, z, angle);

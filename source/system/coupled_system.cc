@@ -727,18 +727,6 @@ namespace Debond
 
 
 
-  namespace
-  {
-    bool
-    opens_face(const unsigned int k)
-    {
-      return k == ChuckComponent::translation_z ||
-             k == ChuckComponent::rotation_x || k == ChuckComponent::rotation_y;
-    }
-  } // namespace
-
-
-
   // The compliances of bodies and machine add up, and the largest eigenvalue of
   // the sum is not more than the sum of the largest ones.
   double
@@ -765,13 +753,12 @@ namespace Debond
       interface.compliance_of_opening(at_rest,
                                       bone.n_unknowns() + implant.n_unknowns(),
                                       solve);
-    for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
-      if (const auto &unknown = chuck.unknowns();
-          (opens_face(k) || interface.get_law().is_cohesive()) &&
+    const double area = interface.implant_area();
+    for (const unsigned int k : chuck.unknowns())
+      if (const double opened = interface.opening_by_chuck(configuration, k);
           !chuck.is_prescribed(k) &&
-          std::find(unknown.begin(), unknown.end(), k) != unknown.end())
-        compliance += interface.mean_seen_bonding() * interface.implant_area() *
-                      std::pow(scale_of(k), 2) / -chuck.machine_stiffness(k);
+          opened > 1e-12 * area * std::pow(scale_of(k), 2))
+        compliance += opened / std::abs(chuck.machine_stiffness(k));
     return compliance;
   }
 } // namespace Debond

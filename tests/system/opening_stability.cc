@@ -79,6 +79,18 @@ check_compliance()
   report("but breaks a share that is held",
          differs(compliance(sheared), 25. / 10000.),
          1e-3);
+  // about the centre of the chuck, 3 mm above a face of 5 mm
+  const std::string tilting = "Chuck/Rotation x/Stiffness=10000";
+  report("a machine that tilts",
+         differs(compliance({"Bone/Material=rigid", tilting}),
+                 25. * 25. / 12. / 10000.),
+         1e-3);
+  report("and breaks a share that is held",
+         differs(compliance({"Bone/Material=rigid",
+                             "Interface/Law=mixed mode",
+                             tilting}),
+                 25. * (25. / 12. + 9.) / 10000.),
+         1e-3);
   report("a chuck under a load",
          std::isinf(compliance({"Chuck/Translation z/Control=force",
                                 "Chuck/Translation z/Value=0.1 * t"})));

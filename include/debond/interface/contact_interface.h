@@ -304,6 +304,12 @@ namespace Debond
       const unsigned int            n_unknowns,
       const std::function<Eigen::VectorXd(const Eigen::VectorXd &)> &solve)
       const;
+    /** Integral of phi_0 times the square of how far a component of the chuck
+     *  opens the bond, per motion of it: over its stiffness it is what a
+     * machine adds to that. */
+    double
+    opening_by_chuck(const InterfaceConfiguration &configuration,
+                     unsigned int                  component) const;
     /** What the point does, the share that is held included, in its trial
      *  state. */
     PointStatus
@@ -404,6 +410,12 @@ namespace Debond
     /** The share of a point that is held; null: none is. */
     const CohesiveShare *
     held_share(const SlavePoint &point) const;
+    /** Projection on the gaps that open the bond of a point, and the basis of
+     *  the master there. */
+    Eigen::Matrix3d
+    what_opens(const SlavePoint             &point,
+               const InterfaceConfiguration &configuration,
+               SurfaceBasis                 &basis) const;
     /** In the last step. */
     bool
     has_opened_beyond_strength(const SlavePoint &point) const;

@@ -130,6 +130,13 @@ namespace Debond
     {
       return true;
     }
+    /** Refuses cells that do not show a side of some height. */
+    virtual void
+    check_cells_of_side(const BodyParameters &,
+                        double /*height*/,
+                        const std::array<unsigned int, 3> &,
+                        const EntryCheck &) const
+    {}
     /** Whether a side is round. */
     virtual bool
     is_round_about_axis() const

@@ -73,14 +73,14 @@ namespace Debond
     double                radius       = 2.5;    ///< coin, cap, pin [mm]
     double                inner_radius = 0;      ///< pin [mm]; 0: solid
     double                outer_radius = 10;     ///< sleeve [mm]
-    /** Coin, cap, pin: on the axis; sleeve, where 0 is that of the pin [mm]. */
-    double       height      = 0;
-    SleeveEnds   ends        = SleeveEnds::free;
-    double       taper_angle = 3;               ///< half of the cone's [deg]
-    double       pitch = 1, thread_depth = 0.2; ///< screw [mm]
-    unsigned int starts     = 1;                ///< screw
-    double       cap_radius = 50;               ///< of the sphere [mm]
-    std::string  mesh_file;
+    double                height = 3; ///< coin, cap, pin: on the axis [mm]
+    double                sleeve_height = 0; ///< 0: that of the implant [mm]
+    SleeveEnds            ends          = SleeveEnds::free;
+    double                taper_angle   = 3; ///< half of the cone's [deg]
+    double                pitch = 1, thread_depth = 0.2; ///< screw [mm]
+    unsigned int          starts     = 1;                ///< screw
+    double                cap_radius = 50;               ///< of the sphere [mm]
+    std::string           mesh_file;
     /** Of a shape that is no lattice; see make_mesh(). */
     std::shared_ptr<const FileMesh> mesh;
     /** Number of cells in x, y, z; z along the axis (`Cells = n, m` becomes

@@ -39,6 +39,9 @@ namespace Debond
     box_of_face(const BodyParameters &body) const override;
 
   protected:
+    /** The smallest radius of the side [mm]. */
+    virtual double
+    thinnest(const BodyParameters &body) const;
     RevolvedBody
     revolved(const BodyParameters &body,
              const BodyParameters &implant) const override;

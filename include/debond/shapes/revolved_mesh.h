@@ -1,6 +1,7 @@
 #ifndef debond_shapes_revolved_mesh_h
 #define debond_shapes_revolved_mesh_h
 
+#include <debond/input/input_file.h>
 #include <debond/shapes/mesh_file.h>
 
 #include <array>
@@ -33,6 +34,6 @@ namespace Debond
   /** Its cells, of the second order. The core of a solid one is square, of
    * cells[0] / 4 cells across. */
   std::shared_ptr<const FileMesh>
-  mesh_of_revolution(const RevolvedBody &body);
+  mesh_of_revolution(const RevolvedBody &body, const FileRefusal &refuse);
 } // namespace Debond
 #endif

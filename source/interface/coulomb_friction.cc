@@ -59,14 +59,12 @@ namespace Debond
         return "Sliding threshold or Transition factor";
       }
 
-      // as that of all such laws, without a call for the decay
+      // that of all such laws; here the compiler knows whose decay() it calls
       FrictionCoefficient
       coefficient(const FrictionState &start,
                   const double         distance) const override
       {
-        double       slope;
-        const double s = decay(start.slip + distance, slope);
-        return of_decay(start.phi_0, s, slope);
+        return BondFriction::coefficient(start, distance);
       }
 
     protected:

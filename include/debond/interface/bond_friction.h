@@ -25,8 +25,8 @@ namespace Debond
     {}
 
     // mu and dmu/dg_s at the end of a step: what limits the traction, Eq. (30).
-    // Each sliding point asks a few times in a step: a class may do this again
-    // where its own decay() is known.
+    // Each sliding point asks a few times in a step: a final class that calls
+    // this spares it the call of decay().
     FrictionCoefficient
     coefficient(const FrictionState &start,
                 const double         distance) const override

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace Debond
 {
@@ -146,5 +147,26 @@ namespace Debond
     check_number_of_cells(*this, refuse);
     if (geometry().is_lattice())
       check_cells(*this, refuse);
+  }
+
+
+  void
+  refuse_entries_of_lattices(const BodyParameters           &body,
+                             const std::string              &reason,
+                             const BodyGeometry::EntryCheck &refuse)
+  {
+    for (const auto &[is_set, entry, expected] :
+         {std::make_tuple(body.element == ElementKind::spline,
+                          "Element",
+                          "trilinear or quadratic"),
+          std::make_tuple(body.coarser_below, "Coarser below", "false"),
+          std::make_tuple(body.cells_under_implant > 0,
+                          "Cells under implant",
+                          "0"),
+          std::make_tuple(body.lateral_grading != 1., "Lateral grading", "1"),
+          std::make_tuple(body.bulk_solver == BulkSolver::lattice,
+                          "Bulk solver",
+                          "auto, direct or multigrid")})
+      refuse(is_set, entry, reason + ": expected " + expected);
   }
 } // namespace Debond

@@ -1,9 +1,6 @@
 #include <debond/shapes/body_geometry.h>
-#include <debond/shapes/body_parameters.h>
-#include <debond/shapes/mesh_file.h>
 
 #include <cmath>
-#include <tuple>
 
 namespace Debond
 {
@@ -66,25 +63,4 @@ namespace Debond
     return nullptr;
   }
 
-
-
-  void
-  refuse_entries_of_lattices(const BodyParameters           &body,
-                             const std::string              &reason,
-                             const BodyGeometry::EntryCheck &refuse)
-  {
-    for (const auto &[is_set, entry, expected] :
-         {std::make_tuple(body.element == ElementKind::spline,
-                          "Element",
-                          "trilinear or quadratic"),
-          std::make_tuple(body.coarser_below, "Coarser below", "false"),
-          std::make_tuple(body.cells_under_implant > 0,
-                          "Cells under implant",
-                          "0"),
-          std::make_tuple(body.lateral_grading != 1., "Lateral grading", "1"),
-          std::make_tuple(body.bulk_solver == BulkSolver::lattice,
-                          "Bulk solver",
-                          "auto, direct or multigrid")})
-      refuse(is_set, entry, reason + ": expected " + expected);
-  }
 } // namespace Debond

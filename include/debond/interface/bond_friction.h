@@ -25,16 +25,8 @@ namespace Debond
     {}
 
     // mu and dmu/dg_s at the end of a step: what limits the traction, Eq. (30).
-    // Each sliding point asks a few times in a step: a final class that calls
-    // this spares it the call of decay().
     FrictionCoefficient
-    coefficient(const FrictionState &start,
-                const double         distance) const override
-    {
-      double       slope;
-      const double s = decay(start.slip + distance, slope);
-      return of_decay(start.phi_0, s, slope);
-    }
+    coefficient(const FrictionState &start, double distance) const override;
     // int mu dg_s over the step [mm]: work per pressure
     double
     friction_strength(const FrictionState &start,
@@ -96,6 +88,18 @@ namespace Debond
       return result;
     }
   };
+
+
+  // Each sliding point asks a few times in a step: a final class that calls
+  // this, inline, spares it the call of decay().
+  inline FrictionCoefficient
+  BondFriction::coefficient(const FrictionState &start,
+                            const double         distance) const
+  {
+    double       slope;
+    const double s = decay(start.slip + distance, slope);
+    return of_decay(start.phi_0, s, slope);
+  }
 
 
 

@@ -48,7 +48,8 @@ measures(const Scene                  &scene,
 {
   settings.take(scene.output,
                 read_reference_curve(scene.output.reference_curve,
-                                     scene.output.reference_columns));
+                                     scene.output.reference_columns,
+                                     scene.output.axes));
   return measure_torque_curve(rows, settings).dump();
 }
 
@@ -73,7 +74,7 @@ namespace
 
 
   ReferenceCurve
-  curve_of(const Curve &columns)
+  points_of(const Curve &columns)
   {
     ReferenceCurve curve;
     for (std::size_t i = 0; i < columns[0].size(); ++i)
@@ -291,6 +292,11 @@ namespace
            [](const Scene &s, const std::string &name, const std::string &why) {
              throw s.with_place(EntryError(name, why));
            })
+      .def_property_readonly("curve",
+                             [](const Scene &s) {
+                               return std::pair(s.output.axes.position_column(),
+                                                s.output.axes.load_column());
+                             })
       .def_property_readonly("warnings", [](const Scene &s) {
         return texts_of(s.warnings());
       });
@@ -303,16 +309,29 @@ namespace
   bind_curves(py::module_ &module)
   {
     py::class_<CurveComparison>(module, "CurveComparison")
-      .def(py::init([](const Curve &computed, const Curve &measured) {
-        return CurveComparison(curve_of(computed), curve_of(measured));
-      }))
-      .def_readonly_static("opposite_sign", &CurveComparison::opposite_sign)
+      .def(py::init([](const Curve       &computed,
+                       const Curve       &measured,
+                       const std::string &over,
+                       const std::string &load) {
+             const auto axes = CurveAxes::of_columns(over, load);
+             return CurveComparison(points_of(computed),
+                                    points_of(measured),
+                                    axes ? *axes : CurveAxes());
+           }),
+           py::arg("computed"),
+           py::arg("measured"),
+           py::arg("over") = "angle_deg",
+           py::arg("load") = "torque_Nmm")
+      .def_property_readonly_static("opposite_sign",
+                                    [](const py::object &) {
+                                      return CurveComparison::opposite_sign();
+                                    })
       .def_readonly("rows_used", &CurveComparison::rows_used)
       .def_readonly("e_mp", &CurveComparison::e_mp)
       .def_readonly("e_rel", &CurveComparison::e_rel)
       .def_readonly("difference_mean", &CurveComparison::difference_mean)
       .def_readonly("difference_max", &CurveComparison::difference_max)
-      .def_readonly("angle_of_max_deg", &CurveComparison::angle_of_max_deg)
+      .def_readonly("position_of_max", &CurveComparison::position_of_max)
       .def_readonly("remarks", &CurveComparison::remarks)
       .def_readonly("why_none", &CurveComparison::why_none)
       .def("text", &CurveComparison::text);

@@ -1,4 +1,4 @@
-"""Finished results compared with a measured torque curve.
+"""Finished results compared with a measured curve.
 
     from debond.compare import compare
     print(compare("output/run", "measured.csv", "2 [deg], 3 [N m]").text)
@@ -12,10 +12,10 @@ import numpy
 
 from _debond import CurveComparison
 
-from .ensemble import CURVE, torques_at
+from .ensemble import torques_at
 from .errors import InputError
 from .measured import read_measured, read_measured_and_say
-from .page_data import curve_file, read_table, rows_of, varied_in
+from .page_data import curve_file, curve_of, read_json, read_table, rows_of, split_unit, varied_in
 
 
 @dataclass
@@ -28,20 +28,30 @@ class Comparisons:
     text: str = ""
 
 
+LOADS = {"N mm": "torques", "N": "forces"}
+
+
+def _axes(directory):
+    """Columns of the curve that results are about; of a study that of the first variant that has a summary."""
+    places = [directory, *(os.path.join(directory, name) for name in sorted(os.listdir(directory)) if name.startswith("variant-"))]
+    return next((curve_of(summary) for summary in map(read_json, (place + "/summary.json" for place in places)) if summary),
+                curve_of({}))
+
+
 def _table(filename):
     """Rows {column: text} of a table of a study or an ensemble, each behind what is varied: "Bone / Size = 8; ..."."""
     table = read_table(filename)
     return [("; ".join(f"{name} = {row[name]}" for name in varied_in(table)), row) for row in rows_of(table)]
 
 
-def _compare_variants(directory, measured, found):
+def _compare_variants(directory, axes, measured, found):
     """Lines on the variants of a study."""
     rows, variants = _table(directory + "/study.csv"), []
     for varied, row in rows:
         name = "variant-" + row["variant"].zfill(3)
         curve = curve_file(directory + "/" + name)
         if os.path.exists(curve):
-            variants.append((name, varied, CurveComparison(read_measured(curve, CURVE), measured)))
+            variants.append((name, varied, CurveComparison(read_measured(curve, axes), measured, *axes)))
     # what is not a number comes last
     variants.sort(key=lambda variant: numpy.nan_to_num(variant[2].difference_mean, nan=numpy.inf))
     found.runs.update((name, comparison) for name, _, comparison in variants)
@@ -71,20 +81,22 @@ def compare(directory, curve, columns=()) -> Comparisons:
     """Compares the curves in `directory`, of a run, a study or an ensemble, with the measured one in the file `curve`. columns:
     of that file, as of read_measured(). Raises InputError."""
     directory, curve, found = os.fspath(directory), os.fspath(curve), Comparisons()
-    measured, said = read_measured_and_say(curve, CURVE, columns, "--compare", "--columns")
+    axes = _axes(directory)
+    measured, said = read_measured_and_say(curve, axes, columns, "--compare", "--columns")
     own, is_study = curve_file(directory), os.path.exists(directory + "/study.csv")
     if not is_study and not os.path.exists(own):
         raise InputError(f"debond: --compare {directory}: there are no results in this directory, neither torque.csv nor "
                          "study.csv")
-    angles, torques = measured
-    lines = [f"{curve}: {said}; {len(angles)} rows, from {angles.min():.4g} to {angles.max():.4g} deg, torques up to "
-             f"{abs(torques).max():.4g} N mm"]
+    positions, loads = measured
+    units = [split_unit(name)[1].replace("°", "deg") for name in axes]
+    lines = [f"{curve}: {said}; {len(positions)} rows, from {positions.min():.4g} to {positions.max():.4g} {units[0]}, "
+             f"{LOADS[units[1]]} up to {abs(loads).max():.4g} {units[1]}"]
     if is_study:
-        lines += _compare_variants(directory, measured, found)
+        lines += _compare_variants(directory, axes, measured, found)
         if os.path.exists(directory + "/ensemble.csv"):
             lines += _compare_band(directory, measured, found)
     else:
-        run = found.runs[""] = CurveComparison(read_measured(own, CURVE), measured)
+        run = found.runs[""] = CurveComparison(read_measured(own, axes), measured, *axes)
         numbers = f" ({run.rows_used} rows; e_mp {100 * run.e_mp:.3g} %, e_rel {100 * run.e_rel:.3g} %)"
         lines += [f"{directory}: {run.text()}{numbers if run.rows_used else ''}"] + ["warning: " + text for text in run.remarks]
     found.text = "\n".join(lines) + "\n"

@@ -56,9 +56,10 @@ class Experiment:
         self.scene = _debond.Scene(entries if measured is None else without, name, _debond.Team(0))
         self.name = name
         self.values = self.scene.values
+        over, load = self.scene.curve
         self.columns = [measurement.curve_column(self.scene, column.strip(), "Calibration / Curves")
-                        for column in self.values["Calibration / Curves"].split(",")]
-        self.over = measurement.curve_column(self.scene, self.values["Calibration / Over"], "Calibration / Over")
+                        for column in (self.values["Calibration / Curves"] or load).split(",")]
+        self.over = measurement.curve_column(self.scene, self.values["Calibration / Over"] or over, "Calibration / Over")
         self.measured = measured or measurement.read(self.scene, self.values, self.columns, self.over, self._largest_shift())
         self.text = _debond.text_of(without)
         self.curve = _debond.VaryingCurve(without, name)

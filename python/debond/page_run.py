@@ -3,32 +3,15 @@
 import os
 
 from debond.page_curve import Plot, at
-from debond.page_data import curve_file, number, numbers, read_entries, read_json, read_table, short, unique, with_unit
+from debond.page_data import curve_file, curve_of, number, numbers, read_entries, read_json, read_table, short, unique, with_unit
 from debond.page_maps import maps_of
 
-#: What is drawn over what: columns, and their words and units. First the torque of an implant that turns.
-TORQUE = ("angle_deg", "torque_Nmm", ("Rotation angle", "°"), ("Torque T", "N mm"))
-COMPONENTS = [(f"chuck_{way}{axis}_{way_end}", f"chuck_{load}{axis}_{load_end}", (f"{words} {axis}", unit),
-               (f"{load_words} {axis}", load_unit))
-              for way, way_end, words, unit, load, load_end, load_words, load_unit in
-              (("u", "mm", "Displacement along", "mm", "F", "N", "Force along", "N"),
-               ("r", "deg", "Rotation about", "°", "M", "Nmm", "Moment about", "N mm")) for axis in "xyz"]
-
-
-def axes_of(table):
-    """Torque over angle of an implant that turns; otherwise load over way of the component of the chuck that moves most."""
-    def way(name):
-        values = [value for value in numbers(table.get(name, [])) if value == value]
-        # a degree at a radius of some mm
-        return (max(values) - min(values)) * (0.05 if name.endswith("_deg") else 1) if values else 0
-    most = max(COMPONENTS, key=lambda component: way(component[0]))
-    return most if way("angle_deg") < 1e-10 < way(most[0]) else TORQUE
-
-
-def reference_of(directory):
-    """Angles [deg] and torques [N mm] of the reference that the program left in the directory."""
-    table = read_table(os.path.join(directory, "reference.csv"))
-    return numbers(table.get("angle_deg", [])), numbers(table.get("torque_Nmm", []))
+#: Words and units of columns.
+LABELS = {"angle_deg": ("Rotation angle", "°"), "torque_Nmm": ("Torque T", "N mm"),
+          **{f"chuck_{letter}{axis}_{end}": (f"{words} {axis}", unit)
+             for letter, end, words, unit in (("u", "mm", "Displacement along", "mm"), ("r", "deg", "Rotation about", "°"),
+                                              ("F", "N", "Force along", "N"), ("M", "Nmm", "Moment about", "N mm"))
+             for axis in "xyz"}}
 
 
 def add_marks_of_torque(plot, xs, ys, summary, published):
@@ -48,17 +31,19 @@ def add_marks_of_torque(plot, xs, ys, summary, published):
 
 def curve_of(directory, summary, entries):
     """The curve of a run with its marks and the reference; None without rows."""
-    table = read_table(curve_file(directory))
-    x, y, x_label, y_label = axes_of(table)
-    plot, xs, ys = Plot(x_label, y_label, "curve of the run"), numbers(table.get(x, [])), numbers(table.get(y, []))
-    if x == TORQUE[0]:
-        plot.add("reference", "points", *reference_of(directory), "#555555")
+    def columns(file):
+        table = read_table(file)
+        return [numbers(table.get(name, [])) for name in curve_of(summary)]
+
+    x, y = (LABELS[name] for name in curve_of(summary))
+    plot, (xs, ys) = Plot(x, y, "curve of the run"), columns(curve_file(directory))
+    plot.add("reference", "points", *columns(os.path.join(directory, "reference.csv")), "#555555")
     plot.add("debond", "line", xs, ys, "#c03028")
-    if x == TORQUE[0]:
+    if "curve" not in summary:
         add_marks_of_torque(plot, xs, ys, summary, entries.get("Output / Published values", ""))
-    elif plot.series:
-        way, load = max(zip(plot.series[0]["x"], plot.series[0]["y"]), key=lambda row: abs(row[1]))
-        plot.add(f"largest: {with_unit(load, y_label[1])} at {with_unit(way, x_label[1])}", "marks", [way], [load], "#2c1e5c")
+    elif xs:
+        at, largest = number(summary["curve"]["at"]), number(summary["curve"]["largest"])
+        plot.add(f"largest: {with_unit(largest, y[1])} at {with_unit(at, x[1])}", "marks", [at], [largest], "#2c1e5c")
     return plot.context()
 
 

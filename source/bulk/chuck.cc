@@ -78,6 +78,13 @@ namespace Debond
   ChuckParameters::declare(EntryTable &table)
   {
     table.enter_subsection("Chuck");
+    table.add(
+      "Point",
+      point,
+      Allowed::list(Allowed::number("mm"), 3, 3).or_word("auto"),
+      "Point x, y, z [mm] of the implant that Translation moves, that Rotation "
+      "turns about, and that forces act at: a machine may hold the implant by a "
+      "lever, or push at its edge. `auto': the centre of its top.");
     for (unsigned int c = 0; c < n_components; ++c)
       {
         const bool rotation = is_rotation(c);
@@ -117,6 +124,17 @@ namespace Debond
         table.leave_subsection();
       }
     table.leave_subsection();
+  }
+
+
+
+  Eigen::Vector3d
+  ChuckParameters::place(const double height) const
+  {
+    std::array<double, 3> x{{0., 0., height}};
+    if (point != "auto")
+      read_entry(point, x);
+    return Eigen::Vector3d(x.data());
   }
 
 

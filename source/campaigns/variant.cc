@@ -62,9 +62,8 @@ namespace Debond
   number_in(const nlohmann::ordered_json &summary, const std::string &name)
   {
     const auto found = summary.find(name);
-    return found != summary.end() && found->is_number() ?
-             found->get<double>() :
-             unknown;
+    return found != summary.end() && found->is_number() ? found->get<double>() :
+                                                          unknown;
   }
 
 
@@ -170,11 +169,14 @@ namespace Debond
     distances["reference_angles_used"] = 0;
     if (compared)
       {
+        const CurveAxes  &axes      = scene.output.axes;
         const std::string own       = scene.output.directory + "/",
                           reference = other.scene.output.directory + "/";
         distances.update(
-          CurveComparison(read_reference_curve(finest_curve(own)),
-                          read_reference_curve(finest_curve(reference)))
+          CurveComparison(
+            read_reference_curve(finest_curve(own), {}, axes),
+            read_reference_curve(finest_curve(reference), {}, axes),
+            axes)
             .members());
         if (std::filesystem::exists(own + "profiles.csv") &&
             std::filesystem::exists(reference + "profiles.csv"))

@@ -41,7 +41,7 @@ namespace Debond
       "(Bone|Implant) / [^/]*|Interface / (Slave|Quadrature points)");
     std::string text;
     Chuck       chuck(scene.chuck,
-                Eigen::Vector3d(0, 0, scene.implant.chuck_height()),
+                scene.chuck.place(scene.implant.chuck_height()),
                 scene.implant.characteristic_radius());
     chuck.place(scene.load_steps.times.front());
     for (const double q : chuck.position())

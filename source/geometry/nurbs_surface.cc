@@ -1,5 +1,7 @@
 #include <debond/geometry/nurbs_surface.h>
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -478,5 +480,19 @@ namespace Debond
     SurfaceBasis basis;
     evaluate(xi, basis, false);
     return interpolate(basis, points);
+  }
+
+
+
+  bool
+  NurbsSurface::is_flat() const
+  {
+    const Eigen::Matrix3Xd from_centre =
+      points.colwise() - points.rowwise().mean();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(
+      from_centre * from_centre.transpose());
+    const auto heights = axes.eigenvectors().col(0).transpose() * from_centre;
+    return heights.cwiseAbs().maxCoeff() <
+           1e-12 * from_centre.cwiseAbs().maxCoeff();
   }
 } // namespace Debond

@@ -151,9 +151,9 @@ namespace Debond
       throw EntryError(bonding_section + "Pattern",
                        "it needs the name of a file: " + bonding_section +
                          "File");
-    if (pattern == Kind::file && implant.geometry().has_side(implant))
+    if (pattern == Kind::file && implant.geometry().is_in_bore(implant))
       throw EntryError(bonding_section + "Pattern",
-                       "places in a file are seen from above: around a side "
+                       "places in a file are seen from above: in a bore "
                        "expected image or expression");
     if (is_disk && !implant.geometry().is_round() &&
         implant.shape != BodyShape::file)

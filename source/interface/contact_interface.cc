@@ -33,6 +33,7 @@ namespace Debond
     , slave(parameters.slave)
     , mesh{{&bone, &implant}}
     , master_is_level(mesh[other(slave)]->surface().is_level())
+    , master_is_flat(mesh[other(slave)]->surface().is_flat())
     , n(parameters.points_per_element(bone.parameters(), implant.parameters()))
   {
     // n x n Gauss points per element. A point carries its weight JxW [mm^2] of
@@ -126,7 +127,8 @@ namespace Debond
     return {&mesh[master_side()]->surface(),
             &configuration.side[master_side()].positions,
             mesh[master_side()]->outward_sign(),
-            master_is_level};
+            master_is_level,
+            master_is_flat};
   }
 
 
@@ -294,7 +296,7 @@ namespace Debond
       SurfaceGeometry geometry;
       surface.evaluate(xi, basis, false);
       contract(basis, surface.control_points(), false, geometry);
-      return {Q * MasterNormal(geometry, master.outward_sign).n, false};
+      return {Q * MasterNormal(geometry, master.outward_sign).n, master.is_flat};
     }
 
 

@@ -151,6 +151,7 @@ namespace Debond
             // the area by its status; divided by the area below
             area += point.JxW;
             summary.phi_mean += point.JxW * friction(point).phi;
+            summary.pressure += point.JxW * std::max(0., trial.pressure);
             *share_of[static_cast<unsigned int>(status(point))] += point.JxW;
           }
         summary.n_closed += status(point) != PointStatus::open;
@@ -193,6 +194,7 @@ namespace Debond
     find_side(summary);
     // means over the area that faced the implant at the start
     summary.phi_mean /= area;
+    summary.pressure /= area;
     for (double *part : share_of)
       *part /= area;
     return summary;

@@ -62,6 +62,9 @@ namespace Debond
       refuse_if(scene.interface.explicit_friction,
                 "Interface / Friction update",
                 "closed forms have no steps to lag behind by");
+      refuse_if(scene.chuck.point != "auto",
+                "Chuck / Point",
+                "closed forms turn the coin about its axis: expected auto");
       for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
         {
           const ChuckComponentParameters &component = scene.chuck.component[k];

@@ -38,6 +38,7 @@ namespace Debond
     std::vector<std::string>
     findings(const nlohmann::ordered_json &summary,
              const TorqueRow              &end,
+             const CurveAxes              &axes,
              const std::size_t             n_warnings)
     {
       std::vector<std::string> lines;
@@ -73,6 +74,13 @@ namespace Debond
       add(value("pull_max_N"),
           "Largest pull " + number(value("pull_max_N")) + " N at " +
             number(value("pull_max_mm")) + " mm");
+      if (const auto curve = summary.find("curve"); curve != summary.end())
+        lines.push_back(
+          std::string("Largest ") + axes.load_word() + " " +
+          number(curve->value("largest", 0.)) + " " + axes.load_unit() +
+          " at " + number(curve->value("at", 0.)) + " " + axes.position_unit() +
+          ", at the end " + number(curve->value("end", 0.)) + " " +
+          axes.load_unit());
       add(stiffness,
           "Initial torsional stiffness " + number(stiffness) + " N mm/rad");
       add(breaks,
@@ -142,7 +150,8 @@ namespace Debond
     , directory(directory)
     , files_of_reference(reference_files(scene.output))
     , reference(read_reference_curve(scene.output.reference_curve,
-                                     scene.output.reference_columns))
+                                     scene.output.reference_columns,
+                                     scene.output.axes))
     , profiles(scene, directory)
     , maps(scene)
   {}
@@ -193,7 +202,7 @@ namespace Debond
     if (fine.size() > rows.size())
       write_file(directory.file("curve.csv"), curve_table(fine));
     if (!reference.empty())
-      write_reference(directory.path(), reference);
+      write_reference(directory.path(), reference, output.axes);
     if (!output.curve_at.empty())
       write_file(directory.file("curve_at.csv"),
                  curve_table(rows_at(fine, output.curve_at)));
@@ -206,7 +215,9 @@ namespace Debond
       console.warn("curve at",
                    "Output / Curve at: the implant never turns through " +
                      missed + " deg");
-    const CurveComparison comparison(angles_and_torques(fine), reference);
+    const CurveComparison comparison(curve_of(fine, output.axes),
+                                     reference,
+                                     output.axes);
     if (!reference.empty() && (converged || comparison.rows_used > 0))
       for (const std::string &text :
            comparison.warnings(output.reference_curve))
@@ -228,10 +239,11 @@ namespace Debond
       return;
 
     if (comparison.rows_used > 0)
-      console.headline("The torque differs from that of " +
-                       output.reference_curve + " by " + comparison.text());
+      console.headline("The " + std::string(output.axes.load_word()) +
+                       " differs from that of " + output.reference_curve +
+                       " by " + comparison.text());
     for (const std::string &line :
-         findings(summary, rows.back(), console.warnings.size()))
+         findings(summary, rows.back(), output.axes, console.warnings.size()))
       console.headline(line);
     console.headline("Results are in " + directory.path());
   }

@@ -523,8 +523,11 @@ namespace Debond
     row.torque_Nmm = coupled_system.chuck_forces()[ChuckComponent::rotation_z];
     row.force_N =
       0. - reaction[ChuckComponent::translation_z]; // no negative zero
-    // The mean pressure refers to the area of the undeformed contact face.
-    row.pressure_MPa = row.force_N / interface.implant_area();
+    // The mean pressure refers to the area of the undeformed contact face. In a
+    // bore it is no matter of the axial force.
+    row.pressure_MPa = scene.implant.geometry().is_in_bore(scene.implant) ?
+                         summary.pressure :
+                         row.force_N / interface.implant_area();
     // Sums over the quadrature points, by area: the mean bonding state of Eq.
     // (13), and how much sticks, slides and is open.
     row.phi_mean          = summary.phi_mean;

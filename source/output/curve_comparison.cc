@@ -86,9 +86,33 @@ namespace Debond
 
 
 
-  const char *const CurveComparison::opposite_sign =
-    "the torques of the reference curve have the opposite sign: a minus "
-    "before their unit, as in [-N m], turns them";
+  ReferenceCurve
+  last_branch(const ReferenceCurve &curve)
+  {
+    if (curve.empty())
+      return curve;
+    const auto by_position = [](const auto &a, const auto &b) {
+      return a.first < b.first;
+    };
+    const bool rises = curve.back().first > curve.front().first;
+    // the last of equal ones
+    auto turn = curve.begin();
+    for (auto point = curve.begin(); point != curve.end(); ++point)
+      if (rises ? !by_position(*turn, *point) : !by_position(*point, *turn))
+        turn = point;
+    return ReferenceCurve(turn, curve.end());
+  }
+
+
+
+  std::string
+  CurveComparison::opposite_sign(const CurveAxes &axes)
+  {
+    return std::string("the ") + axes.load_word() +
+           "s of the reference curve have the opposite sign: a minus before "
+           "their unit, as in [-" +
+           (is_rotation(axes.load) ? "N m" : "N") + "], turns them";
+  }
 
 
 
@@ -103,6 +127,7 @@ namespace Debond
     std::vector<std::string>
     doubts_of(const ReferenceCurve &computed,
               const ReferenceCurve &measured,
+              const CurveAxes      &axes,
               const bool            is_opposite)
     {
       std::vector<std::string> remarks;
@@ -115,32 +140,39 @@ namespace Debond
           remarks.push_back(text);
       };
       ask(!(T_largest > 0.01 * T_max && T_largest < 100. * T_max),
-          "the largest torque of the reference curve is " +
-            to_text(T_largest, 4) + " and that of the run " +
-            to_text(T_max, 4) + " N mm: is it in N mm?");
+          std::string("the largest ") + axes.load_word() +
+            " of the reference curve is " + to_text(T_largest, 4) +
+            " and that of the run " + to_text(T_max, 4) + " " +
+            axes.load_unit() + ": is it in " + axes.load_unit() + "?");
       ask(measured_end < 0.05 * end,
           "the reference curve ends at " + to_text(measured_end, 4) +
             " and the run at " + to_text(end, 4) +
-            " degrees: is it in degrees?");
-      ask(is_opposite, CurveComparison::opposite_sign);
-      ask(
-        turns_back(measured),
-        "the angles of the reference curve turn back: loading and unloading, or "
-        "two tests, are compared with one curve");
+            (is_rotation(axes.position) ? " degrees: is it in degrees?" :
+                                          " mm: is it in mm?"));
+      ask(is_opposite, CurveComparison::opposite_sign(axes));
+      ask(turns_back(measured),
+          std::string("the ") + axes.position_word() +
+            "s of the reference curve turn back: loading and unloading, or two "
+            "tests, are compared with one curve");
       return remarks;
     }
   } // namespace
 
 
 
-  CurveComparison::CurveComparison(const ReferenceCurve &computed,
-                                   const ReferenceCurve &measured)
+  CurveComparison::CurveComparison(const ReferenceCurve &all,
+                                   const ReferenceCurve &measured,
+                                   const CurveAxes      &axes)
+    : axes(axes)
   {
-    const Rotation rotation(computed);
+    const ReferenceCurve computed = axes.is_torsion() ? all : last_branch(all);
+    const Rotation       rotation(computed);
     if (measured.empty() || rotation.direction == 0. || rotation.reverses)
       {
         why_none = measured.empty()         ? "there is no curve" :
-                   rotation.direction == 0. ? "nothing has rotated in the run" :
+                   rotation.direction == 0. ? axes.is_torsion() ?
+                                              "nothing has rotated in the run" :
+                                              "nothing has moved in the run" :
                                               "the run turns back";
         return;
       }
@@ -156,8 +188,8 @@ namespace Debond
         const double turned = rotation.direction * angle;
         // angles go from degrees to radians and back
         const double T = torque_at(curve, turned, rotation.tolerance);
-        if (!(turned > 0. && std::abs(T_measured) > 0.01 * T_largest &&
-              std::isfinite(T)))
+        if (!((turned > 0. || !axes.is_torsion()) &&
+              std::abs(T_measured) > 0.01 * T_largest && std::isfinite(T)))
           continue;
         const double difference = std::abs(T - T_measured);
         sum_mp += difference / std::abs(T_measured);
@@ -166,20 +198,23 @@ namespace Debond
         ++rows_used;
         if (difference > most)
           {
-            most             = difference;
-            angle_of_max_deg = angle;
+            most            = difference;
+            position_of_max = angle;
           }
       }
-    remarks = doubts_of(computed, measured, products < 0.);
+    remarks = doubts_of(computed, measured, axes, products < 0.);
     if (rows_used == 0)
       {
-        why_none =
-          T_largest == 0. ?
-            "all torques are zero" :
-            "the run turns from " + to_text(computed.front().first, 4) +
-              " to " + to_text(computed.back().first, 4) +
-              " deg, and the curve from " + to_text(measured.front().first, 4) +
-              " to " + to_text(measured.back().first, 4) + " deg";
+        why_none = T_largest == 0. ?
+                     std::string("all ") + axes.load_word() + "s are zero" :
+                     std::string("the run ") +
+                       (is_rotation(axes.position) ? "turns" : "moves") +
+                       " from " + to_text(computed.front().first, 4) + " to " +
+                       to_text(computed.back().first, 4) + " " +
+                       axes.position_unit() + ", and the curve from " +
+                       to_text(measured.front().first, 4) + " to " +
+                       to_text(measured.back().first, 4) + " " +
+                       axes.position_unit();
         return;
       }
     e_mp            = sum_mp / rows_used;
@@ -198,7 +233,8 @@ namespace Debond
             {"difference_max", difference_max},
             {"difference_mean", difference_mean},
             {"reference_rows_used", rows_used},
-            {"difference_max_deg", angle_of_max_deg}};
+            {"difference_max_deg",
+             is_rotation(axes.position) ? position_of_max : undefined}};
   }
 
 
@@ -207,6 +243,8 @@ namespace Debond
   CurveComparison::put_into(nlohmann::ordered_json &summary) const
   {
     summary.update(members());
+    if (!axes.is_torsion())
+      summary["curve"]["difference_max_at"] = position_of_max;
     if (rows_used == 0)
       summary["remarks"].push_back(remark_begins + ("null, " + why_none));
     for (const std::string &remark : remarks)
@@ -240,7 +278,7 @@ namespace Debond
     };
     return percent(difference_mean) + " % in the mean, " +
            percent(difference_max) + " % at most, at " +
-           to_text(angle_of_max_deg, 3) + " deg";
+           to_text(position_of_max, 3) + " " + axes.position_unit();
   }
 
 
@@ -248,11 +286,12 @@ namespace Debond
   CurveComparison
   comparison_before_run(const Scene &scene, const ReferenceCurve &measured)
   {
-    constexpr auto twist = ChuckComponent::rotation_z;
-    const double   T_largest =
+    const CurveAxes   &axes  = scene.output.axes;
+    const unsigned int moved = axes.position;
+    const double       T_largest =
       largest(measured, &ReferenceCurve::value_type::second);
     const TimeFunction value_at =
-      scene.chuck.value_over_time(twist, scene.implant.characteristic_radius());
+      scene.chuck.value_over_time(moved, scene.implant.characteristic_radius());
     ReferenceCurve expected;
     for (const double time : scene.load_steps.sample_times())
       {
@@ -263,10 +302,10 @@ namespace Debond
       }
     // of a moment only the direction is known
     const double load = largest(expected, &ReferenceCurve::value_type::first);
-    if (scene.chuck.component[twist].loaded && load > 0.)
+    if (scene.chuck.component[moved].loaded && load > 0.)
       for (auto &[angle, torque] : expected)
         angle *= largest(measured, &ReferenceCurve::value_type::first) / load;
-    return CurveComparison(expected, measured);
+    return CurveComparison(expected, measured, axes);
   }
 
 
@@ -276,7 +315,9 @@ namespace Debond
   {
     const std::string   &file = scene.output.reference_curve;
     const ReferenceCurve measured =
-      read_reference_curve(file, scene.output.reference_columns);
+      read_reference_curve(file,
+                           scene.output.reference_columns,
+                           scene.output.axes);
     if (measured.empty())
       return {};
     return comparison_before_run(scene, measured).warnings(file);

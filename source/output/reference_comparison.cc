@@ -15,11 +15,13 @@
 namespace Debond
 {
   void
-  write_reference(const std::string &directory, const ReferenceCurve &curve)
+  write_reference(const std::string    &directory,
+                  const ReferenceCurve &curve,
+                  const CurveAxes      &axes)
   {
-    std::string text = "angle_deg,torque_Nmm\n";
-    for (const auto &[angle, torque] : curve)
-      text += csv_line(std::vector<double>{angle, torque});
+    std::string text = axes.position_column() + "," + axes.load_column() + "\n";
+    for (const auto &[position, load] : curve)
+      text += csv_line(std::vector<double>{position, load});
     write_file(directory + "/reference.csv", text);
   }
 
@@ -72,18 +74,23 @@ namespace Debond
                nlohmann::ordered_json &summary)
   {
     const auto           files = reference_files(output);
-    const ReferenceCurve curve = read_reference_curve(finest_curve(directory)),
+    const CurveAxes     &axes  = output.axes;
+    const ReferenceCurve curve = read_reference_curve(finest_curve(directory),
+                                                      {},
+                                                      axes),
                          measured =
                            read_reference_curve(output.reference_curve,
-                                                output.reference_columns);
+                                                output.reference_columns,
+                                                axes);
     erase_texts(summary["remarks"], CurveComparison::remark_begins);
     if (!measured.empty())
       {
         erase_texts(summary["warnings"], output.reference_curve);
-        write_reference(directory, measured);
-        const CurveComparison comparison(curve, measured);
+        write_reference(directory, measured, axes);
+        const CurveComparison comparison(curve, measured, axes);
         const Rotation        rotation(curve);
-        if (rotation.direction == 0. || rotation.reverses)
+        if (axes.is_torsion() &&
+            (rotation.direction == 0. || rotation.reverses))
           summary.update(comparison.members()); // the remarks say so already
         else
           comparison.put_into(summary);

@@ -182,11 +182,15 @@ namespace Debond
 
 
   ReferenceCurve
-  angles_and_torques(const std::vector<TorqueRow> &rows)
+  curve_of(const std::vector<TorqueRow> &rows, const CurveAxes &axes)
   {
     ReferenceCurve curve;
     for (const TorqueRow &row : rows)
-      curve.emplace_back(row.angle_deg, row.torque_Nmm);
+      if (axes.is_torsion())
+        curve.emplace_back(row.angle_deg, row.torque_Nmm);
+      else
+        curve.emplace_back(row.chuck_position[axes.position],
+                           row.chuck_reaction[axes.load]);
     return curve;
   }
 
@@ -334,7 +338,7 @@ namespace Debond
     double
     torque_between(const Rows &rows, const double angle)
     {
-      ReferenceCurve curve = angles_and_torques(rows);
+      ReferenceCurve curve = curve_of(rows);
       if (curve.back().first < curve.front().first)
         std::reverse(curve.begin(), curve.end());
       return torque_at(curve, angle, 0.);
@@ -465,6 +469,7 @@ namespace Debond
     if (output.full_sliding_angle > 0.)
       full_sliding_angle_deg = output.full_sliding_angle;
     reference = curve;
+    axes      = output.axes;
   }
 
 
@@ -531,6 +536,35 @@ namespace Debond
 
 
 
+    /** What is read off a curve that is no torque over an angle. */
+    nlohmann::ordered_json
+    measures_of(const ReferenceCurve &curve, const CurveAxes &axes)
+    {
+      const ReferenceCurve last = last_branch(curve);
+      const auto           peak =
+        std::max_element(last.begin(),
+                         last.end(),
+                         [](const auto &a, const auto &b) {
+                           return std::abs(a.second) < std::abs(b.second);
+                         });
+      const auto moved =
+        std::find_if(last.begin(), last.end(), [&](const auto &point) {
+          return std::abs(point.first - last.front().first) > 1e-12;
+        });
+      return {{"over", axes.position_column()},
+              {"load", axes.load_column()},
+              {"largest", peak->second},
+              {"at", peak->first},
+              {"end", last.back().second},
+              {"initial_stiffness",
+               moved == last.end() ?
+                 std::numeric_limits<double>::quiet_NaN() :
+                 (moved->second - std::prev(moved)->second) /
+                   (moved->first - std::prev(moved)->first)}};
+    }
+
+
+
     /** Stiffness, and between which rows the bond begins to break. */
     void
     measure_beginning(const Rows                   &rows,
@@ -578,7 +612,7 @@ namespace Debond
       return measures;
 
     const Rows       rows = fine_curve(steps);
-    const Rotation   rotation(angles_and_torques(rows));
+    const Rotation   rotation(curve_of(rows));
     const TorqueRow *peak = &rows.front(), *pull = peak, &end = rows.back();
     double           energy_defect = 0, reaction_defect = 0, largest_force = 0;
     for (const TorqueRow &row : rows)
@@ -627,14 +661,19 @@ namespace Debond
         measures["theta_max_deg"] = peak->angle_deg;
         measure_beginning(rows, steps, rotation, settings, measures);
         measure_energies(rows, rotation, settings, T_max, measures);
-        if (!settings.reference.empty()) // Eqs. (19) and (50)
-          CurveComparison(angles_and_torques(rows), settings.reference)
-            .put_into(measures);
       }
-    else if (rotation.reverses || !pulls)
+    else if (settings.axes.is_torsion())
       measures["remarks"].push_back(
         std::string("angles and energies of a rotation: null, ") +
         (rotation.reverses ? "the rotation reverses" : "nothing rotates"));
+    const ReferenceCurve curve = curve_of(rows, settings.axes);
+    if (!settings.axes.is_torsion())
+      measures["curve"] = measures_of(curve, settings.axes);
+    if (!settings.reference.empty() &&
+        (!settings.axes.is_torsion() ||
+         (rotation.direction != 0. && !rotation.reverses)))
+      CurveComparison(curve, settings.reference, settings.axes)
+        .put_into(measures); // Eqs. (19) and (50)
     return measures;
   }
 } // namespace Debond

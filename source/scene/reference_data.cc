@@ -6,14 +6,15 @@ namespace Debond
 {
   ReferenceCurve
   read_reference_curve(const std::string              &filename,
-                       const std::vector<std::string> &columns)
+                       const std::vector<std::string> &columns,
+                       const CurveAxes                &axes)
   {
     ReferenceCurve curve;
     if (!filename.empty())
       for (const std::vector<double> &row :
            read_measured_table(filename,
                                "Output / Reference curve",
-                               {"angle_deg", "torque_Nmm"},
+                               {axes.position_column(), axes.load_column()},
                                columns,
                                "Output / Reference columns"))
         curve.emplace_back(row[0], row[1]);

@@ -1,8 +1,9 @@
 #include <debond/input/entry_table.h>
 #include <debond/input/input_file.h>
 #include <debond/input/scene_file.h>
+#include <debond/scene/reference_data.h>
 #include <debond/scene/scene.h>
-#include <debond/shapes/mesh_file.h>
+#include <debond/shapes/body_mesh.h>
 #include <debond/shapes/modulus_field.h>
 #include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
@@ -81,6 +82,11 @@ namespace Debond
         scene.chuck.read_tables();
         scene.take_values();
         scene.check();
+        const auto axes   = CurveAxes::read(scene.output.curve);
+        scene.output.axes = axes ? *axes : CurveAxes::usual(scene);
+        read_reference_curve(scene.output.reference_curve,
+                             scene.output.reference_columns,
+                             scene.output.axes);
       }
     catch (const InputError &error)
       {

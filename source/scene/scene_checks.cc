@@ -17,11 +17,15 @@ namespace Debond
     void
     check_faces(const BodyParameters &bone, const BodyParameters &implant)
     {
-      if (implant.geometry().has_side(implant) && bone.geometry().is_lattice())
+      if (implant.geometry().is_in_bore(implant) &&
+          bone.geometry().is_lattice())
         throw EntryError("Implant / Shape",
                          "a " + implant.geometry().name() +
                            " is in the bone, and a " + bone.geometry().name() +
-                           " is below it: expected Bone / Shape = sleeve");
+                           " is below it: expected Bone / Shape = " +
+                           (implant.geometry().centre_of_sphere(implant) ?
+                              "cavity" :
+                              "sleeve"));
       for (unsigned int d = 0; d < 2; ++d)
         if (implant.width(d) > bone.width(d))
           throw EntryError("Implant / " + implant.geometry().entries().front(),
@@ -97,7 +101,7 @@ namespace Debond
         {
           throw EntryError(entry, error.what());
         }
-      if (moves && !scene.implant.geometry().has_side(scene.implant))
+      if (moves && !scene.implant.geometry().is_in_bore(scene.implant))
         throw EntryError(entry,
                          "a " + scene.implant.geometry().name() +
                            " is in no bore: expected 0",
@@ -248,7 +252,6 @@ namespace Debond
     void
     check_references(const OutputParameters &output)
     {
-      read_reference_curve(output.reference_curve, output.reference_columns);
       read_profiles(output.reference_profiles);
       if (!output.reference_profiles.empty() && output.profile_angles.empty())
         throw EntryError("Output / Reference profiles",

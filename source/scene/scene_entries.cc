@@ -160,17 +160,19 @@ namespace Debond
       table.add("Curves",
                 calibration.curves,
                 Allowed::list(Allowed::text("a column of torque.csv", false),
-                              1,
+                              0,
                               0),
                 "What has been measured: columns of torque.csv, of torque_Nmm "
                 "and those that begin with chuck_, in the order of Output / "
-                "Reference columns.");
-      table.add("Over",
-                calibration.over,
-                Allowed::text("a column of torque.csv", false),
-                "What it has been measured over: time, angle_deg or another "
-                "column of torque.csv that begins with chuck_. It is the first "
-                "of Output / Reference columns.");
+                "Reference columns. Empty: the load of Output / Curve.");
+      table.add(
+        "Over",
+        calibration.over,
+        Allowed::text("a column of torque.csv"),
+        "What it has been measured over: time, angle_deg or another "
+        "column of torque.csv that begins with chuck_. It is the first "
+        "of Output / Reference columns. Empty: the position of Output / "
+        "Curve.");
       table.add("Windows",
                 calibration.windows,
                 Allowed::list(Allowed::number(""), 0, 0),
@@ -211,10 +213,26 @@ namespace Debond
     void
     declare_references(OutputParameters &output, EntryTable &table)
     {
+      AllowedValues curves = Allowed::text(
+        "auto, or a position and a load of the chuck: Translation z, Force z",
+        false);
+      curves.test = [](const std::string &text) {
+        return text == "auto" || CurveAxes::read(text);
+      };
+      table.add(
+        "Curve",
+        output.curve,
+        curves,
+        "The curve that the scene is about: a load of the chuck (Force x, y, z, "
+        "Moment x, y, z) over one of its positions (Translation x, y, z, "
+        "Rotation x, y, z): Translation z, Force z. Pages draw it, measured "
+        "curves are compared with it and fitted. `auto': Rotation z, Moment z "
+        "where the chuck may turn about z, else position and load of the "
+        "component that it moves most.");
       table.add("Reference curve",
                 output.reference_curve,
                 Allowed::text("the name of a CSV file"),
-                "Table to compare the torque curve with, as an instrument or a "
+                "Table to compare the Curve with, as an instrument or a "
                 "spreadsheet writes it, or the torque.csv of a run; empty: "
                 "none. Semicolons, tabs, commas or blanks separate; units are "
                 "read off the names of the columns, as in torque [N m].");
@@ -222,12 +240,13 @@ namespace Debond
         "Reference columns",
         output.reference_columns,
         Allowed::text("two columns, the angle and the torque"),
-        "Which columns of Reference curve are angle and torque, each "
-        "by its name there or its number from 1, with a unit (deg, "
-        "rad, mrad; N mm, mN m, N cm, N m, kN m) where the file has "
-        "none: Winkel [rad], 3 [N m]. A minus before the unit, 3 [-N m], turns "
-        "the sign. Empty: angle_deg and torque_Nmm, else the only columns with "
-        "such units.");
+        "Which columns of Reference curve are angle and torque, or what Curve "
+        "says, each by its name there or its number from 1, with a unit (deg, "
+        "rad, mrad; mm, um, m; N mm, mN m, N cm, N m, kN m; N, kN) where the "
+        "file has none: Winkel [rad], 3 [N m]. A minus before the unit, "
+        "3 [-N m], turns the sign. Empty: angle_deg and torque_Nmm, or the "
+        "columns of torque.csv that Curve names, else the only ones with such "
+        "units.");
       table.add("Reference profiles",
                 output.reference_profiles,
                 Allowed::text("the name of a CSV file"),

@@ -404,7 +404,7 @@ namespace Debond
                  ", and changes later: do Load steps / Times end too early?");
           // in a bore there is no push, and no rim that leaves the bone
           const bool is_above =
-            !scene.implant.geometry().has_side(scene.implant);
+            !scene.implant.geometry().is_in_bore(scene.implant);
           if (is_above && k < ChuckComponent::translation_z &&
               !component.loaded)
             judge_crossing(scene, k, entry, values, note);

@@ -1,6 +1,6 @@
 #include <debond/shapes/body_geometry.h>
+#include <debond/shapes/body_mesh.h>
 #include <debond/shapes/body_parameters.h>
-#include <debond/shapes/mesh_file.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 #include <debond/support/ranks.h>

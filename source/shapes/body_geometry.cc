@@ -21,6 +21,12 @@ namespace Debond
   taper_geometry();
   const BodyGeometry &
   screw_geometry();
+  const BodyGeometry &
+  cup_geometry();
+  const BodyGeometry &
+  cavity_geometry();
+  const BodyGeometry &
+  ring_geometry();
 
   const std::vector<const BodyGeometry *> &
   body_geometries()
@@ -32,7 +38,10 @@ namespace Debond
                                                        &pin_geometry(),
                                                        &sleeve_geometry(),
                                                        &taper_geometry(),
-                                                       &screw_geometry()};
+                                                       &screw_geometry(),
+                                                       &cup_geometry(),
+                                                       &cavity_geometry(),
+                                                       &ring_geometry()};
     return all;
   }
 
@@ -55,7 +64,7 @@ namespace Debond
 
 
 
-  std::shared_ptr<const FileMesh>
+  std::shared_ptr<const BodyMesh>
   BodyGeometry::make_mesh(const BodyParameters &,
                           const BodyParameters &,
                           const std::string &) const

@@ -1,7 +1,7 @@
 #include <debond/input/entry_table.h>
 #include <debond/shapes/body_geometry.h>
+#include <debond/shapes/body_mesh.h>
 #include <debond/shapes/body_parameters.h>
-#include <debond/shapes/mesh_file.h>
 #include <debond/shapes/modulus_field.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
@@ -57,6 +57,15 @@ namespace Debond
     const auto &[lower, upper] = mesh->box.get_boundary_points();
     return {
       {{{lower[0], lower[1], lower[2]}}, {{upper[0], upper[1], upper[2]}}}};
+  }
+
+
+
+  const char *
+  name_of(const SleeveEnds ends)
+  {
+    static const char *const names[]{"free", "slides z", "axial", "held"};
+    return names[static_cast<unsigned int>(ends)];
   }
 
 
@@ -138,25 +147,28 @@ namespace Debond
               "held, its sides slide along themselves.");
     table.add("Outer radius",
               outer_radius,
-              allowed_length,
-              "Outer radius [mm] of a sleeve; the inner one is that of the "
-              "implant.");
+              AllowedValues(allowed_length).or_number(0),
+              "Outer radius [mm] of a sleeve or of a cavity that is a shell; "
+              "the inner one is that of the implant. 0: a cavity is a block.");
     table.add("Height",
               sleeve_height,
               AllowedValues(allowed_length).or_number(0),
               "Height [mm] of a sleeve, from its top at z = 0 down; 0: that of "
               "the implant.");
-    table.add("Ends",
-              ends,
-              Allowed::choice("free | slide | axial | held"),
-              "How top and bottom of a sleeve are held. `slide': they do not "
-              "move along the axis. `axial': they move along the axis only. "
-              "`held': not at all.");
+    table.add(
+      "Ends",
+      ends,
+      Allowed::choice("free | slide | axial | held"),
+      "How top and bottom of a sleeve, or the top of a cavity, are held. "
+      "`slide': they do not move along the axis. `axial': they move "
+      "along the axis only. `held': not at all.");
     table.add("Cells",
               cells,
               Allowed::list(allowed_cells, 3, 3),
               "Number of cells in x, y and z; of a sleeve around, radial and "
-              "along.");
+              "along; of a cavity around (4, 8, 12, ...), radial, and along a "
+              "meridian from a square below, of a quarter of those around "
+              "across, to the rim.");
     table.add(
       "Lateral grading",
       lateral_grading,
@@ -214,12 +226,15 @@ namespace Debond
       "Radius",
       radius,
       allowed_length,
-      "Radius R [mm] of a coin, a cap or a pin; of a taper at z = 0, of "
-      "a screw half way between crest and valley.");
-    table.add("Inner radius",
-              inner_radius,
-              AllowedValues(allowed_length).or_number(0),
-              "Inner radius [mm] of a hollow pin; 0: it is solid.");
+      "Radius R [mm] of a coin, a cap, a ring or a pin; of a taper at z = 0, "
+      "of a screw half way between crest and valley, of a cup that of its "
+      "sphere.");
+    table.add(
+      "Inner radius",
+      inner_radius,
+      AllowedValues(allowed_length).or_number(0),
+      "Inner radius [mm] of a hollow pin or cup, or of a ring; 0: it is "
+      "solid.");
     table.add("Taper angle",
               taper_angle,
               Allowed::number_between(0, 60, "degrees"),
@@ -242,8 +257,8 @@ namespace Debond
     table.add("Height",
               height,
               allowed_length,
-              "Height [mm] of a coin or a cap, on its axis; of a pin that of "
-              "its side.");
+              "Height [mm] of a coin, a cap or a ring, on its axis; of a pin "
+              "that of its side, of a cup its depth: no more than its Radius.");
     table.add("Cap radius",
               cap_radius,
               Allowed::number_between(1e-6, 1e9, "mm"),
@@ -268,8 +283,9 @@ namespace Debond
       set_cells,
       Allowed::list(allowed_cells, 2, 3),
       "Number of cells in x, y and z. Two numbers n, m mean n, n, m: "
-      "of a coin and a cap across the disk and along the axis. Of a pin "
-      "around, radial and along; around a solid one 4, 8, 12, ...");
+      "of a coin and a cap across the disk and along the axis. Of a pin and "
+      "a ring around, radial and along; around a solid one 4, 8, 12, ... Of a "
+      "cup as of a cavity.");
     declare_material(table, false);
     table.leave_subsection();
   }

@@ -5,6 +5,8 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_tools.h>
 
+#include <Eigen/QR>
+
 #include <map>
 #include <utility>
 
@@ -44,47 +46,100 @@ namespace Debond
 
   namespace
   {
-    /** Weights of the control points in the middle of lines along both
-     *  parameters of a face; opposite sides have the same. */
-    std::array<double, 2>
-    weights_along(const FileMesh                                       &mesh,
-                  const dealii::Triangulation<3>::active_cell_iterator &cell,
-                  const ContactFace                                    &face)
+    using FaceWeights = Eigen::Matrix<double, 9, 1>;
+
+    /** Weights of the 3 x 3 control points of a face: at corners 1, in the
+     *  middle of edges that are arcs as the mesh says, in the middle of the
+     * face their geometric mean, that of a product where opposite edges are
+     * alike.
+     */
+    FaceWeights
+    weights_of(const BodyMesh                                       &mesh,
+               const dealii::Triangulation<3>::active_cell_iterator &cell,
+               const ContactFace                                    &face)
     {
-      std::array<double, 2> result;
-      const unsigned int    first = face.number % 2 << face.across();
-      for (unsigned int d = 0; d < 2; ++d)
-        {
-          const auto found =
-            mesh.weights.find(vertices_of({0, 1}, [&](const unsigned int c) {
-              return cell->vertex_index(first + (c << face.axes[d]));
-            }));
-          result[d] = found == mesh.weights.end() ? 1. : found->second;
-        }
-      return result;
+      FaceWeights        w     = FaceWeights::Ones();
+      const unsigned int first = face.number % 2 << face.across();
+      for (const unsigned int d : {0, 1})
+        for (const unsigned int side : {0, 1})
+          {
+            const auto found =
+              mesh.weights.find(vertices_of({0, 1}, [&](const unsigned int c) {
+                return cell->vertex_index(first + (c << face.axes[d]) +
+                                          (side << face.axes[1 - d]));
+              }));
+            if (found != mesh.weights.end())
+              w[d == 0 ? 1 + 6 * side : 3 + 2 * side] = found->second;
+          }
+      w[4] = std::sqrt(w[1] * w[7] * w[3] * w[5]);
+      return w;
     }
 
 
 
-    /** Of values at the n x n nodes of a face the control points, first one
-     *  direction, then the other: those in the middle of a line have the
-     *  weights @p w, those at its ends 1. */
+    /** Of values at the 3 x 3 nodes of a face the control points with the
+     *  weights @p w: first of its edges, whose ends have the weight 1. */
     void
-    interpolate(Eigen::Matrix3Xd            &x,
-                const unsigned int           n,
-                const std::array<double, 2> &w)
+    interpolate(Eigen::Matrix3Xd &x, const FaceWeights &w)
     {
-      if (n == 3)
-        for (const unsigned int d : {0, 1})
-          for (unsigned int line = 0; line < 3; ++line)
+      for (const auto &[first, middle, last] : {std::array{0, 1, 2},
+                                                std::array{6, 7, 8},
+                                                std::array{0, 3, 6},
+                                                std::array{2, 5, 8}})
+        x.col(middle) = ((1. + w[middle]) * x.col(middle) -
+                         0.5 * (x.col(first) + x.col(last))) /
+                        w[middle];
+      FaceWeights bernstein;
+      bernstein << 1., 2., 1., 2., 4., 2., 1., 2., 1.;
+      FaceWeights  rest = bernstein.cwiseProduct(w);
+      const double all = rest.sum(), own = rest[4];
+      rest[4]  = 0.;
+      x.col(4) = (all * x.col(4) - x * rest) / own;
+    }
+
+
+
+    /** Moves the control point in the middle of a face, and changes its weight,
+     *  so that the patch is as close to a sphere as it can be: |N|^2 = R^2 D^2,
+     *  with x = N/D from the centre, by least squares at inner points. Edges
+     * stay arcs. The error falls with the fourth power of the size of the
+     * faces, or the sixth; with the point on the sphere and the mean weight,
+     * with the third. */
+    void
+    fit_to_sphere(Eigen::Matrix3Xd &x, FaceWeights &w, const BodyMesh &mesh)
+    {
+      const double          R = mesh.sphere_radius;
+      const Eigen::Vector3d centre(mesh.sphere_centre[0],
+                                   mesh.sphere_centre[1],
+                                   mesh.sphere_centre[2]);
+      // homogeneous coordinates N/R, D of the control points
+      Eigen::Matrix<double, 4, 9> h;
+      h.topRows<3>()           = (x.colwise() - centre) * w.asDiagonal() / R;
+      h.row(3)                 = w.transpose();
+      constexpr unsigned int n = 5;
+      for (unsigned int iteration = 0; iteration < 4; ++iteration)
+        {
+          Eigen::Matrix<double, n * n, 4> J;
+          Eigen::Matrix<double, n * n, 1> F;
+          for (unsigned int i = 0; i < n * n; ++i)
             {
-              const unsigned int step  = d == 0 ? 1 : 3,
-                                 first = line * (4 - step);
-              x.col(first + step) =
-                ((1. + w[d]) * x.col(first + step) -
-                 0.5 * (x.col(first) + x.col(first + 2 * step))) /
-                w[d];
+              const auto bernstein = [](const double s) {
+                return Eigen::Vector3d((1. - s) * (1. - s),
+                                       2. * s * (1. - s),
+                                       s * s);
+              };
+              const Eigen::Matrix3d b =
+                bernstein((i % n + 1.) / (n + 1)) *
+                bernstein((i / n + 1.) / (n + 1)).transpose();
+              Eigen::Vector4d p = h * Eigen::Map<const FaceWeights>(b.data());
+              p[3]              = -p[3]; // of |N|^2 - D^2 the half gradient
+              F[i]              = p.head<3>().squaredNorm() - p[3] * p[3];
+              J.row(i)          = 2. * b(1, 1) * p.transpose();
             }
+          h.col(4) -= J.colPivHouseholderQr().solve(F);
+        }
+      w[4]     = h(3, 4);
+      x.col(4) = centre + R / w[4] * h.col(4).head<3>();
     }
   } // namespace
 
@@ -92,7 +147,7 @@ namespace Debond
 
   // Control points are the functions of FE_Q on the face: cells share them.
   NurbsSurface
-  contact_surface_of(const FileMesh    &mesh,
+  contact_surface_of(const BodyMesh    &mesh,
                      const unsigned int degree,
                      const Side         side)
   {
@@ -133,16 +188,20 @@ namespace Debond
               control_point_of.size());
             control_points.push_back(found.first->second);
           }
-        const auto w = degree == 2 ? weights_along(mesh, cell, face) :
-                                     std::array<double, 2>{{1., 1.}};
-        interpolate(x, n, w);
+        FaceWeights w = FaceWeights::Ones();
+        if (degree == 2)
+          {
+            w = weights_of(mesh, cell, face);
+            interpolate(x, w);
+            if (mesh.sphere_radius > 0.)
+              fit_to_sphere(x, w, mesh);
+          }
         net.conservativeResize(3, control_point_of.size());
         weights.resize(net.cols());
         for (unsigned int k = 0; k < n * n; ++k)
           {
             net.col(control_points[k]) = x.col(k);
-            weights[control_points[k]] =
-              (k % n == 1 ? w[0] : 1.) * (k / n == 1 ? w[1] : 1.);
+            weights[control_points[k]] = w[k];
           }
         faces.push_back(std::move(control_points));
       }

@@ -277,6 +277,8 @@ namespace Debond
       mesh->weights[vertices_of({0, 1}, [&](const unsigned int c) {
         return vertex[arc.ends[c]];
       })] = arc.weight;
+    mesh->sphere_centre = stored.sphere_centre;
+    mesh->sphere_radius = stored.sphere_radius;
     std::vector<Point> on_face;
     for (const auto &[corners, face] : faces)
       if (face.id == Boundary::contact)
@@ -304,7 +306,7 @@ namespace Debond
 
 
 
-  std::shared_ptr<const FileMesh>
+  std::shared_ptr<const BodyMesh>
   read_mesh_file(const std::string &filename, const std::string &entry)
   {
     const FileRefusal refuse = [&](const std::string &why) {

@@ -70,7 +70,7 @@ namespace Debond
         return std::max(-lower[2], upper[2]);
       }
 
-      std::shared_ptr<const FileMesh>
+      std::shared_ptr<const BodyMesh>
       make_mesh(const BodyParameters &body,
                 const BodyParameters &,
                 const std::string &section) const override

@@ -1,5 +1,6 @@
 #include <debond/shapes/body_parameters.h>
 #include <debond/shapes/pin.h>
+#include <debond/shapes/revolved_mesh.h>
 #include <debond/support/number_text.h>
 
 #include <algorithm>
@@ -72,20 +73,22 @@ namespace Debond
     return {{{-half, -body.height}, {half, 0.}}};
   }
 
-  RevolvedBody
-  Pin::revolved(const BodyParameters &body, const BodyParameters &) const
+  StoredMesh
+  Pin::stored_mesh(const BodyParameters &body, const BodyParameters &) const
   {
     RevolvedBody result;
-    result.height = body.height;
-    result.outer  = [this, &body](const double z, const double angle) {
+    result.cells   = body.cells;
+    result.grading = body.layer_grading;
+    result.lowest  = -body.height;
+    result.height  = body.height;
+    result.outer   = [this, &body](const double z, const double angle) {
       return radius_of_side(body, z, angle);
     };
     if (body.inner_radius > 0.)
       result.inner = [&body](double, double) { return body.inner_radius; };
-    result.opposite = result.bottom = "free";
-    result.top                      = "held";
-    result.is_round                 = is_round_about_axis();
-    return result;
+    result.top_name = "held";
+    result.is_round = is_round_about_axis();
+    return mesh_of_revolution(result);
   }
 
 

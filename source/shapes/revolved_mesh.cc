@@ -1,30 +1,26 @@
-#include <debond/shapes/mesh_builder.h>
+#include <debond/shapes/cell_collector.h>
 #include <debond/shapes/revolved_mesh.h>
-#include <debond/support/input_error.h>
 
 #include <cmath>
-#include <tuple>
 
 namespace Debond
 {
   namespace
   {
     using Point = dealii::Point<3>;
+    using Key   = CellCollector::Key;
+    using Place = CellCollector::Place;
 
-    /** Nodes are counted in halves of cells: from the inner to the outer face,
-     *  around and along; in the core across it and along. */
+    /** Nodes are counted from the inner to the outer face, around and along; in
+     *  the core across it and along. The first number of a key is 1 there. */
     class MeshOfRevolution
     {
     public:
       explicit MeshOfRevolution(const RevolvedBody &body);
 
-      StoredMesh stored;
+      CellCollector collected;
 
     private:
-      using Place = std::array<unsigned int, 3>;
-      /** 0: in a ring, 1: in the core. */
-      using Key = std::tuple<unsigned int, Place>;
-
       Point
       on_circle(const RevolvedBody::Radius &radius,
                 const double                z,
@@ -37,39 +33,32 @@ namespace Debond
       double
       height(const unsigned int along) const
       {
-        return body.height * (along / (2. * n[2]) - 1.);
+        return body.lowest +
+               body.height * (body.contact == RevolvedBody::Part::bottom ?
+                                part_of_way(along, n[2], true, body.grading) :
+                                along / (2. * n[2]));
       }
-      double
-      part_of_way(unsigned int radial) const;
       Point
       in_core(const Place &place) const;
-      unsigned int
-      node(Key key);
       Key
       of_ring(const Place &place) const;
       Key
       of_core(const Place &place) const;
       Point
       position(const Key &key) const;
-      template <typename KeyOf>
-      void
-      add_cell(const Place &first, const KeyOf &key_of);
-      void
-      name(const std::string                  &group,
-           std::initializer_list<unsigned int> corners);
       void
       name_parts(const Place &ring);
 
       const RevolvedBody               &body;
       const std::array<unsigned int, 3> n;
       const unsigned int                across; ///< the core, halves of cells
-      std::map<Key, unsigned int>       number;
     };
 
 
 
     MeshOfRevolution::MeshOfRevolution(const RevolvedBody &body)
-      : body(body)
+      : collected([this](const Key &key) { return position(key); })
+      , body(body)
       , n(body.cells)
       , across(n[0] / 2)
     {
@@ -78,33 +67,20 @@ namespace Debond
           for (unsigned int j = 0; j < n[0]; ++j)
             for (unsigned int i = 0; i < n[1]; ++i)
               {
-                add_cell({{2 * i, 2 * j, 2 * k}},
-                         [&](const Place &place) { return of_ring(place); });
+                collected.add({{2 * i, 2 * j, 2 * k}}, [&](const Place &place) {
+                  return of_ring(place);
+                });
                 name_parts({{i, j, k}});
               }
           for (unsigned int j = 0; j < across && !body.inner; j += 2)
             for (unsigned int i = 0; i < across; i += 2)
               {
-                add_cell({{i, j, 2 * k}},
-                         [&](const Place &place) { return of_core(place); });
+                collected.add({{i, j, 2 * k}}, [&](const Place &place) {
+                  return of_core(place);
+                });
                 name_parts({{n[1], 0, k}});
               }
         }
-    }
-
-
-
-    // Of the way from the inner to the outer face, graded to that of contact;
-    // nodes between two layers are in their middle.
-    double
-    MeshOfRevolution::part_of_way(const unsigned int radial) const
-    {
-      const auto end = [&](const unsigned int layer) {
-        const double part = static_cast<double>(layer) / n[1];
-        return body.contact_is_inner ? std::pow(part, body.grading) :
-                                       1. - std::pow(1. - part, body.grading);
-      };
-      return 0.5 * (end(radial / 2) + end((radial + 1) / 2));
     }
 
 
@@ -122,16 +98,16 @@ namespace Debond
 
 
 
-    MeshOfRevolution::Key
+    Key
     MeshOfRevolution::of_ring(const Place &place) const
     {
-      return {0, {{place[0], place[1] % (2 * n[0]), place[2]}}};
+      return {{0, place[0], place[1] % (2 * n[0]), place[2]}};
     }
 
 
 
     // Around the core it is a node of the first ring.
-    MeshOfRevolution::Key
+    Key
     MeshOfRevolution::of_core(const Place &place) const
     {
       const auto [x, y, z] = place;
@@ -140,7 +116,7 @@ namespace Debond
                              y == across ? int(3 * across - x) :
                              x == 0      ? int(4 * across - y) :
                                            -1;
-      return around < 0 ? Key{1, place} :
+      return around < 0 ? Key{{1, x, y, z}} :
                           of_ring({{0, static_cast<unsigned int>(around), z}});
     }
 
@@ -149,63 +125,26 @@ namespace Debond
     Point
     MeshOfRevolution::position(const Key &key) const
     {
-      const auto &[is_core, place] = key;
+      const auto [is_core, radial, around, along] = key;
       if (is_core == 1)
-        return in_core(place);
-      const double z = height(place[2]), part = part_of_way(place[0]);
-      const auto   start_of = [&]() {
-        if (body.inner)
-          return on_circle(body.inner, z, place[1]);
-        const unsigned int side = place[1] / across, on = place[1] % across;
-        const unsigned int corner[]{on, across, across - on, 0};
-        return in_core({{corner[side], corner[(side + 3) % 4], place[2]}});
-      };
-      const Point start = start_of(), end = on_circle(body.outer, z, place[1]);
-      return start + part * (end - start);
-    }
-
-
-
-    unsigned int
-    MeshOfRevolution::node(const Key key)
-    {
-      const auto found = number.emplace(key, stored.nodes.size());
-      if (found.second)
-        stored.nodes.push_back(position(key));
-      return found.first->second;
-    }
-
-
-
-    template <typename KeyOf>
-    void
-    MeshOfRevolution::add_cell(const Place &first, const KeyOf &key_of)
-    {
-      std::vector<unsigned int> nodes, places;
-      for (const Point &place : places_in_hexahedron())
+        return in_core({{radial, around, along}});
+      const double z = height(along);
+      const double part =
+        part_of_way(radial,
+                    n[1],
+                    body.contact == RevolvedBody::Part::inner,
+                    body.contact == RevolvedBody::Part::bottom ? 1. :
+                                                                 body.grading);
+      Point start;
+      if (body.inner)
+        start = on_circle(body.inner, z, around);
+      else
         {
-          places.push_back(places.size());
-          Place at = first;
-          for (unsigned int d = 0; d < 3; ++d)
-            at[d] += std::lround(2. * place[d]);
-          nodes.push_back(node(key_of(at)));
+          const unsigned int side = around / across, on = around % across;
+          const unsigned int corner[]{on, across, across - on, 0};
+          start = in_core({{corner[side], corner[(side + 3) % 4], along}});
         }
-      stored.add_hexahedron(nodes, places);
-    }
-
-
-
-    void
-    MeshOfRevolution::name(const std::string                  &group,
-                           std::initializer_list<unsigned int> corners)
-    {
-      if (group == "free")
-        return;
-      std::array<unsigned int, 4> face;
-      unsigned int                i = 0;
-      for (const unsigned int corner : corners)
-        face[i++] = stored.hexahedra.back()[corner];
-      stored.groups[group].push_back(face);
+      return start + part * (on_circle(body.outer, z, around) - start);
     }
 
 
@@ -214,32 +153,39 @@ namespace Debond
     void
     MeshOfRevolution::name_parts(const Place &cell)
     {
-      if (cell[2] == 0)
-        name(body.bottom, {0, 1, 2, 3});
-      if (cell[2] == n[2] - 1)
-        name(body.top, {4, 5, 6, 7});
+      const auto name = [&](const RevolvedBody::Part            part,
+                            const std::string                  &group,
+                            std::initializer_list<unsigned int> corners) {
+        collected.name(body.contact == part ? "contact" : group, corners);
+      };
       const bool is_inner = body.inner && cell[0] == 0,
-                 is_outer = cell[0] == n[1] - 1;
+                 is_outer = cell[0] == n[1] - 1, is_bottom = cell[2] == 0;
+      if (is_bottom)
+        name(RevolvedBody::Part::bottom, body.bottom_name, {0, 1, 2, 3});
+      if (cell[2] == n[2] - 1)
+        collected.name(body.top_name, {4, 5, 6, 7});
       if (is_inner)
-        name(body.contact_is_inner ? "contact" : body.opposite, {0, 2, 4, 6});
+        name(RevolvedBody::Part::inner, body.inner_name, {0, 2, 4, 6});
       if (is_outer)
-        name(body.contact_is_inner ? body.opposite : "contact", {1, 3, 5, 7});
-      // edges around, at the bottom and at the top of the contact face
-      const auto &nodes = stored.hexahedra.back();
-      if (body.is_round && (body.contact_is_inner ? is_inner : is_outer))
+        name(RevolvedBody::Part::outer, body.outer_name, {1, 3, 5, 7});
+      // edges around of the contact face; its first corners, and so on
+      if (body.is_round &&
+          (body.contact == RevolvedBody::Part::inner ? is_inner :
+           body.contact == RevolvedBody::Part::outer ? is_outer :
+                                                       is_bottom))
         for (const unsigned int c :
-             {body.contact_is_inner ? 0 : 1, body.contact_is_inner ? 4 : 5})
-          stored.arcs.push_back(
-            {{{nodes[c], nodes[c + 2]}}, std::cos(M_PI / n[0])});
+             body.contact == RevolvedBody::Part::inner ? std::array{0, 4} :
+             body.contact == RevolvedBody::Part::outer ? std::array{1, 5} :
+                                                         std::array{0, 1})
+          collected.add_arc(c, c + 2, std::cos(M_PI / n[0]));
     }
   } // namespace
 
 
 
-  std::shared_ptr<const FileMesh>
-  mesh_of_revolution(const RevolvedBody &body, const FileRefusal &refuse)
+  StoredMesh
+  mesh_of_revolution(const RevolvedBody &body)
   {
-    const MeshOfRevolution made(body);
-    return MeshBuilder(made.stored, refuse).mesh;
+    return std::move(MeshOfRevolution(body).collected.stored);
   }
 } // namespace Debond

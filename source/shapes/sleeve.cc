@@ -1,5 +1,6 @@
 #include <debond/shapes/body_parameters.h>
-#include <debond/shapes/revolved_shape.h>
+#include <debond/shapes/meshed_shape.h>
+#include <debond/shapes/revolved_mesh.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 
@@ -8,7 +9,7 @@ namespace Debond
   namespace
   {
     /** Bone around the side of an implant. */
-    class Sleeve : public RevolvedShape
+    class Sleeve : public MeshedShape
     {
     public:
       std::string
@@ -52,15 +53,15 @@ namespace Debond
       }
 
     protected:
-      RevolvedBody
-      revolved(const BodyParameters &body,
-               const BodyParameters &implant) const override
+      StoredMesh
+      stored_mesh(const BodyParameters &body,
+                  const BodyParameters &implant) const override
       {
         const BodyGeometry &inside = implant.geometry();
         RevolvedBody        result;
         result.height =
           body.sleeve_height > 0. ? body.sleeve_height : implant.height;
-        if (!inside.has_side(implant))
+        if (!(inside.radius_of_side(implant, 0., 0.) > 0.))
           throw EntryError("Bone / Shape",
                            "a sleeve is around the side of an implant, and a " +
                              inside.name() +
@@ -90,14 +91,14 @@ namespace Debond
         result.inner = [&implant, &inside](const double z, const double angle) {
           return inside.radius_of_side(implant, z, angle);
         };
-        result.outer = [&body](double, double) { return body.outer_radius; };
-        result.contact_is_inner = true;
-        result.opposite         = "held";
-        // as the files of meshes call it
-        static const char *const names[]{"free", "slides z", "axial", "held"};
-        result.bottom = result.top =
-          names[static_cast<unsigned int>(body.ends)];
-        return result;
+        result.outer   = [&body](double, double) { return body.outer_radius; };
+        result.cells   = body.cells;
+        result.grading = body.layer_grading;
+        result.lowest  = -result.height;
+        result.contact = RevolvedBody::Part::inner;
+        result.outer_name  = "held";
+        result.bottom_name = result.top_name = name_of(body.ends);
+        return mesh_of_revolution(result);
       }
     };
   } // namespace

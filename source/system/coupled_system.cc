@@ -78,7 +78,7 @@ namespace Debond
     , implant(*both_bodies->implant)
     , body{{&bone, &implant}}
     , chuck(parameters.chuck,
-            Eigen::Vector3d(0, 0, parameters.implant.chuck_height()),
+            parameters.chuck.place(parameters.implant.chuck_height()),
             parameters.implant.characteristic_radius())
     , interface(parameters.interface, bone.mesh(), implant.mesh())
     , press_fit(parameters.interface, parameters.implant, implant.surface())

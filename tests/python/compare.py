@@ -108,7 +108,7 @@ def check_measures():
         expect_close("e_mp", numpy.mean(difference / T_measured), found.e_mp)
         expect_close("e_rel", numpy.mean(difference) / 50, found.e_rel)
         expect_close("differences", [numpy.mean(difference) / 70, 10 / 70], [found.difference_mean, found.difference_max])
-        expect_close("where", 4 * direction, found.angle_of_max_deg)
+        expect_close("where", 4 * direction, found.position_of_max)
         expect("remarks", [], found.remarks)
     # an angle that stays has the torque before the jump; ends are met but for rounding
     jump = numpy.array([[0.0, 1, 1, 2], [0, 10, 4, 6]])
@@ -166,6 +166,17 @@ def check_program():
         expect("entry", ("--columns", "1, 2 [deg]"), (error.entry, error.value))
 
 
+def check_pull():
+    """A curve that is pressed to -1 mm, pulled at 10 N/mm up to 1 mm, and measured as 11 and 22 N at 1 and 2 mm more: of two
+    rows the run comes to the first only, where 10 N differ by 1 N of 22 N. Its names are in summary.json."""
+    write("pull/torque.csv", "chuck_uz_mm,chuck_Fz_N\n0,0\n-1,-99\n-1,-10\n1,10\n")
+    write("pull/summary.json", '{"curve": {"over": "chuck_uz_mm", "load": "chuck_Fz_N"}}')
+    write("pulled.csv", "way [mm],pull [N]\n1,11\n2,22\n")
+    found = compare("pull", "pulled.csv")
+    expect("pull", "pulled.csv: column 1 'way [mm]', column 2 'pull [N]'; 2 rows, from 1 to 2 mm, forces up to 22 N\n"
+           "pull: 4.5 % in the mean, 4.5 % at most, at 1 mm (1 rows; e_mp 9.09 %, e_rel 10 %)\n", found.text)
+
+
 def check_run():
     """The program computes the same measures of the same curves."""
     curve = os.path.join(scenes, "paper", "data", "closed_form_b_data_set_1.csv")
@@ -176,7 +187,7 @@ def check_run():
     found = compare("coin", curve).runs[""]
     for name, value in (("e_mp", found.e_mp), ("e_rel", found.e_rel), ("difference_max", found.difference_max),
                         ("difference_mean", found.difference_mean), ("reference_rows_used", found.rows_used),
-                        ("difference_max_deg", found.angle_of_max_deg)):
+                        ("difference_max_deg", found.position_of_max)):
         # the curve has twelve digits in its file
         expect_close(name, summary[name], value, 1e-9)
 
@@ -185,6 +196,7 @@ check_files()
 check_measures()
 check_remarks()
 check_program()
+check_pull()
 if debond:
     check_run()
 print("curves are compared as they should be")

@@ -1,7 +1,8 @@
-// Pin, taper and screw, and the sleeves around them.
-// - Contact faces: circles and cones are exact, threads fall with the order of
-//   the faces; normals point out of the bodies; the face of a bore is that of
-//   the implant; a thicker implant has the larger radius, exactly.
+// Pin, taper and screw, and the sleeves around them; cups, and their cavities.
+// - Contact faces: circles and cones are exact, errors of threads and spheres
+//   fall with the order of the faces; normals point out of the bodies; the face
+//   of a bore is that of the implant; a thicker implant has the larger radius,
+//   exactly.
 // - Cells: uniform strain leaves no force inside (patch test) but for what
 // Gauss
 //   points miss of rational functions, which falls; the sum of all forces is
@@ -22,21 +23,26 @@ using namespace Debond;
 Scene
 scene_of(const std::string &shape, const unsigned int n)
 {
-  const std::string        cells = std::to_string(8 * n);
-  std::vector<std::string> entries{"Bone/Cells=" + cells + ", 3, " +
-                                     std::to_string(4 * n),
-                                   "Implant/Cells=" + cells + ", 2, " +
-                                     std::to_string(4 * n)};
+  const bool        is_cup = shape == "cup" || shape == "shallow cup";
+  const std::string cells  = std::to_string(8 * n),
+                    along  = std::to_string(is_cup ? n : 4 * n);
+  std::vector<std::string> entries{"Bone/Cells=" + cells + ", 3, " + along,
+                                   "Implant/Cells=" + cells + ", 2, " + along};
+  if (is_cup)
+    entries.push_back("Implant/Height=" +
+                      std::string(shape == "cup" ? "2" : "0.8"));
   if (shape == "screw")
     entries.push_back("Implant/Pitch=3"); // a turn
   return Scene::from_text("subsection Bone\n"
-                          " set Shape = sleeve\n"
-                          " set Outer radius = 6\n"
-                          " set Element = quadratic\n"
-                          "end\n"
-                          "subsection Implant\n"
                           " set Shape = " +
-                            shape +
+                            std::string(is_cup ? "cavity" : "sleeve") +
+                            "\n"
+                            " set Outer radius = 6\n"
+                            " set Element = quadratic\n"
+                            "end\n"
+                            "subsection Implant\n"
+                            " set Shape = " +
+                            (is_cup ? "cup" : shape) +
                             "\n"
                             " set Radius = 2\n"
                             " set Height = 3\n"
@@ -48,6 +54,16 @@ scene_of(const std::string &shape, const unsigned int n)
                             " end\n"
                             "end\n",
                           entries);
+}
+
+
+
+/** Of a point from the axis, or from the centre of the sphere. */
+Eigen::Vector3d
+radius_of(const BodyParameters &implant, const Eigen::Vector3d &X)
+{
+  const auto centre = implant.geometry().centre_of_sphere(implant);
+  return {X[0], X[1], centre ? X[2] - *centre : 0.};
 }
 
 
@@ -66,15 +82,17 @@ distance_from_side(const BodyParameters &implant,
     {
       const auto  &X = point.X;
       const double r =
-        implant.geometry().radius_of_side(implant,
-                                          X[2],
-                                          std::atan2(X[1], X[0]));
-      grow(result, std::abs(std::hypot(X[0], X[1]) - r));
+        implant.geometry().centre_of_sphere(implant) ?
+          implant.radius :
+          implant.geometry().radius_of_side(implant,
+                                            X[2],
+                                            std::atan2(X[1], X[0]));
+      grow(result, std::abs(radius_of(implant, X).norm() - r));
       SurfaceGeometry geometry;
       contract(point.basis, face.control_points(), false, geometry);
       const double outwards =
         (side == Side::bone ? 1. : -1.) *
-        geometry.a1.cross(geometry.a2).head<2>().dot(X.head<2>());
+        geometry.a1.cross(geometry.a2).dot(radius_of(implant, X));
       points_outwards =
         points_outwards && (side == Side::implant) == (outwards > 0.);
     }
@@ -90,7 +108,9 @@ struct Patch
   double inside = 0, sum = 0, volume = 0;
 };
 Patch
-patch_test(const BodyParameters &body, const Side side, const bool is_hollow)
+patch_test(const BodyParameters &implant,
+           const BodyParameters &body,
+           const Side            side)
 {
   const BulkSpace     mesh(body, side);
   const NeoHookean    material = NeoHookean::from_young(18000., 0.3);
@@ -111,8 +131,8 @@ patch_test(const BodyParameters &body, const Side side, const bool is_hollow)
   for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
     {
       const Eigen::Vector3d &X       = mesh.reference_position(node);
-      const double           r       = X.head<2>().norm();
-      const bool             at_axis = !is_hollow && r < 1.5;
+      const double           r       = radius_of(implant, X).norm();
+      const bool             at_axis = side == Side::implant && r < 1.5;
       sum += force.segment<3>(3 * node);
       if (X[2] > -2.99 && X[2] < -0.01 &&
           (at_axis || (side == Side::bone && r > 2.4 && r < 5.9)))
@@ -126,7 +146,7 @@ patch_test(const BodyParameters &body, const Side side, const bool is_hollow)
 
 
 void
-check(const std::string &shape, const double volume)
+check(const std::string &shape, const double volume, const double of_both)
 {
   std::cout << shape << std::endl;
   double distance[2], of_volume[2], inside[2] = {0., 0.}, sum = 0.;
@@ -143,19 +163,22 @@ check(const std::string &shape, const double volume)
                                            Side::implant,
                                            points_outwards);
       grow(distance[n - 1], of_bone);
-      const Patch implant = patch_test(scene.implant, Side::implant, false),
-                  bone    = patch_test(scene.bone, Side::bone, true);
+      const Patch implant =
+                    patch_test(scene.implant, scene.implant, Side::implant),
+                  bone = patch_test(scene.implant, scene.bone, Side::bone);
       for (const Patch &one : {implant, bone})
         {
           grow(inside[n - 1], one.inside);
           grow(sum, one.sum);
         }
-      of_volume[n - 1] =
-        std::abs(implant.volume / volume - 1.) +
-        std::abs(bone.volume / (M_PI * 36. * 3. - volume) - 1.);
+      of_volume[n - 1] = std::abs(implant.volume / volume - 1.) +
+                         std::abs(bone.volume / (of_both - volume) - 1.);
     }
+  const double order = std::log2(distance[0] / distance[1]);
   if (shape == "screw")
-    report("  order of the thread", std::log2(distance[0] / distance[1]) > 2.5);
+    report("  order of the thread", order > 2.5);
+  else if (scene_of(shape, 1).bone.shape == BodyShape::cavity)
+    report("  order of the sphere", order > 4.);
   else
     report("  distance from circles [mm]", distance[1], 1e-14);
   report("  normals point out of the bodies", points_outwards);
@@ -169,8 +192,7 @@ check(const std::string &shape, const double volume)
 
 
 
-// Every point of the face, which is that of its control points, moves along the
-// radius.
+// Every point of the face moves along the radius as its control points do.
 void
 check_press_fit(const std::string &shape)
 {
@@ -184,8 +206,9 @@ check_press_fit(const std::string &shape)
   double error = 0.;
   for (const auto &point : surface_quadrature(face, 5))
     grow(error,
-         std::abs(interpolate(point.basis, grown).head<2>().norm() -
-                  point.X.head<2>().norm() - 0.1));
+         (interpolate(point.basis, grown) - point.X -
+          0.1 * implant.geometry().outwards(implant, point.X))
+           .norm());
   report(shape + ": a radius that grows by 0.1 mm", error, 1e-14);
 }
 
@@ -195,12 +218,21 @@ int
 main()
 {
   return run_test([] {
-    check("pin", M_PI * 4. * 3.);
+    const double tube = M_PI * 36. * 3.;
+    check("pin", M_PI * 4. * 3., tube);
     const double low = 2. - 3. * std::tan(3. * M_PI / 180.);
-    check("taper", M_PI * (4. + 2. * low + low * low));
+    check("taper", M_PI * (4. + 2. * low + low * low), tube);
     // R^2 + d^2/8, the mean of the square over whole turns
-    check("screw", M_PI * (4. + 0.2 * 0.2 / 8.) * 3.);
+    check("screw", M_PI * (4. + 0.2 * 0.2 / 8.) * 3., tube);
+    check("cup", 2. / 3. * M_PI * 8., 2. / 3. * M_PI * 216.);
+    // of the height 0.8 of one sphere, and 6 - 1.2 of the other
+    const auto cap = [](const double R, const double h) {
+      return M_PI * h * h * (R - h / 3.);
+    };
+    check("shallow cup", cap(2., 0.8), cap(6., 4.8));
     check_press_fit("pin");
     check_press_fit("taper");
+    check_press_fit("cup");
+    check_press_fit("shallow cup");
   });
 }

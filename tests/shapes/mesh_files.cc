@@ -26,7 +26,7 @@
 
 namespace
 {
-  using Debond::FileMesh;
+  using Debond::BodyMesh;
   using Point = dealii::Point<3>;
 
 
@@ -319,7 +319,7 @@ namespace
 
 
 
-  std::shared_ptr<const FileMesh>
+  std::shared_ptr<const BodyMesh>
   read(const std::string &text, const std::string &ending)
   {
     const std::string name = "results/mesh" + ending;
@@ -337,7 +337,7 @@ namespace
   };
 
   Measures
-  measure(const FileMesh &mesh)
+  measure(const BodyMesh &mesh)
   {
     Measures                result;
     const dealii::FE_Q<3>   element(2);
@@ -382,7 +382,7 @@ namespace
 
   /** The block is exact in all formats. */
   void
-  check_block(const std::string &what, const FileMesh &mesh)
+  check_block(const std::string &what, const BodyMesh &mesh)
   {
     const Measures measures = measure(mesh);
     double         error    = std::abs(measures.volume - 1.);
@@ -416,7 +416,7 @@ namespace
    *  nodes that are exactly on its circles. */
   void
   check_ring(const std::string &what,
-             const FileMesh    &mesh,
+             const BodyMesh    &mesh,
              const bool         has_middles_of_faces)
   {
     const Measures measures = measure(mesh);

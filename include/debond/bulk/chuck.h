@@ -74,6 +74,12 @@ namespace Debond
     static const std::array<const char *, n_components> names;
 
     std::array<ChuckComponentParameters, n_components> component;
+    /** Where forces act and displacements are measured [mm]; or `auto'. */
+    std::string point = "auto";
+
+    /** The same in numbers; @p height: that of `auto', on the axis. */
+    Eigen::Vector3d
+    place(double height) const;
 
     /** "Chuck / Rotation z / Value" and the like. */
     static std::string

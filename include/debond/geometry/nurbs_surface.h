@@ -125,6 +125,10 @@ namespace Debond
       return (points.row(2).array() == points(2, 0)).all();
     }
 
+    /** Whether it lies in a plane. */
+    bool
+    is_flat() const;
+
     /** Of one patch; of several that of each. */
     const KnotVector &
     knots(const unsigned int direction) const

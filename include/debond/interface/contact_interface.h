@@ -22,7 +22,8 @@ namespace Debond
   {
     double phi_mean    = 0; ///< area mean over the implant's contact face
     double share_stick = 0, share_slip = 0, share_open = 0, share_pulled = 0;
-    double energy = 0; ///< stored [N mm]
+    double pressure = 0; ///< area mean [MPa]
+    double energy   = 0; ///< stored [N mm]
     /** Largest -dL/d g_s / (eps_t + eta / dt). */
     double max_softening = 0;
     /** The same where the law of a point falls steepest from the g_s on that
@@ -457,7 +458,7 @@ namespace Debond
     const ContactPointLaw            law;
     const Side                       slave;
     std::array<const BulkSpace *, 2> mesh;
-    const bool                       master_is_level;
+    const bool                       master_is_level, master_is_flat;
     const unsigned int               n; ///< points per direction, element
     std::vector<SlavePoint>          points;
     /** Of each point, by laws that hold one; else empty. */

@@ -61,6 +61,8 @@ namespace Debond
     double outward_sign = 1;
     /** Whether it is a plane z = const at rest. */
     bool is_level = false;
+    /** Whether it is any plane at rest. */
+    bool is_flat = false;
   };
 
   /** How the update is to be done. */

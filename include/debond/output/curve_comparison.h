@@ -36,10 +36,16 @@ namespace Debond
   largest(const ReferenceCurve &curve,
           double ReferenceCurve::value_type::*member);
 
+  /** Of a curve to and fro the rows from where it turned for the last time. */
+  ReferenceCurve
+  last_branch(const ReferenceCurve &curve);
+
   /**
    * How far a computed curve is from a measured one, at the rows of the latter
    * that the former covers and whose angles are positive, or negative if the
-   * implant turns backwards. Rows with less than a hundredth of the largest
+   * implant turns backwards. Curves that are no torque over an angle are
+   * compared along their last_branch(): bonds are pressed before they are
+   * pulled. Rows with less than a hundredth of the largest
    * measured torque would dominate a relative error and are left out. NaN if
    * there is none, or if the computed curve does not turn or turns back.
    */
@@ -52,18 +58,21 @@ namespace Debond
     double       e_mp      = undefined; ///< Eq. (19), a ratio
     double       e_rel     = undefined; ///< Eq. (50), a ratio
     /** Mean and largest difference over the largest measured torque. */
-    double difference_mean = undefined, difference_max = undefined;
-    double angle_of_max_deg = undefined; ///< where it is largest
+    double    difference_mean = undefined, difference_max = undefined;
+    double    position_of_max = undefined; ///< where it is largest
+    CurveAxes axes;
     /** What may be wrong with the measured curve: its units, its sign. */
     std::vector<std::string> remarks;
     std::string              why_none; ///< no row is used; else empty
 
     /** The remark on torques that do not resist the rotation. */
-    static const char *const opposite_sign;
+    static std::string
+    opposite_sign(const CurveAxes &axes = {});
 
     CurveComparison() = default;
     CurveComparison(const ReferenceCurve &computed,
-                    const ReferenceCurve &measured);
+                    const ReferenceCurve &measured,
+                    const CurveAxes      &axes = {});
 
     /** All numbers, as members of a summary. */
     nlohmann::ordered_json

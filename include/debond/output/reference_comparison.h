@@ -12,10 +12,12 @@ namespace Debond
 {
   struct OutputParameters;
 
-  /** Writes the reference curve as it was read, in degrees and N mm, to
+  /** Writes the reference curve as it was read, in the units of torque.csv, to
    *  reference.csv. */
   void
-  write_reference(const std::string &directory, const ReferenceCurve &curve);
+  write_reference(const std::string    &directory,
+                  const ReferenceCurve &curve,
+                  const CurveAxes      &axes);
 
   /** The content of the reference curve and profiles of a scene, see
    *  identity_of(): the member `reference_files` of a summary, whose distances

@@ -29,9 +29,10 @@ namespace Debond
     double       torque_Nmm = 0; ///< about that axis
     double       force_N =
       0; ///< minus the axial force along +z: positive in compression
-    double pressure_MPa = 0; ///< force_N / reference area of the contact face
-    double phi_mean     = 0;
-    double share_stick = 0, share_slip = 0, share_open = 0;
+    double pressure_MPa = 0; ///< force_N / reference area of the contact face;
+                             ///< of implants in a bore the area mean
+    double       phi_mean    = 0;
+    double       share_stick = 0, share_slip = 0, share_open = 0;
     unsigned int newton_iterations = 0; ///< summed over sub-steps
     double       energy_defect     = 0;
     std::array<double, 6>
@@ -176,8 +177,9 @@ namespace Debond
   rows_at(const std::vector<TorqueRow> &fine,
           const std::vector<double>    &angles);
 
+  /** That of a scene; usually angle and torque. */
   ReferenceCurve
-  angles_and_torques(const std::vector<TorqueRow> &rows);
+  curve_of(const std::vector<TorqueRow> &rows, const CurveAxes &axes = {});
 
 
 
@@ -197,6 +199,7 @@ namespace Debond
     std::vector<double> phase_times;
     /** Empty: no error measures. */
     ReferenceCurve reference;
+    CurveAxes      axes; ///< of the curve
 
     /** Sets what entries of a scene's @p output ask for, with the @p curve that
      *  `Reference curve` names. */
@@ -234,7 +237,11 @@ namespace Debond
    *  - e_mp, e_rel, difference_max, difference_mean, difference_max_deg,
    *    reference_rows_used: see CurveComparison;
    *  - largest_energy_defect, largest_reaction_defect: largest magnitudes over
-   *    the rows.
+   *    the rows;
+   *  - curve, of one that is no torque over an angle: the columns `over` and
+   *    `load`, and in their units the `largest` load, `at` which position, that
+   *    at the `end`, and the `initial_stiffness`, of the first row of the last
+   *    motion to and fro.
    */
   nlohmann::ordered_json
   measure_torque_curve(const std::vector<TorqueRow> &rows,

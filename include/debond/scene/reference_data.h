@@ -1,6 +1,8 @@
 #ifndef debond_scene_reference_data_h
 #define debond_scene_reference_data_h
 
+#include <debond/scene/curve_axes.h>
+
 #include <map>
 #include <string>
 #include <utility>
@@ -8,8 +10,8 @@
 
 namespace Debond
 {
-  /** A measured or computed curve to compare with: angle [deg], torque [N mm].
-   */
+  /** A measured or computed curve to compare with: angle [deg] and torque
+   *  [N mm], or what CurveAxes say. */
   using ReferenceCurve = std::vector<std::pair<double, double>>;
 
   /**
@@ -21,7 +23,8 @@ namespace Debond
    */
   ReferenceCurve
   read_reference_curve(const std::string              &filename,
-                       const std::vector<std::string> &columns = {});
+                       const std::vector<std::string> &columns = {},
+                       const CurveAxes                &axes    = {});
 
   /** What a profiles.csv holds of one point, as far as it is compared. */
   struct ProfilePoint

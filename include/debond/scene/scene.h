@@ -2,6 +2,7 @@
 #define debond_scene_scene_h
 
 #include <debond/input/scene_file.h>
+#include <debond/scene/curve_axes.h>
 #include <debond/support/input_error.h>
 #include <debond/system/load_step_parameters.h>
 
@@ -48,9 +49,9 @@ namespace Debond
   /** The subsection `Study`, for scenes whose entries hold several values. */
   struct StudyParameters
   {
-    unsigned int reference_variant     = 0; ///< 0: none
-    unsigned int factors_at_once       = 0; ///< 0: all combinations
-    unsigned int repetitions           = 1; ///< runs of each variant
+    unsigned int reference_variant = 0; ///< 0: none
+    unsigned int factors_at_once   = 0; ///< 0: all combinations
+    unsigned int repetitions       = 1; ///< runs of each variant
   };
 
   /** What a calibration makes small. */
@@ -64,8 +65,10 @@ namespace Debond
   /** The subsection `Calibration`, for `Task = calibrate`. */
   struct CalibrationParameters
   {
-    std::vector<std::string> curves{"torque_Nmm"}; ///< columns of torque.csv
-    std::string              over = "angle_deg";   ///< what they are drawn over
+    /** Columns of torque.csv, and what they are drawn over; empty: those of
+     *  `Output / Curve'. */
+    std::vector<std::string> curves;
+    std::string              over;
     std::vector<double>      windows; ///< pairs of bounds in `over`; empty: all
     /** Standard deviation over the largest measured value, of each curve or of
      *  all; 0: from the residuals. */
@@ -89,6 +92,8 @@ namespace Debond
     std::string  directory = "output/coin";
     unsigned int fields_every =
       50;                        ///< planned steps between VTU files, 0: none
+    std::string curve = "auto";  ///< see CurveAxes
+    CurveAxes   axes;            ///< what it means in this scene
     std::string reference_curve; ///< file with a measured curve, or empty
     std::vector<std::string> reference_columns;  ///< of it; empty: recognised
     std::string              reference_profiles; ///< a profiles.csv, or empty

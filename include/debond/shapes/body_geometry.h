@@ -8,13 +8,14 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace Debond
 {
   struct BodyParameters;
-  struct FileMesh;
+  struct BodyMesh;
 
   /**
    * A shape of a body: its contact face, its size, and what the scene says of
@@ -85,10 +86,18 @@ namespace Debond
     {
       return 0.;
     }
-    bool
-    has_side(const BodyParameters &body) const
+    /** Height of the centre of a contact face that is a sphere of the body's
+     *  radius [mm]. */
+    virtual std::optional<double>
+    centre_of_sphere(const BodyParameters &) const
     {
-      return radius_of_side(body, 0., 0.) > 0.;
+      return {};
+    }
+    /** Whether an implant is in the bone, with its side or its sphere. */
+    bool
+    is_in_bore(const BodyParameters &body) const
+    {
+      return radius_of_side(body, 0., 0.) > 0. || centre_of_sphere(body);
     }
     /** How a point @p X of that face, or one of its control points, moves while
      *  the radius grows, per length. */
@@ -99,7 +108,8 @@ namespace Debond
              radius_of_side(body, X[2], std::atan2(X[1], X[0]));
     }
     /** Where a point of the contact face is in the face's own two coordinates
-     *  [mm], for patterns and maps: x and y, or around a side and along z. */
+     *  [mm], for patterns and maps: x and y, around a side and along z, or
+     * along a sphere from its lowest point. */
     virtual Eigen::Vector2d
     on_face(const BodyParameters &, const Eigen::Vector3d &X) const
     {
@@ -143,7 +153,7 @@ namespace Debond
     {
       return true;
     }
-    /** Whether the contact face is a circle seen from above. */
+    /** Whether the contact face is a circle in these coordinates. */
     virtual bool
     is_round() const
     {
@@ -159,7 +169,7 @@ namespace Debond
     /** The cells of a shape that are no lattice, else null. A bone may have a
      *  bore for the @p implant. Throws EntryError; @p section is "Bone" or
      *  "Implant". */
-    virtual std::shared_ptr<const FileMesh>
+    virtual std::shared_ptr<const BodyMesh>
     make_mesh(const BodyParameters &body,
               const BodyParameters &implant,
               const std::string    &section) const;

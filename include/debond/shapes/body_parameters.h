@@ -13,7 +13,7 @@ namespace Debond
 {
   class BodyGeometry;
   class EntryTable;
-  struct FileMesh;
+  struct BodyMesh;
   class ModulusField;
   class NurbsSurface;
 
@@ -27,9 +27,12 @@ namespace Debond
     pin,
     sleeve,
     taper,
-    screw
+    screw,
+    cup,
+    cavity,
+    ring
   };
-  /** How both ends of a sleeve are held. */
+  /** How both ends of a sleeve, or the top of a cavity, are held. */
   enum class SleeveEnds
   {
     free,
@@ -37,6 +40,9 @@ namespace Debond
     axial, ///< only motion along the axis
     held
   };
+  /** As the files of meshes call it. */
+  const char *
+  name_of(SleeveEnds ends);
   /** In the order of their cost, and of the choices of the entry. Those after
    *  `linear' have large strains. */
   enum class Material
@@ -70,10 +76,10 @@ namespace Debond
   {
     BodyShape             shape = BodyShape::block;
     std::array<double, 3> size{{12.5, 12.5, 5}}; ///< block [mm]
-    double                radius       = 2.5;    ///< coin, cap, pin [mm]
-    double                inner_radius = 0;      ///< pin [mm]; 0: solid
-    double                outer_radius = 10;     ///< sleeve [mm]
-    double                height = 3; ///< coin, cap, pin: on the axis [mm]
+    double                radius       = 2.5;    ///< of round implants [mm]
+    double                inner_radius = 0;      ///< [mm]; 0: solid
+    double                outer_radius = 0; ///< sleeve, cavity [mm]; 0: a block
+    double                height = 3; ///< of round implants, on the axis [mm]
     double                sleeve_height = 0; ///< 0: that of the implant [mm]
     SleeveEnds            ends          = SleeveEnds::free;
     double                taper_angle   = 3; ///< half of the cone's [deg]
@@ -82,7 +88,7 @@ namespace Debond
     double                cap_radius = 50;               ///< of the sphere [mm]
     std::string           mesh_file;
     /** Of a shape that is no lattice; see make_mesh(). */
-    std::shared_ptr<const FileMesh> mesh;
+    std::shared_ptr<const BodyMesh> mesh;
     /** Number of cells in x, y, z; z along the axis (`Cells = n, m` becomes
      *  n, n, m). Around, radial and along of pin and sleeve. */
     std::array<unsigned int, 3> cells{{15, 15, 2}};

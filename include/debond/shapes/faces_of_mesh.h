@@ -2,7 +2,7 @@
 #define debond_shapes_faces_of_mesh_h
 
 #include <debond/geometry/nurbs_surface.h>
-#include <debond/shapes/mesh_file.h>
+#include <debond/shapes/body_mesh.h>
 #include <debond/shapes/side.h>
 
 #include <array>
@@ -39,6 +39,6 @@ namespace Debond
    *  cells, of degree 1 (bilinear) or 2, which passes through the four or nine
    *  nodes of the face. */
   NurbsSurface
-  contact_surface_of(const FileMesh &mesh, unsigned int degree, Side side);
+  contact_surface_of(const BodyMesh &mesh, unsigned int degree, Side side);
 } // namespace Debond
 #endif

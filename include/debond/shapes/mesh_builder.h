@@ -1,8 +1,8 @@
 #ifndef debond_shapes_mesh_builder_h
 #define debond_shapes_mesh_builder_h
 
+#include <debond/shapes/body_mesh.h>
 #include <debond/shapes/boundary.h>
-#include <debond/shapes/mesh_file.h>
 #include <debond/shapes/mesh_formats.h>
 
 #include <map>
@@ -25,10 +25,10 @@ namespace Debond
     /** Both live longer than this. */
     MeshBuilder(const StoredMesh &stored, const FileRefusal &refuse);
 
-    std::shared_ptr<FileMesh> mesh = std::make_shared<FileMesh>();
+    std::shared_ptr<BodyMesh> mesh = std::make_shared<BodyMesh>();
 
   private:
-    using Vertices = FileMesh::Vertices;
+    using Vertices = BodyMesh::Vertices;
     using Point    = dealii::Point<3>;
     /** Of a hexahedron at all its places. */
     using Points = std::array<Point, 27>;
@@ -93,7 +93,7 @@ namespace Debond
    * that says what is wrong with the file: what the bulk cannot be made of is
    * refused here.
    */
-  std::shared_ptr<const FileMesh>
+  std::shared_ptr<const BodyMesh>
   read_mesh_file(const std::string &filename, const std::string &entry);
 } // namespace Debond
 #endif

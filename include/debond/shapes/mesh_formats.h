@@ -56,6 +56,10 @@ namespace Debond
       double                      weight;
     };
     std::vector<Arc> arcs;
+    /** Of a contact face that is part of a sphere [mm]; a radius of 0: it is
+     *  none. */
+    dealii::Point<3> sphere_centre;
+    double           sphere_radius = 0.;
 
     /** One with nodes at these places. */
     void

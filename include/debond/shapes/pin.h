@@ -1,12 +1,12 @@
 #ifndef debond_shapes_pin_h
 #define debond_shapes_pin_h
 
-#include <debond/shapes/revolved_shape.h>
+#include <debond/shapes/meshed_shape.h>
 
 namespace Debond
 {
   /** A round pin that is in the bone up to z = 0, where the chuck holds it. */
-  class Pin : public RevolvedShape
+  class Pin : public MeshedShape
   {
   public:
     std::string
@@ -42,9 +42,9 @@ namespace Debond
     /** The smallest radius of the side [mm]. */
     virtual double
     thinnest(const BodyParameters &body) const;
-    RevolvedBody
-    revolved(const BodyParameters &body,
-             const BodyParameters &implant) const override;
+    StoredMesh
+    stored_mesh(const BodyParameters &body,
+                const BodyParameters &implant) const override;
   };
 } // namespace Debond
 #endif

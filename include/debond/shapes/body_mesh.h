@@ -1,5 +1,5 @@
-#ifndef debond_shapes_mesh_file_h
-#define debond_shapes_mesh_file_h
+#ifndef debond_shapes_body_mesh_h
+#define debond_shapes_body_mesh_h
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/point.h>
@@ -15,7 +15,7 @@
 namespace Debond
 {
   /** A body as a file of hexahedra has it. Lengths are in mm. */
-  struct FileMesh
+  struct BodyMesh
   {
     /** One piece, whose vertices are the corners of the hexahedra. Boundary ids
      *  are those of Boundary: faces named contact, held, slides x and slides y,
@@ -49,14 +49,18 @@ namespace Debond
     /** Of edges of the contact face that are arcs, the weight of the control
      *  point in their middle; of all others it is 1. */
     std::map<Vertices, double> weights;
+    /** Of a contact face that is part of a sphere; a radius of 0: it is none.
+     */
+    dealii::Point<3> sphere_centre;
+    double           sphere_radius = 0.;
   };
 
   /** Of the corners @p numbers of a cell with these vertices. */
   template <typename Cell>
-  FileMesh::Vertices
+  BodyMesh::Vertices
   vertices_of(const std::vector<unsigned int> &numbers, const Cell &vertex)
   {
-    FileMesh::Vertices result;
+    BodyMesh::Vertices result;
     result.fill(dealii::numbers::invalid_unsigned_int);
     for (unsigned int i = 0; i < numbers.size(); ++i)
       result[i] = vertex(numbers[i]);

@@ -1,14 +1,14 @@
-#ifndef debond_shapes_revolved_shape_h
-#define debond_shapes_revolved_shape_h
+#ifndef debond_shapes_meshed_shape_h
+#define debond_shapes_meshed_shape_h
 
 #include <debond/shapes/body_geometry.h>
-#include <debond/shapes/revolved_mesh.h>
+#include <debond/shapes/mesh_formats.h>
 
 namespace Debond
 {
-  /** A body of revolution about the z axis, below z = 0, whose contact face is
-   *  its side. `Cells' are those around, radial and along. */
-  class RevolvedShape : public BodyGeometry
+  /** A shape with cells of its own about the z axis. `Cells' are those around,
+   *  radial and along. */
+  class MeshedShape : public BodyGeometry
   {
   public:
     bool
@@ -16,7 +16,7 @@ namespace Debond
     {
       return false;
     }
-    std::shared_ptr<const FileMesh>
+    std::shared_ptr<const BodyMesh>
     make_mesh(const BodyParameters &body,
               const BodyParameters &implant,
               const std::string    &section) const override;
@@ -28,9 +28,10 @@ namespace Debond
     reach(const BodyParameters &body) const override;
 
   protected:
-    virtual RevolvedBody
-    revolved(const BodyParameters &body,
-             const BodyParameters &implant) const = 0;
+    /** Throws EntryError. */
+    virtual StoredMesh
+    stored_mesh(const BodyParameters &body,
+                const BodyParameters &implant) const = 0;
     /** Cells around, and entries that other cells than these have. */
     static void
     check_cells(const BodyParameters &body,

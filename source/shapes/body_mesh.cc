@@ -1,4 +1,4 @@
-#include <debond/shapes/mesh_file.h>
+#include <debond/shapes/body_mesh.h>
 #include <debond/shapes/mesh_formats.h>
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace Debond
 {
   std::array<unsigned int, 3>
-  FileMesh::lattice_of_cells() const
+  BodyMesh::lattice_of_cells() const
   {
     const auto rounded = [](const double x) -> unsigned int {
       return std::lround(std::max(1., x));
@@ -22,7 +22,7 @@ namespace Debond
 
 
   std::vector<dealii::Point<3>>
-  FileMesh::points_of_second_order(
+  BodyMesh::points_of_second_order(
     const dealii::Triangulation<3>::cell_iterator &cell) const
   {
     std::vector<dealii::Point<3>> result(27);

@@ -1,0 +1,54 @@
+#ifndef debond_scene_curve_axes_h
+#define debond_scene_curve_axes_h
+
+#include <debond/bulk/chuck.h>
+
+#include <optional>
+#include <string>
+
+namespace Debond
+{
+  struct Scene;
+
+  /** The curve that a scene is about, `Output / Curve`: a load of the chuck
+   *  over one of its positions. */
+  struct CurveAxes
+  {
+    unsigned int position = ChuckComponent::rotation_z,
+                 load     = ChuckComponent::rotation_z;
+
+    /** That of the paper, torque over angle, both about the implant's own axis.
+     */
+    bool
+    is_torsion() const
+    {
+      return position == ChuckComponent::rotation_z && load == position;
+    }
+    /** Columns of torque.csv. */
+    std::string
+    position_column() const;
+    std::string
+    load_column() const;
+    /** "angle", "torque", "deg" and so on. */
+    const char *
+    position_word() const;
+    const char *
+    load_word() const;
+    const char *
+    position_unit() const;
+    const char *
+    load_unit() const;
+
+    /** Of "Translation z, Force z"; none of other texts. */
+    static std::optional<CurveAxes>
+    read(const std::string &text);
+    /** Of the names of columns. */
+    static std::optional<CurveAxes>
+    of_columns(const std::string &position, const std::string &load);
+    /** Torque over angle where the chuck may turn about z, else the load and
+     * the position of the component that it moves most. */
+    static CurveAxes
+    usual(const Scene &scene);
+  };
+} // namespace Debond
+#endif

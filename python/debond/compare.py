@@ -15,7 +15,7 @@ from _debond import CurveComparison
 from .ensemble import torques_at
 from .errors import InputError
 from .measured import read_measured, read_measured_and_say
-from .page_data import curve_file, curve_of, read_json, read_table, rows_of, split_unit, varied_in
+from .page_data import curve_file, curve_columns, read_json, read_table, rows_of, split_unit, varied_in
 
 
 @dataclass
@@ -34,8 +34,8 @@ LOADS = {"N mm": "torques", "N": "forces"}
 def _axes(directory):
     """Columns of the curve that results are about; of a study that of the first variant that has a summary."""
     places = [directory, *(os.path.join(directory, name) for name in sorted(os.listdir(directory)) if name.startswith("variant-"))]
-    return next((curve_of(summary) for summary in map(read_json, (place + "/summary.json" for place in places)) if summary),
-                curve_of({}))
+    return next((curve_columns(summary) for summary in map(read_json, (place + "/summary.json" for place in places)) if summary),
+                curve_columns({}))
 
 
 def _table(filename):

@@ -4,9 +4,9 @@ import os
 import re
 
 from debond.page_curve import Plot, colour
-from debond.page_data import (curve_file, numbers, n_rows, read_entries, read_json, read_table, rows_of, split_unit, unique,
-                              varied_in)
-from debond.page_run import TORQUE, axes_of, files_of, origin_of, reference_of
+from debond.page_data import (curve_file, curve_columns, numbers, n_rows, read_entries, read_json, read_table, rows_of, split_unit,
+                              unique, varied_in)
+from debond.page_run import columns_of, files_of, labels_of, origin_of, reference_of
 
 MOST_CURVES = 40    # more would hide each other, and make the page large
 MOST_BANDS = 8      # that can still be told apart
@@ -39,24 +39,19 @@ def chosen(items):
 
 def curves_of_study(directory, curves):
     """The curves of variants, given as directories and names."""
-    some, plot = chosen(curves), None
+    some, axes = chosen(curves), curve_columns(next(filter(None, (read_json(variant + "/summary.json") for variant, _ in curves)), {}))
+    plot = Plot(*labels_of(axes), "curves of the variants")
     for i, (variant, name) in enumerate(some):
-        table = read_table(curve_file(variant))
-        if plot is None:
-            axes = axes_of(table)
-            plot = Plot(*axes[2:], "curves of the variants")
-        if axes[0] in table:
-            xs, ys = (numbers(table[column]) for column in axes[:2])
-            plot.add(name, "line", xs, ys, colour(i, len(some)), most=20000 // len(some))
-    return with_reference(plot, [directory, *(variant for variant, _ in some[:1])], len(some), len(curves), "variants")
+        plot.add(name, "line", *columns_of(curve_file(variant), axes), colour(i, len(some)), most=20000 // len(some))
+    return with_reference(plot, axes, [directory, *(variant for variant, _ in some[:1])], len(some), len(curves), "variants")
 
 
-def with_reference(plot, directories, n_drawn, n, what):
+def with_reference(plot, axes, directories, n_drawn, n, what):
     """What is drawn of a plot with the reference, and what it does not say itself."""
-    for one in directories if plot and plot.x == TORQUE[2] else []:
+    for one in directories:
         if not any(series["name"] == "reference" for series in plot.series):
-            plot.add("reference", "points", *reference_of(one), "#555555")
-    context = plot and plot.context()
+            plot.add("reference", "points", *reference_of(one, axes), "#555555")
+    context = plot.context()
     if context:
         context["many"] = n_drawn > MOST_COLOURS
         lines = [one["name"] for one in context["shapes"] if one["kind"] == "line"]
@@ -71,14 +66,15 @@ def bands_of_ensemble(directory, table, variants):
     for row in rows_of(table):
         groups.setdefault(tuple(row[name] for name in entries), []).append(row)
     all_groups = list(zip(names_of(entries, list(groups))[0], groups.values()))
-    some, plot = chosen(all_groups), Plot(*TORQUE[2:], "mean curves of the groups")
+    some, axes = chosen(all_groups), curve_columns({})
+    plot = Plot(*labels_of(axes), "mean curves of the groups")
     for i, (name, rows) in enumerate(some):
         xs, mean, low, high = (numbers(row[column] for row in rows) for column in (
             "angle_deg", "torque_mean_Nmm", "torque_p05_Nmm", "torque_p95_Nmm"))
         if len(some) <= MOST_BANDS:
             plot.band("5 to 95 %" + (f", {name}" if name else " of the members"), xs, low, high, colour(i, len(some)))
         plot.add(f"mean, {name}" if name else "mean", "line", xs, mean, colour(i, len(some)), most=20000 // len(some))
-    return with_reference(plot, [directory, *variants[:1]], len(some), len(all_groups), "groups")
+    return with_reference(plot, axes, [directory, *variants[:1]], len(some), len(all_groups), "groups")
 
 
 def warnings_of_study(rows, names):

@@ -47,7 +47,7 @@ def curve_file(directory):
     return fine if os.path.exists(fine) else os.path.join(directory, "torque.csv")
 
 
-def curve_of(summary):
+def curve_columns(summary):
     """The columns of the curve that a run is about: what it is drawn over, and the load."""
     curve = summary.get("curve") or {"over": "angle_deg", "load": "torque_Nmm"}
     return curve["over"], curve["load"]

@@ -3,7 +3,8 @@
 import os
 
 from debond.page_curve import Plot, at
-from debond.page_data import curve_file, curve_of, number, numbers, read_entries, read_json, read_table, short, unique, with_unit
+from debond.page_data import (curve_file, curve_columns, number, numbers, read_entries, read_json, read_table, short, unique,
+                              with_unit)
 from debond.page_maps import maps_of
 
 #: Words and units of columns.
@@ -12,6 +13,21 @@ LABELS = {"angle_deg": ("Rotation angle", "°"), "torque_Nmm": ("Torque T", "N m
              for letter, end, words, unit in (("u", "mm", "Displacement along", "mm"), ("r", "deg", "Rotation about", "°"),
                                               ("F", "N", "Force along", "N"), ("M", "Nmm", "Moment about", "N mm"))
              for axis in "xyz"}}
+
+
+def labels_of(axes):
+    return [LABELS[name] for name in axes]
+
+
+def columns_of(file, axes):
+    """Two columns of a file of a curve; empty ones where there are none."""
+    table = read_table(file)
+    return [numbers(table.get(name, [])) for name in axes]
+
+
+def reference_of(directory, axes):
+    """The reference that the program left in the directory, in the units of its name."""
+    return columns_of(os.path.join(directory, "reference.csv"), axes)
 
 
 def add_marks_of_torque(plot, xs, ys, summary, published):
@@ -31,13 +47,10 @@ def add_marks_of_torque(plot, xs, ys, summary, published):
 
 def curve_of(directory, summary, entries):
     """The curve of a run with its marks and the reference; None without rows."""
-    def columns(file):
-        table = read_table(file)
-        return [numbers(table.get(name, [])) for name in curve_of(summary)]
-
-    x, y = (LABELS[name] for name in curve_of(summary))
-    plot, (xs, ys) = Plot(x, y, "curve of the run"), columns(curve_file(directory))
-    plot.add("reference", "points", *columns(os.path.join(directory, "reference.csv")), "#555555")
+    axes = curve_columns(summary)
+    x, y = labels_of(axes)
+    plot, (xs, ys) = Plot(x, y, "curve of the run"), columns_of(curve_file(directory), axes)
+    plot.add("reference", "points", *reference_of(directory, axes), "#555555")
     plot.add("debond", "line", xs, ys, "#c03028")
     if "curve" not in summary:
         add_marks_of_torque(plot, xs, ys, summary, entries.get("Output / Published values", ""))

@@ -9,7 +9,7 @@ from .errors import RunError, SceneError
 from .experiment import RIG, Experiment
 
 # Entries of a scene, and by what each of them is changed: a factor, or 0: a part of the angle or torque of the peak.
-_FACTORS = ["Implant / Radius", "Implant / Height", "Bone / Young modulus", "Implant / Young modulus",
+_FACTORS = ["Implant / Radius", "Implant / Height", "Bone / Outer radius", "Interface / Interference", "Bone / Young modulus", "Implant / Young modulus",
             "Interface / Penalty stiffness", "Interface / Tangential penalty stiffness", "Interface / Friction coefficient broken",
             "Interface / Friction coefficient unbroken", "Interface / Sliding threshold", "Interface / Transition factor",
             "Chuck / Translation z / Value"]
@@ -18,6 +18,8 @@ _BONDING = "Interface / Bonding / Initial bonding"
 
 def _unit_of(entry, values):
     """Also of entries that may be expressions."""
+    if entry.endswith("Interference"):
+        return "mm"
     if "Chuck" in entry:
         return "N" if values["Chuck / Translation z / Control"] == "force" else "mm"
     return _debond.unit_of(entry) or ("MPa" if "modulus" in entry else "")
@@ -33,7 +35,7 @@ def _changes(fit):
         text = values.get(entry, "")
         if entry in held or not text or _is_zero(text):
             continue
-        changed = f"({text}) * 1.1" if "Chuck" in entry else repr(1.1 * float(text))
+        changed = f"({text}) * 1.1" if "Chuck" in entry or entry.endswith("Interference") else repr(1.1 * float(text))
         result.append((entry, text, _unit_of(entry, values), "+10 %", changed))
     if _BONDING not in held and values.get(_BONDING) == "1":
         result.append((_BONDING, "1", "", "-10 %", "0.9"))

@@ -24,7 +24,7 @@ class Grid:
 
     def __init__(self, xs, ys):
         self.nx, self.ny = len(set(xs)), len(set(ys))
-        self.half_x, self.half_y = max(xs) * self.nx / (self.nx - 1), max(ys) * self.ny / (self.ny - 1)
+        self.half_x, self.half_y = ((max(places) - min(places)) / 2 * n / (n - 1) for places, n in ((xs, self.nx), (ys, self.ny)))
         self.xs, self.ys = xs, ys
 
     def is_round(self, values):

@@ -299,9 +299,12 @@ namespace Debond
   void
   run_auto(const Scene &scene)
   {
-    const dealii::Timer clock;
-    ModelChoice         choice(scene);
-    Console console(scene.output.quiet, scene.load_steps.times, std::cout);
+    const dealii::Timer   clock;
+    ModelChoice           choice(scene);
+    Console               console(scene.output.quiet,
+                    scene.load_steps.times,
+                    scene.output.axes,
+                    std::cout);
     const ResultDirectory directory(scene.output, scene.completed_parameters);
     remove_results(directory.path());
     if (!scene.title.empty())

@@ -151,7 +151,7 @@ namespace Debond
             // the area by its status; divided by the area below
             area += point.JxW;
             summary.phi_mean += point.JxW * friction(point).phi;
-            summary.pressure += point.JxW * std::max(0., trial.pressure);
+            summary.pressure += point.JxW * trial.pressure;
             *share_of[static_cast<unsigned int>(status(point))] += point.JxW;
           }
         summary.n_closed += status(point) != PointStatus::open;

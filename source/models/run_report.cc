@@ -70,7 +70,9 @@ namespace Debond
                ""));
       lines.push_back(loads_in_words(end));
       if (const double pressure = value("pressure_MPa"); pressure > 1e-9)
-        lines.push_back("Pressure before turning " + number(pressure) + " MPa");
+        lines.push_back((axes.is_torsion() ? "Pressure before turning " :
+                                             "Pressure at the end ") +
+                        number(pressure) + " MPa");
       add(value("pull_max_N"),
           "Largest pull " + number(value("pull_max_N")) + " N at " +
             number(value("pull_max_mm")) + " mm");
@@ -145,7 +147,10 @@ namespace Debond
 
 
   RunReport::RunReport(const Scene &scene, const ResultDirectory &directory)
-    : console(scene.output.quiet, scene.load_steps.times, std::cout)
+    : console(scene.output.quiet,
+              scene.load_steps.times,
+              scene.output.axes,
+              std::cout)
     , scene(scene)
     , directory(directory)
     , files_of_reference(reference_files(scene.output))

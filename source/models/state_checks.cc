@@ -75,7 +75,8 @@ namespace Debond
                  chuck.machine_position(),
                  chuck.machine_energy() + system.bulk_energy() + summary.energy,
                  work.friction,
-                 work.friction_bound});
+                 work.friction_bound + system.press_fit.bound(),
+                 system.press_fit.work()});
       const std::string change =
         describe_change(forces_before, forces, system.R);
       const bool opens_unstably =
@@ -133,7 +134,7 @@ namespace Debond
         note(
           "opening",
           Text() << "bonded points open (" << summary.bonded_opened
-                 << "): the law has no strength in tension, so that pulling "
+                 << "): the law has no strength in tension, so that opening "
                     "costs nothing"
                  << (parameters.interface.opening_breaks_bond ?
                        "" :
@@ -302,12 +303,13 @@ namespace Debond
     };
     const bool        is_first = !energy_balance.has_state();
     const EnergyState before   = energy_balance.state();
-    energy_balance.add({system.chuck_forces(),
-                        system.chuck.position(),
-                        system.bulk_energy() + summary.energy,
-                        system.interface.work().dissipation,
-                        system.interface.work().dissipation_bound,
-                        system.press_fit.work()});
+    energy_balance.add(
+      {system.chuck_forces(),
+       system.chuck.position(),
+       system.bulk_energy() + summary.energy,
+       system.interface.work().dissipation,
+       system.interface.work().dissipation_bound + system.press_fit.bound(),
+       system.press_fit.work()});
     // the explicit law does not dissipate what InterfaceWork::friction says
     if (!parameters.interface.explicit_friction)
       {

@@ -2,6 +2,8 @@
 #include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
 
+#include <boost/algorithm/string/replace.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -26,11 +28,26 @@ namespace Debond
 
 
 
+  namespace
+  {
+    /** "uz/mm" of chuck_uz_mm. */
+    std::string
+    in_head(std::string column)
+    {
+      column[column.rfind('_')] = '/';
+      return boost::replace_first_copy(column, "chuck_", "");
+    }
+  } // namespace
+
+
+
   Console::Console(const bool                 quiet,
                    const std::vector<double> &times,
+                   const CurveAxes           &axes,
                    std::ostream              &out)
     : quiet(quiet)
     , times(times)
+    , axes(axes)
     , out(Ranks::is_first() ? out : unheard)
   {}
 
@@ -58,13 +75,15 @@ namespace Debond
     if (row.step % stride != 0 && row.step != n_steps)
       return;
     if (!columns_named)
-      out
-        << "   step  angle/deg  torque/Nmm  pressure/MPa  slipping/%  iterations\n";
+      out << "   step " << std::setw(10) << in_head(axes.position_column())
+          << ' ' << std::setw(11) << in_head(axes.load_column())
+          << "  pressure/MPa  slipping/%  iterations\n";
     columns_named = true;
     const ClassicNumbers classic(out);
+    const auto [position, load] = curve_of({row}, axes).front();
     out << std::setw(7) << row.step << ' ' << std::setw(10)
-        << fixed_text(rounded(row.angle_deg), 4) << ' ' << std::setw(11)
-        << fixed_text(rounded(row.torque_Nmm), 4) << ' ' << std::setw(13)
+        << fixed_text(rounded(position), 4) << ' ' << std::setw(11)
+        << fixed_text(rounded(load), 4) << ' ' << std::setw(13)
         << fixed_text(rounded(row.pressure_MPa), 4) << ' ' << std::setw(11)
         << fixed_text(100. * row.share_slip, 1) << ' ' << std::setw(11)
         << row.newton_iterations << '\n';
@@ -79,11 +98,13 @@ namespace Debond
     const unsigned int phase =
       std::lower_bound(times.begin() + 1, times.end() - 1, row.time) -
       times.begin();
-    const double length = times.back() - times.front();
+    const double length         = times.back() - times.front();
+    const auto [position, load] = curve_of({row}, axes).front();
     progress.show("phase " + std::to_string(phase) + " of " +
                     std::to_string(n_phases) + ", " +
-                    fixed_text(rounded(row.angle_deg), 4) + " deg, " +
-                    fixed_text(rounded(row.torque_Nmm), 4) + " N mm",
+                    fixed_text(rounded(position), 4) + " " +
+                    axes.position_unit() + ", " + fixed_text(rounded(load), 4) +
+                    " " + axes.load_unit(),
                   n_steps > 0 ? double(row.step) / n_steps :
                                 (row.time - times.front()) / length);
   }

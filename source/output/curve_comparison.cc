@@ -87,20 +87,24 @@ namespace Debond
 
 
   ReferenceCurve
-  last_branch(const ReferenceCurve &curve)
+  main_branch(const ReferenceCurve &curve)
   {
     if (curve.empty())
       return curve;
-    const auto by_position = [](const auto &a, const auto &b) {
-      return a.first < b.first;
-    };
-    const bool rises = curve.back().first > curve.front().first;
+    const double start = curve.front().first;
+    const auto   end   = std::max_element(curve.begin(),
+                                      curve.end(),
+                                      [&](const auto &a, const auto &b) {
+                                        return std::abs(a.first - start) <
+                                               std::abs(b.first - start);
+                                      });
     // the last of equal ones
-    auto turn = curve.begin();
-    for (auto point = curve.begin(); point != curve.end(); ++point)
-      if (rises ? !by_position(*turn, *point) : !by_position(*point, *turn))
+    const double direction = end->first > start ? 1. : -1.;
+    auto         turn      = curve.begin();
+    for (auto point = curve.begin(); point != end; ++point)
+      if (direction * (point->first - turn->first) <= 0.)
         turn = point;
-    return ReferenceCurve(turn, curve.end());
+    return ReferenceCurve(turn, std::next(end));
   }
 
 
@@ -161,12 +165,15 @@ namespace Debond
 
 
   CurveComparison::CurveComparison(const ReferenceCurve &all,
-                                   const ReferenceCurve &measured,
+                                   const ReferenceCurve &all_measured,
                                    const CurveAxes      &axes)
     : axes(axes)
   {
-    const ReferenceCurve computed = axes.is_torsion() ? all : last_branch(all);
-    const Rotation       rotation(computed);
+    const bool           is_torsion = axes.is_torsion();
+    const ReferenceCurve computed   = is_torsion ? all : main_branch(all),
+                         measured   = is_torsion ? all_measured :
+                                                   main_branch(all_measured);
+    const Rotation rotation(computed);
     if (measured.empty() || rotation.direction == 0. || rotation.reverses)
       {
         why_none = measured.empty()         ? "there is no curve" :
@@ -202,7 +209,15 @@ namespace Debond
             position_of_max = angle;
           }
       }
-    remarks = doubts_of(computed, measured, axes, products < 0.);
+    remarks =
+      doubts_of(computed, measured, axes, rows_used > 1 && products < 0.);
+    if (rows_used > 0 && 2 * rows_used < measured.size())
+      remarks.push_back(
+        "of " + std::to_string(measured.size()) +
+        " rows of the reference curve only " + std::to_string(rows_used) +
+        " are compared: the run goes from " +
+        to_text(computed.front().first, 4) + " to " +
+        to_text(computed.back().first, 4) + " " + axes.position_unit());
     if (rows_used == 0)
       {
         why_none = T_largest == 0. ?

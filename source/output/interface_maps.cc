@@ -116,7 +116,9 @@ namespace Debond
 
 
 
-    /** The point closest to a place; null if there is none within reach. */
+    /** The point closest to a place; null if there is none within reach, nor as
+     *  near as the next point is to that one: on steep faces some are far
+     * apart, seen from above. */
     const InterfacePoint *
     closest(const std::vector<InterfacePoint> &points,
             const dealii::RTree<Entry>        &tree,
@@ -126,9 +128,20 @@ namespace Debond
       std::vector<Entry> nearest;
       tree.query(boost::geometry::index::nearest(place, 1),
                  std::back_inserter(nearest));
-      return nearest.empty() || nearest[0].first.distance(place) > reach ?
-               nullptr :
-               &points[nearest[0].second];
+      if (nearest.empty())
+        return nullptr;
+      const auto [point, number] = nearest[0];
+      if (point.distance(place) > reach)
+        {
+          std::vector<Entry> around; // itself, and the next one
+          tree.query(boost::geometry::index::nearest(point, 2),
+                     std::back_inserter(around));
+          if (point.distance(place) >
+              std::max(point.distance(around.front().first),
+                       point.distance(around.back().first)))
+            return nullptr;
+        }
+      return &points[number];
     }
   } // namespace
 

@@ -540,24 +540,24 @@ namespace Debond
     nlohmann::ordered_json
     measures_of(const ReferenceCurve &curve, const CurveAxes &axes)
     {
-      const ReferenceCurve last = last_branch(curve);
+      const ReferenceCurve branch = main_branch(curve);
       const auto           peak =
-        std::max_element(last.begin(),
-                         last.end(),
+        std::max_element(branch.begin(),
+                         branch.end(),
                          [](const auto &a, const auto &b) {
                            return std::abs(a.second) < std::abs(b.second);
                          });
       const auto moved =
-        std::find_if(last.begin(), last.end(), [&](const auto &point) {
-          return std::abs(point.first - last.front().first) > 1e-12;
+        std::find_if(branch.begin(), branch.end(), [&](const auto &point) {
+          return std::abs(point.first - branch.front().first) > 1e-12;
         });
       return {{"over", axes.position_column()},
               {"load", axes.load_column()},
               {"largest", peak->second},
               {"at", peak->first},
-              {"end", last.back().second},
+              {"end", curve.back().second},
               {"initial_stiffness",
-               moved == last.end() ?
+               moved == branch.end() ?
                  std::numeric_limits<double>::quiet_NaN() :
                  (moved->second - std::prev(moved)->second) /
                    (moved->first - std::prev(moved)->first)}};

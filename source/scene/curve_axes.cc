@@ -1,9 +1,7 @@
 #include <debond/scene/curve_axes.h>
-#include <debond/scene/scene.h>
 
 #include <boost/algorithm/string/trim.hpp>
 
-#include <algorithm>
 #include <array>
 
 namespace Debond
@@ -77,32 +75,5 @@ namespace Debond
             axes.position_column() == position && axes.load_column() == load)
           return axes;
     return {};
-  }
-
-
-
-  // What is moved comes before what is loaded. A degree counts as 0.05 mm, what
-  // it moves at a radius of some mm.
-  CurveAxes
-  CurveAxes::usual(const Scene &scene)
-  {
-    std::array<double, ChuckParameters::n_components> way;
-    for (unsigned int k = 0; k < way.size(); ++k)
-      {
-        const TimeFunction value_at =
-          scene.chuck.value_over_time(k, scene.implant.characteristic_radius());
-        std::vector<double> values = scene.load_steps.sample_times();
-        std::transform(values.begin(), values.end(), values.begin(), value_at);
-        const auto [least, most] =
-          std::minmax_element(values.begin(), values.end());
-        way[k] = (is_rotation(k) ? 0.05 : 1.) *
-                 (scene.chuck.component[k].loaded ? 1e-9 : 1.) *
-                 (*most - *least);
-      }
-    const auto         furthest = std::max_element(way.begin(), way.end());
-    const unsigned int k        = furthest - way.begin();
-    return way[ChuckComponent::rotation_z] > 0. || *furthest == 0. ?
-             CurveAxes() :
-             CurveAxes{k, k};
   }
 } // namespace Debond

@@ -83,7 +83,7 @@ namespace Debond
         scene.take_values();
         scene.check();
         const auto axes   = CurveAxes::read(scene.output.curve);
-        scene.output.axes = axes ? *axes : CurveAxes::usual(scene);
+        scene.output.axes = axes ? *axes : scene.usual_curve();
         read_reference_curve(scene.output.reference_curve,
                              scene.output.reference_columns,
                              scene.output.axes);
@@ -94,6 +94,34 @@ namespace Debond
       }
     scene.completed_parameters = table.text() + identities(scene);
     return scene;
+  }
+
+
+
+  // What is moved comes before what is loaded. An angle counts as what it moves
+  // at the rim.
+  CurveAxes
+  Scene::usual_curve() const
+  {
+    std::array<double, ChuckParameters::n_components> way;
+    for (unsigned int k = 0; k < way.size(); ++k)
+      {
+        const TimeFunction value_at =
+          chuck.value_over_time(k, implant.characteristic_radius());
+        std::vector<double> values = load_steps.sample_times();
+        std::transform(values.begin(), values.end(), values.begin(), value_at);
+        const auto [least, most] =
+          std::minmax_element(values.begin(), values.end());
+        way[k] =
+          (is_rotation(k) ? implant.characteristic_radius() * M_PI / 180. :
+                            1.) *
+          (chuck.component[k].loaded ? 1e-9 : 1.) * (*most - *least);
+      }
+    const auto         furthest = std::max_element(way.begin(), way.end());
+    const unsigned int k        = furthest - way.begin();
+    return way[ChuckComponent::rotation_z] > 0. || *furthest == 0. ?
+             CurveAxes() :
+             CurveAxes{k, k};
   }
 
 

@@ -106,6 +106,13 @@ namespace Debond
                          "a " + scene.implant.geometry().name() +
                            " is in no bore: expected 0",
                          scene.interface.interference);
+      if (moves && scene.interface.joint()->pulls() &&
+          read_time_function(scene.interface.interference, R)(times.front()) <
+            0.)
+        throw EntryError(entry,
+                         "the bond is stretched from the beginning: with this "
+                         "Interface / Law expected 0 or more at first",
+                         scene.interface.interference);
       if (varies && (scene.load_steps.adaptive || scene.load_steps.follow_path))
         throw EntryError(entry,
                          "it changes with time: expected planned steps, Load "

@@ -227,7 +227,7 @@ namespace Debond
         "Moment x, y, z) over one of its positions (Translation x, y, z, "
         "Rotation x, y, z): Translation z, Force z. Pages draw it, measured "
         "curves are compared with it and fitted. `auto': Rotation z, Moment z "
-        "where the chuck may turn about z, else position and load of the "
+        "where the scene turns the chuck about z, else position and load of the "
         "component that it moves most.");
       table.add("Reference curve",
                 output.reference_curve,

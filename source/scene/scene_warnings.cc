@@ -1,6 +1,7 @@
 #include <debond/input/entry_table.h>
 #include <debond/scene/scene.h>
 #include <debond/shapes/body_geometry.h>
+#include <debond/shapes/body_mesh.h>
 #include <debond/shapes/modulus_field.h>
 #include <debond/support/number_text.h>
 
@@ -12,6 +13,19 @@ namespace Debond
 {
   namespace
   {
+    /** In a bore, or in a socket of a bone from a file, there is no push, and
+     * no rim that leaves the bone. */
+    bool
+    is_on_bone(const Scene &scene)
+    {
+      const auto &face = scene.bone.mesh ? scene.bone.mesh->box_of_face :
+                                           dealii::BoundingBox<3>();
+      return !scene.implant.geometry().is_in_bore(scene.implant) &&
+             face.side_length(2) <= 0.25 * face.side_length(0);
+    }
+
+
+
     /** Notes a warning if it is one: its name, and its text. */
     using Note = std::function<
       void(bool is_one, const std::string &, const std::string &)>;
@@ -78,7 +92,7 @@ namespace Debond
       if (scene.bone.modulus && scene.bone.modulus->voxels() != nullptr)
         judge_voxels(scene, *scene.bone.modulus->voxels(), note);
       for (const unsigned int d : {0, 1})
-        note(scene.implant.width(d) == scene.bone.width(d),
+        note(is_on_bone(scene) && scene.implant.width(d) == scene.bone.width(d),
              "width",
              "the implant is as wide as the bone, " +
                to_text(scene.bone.width(d)) + " mm in " + "xy"[d] +
@@ -402,13 +416,10 @@ namespace Debond
                entry + " is " + to_text(values[0]) + " at all times from " +
                  to_text(times.front()) + " to " + to_text(times.back()) +
                  ", and changes later: do Load steps / Times end too early?");
-          // in a bore there is no push, and no rim that leaves the bone
-          const bool is_above =
-            !scene.implant.geometry().is_in_bore(scene.implant);
-          if (is_above && k < ChuckComponent::translation_z &&
+          if (is_on_bone(scene) && k < ChuckComponent::translation_z &&
               !component.loaded)
             judge_crossing(scene, k, entry, values, note);
-          if (is_above && k == ChuckComponent::translation_z)
+          if (is_on_bone(scene) && k == ChuckComponent::translation_z)
             judge_push(scene, entry, values, note);
           if (k == ChuckComponent::rotation_z)
             judge_rotation(scene, entry, values, note);

@@ -71,7 +71,7 @@ namespace Debond
                            "a cavity is around the sphere of a cup, and the "
                            "implant is a " +
                              implant.geometry().name() +
-                             ": expected another shape");
+                             ": expected Implant / Shape = cup");
         Bowl bowl;
         bowl.cells            = body.cells;
         bowl.grading          = body.layer_grading;
@@ -114,7 +114,7 @@ namespace Debond
                                  body.size[2] > implant.height))
           throw EntryError("Bone / Size",
                            "the implant fills it: expected more than " +
-                             to_text(wide) + " mm across and " +
+                             to_text(wide, 6) + " mm across and " +
                              to_text(implant.height) + " mm in height",
                            to_text(body.size[0]) + ", " +
                              to_text(body.size[1]) + ", " +

@@ -46,7 +46,8 @@ namespace Debond
                                            body.inner_radius < body.radius),
                "Inner radius",
                "expected 0, of a solid cup, or a shell's, between " +
-                 to_text(centre) + " and " + to_text(body.radius) + " mm");
+                 to_text(centre, 6) + " (Radius less Height) and " +
+                 to_text(body.radius) + " mm");
       }
 
       double

@@ -47,14 +47,14 @@ namespace Debond
 
   void
   MeshedShape::check_cells(const BodyParameters &body,
-                           const bool            is_solid,
+                           const bool            has_square,
                            const EntryCheck     &refuse)
   {
     refuse_entries_of_lattices(body, "this shape has no such cells", refuse);
-    refuse(body.cells[0] < 3 || (is_solid && body.cells[0] % 4 != 0),
+    refuse(body.cells[0] < 8 || (has_square && body.cells[0] % 4 != 0),
            "Cells",
            "cells around, radial and along: expected " +
-             std::string(is_solid ? "4, 8, 12, ... around a solid body" :
-                                    "at least 3 around"));
+             std::string(has_square ? "8, 12, 16, ... around" :
+                                      "at least 8 around"));
   }
 } // namespace Debond

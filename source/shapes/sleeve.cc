@@ -69,10 +69,12 @@ namespace Debond
                              "another Implant / Shape");
         if (const double r = 0.5 * inside.width(implant, 0);
             r >= body.outer_radius)
-          throw EntryError("Bone / Outer radius",
-                           "the implant fills it: expected more than " +
-                             to_text(r) + " mm",
-                           to_text(body.outer_radius));
+          throw EntryError(
+            "Bone / Outer radius",
+            "the bone is thinner than the implant: expected more "
+            "than " +
+              to_text(r, 6) + " mm",
+            to_text(body.outer_radius));
         if (!(inside.radius_of_side(implant, -result.height, 0.) > 0.))
           throw EntryError("Bone / Height",
                            "it is beyond the tip of the implant",

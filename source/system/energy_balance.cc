@@ -90,7 +90,8 @@ namespace Debond
     if (started)
       {
         const Chuck::Vector6 dq = state.position - last.position;
-        const double put_in     = 0.5 * (state.forces + last.forces).dot(dq);
+        const double put_in     = 0.5 * (state.forces + last.forces).dot(dq) +
+                              state.press_fit - last.press_fit;
         work += put_in;
         largest_work = std::max({largest_work, std::abs(work), state.stored});
         // of the trapezoid, and of residuals that are not quite zero; force and

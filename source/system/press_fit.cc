@@ -3,6 +3,8 @@
 #include <debond/shapes/body_parameters.h>
 #include <debond/system/press_fit.h>
 
+#include <cmath>
+
 namespace Debond
 {
   PressFit::PressFit(const InterfaceParameters &interface,
@@ -39,6 +41,8 @@ namespace Debond
       return;
     const double force = forces.cwiseProduct(outwards).sum();
     accepted_work += 0.5 * (accepted_force + force) * (half - accepted_half);
+    accepted_bound +=
+      0.5 * std::abs((force - accepted_force) * (half - accepted_half));
     accepted_force = force;
     accepted_half  = half;
   }

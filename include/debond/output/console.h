@@ -16,8 +16,11 @@ namespace Debond
   class Console
   {
   public:
-    /** @p times: `Load steps / Times`. */
-    Console(bool quiet, const std::vector<double> &times, std::ostream &out);
+    /** @p times: `Load steps / Times`; @p axes: of the curve that is told. */
+    Console(bool                       quiet,
+            const std::vector<double> &times,
+            const CurveAxes           &axes,
+            std::ostream              &out);
 
     void
     headline(const std::string &text);
@@ -46,6 +49,7 @@ namespace Debond
     show_progress_of(const TorqueRow &row, unsigned int n_steps);
 
     const std::vector<double> times;
+    const CurveAxes           axes;
     std::ostream             &out;
     bool                      columns_named = false;
     std::vector<std::string>  warning_keys;

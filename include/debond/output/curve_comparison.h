@@ -36,18 +36,18 @@ namespace Debond
   largest(const ReferenceCurve &curve,
           double ReferenceCurve::value_type::*member);
 
-  /** Of a curve to and fro the rows from where it turned for the last time. */
+  /** Of a curve to and fro the way to where it is furthest from its beginning,
+   *  from where it turned before: bonds are pressed before they are pulled. */
   ReferenceCurve
-  last_branch(const ReferenceCurve &curve);
+  main_branch(const ReferenceCurve &curve);
 
   /**
    * How far a computed curve is from a measured one, at the rows of the latter
    * that the former covers and whose angles are positive, or negative if the
    * implant turns backwards. Curves that are no torque over an angle are
-   * compared along their last_branch(): bonds are pressed before they are
-   * pulled. Rows with less than a hundredth of the largest
-   * measured torque would dominate a relative error and are left out. NaN if
-   * there is none, or if the computed curve does not turn or turns back.
+   * compared along their main_branch(). Rows with less than a hundredth of the
+   * largest measured torque would dominate a relative error and are left out.
+   * NaN if there is none, or if the computed curve does not turn or turns back.
    */
   struct CurveComparison
   {

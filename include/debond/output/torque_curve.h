@@ -240,8 +240,7 @@ namespace Debond
    *    the rows;
    *  - curve, of one that is no torque over an angle: the columns `over` and
    *    `load`, and in their units the `largest` load, `at` which position, that
-   *    at the `end`, and the `initial_stiffness`, of the first row of the last
-   *    motion to and fro.
+   *    at the `end`, and the `initial_stiffness`, along its main_branch().
    */
   nlohmann::ordered_json
   measure_torque_curve(const std::vector<TorqueRow> &rows,

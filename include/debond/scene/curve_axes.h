@@ -8,8 +8,6 @@
 
 namespace Debond
 {
-  struct Scene;
-
   /** The curve that a scene is about, `Output / Curve`: a load of the chuck
    *  over one of its positions. */
   struct CurveAxes
@@ -45,10 +43,6 @@ namespace Debond
     /** Of the names of columns. */
     static std::optional<CurveAxes>
     of_columns(const std::string &position, const std::string &load);
-    /** Torque over angle where the chuck may turn about z, else the load and
-     * the position of the component that it moves most. */
-    static CurveAxes
-    usual(const Scene &scene);
   };
 } // namespace Debond
 #endif

@@ -194,6 +194,10 @@ namespace Debond
      *  and where the rim is. After entries have been set. Throws InputError. */
     void
     take_values();
+    /** Torque over angle where the chuck may turn about z, else the load and
+     *  the position of the component that it moves most. */
+    CurveAxes
+    usual_curve() const;
 
     /** Fills completed_parameters of a scene that a program has made. */
     void

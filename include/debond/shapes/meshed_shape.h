@@ -32,10 +32,12 @@ namespace Debond
     virtual StoredMesh
     stored_mesh(const BodyParameters &body,
                 const BodyParameters &implant) const = 0;
-    /** Cells around, and entries that other cells than these have. */
+    /** Cells around, and entries that other cells than these have. @p
+     * has_square: whether there is a square with a quarter of them on each
+     * edge. */
     static void
     check_cells(const BodyParameters &body,
-                bool                  is_solid,
+                bool                  has_square,
                 const EntryCheck     &refuse);
   };
 } // namespace Debond

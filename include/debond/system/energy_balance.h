@@ -14,7 +14,7 @@ namespace Debond
     Chuck::Vector6 position   = Chuck::Vector6::Zero();
     double         stored     = 0; ///< [N mm]
     double         dissipated = 0; ///< [N mm]
-    double         bound = 0; ///< of errors of the two above, sum so far [N mm]
+    double         bound = 0; ///< of errors of all of these, sum so far [N mm]
     double         press_fit = 0; ///< work of an interference [N mm]
 
     /** See serialization.h. */

@@ -50,13 +50,20 @@ namespace Debond
     {
       return accepted_work;
     }
+    /** What that may be off by [N mm]. */
+    double
+    bound() const
+    {
+      return accepted_bound;
+    }
 
     /** See serialization.h. */
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &half &accepted_half &accepted_force &accepted_work;
+      archive &half &accepted_half &accepted_force &accepted_work
+        &accepted_bound;
     }
 
   private:
@@ -65,6 +72,7 @@ namespace Debond
     double       half = 0, accepted_half = 0; ///< [mm]
     double       accepted_force = 0;          ///< that works on `half' [N]
     double       accepted_work  = 0;
+    double       accepted_bound = 0;
   };
 } // namespace Debond
 #endif

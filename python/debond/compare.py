@@ -4,6 +4,7 @@
     print(compare("output/run", "measured.csv", "2 [deg], 3 [N m]").text)
 """
 
+import glob
 import os
 from dataclasses import dataclass, field
 from typing import Dict
@@ -33,9 +34,8 @@ LOADS = {"N mm": "torques", "N": "forces"}
 
 def _axes(directory):
     """Columns of the curve that results are about; of a study that of the first variant that has a summary."""
-    places = [directory, *(os.path.join(directory, name) for name in sorted(os.listdir(directory)) if name.startswith("variant-"))]
-    return next((curve_columns(summary) for summary in map(read_json, (place + "/summary.json" for place in places)) if summary),
-                curve_columns({}))
+    places = [directory, *sorted(glob.glob(glob.escape(directory) + "/variant-*"))]
+    return curve_columns(next(filter(None, (read_json(place + "/summary.json") for place in places)), {}))
 
 
 def _table(filename):

@@ -51,6 +51,37 @@ namespace Debond
         text += scene.bone.modulus->voxels()->identity;
       return text;
     }
+
+
+
+    // A measured curve of angles and torques says itself which curve it is.
+    void
+    take_curve(Scene &scene)
+    {
+      OutputParameters &output = scene.output;
+      const auto        read   = [&output](const CurveAxes &axes) {
+        read_reference_curve(output.reference_curve,
+                             output.reference_columns,
+                             axes);
+      };
+      const auto can_read = [&](const CurveAxes &axes) {
+        try
+          {
+            read(axes);
+            return true;
+          }
+        catch (const EntryError &)
+          {
+            return false;
+          }
+      };
+      const auto named = CurveAxes::read(output.curve);
+      output.axes      = named ? *named : scene.usual_curve();
+      if (!named && !output.axes.is_torsion() && !can_read(output.axes) &&
+          can_read(CurveAxes()))
+        output.axes = CurveAxes();
+      read(output.axes); // says what is wrong
+    }
   } // namespace
 
 
@@ -82,11 +113,7 @@ namespace Debond
         scene.chuck.read_tables();
         scene.take_values();
         scene.check();
-        const auto axes   = CurveAxes::read(scene.output.curve);
-        scene.output.axes = axes ? *axes : scene.usual_curve();
-        read_reference_curve(scene.output.reference_curve,
-                             scene.output.reference_columns,
-                             scene.output.axes);
+        take_curve(scene);
       }
     catch (const InputError &error)
       {

@@ -227,8 +227,9 @@ namespace Debond
         "Moment x, y, z) over one of its positions (Translation x, y, z, "
         "Rotation x, y, z): Translation z, Force z. Pages draw it, measured "
         "curves are compared with it and fitted. `auto': Rotation z, Moment z "
-        "where the scene turns the chuck about z, else position and load of the "
-        "component that it moves most.");
+        "where the scene turns the chuck about z, or where Reference curve is of "
+        "angles and torques only, else position and load of the component that "
+        "it moves most.");
       table.add("Reference curve",
                 output.reference_curve,
                 Allowed::text("the name of a CSV file"),

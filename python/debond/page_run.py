@@ -76,6 +76,8 @@ def files_of(directory):
 def context_of_run(directory):
     """What the template run.html shows of a directory."""
     summary = read_json(os.path.join(directory, "summary.json"))
+    if abs(number(summary.get("force_end_N"))) < 1e-8:
+        del summary["force_end_N"]  # of a chuck that is free, but for rounding
     entries = read_entries(os.path.join(directory, "parameters.prm"))
     return {"title": entries.get("Title") or f"Results in {directory}", "finished": summary.get("converged") is True,
             "reason": summary.get("reason") or "the run is at work, or was ended from outside" * (not summary),

@@ -137,8 +137,8 @@ namespace Debond
           tree.query(boost::geometry::index::nearest(point, 2),
                      std::back_inserter(around));
           if (point.distance(place) >
-              std::max(point.distance(around.front().first),
-                       point.distance(around.back().first)))
+              1.5 * std::max(point.distance(around.front().first),
+                             point.distance(around.back().first)))
             return nullptr;
         }
       return &points[number];

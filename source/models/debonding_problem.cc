@@ -333,6 +333,7 @@ namespace Debond
           {"converged", converged},
           {"reason", reason},
           {"wall_seconds", seconds.at("all")}};
+        facts.update(fields.measures());
         if (const auto *const effort_of_multigrid = system.multigrid_effort())
           facts.update(
             {{"processes", Ranks::number()},

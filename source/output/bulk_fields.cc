@@ -6,6 +6,7 @@
 #include <debond/support/ranks.h>
 #include <debond/support/runtime.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_dgq.h>
 #include <deal.II/fe/fe_q.h>
@@ -16,6 +17,8 @@
 #include <deal.II/lac/vector.h>
 #include <deal.II/numerics/data_out.h>
 #include <deal.II/numerics/data_postprocessor.h>
+
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <sstream>
@@ -330,6 +333,42 @@ namespace Debond
 
 
 
+  namespace
+  {
+    // Vertices of cells, which of splines are no nodes.
+    BoneTension
+    tension_of(const BulkSpace                    &bone,
+               const std::vector<Eigen::Matrix3d> &stress)
+    {
+      std::vector<double> tension;
+      for (const Eigen::Matrix3d &sigma : stress)
+        tension.push_back(
+          Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sigma,
+                                                         Eigen::EigenvaluesOnly)
+            .eigenvalues()[2]);
+      std::array<double, 4> found{{0, 0, 0, 0}}; // MPa, X
+      for (const BulkSpace::Cell &cell : bone.cells())
+        for (const unsigned int a : dealii::GeometryInfo<3>::vertex_indices())
+          if (const double own = tension[cell.vertices[a]]; own > found[0])
+            {
+              const Eigen::Vector3d X =
+                CellFunctions(bone, cell)
+                  .position(dealii::GeometryInfo<3>::unit_cell_vertex(a));
+              found = {{own, X[0], X[1], X[2]}};
+            }
+      if (Ranks::number() > 1)
+        for (const auto &other :
+             dealii::Utilities::MPI::all_gather(Ranks::communicator(), found))
+          found = std::max(found, other);
+      BoneTension result;
+      result.MPa  = found[0];
+      result.X_mm = {{found[1], found[2], found[3]}};
+      return result;
+    }
+  } // namespace
+
+
+
   // Trilinear elements at a curved surface have a curved face: of these alone
   // more points are drawn.
   void
@@ -344,8 +383,10 @@ namespace Debond
       numbers[space.degree() > 1 ||
               (space.cells()[k].enriched && space.surface().degree() > 1)]
         .push_back(k);
-    const Eigen::VectorXd             v      = body.full_displacement();
-    const auto                        stress = body.vertex_stress(v);
+    const Eigen::VectorXd v      = body.full_displacement();
+    const auto            stress = body.vertex_stress(v);
+    if (space.side() == Side::bone)
+      largest_tension = tension_of(space, stress);
     const std::array<unsigned int, 2> degrees{
       {1, has_curved_cells ? 2 : n_pieces(space.surface(), 24, 2, 8)}};
     for (const bool is_curved : {false, true})

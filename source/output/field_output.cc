@@ -7,6 +7,8 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
 #include <regex>
 #include <sstream>
@@ -69,6 +71,11 @@ namespace Debond
     const Body        &slave  = *bodies[interface.slave_side()];
     const unsigned int number = times.size();
     const BulkFields   bulk(bodies, chuck);
+    if (bulk.tension().MPa > largest_tension.MPa)
+      {
+        largest_tension      = bulk.tension();
+        largest_tension.time = time;
+      }
     if (Ranks::number() == 1)
       write_file(directory.file(file_name("bulk", number)), bulk.vtu());
     else
@@ -87,6 +94,18 @@ namespace Debond
     times.push_back(time);
     n_pieces.push_back(Ranks::number());
     write_series();
+  }
+
+
+
+  nlohmann::ordered_json
+  FieldOutput::measures() const
+  {
+    if (largest_tension.MPa == 0.)
+      return nlohmann::ordered_json::object();
+    return {{"bone_tension_MPa", largest_tension.MPa},
+            {"bone_tension_at_mm", largest_tension.X_mm},
+            {"bone_tension_time", largest_tension.time}};
   }
 
 

@@ -114,6 +114,8 @@ namespace Debond
             std::pair("Inner radius", body.inner_radius != usual.inner_radius),
             std::pair("Outer radius", body.outer_radius != usual.outer_radius),
             std::pair("Ends", body.ends != usual.ends),
+            std::pair("Support radius",
+                      body.support_radius != usual.support_radius),
             std::pair("Taper angle", body.taper_angle != usual.taper_angle),
             std::pair("Pitch", body.pitch != usual.pitch),
             std::pair("Thread depth", body.thread_depth != usual.thread_depth),
@@ -148,6 +150,7 @@ namespace Debond
     if (geometry().is_lattice())
       check_cells(*this, refuse);
   }
+
 
 
   void

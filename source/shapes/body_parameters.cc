@@ -162,6 +162,13 @@ namespace Debond
       "How top and bottom of a sleeve, or the top of a cavity, are held. "
       "`slide': they do not move along the axis. `axial': they move "
       "along the axis only. `held': not at all.");
+    table.add("Support radius",
+              support_radius,
+              AllowedValues(allowed_length).or_number(0),
+              "Radius [mm] of the hole in a plate on which a sleeve stands, as "
+              "in push-out tests: its bottom is held from there outwards - "
+              "cells whose middle is beyond it -, its outer face is free. 0: "
+              "the outer face is held.");
     table.add("Cells",
               cells,
               Allowed::list(allowed_cells, 3, 3),

@@ -160,7 +160,11 @@ namespace Debond
       };
       const bool is_inner = body.inner && cell[0] == 0,
                  is_outer = cell[0] == n[1] - 1, is_bottom = cell[2] == 0;
-      if (is_bottom)
+      const auto from_axis = [&] { // of its bottom
+        const Point middle = position({{0, int(2 * cell[0] + 1), 0, 0}});
+        return std::hypot(middle[0], middle[1]);
+      };
+      if (is_bottom && from_axis() >= body.bottom_from)
         name(RevolvedBody::Part::bottom, body.bottom_name, {0, 1, 2, 3});
       if (cell[2] == n[2] - 1)
         collected.name(body.top_name, {4, 5, 6, 7});

@@ -22,7 +22,7 @@ namespace Debond
       {
         return "a tube around the side of the implant, given by Outer radius "
                "and Height, whose top is at z = 0; its outer face is held, and "
-               "its ends as Ends says";
+               "its ends as Ends says, or it stands on a ring (Support radius)";
       }
       bool
       is_for_bone() const override
@@ -37,13 +37,17 @@ namespace Debond
       std::vector<std::string>
       entries() const override
       {
-        return {"Outer radius", "Height", "Ends"};
+        return {"Outer radius", "Height", "Ends", "Support radius"};
       }
 
       void
       check(const BodyParameters &body, const EntryCheck &refuse) const override
       {
         check_cells(body, false, refuse);
+        refuse(stands_on_ring(body) && body.ends != SleeveEnds::free,
+               "Ends",
+               "the bone stands on a ring (Support radius), which holds its "
+               "bottom: expected free");
       }
 
       double
@@ -98,9 +102,27 @@ namespace Debond
         result.grading = body.layer_grading;
         result.lowest  = -result.height;
         result.contact = RevolvedBody::Part::inner;
-        result.outer_name  = "held";
+        result.outer_name  = stands_on_ring(body) ? "free" : "held";
         result.bottom_name = result.top_name = name_of(body.ends);
-        return mesh_of_revolution(result);
+        if (stands_on_ring(body))
+          {
+            result.bottom_name = "held";
+            result.bottom_from = body.support_radius;
+          }
+        StoredMesh stored = mesh_of_revolution(result);
+        if (stands_on_ring(body) && stored.groups["held"].empty())
+          throw EntryError("Bone / Support radius",
+                           "the bone falls through this hole: expected less "
+                           "than the middle of the outermost cells",
+                           to_text(body.support_radius));
+        return stored;
+      }
+
+    private:
+      static bool
+      stands_on_ring(const BodyParameters &body)
+      {
+        return body.support_radius > 0.;
       }
     };
   } // namespace

@@ -6,8 +6,8 @@
 // Scenes: trilinear and spline elements, Neo-Hooke, a loaded chuck with a
 // compliant machine, a pattern, the bone as slave, a path that is followed, two
 // bones whose modulus varies, a cap with bilinear faces and adaptive steps;
-// quadratic elements, cells that are coarser below, a bone from a file, hardly
-// more cells than ranks.
+// quadratic elements, cells that are coarser below, a bone from a file, a
+// pin and a cup in their bores, hardly more cells than ranks.
 
 #include <debond/models/simulation.h>
 #include <debond/support/ranks.h>
@@ -161,6 +161,21 @@ main()
            "Bone/Coarser below=true",
            "Bone/Cells=8, 8, 2"});
   compare("a bone from a file", {}, core);
+  compare("a pin in a sleeve",
+          {"Bone/Shape=sleeve",
+           "Bone/Outer radius=5",
+           "Bone/Cells=8, 2, 2",
+           "Implant/Shape=pin",
+           "Implant/Cells=8, 1, 2",
+           "Interface/Interference=0.01"});
+  compare("a cup in a shell",
+          {"Bone/Shape=cavity",
+           "Bone/Outer radius=5",
+           "Bone/Cells=8, 2, 1",
+           "Implant/Shape=cup",
+           "Implant/Height=2",
+           "Implant/Cells=8, 1, 1",
+           "Interface/Interference=0.01"});
   compare("few cells", {"Bone/Cells=4, 3, 1"});
   Ranks::finish();
 }

@@ -12,6 +12,22 @@ namespace Debond
   class Chuck;
   class NurbsSurface;
 
+  /** The largest principal stress of the bone, and the vertex X of its mesh
+   *  where it is; see Bulk::vertex_stress(). */
+  struct BoneTension
+  {
+    double                MPa = 0, time = 0;
+    std::array<double, 3> X_mm = {{0, 0, 0}};
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &MPa &time &X_mm;
+    }
+  };
+
   /**
    * The fields of both bodies in the trial state, class FieldOutput says which,
    * drawn by dealii::DataOut. Of several ranks each has the cells of its own.
@@ -30,6 +46,12 @@ namespace Debond
      *  names. */
     std::string
     list_of_pieces(const std::vector<std::string> &pieces) const;
+    /** Zero of a rigid bone; its time is not set. */
+    const BoneTension &
+    tension() const
+    {
+      return largest_tension;
+    }
 
   private:
     class FieldsInSpace;
@@ -44,6 +66,7 @@ namespace Debond
 
     /** The first one has the patches of all. */
     std::vector<std::unique_ptr<DrawnCells>> parts;
+    BoneTension                              largest_tension;
   };
 
   /** Into how many pieces a cell is cut in each direction, so that there are

@@ -1,14 +1,16 @@
 #ifndef debond_output_field_output_h
 #define debond_output_field_output_h
 
+#include <debond/output/bulk_fields.h>
+
+#include <nlohmann/json_fwd.hpp>
+
 #include <array>
 #include <string>
 #include <vector>
 
 namespace Debond
 {
-  class Body;
-  class Chuck;
   class ContactInterface;
   class ResultDirectory;
 
@@ -75,12 +77,18 @@ namespace Debond
     void
     put_on_disk();
 
+    /** Members of summary.json: bone_tension_MPa, the largest BoneTension of
+     *  all files, bone_tension_at_mm and bone_tension_time; none without
+     *  files or tension. */
+    nlohmann::ordered_json
+    measures() const;
+
     /** See serialization.h. */
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &times &n_pieces;
+      archive &times &n_pieces &largest_tension;
     }
 
   private:
@@ -93,6 +101,7 @@ namespace Debond
     const std::array<const Body *, 2> bodies; ///< bone, implant
     const ContactInterface           &interface;
     const Chuck                      &chuck;
+    BoneTension                       largest_tension;
     std::vector<double>               times;         ///< of the files
     std::vector<unsigned int>         n_pieces;      ///< of the bulk in each
     std::size_t                       n_on_disk = 0; ///< files of each series

@@ -81,12 +81,13 @@ namespace Debond
     double                outer_radius = 0; ///< sleeve, cavity [mm]; 0: a block
     double                height = 3; ///< of round implants, on the axis [mm]
     double                sleeve_height = 0; ///< 0: that of the implant [mm]
-    SleeveEnds            ends          = SleeveEnds::free;
-    double                taper_angle   = 3; ///< half of the cone's [deg]
-    double                pitch = 1, thread_depth = 0.2; ///< screw [mm]
-    unsigned int          starts     = 1;                ///< screw
-    double                cap_radius = 50;               ///< of the sphere [mm]
-    std::string           mesh_file;
+    double     support_radius = 0; ///< of the hole below a sleeve [mm]; 0: none
+    SleeveEnds ends           = SleeveEnds::free;
+    double     taper_angle    = 3;            ///< half of the cone's [deg]
+    double     pitch = 1, thread_depth = 0.2; ///< screw [mm]
+    unsigned int starts     = 1;              ///< screw
+    double       cap_radius = 50;             ///< of the sphere [mm]
+    std::string  mesh_file;
     /** Of a shape that is no lattice; see make_mesh(). */
     std::shared_ptr<const BodyMesh> mesh;
     /** Number of cells in x, y, z; z along the axis (`Cells = n, m` becomes

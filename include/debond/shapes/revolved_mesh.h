@@ -34,6 +34,8 @@ namespace Debond
     /** What the parts of the boundary are, as in the files of meshes. */
     std::string inner_name = "free", outer_name = "free", bottom_name = "free",
                 top_name = "free";
+    /** Cells whose middle is nearer to the axis have a free bottom [mm]. */
+    double bottom_from = 0;
   };
 
   /** Its cells. The core of a solid one is square, of cells[0] / 4 cells

@@ -55,21 +55,29 @@ namespace Debond
   void
   BulkSpace::hold_splines()
   {
-    const auto &n       = body_parameters.cells;
-    const bool  is_bone = body_side == Side::bone;
+    const bool is_bone = body_side == Side::bone;
     for (const Cell &cell : bulk_cells)
       {
-        const unsigned int i = cell.surface_element % n[0],
-                           j = cell.surface_element / n[0];
-        for (const auto &[is_there, face, components] :
-             {std::make_tuple(cell.layer == n[2] - 1, is_bone ? 4 : 5, 7),
-              std::make_tuple(is_bone && i == 0, 0, 1),
-              std::make_tuple(is_bone && i == n[0] - 1, 1, 1),
-              std::make_tuple(is_bone && j == 0, 2, 2),
-              std::make_tuple(is_bone && j == n[1] - 1, 3, 2)})
-          if (is_there)
-            hold(cell, face, components);
+        if (cell.layer == body_parameters.cells[2] - 1)
+          hold(cell, is_bone ? 4 : 5, 7);
+        for (unsigned int side = 0; side < 4; ++side)
+          if (is_bone && contact_surface.is_border(cell.surface_element, side))
+            hold(cell, side, 1U << direction_across(cell, side));
       }
+  }
+
+
+
+  // Of a side of a block: that along which it has the same place everywhere.
+  unsigned int
+  BulkSpace::direction_across(const Cell &cell, const unsigned int side) const
+  {
+    dealii::Point<3> first(0., 0., 0.), last(1., 1., 0.);
+    first[side / 2] = last[side / 2] = side % 2;
+    const CellFunctions   functions(*this, cell);
+    const Eigen::Vector3d along =
+      functions.position(last) - functions.position(first);
+    return std::abs(along[0]) < std::abs(along[1]) ? 0 : 1;
   }
 
 

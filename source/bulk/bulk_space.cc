@@ -24,8 +24,8 @@ namespace Debond
       const unsigned int  n = parameters.cells[2];
       std::vector<double> fractions;
       for (unsigned int k = 0; k <= n; ++k)
-        fractions.push_back(
-          std::pow(static_cast<double>(k) / n, parameters.layer_grading));
+        fractions.push_back(std::pow(static_cast<double>(k) / n,
+                                     parameters.exponent_of_layers()));
       return KnotVector::from_breakpoints(
         parameters.element == ElementKind::spline ? 2 : 1, fractions);
     }
@@ -174,22 +174,22 @@ namespace Debond
   void
   BulkSpace::make_cells_of_splines()
   {
-    const auto        &n   = body_parameters.cells;
-    const unsigned int row = n[0] + 1, level = row * (n[1] + 1);
-    const bool         is_bone = body_side == Side::bone;
-    n_nodes_of_fe              = level * (n[2] + 1);
-    for (unsigned int k = 0; k < n[2]; ++k)
+    const unsigned int n     = body_parameters.cells[2],
+                       level = contact_surface.n_corners();
+    const bool is_bone       = body_side == Side::bone;
+    n_nodes_of_fe            = level * (n + 1);
+    for (unsigned int k = 0; k < n; ++k)
       for (unsigned int e = 0; e < contact_surface.n_elements(); ++e)
         {
           Cell &cell           = bulk_cells.emplace_back();
           cell.surface_element = e;
-          cell.layer           = is_bone ? n[2] - 1 - k : k;
+          cell.layer           = is_bone ? n - 1 - k : k;
           cell.enriched        = cell.layer == 0;
           if (cell.enriched)
             cell.face = ContactFace::of(is_bone ? 5 : 4, body_side);
-          const unsigned int first = e % n[0] + e / n[0] * row + k * level;
           for (unsigned int v = 0; v < 8; ++v)
-            cell.vertices[v] = first + v % 2 + v / 2 % 2 * row + v / 4 * level;
+            cell.vertices[v] =
+              contact_surface.corner(e, v % 4) + (k + v / 4) * level;
         }
   }
 

@@ -27,6 +27,8 @@ namespace Debond
     bool
     has_mirrored_functions(const NurbsSurface &face, const unsigned int d)
     {
+      if (!face.is_one_patch())
+        return true; // cells and the places of their nodes will tell
       const std::vector<double> &knots   = face.knots(d).breakpoints();
       const std::vector<double> &weights = face.weights();
       for (unsigned int k = 0; k < knots.size(); ++k)
@@ -112,7 +114,10 @@ namespace Debond
   std::optional<MirrorSymmetry>
   MirrorSymmetry::of(const BulkSpace &space, const EnrichedCells &cells)
   {
-    if (!space.surface().is_one_patch())
+    // of several patches parameters run in all directions, and what varies from
+    // point to point is not compared
+    if (space.parameters().mesh ||
+        (space.parameters().is_fitted() && space.parameters().modulus))
       return {};
     MirrorSymmetry result;
     // a node that follows others may be where one of them is
@@ -140,6 +145,13 @@ namespace Debond
     for (const auto &kind : kinds)
       if (!find_images(space, kind, result.image))
         return {};
+    const unsigned int         first   = space.n_inner_nodes();
+    const std::vector<double> &weights = space.surface().weights();
+    for (const auto &images : result.image)
+      for (unsigned int A = 0; A < weights.size(); ++A)
+        if (std::abs(weights[A] - weights[images[first + A] - first]) >
+            rounding * weights[A])
+          return {};
 
     std::array<std::vector<unsigned int>, 2> image_of_cell;
     for (const unsigned int d : {0, 1})

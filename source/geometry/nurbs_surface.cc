@@ -128,21 +128,138 @@ namespace Debond
         if (each.size() != (degree + 1) * (degree + 1))
           throw std::invalid_argument(
             "A face has (p+1)^2 control points, p its degree.");
-        faces.push_back({each, {}});
+        Face &face          = faces.emplace_back();
+        face.control_points = each;
+        face.corners        = {{each.front(),
+                                each[degree],
+                                each[degree * (degree + 1)],
+                                each.back()}};
       }
     if (faces.empty() || !points.allFinite())
       throw std::invalid_argument(
         "A surface has one face at least, and finite control points.");
+    patch_knots = {knot_vectors};
+    faces_at.resize(n_control_points());
     find_neighbours();
   }
 
 
 
-  unsigned int
-  NurbsSurface::corner_of(const Face &face, const unsigned int corner) const
+  namespace
   {
-    const unsigned int p = degree();
-    return face.control_points[(corner % 2) * p + (corner / 2) * p * (p + 1)];
+    /** Numbers of points in the order they come, the same for those that are
+     *  at the same place. */
+    class PlaceNumbers
+    {
+    public:
+      explicit PlaceNumbers(const double tolerance)
+        : tolerance(tolerance)
+      {}
+
+      unsigned int
+      operator()(const Eigen::Vector3d &X)
+      {
+        const auto found  = std::find_if(places.begin(),
+                                        places.end(),
+                                        [&](const Eigen::Vector3d &other) {
+                                          return (X - other).norm() < tolerance;
+                                        });
+        const auto number = std::distance(places.begin(), found);
+        if (found == places.end())
+          places.push_back(X);
+        return number;
+      }
+
+      std::vector<Eigen::Vector3d> places;
+
+    private:
+      const double tolerance;
+    };
+  } // namespace
+
+
+
+  void
+  NurbsSurface::add_patch(const NurbsSurface              &patch,
+                          const std::vector<unsigned int> &own_points,
+                          const std::vector<unsigned int> &own_corners)
+  {
+    for (unsigned int e = 0; e < patch.n_elements(); ++e)
+      {
+        Face &face = faces.emplace_back();
+        for (const unsigned int A : patch.element_control_points(e))
+          face.control_points.push_back(own_points[A]);
+        for (const unsigned int k : {0, 1, 2, 3})
+          face.corners[k] = own_corners[patch.corner(e, k)];
+        const unsigned int n = patch.knots(0).n_spans();
+        face.patch           = patch_knots.size();
+        face.span            = {{e % n, e / n}};
+      }
+    patch_knots.push_back(patch.knot_vectors);
+  }
+
+
+
+  NurbsSurface
+  NurbsSurface::joined(const std::vector<NurbsSurface> &patches)
+  {
+    double size = 0.;
+    for (const NurbsSurface &patch : patches)
+      size = std::max(size, patch.points.cwiseAbs().maxCoeff());
+    PlaceNumbers number_of_point(1e-9 * size), number_of_corner(1e-9 * size);
+    NurbsSurface result = patches.front();
+    std::vector<double> weights;
+    for (const NurbsSurface &patch : patches)
+      {
+        std::vector<unsigned int> own_points, own_corners;
+        for (unsigned int A = 0; A < patch.n_control_points(); ++A)
+          {
+            own_points.push_back(number_of_point(patch.points.col(A)));
+            if (own_points.back() == weights.size())
+              weights.push_back(patch.weight[A]);
+            if (std::abs(weights[own_points.back()] - patch.weight[A]) > 1e-9)
+              throw std::invalid_argument(
+                "Patches that meet need the same weights there.");
+          }
+        for (const double v : patch.knots(1).breakpoints())
+          for (const double u : patch.knots(0).breakpoints())
+            own_corners.push_back(number_of_corner(patch.point({u, v})));
+        result.add_patch(patch, own_points, own_corners);
+        result.is_rational = result.is_rational || patch.is_rational;
+      }
+    result.points.resize(3, weights.size());
+    for (unsigned int A = 0; A < weights.size(); ++A)
+      result.points.col(A) = number_of_point.places[A];
+    result.weight   = weights;
+    result.n_in_row = std::ceil(std::sqrt(double(result.faces.size())));
+    result.faces_at.resize(number_of_corner.places.size());
+    result.find_neighbours();
+    return result;
+  }
+
+
+
+  unsigned int
+  NurbsSurface::corner(const unsigned int element,
+                       const unsigned int which) const
+  {
+    if (!is_one_patch())
+      return faces[element].corners[which];
+    const unsigned int n = knot_vectors[0].n_spans();
+    return element % n + which % 2 + (element / n + which / 2) * (n + 1);
+  }
+
+
+
+  bool
+  NurbsSurface::is_border(const unsigned int element,
+                          const unsigned int side) const
+  {
+    if (!is_one_patch())
+      return faces[element].across[side].face < 0;
+    const unsigned int n     = knot_vectors[0].n_spans(),
+                       place = side < 2 ? element % n : element / n;
+    return place == (side % 2 == 0 ? 0 : knot_vectors[side / 2].n_spans() - 1);
   }
 
 
@@ -168,15 +285,14 @@ namespace Debond
       bool         has_partner;
     };
     std::map<std::pair<unsigned int, unsigned int>, FoundSide> sides;
-    faces_at.resize(n_control_points());
     for (int f = 0; f < int(faces.size()); ++f)
       {
-        for (const unsigned int corner : {0, 1, 2, 3})
-          faces_at[corner_of(faces[f], corner)].push_back(f);
+        for (const unsigned int corner : faces[f].corners)
+          faces_at[corner].push_back(f);
         for (int s = 0; s < 4; ++s)
           {
-            const unsigned int first = corner_of(faces[f], ends_of_side[s][0]),
-                               last  = corner_of(faces[f], ends_of_side[s][1]);
+            const unsigned int first = faces[f].corners[ends_of_side[s][0]],
+                               last  = faces[f].corners[ends_of_side[s][1]];
             const auto [found, is_new] =
               sides.emplace(std::minmax(first, last),
                             FoundSide{f, s, first, false});
@@ -294,10 +410,10 @@ namespace Debond
     if (!is_corner)
       return result;
     const unsigned int corner =
-      corner_of(faces[element], local[0] + 2 * local[1]);
+      faces[element].corners[int(local[0] + 2 * local[1])];
     for (const unsigned int f : faces_at[corner])
       for (const unsigned int k : {0, 1, 2, 3})
-        if (f != element && corner_of(faces[f], k) == corner &&
+        if (f != element && faces[f].corners[k] == corner &&
             std::none_of(result.begin(), result.end(), [&](const Place &place) {
               return place.element == f;
             }))
@@ -416,6 +532,25 @@ namespace Debond
 
 
 
+  namespace
+  {
+    /** B-splines of a span over its own parameter, which runs from 0 to 1. */
+    BernsteinValues
+    in_own_parameter(const KnotVector  &knots,
+                     const unsigned int span,
+                     const double       local)
+    {
+      const double begin     = knots.breakpoints()[span],
+                   width     = knots.breakpoints()[span + 1] - begin;
+      BernsteinValues result = knots.evaluate(span, begin + local * width);
+      result.dB *= width;
+      result.ddB *= width * width;
+      return result;
+    }
+  } // namespace
+
+
+
   void
   NurbsSurface::evaluate_in_element(const unsigned int     element,
                                     const Eigen::Vector2d &xi,
@@ -423,13 +558,21 @@ namespace Debond
                                     const bool second_derivatives) const
   {
     assert(element < n_elements());
-    const unsigned int    n      = knot_vectors[0].n_spans();
-    const unsigned int    span_1 = is_one_patch() ? element % n : 0;
-    const unsigned int    span_2 = is_one_patch() ? element / n : 0;
-    const Eigen::Vector2d local =
-      is_one_patch() ? xi : (xi - lowest_of_face(element)).eval();
-    const BernsteinValues splines1 = knot_vectors[0].evaluate(span_1, local[0]);
-    const BernsteinValues splines2 = knot_vectors[1].evaluate(span_2, local[1]);
+    BernsteinValues splines1, splines2;
+    if (is_one_patch())
+      {
+        const unsigned int n = knot_vectors[0].n_spans();
+        splines1             = knot_vectors[0].evaluate(element % n, xi[0]);
+        splines2             = knot_vectors[1].evaluate(element / n, xi[1]);
+      }
+    else
+      {
+        const Face           &face  = faces[element];
+        const auto           &knots = patch_knots[face.patch];
+        const Eigen::Vector2d local = xi - lowest_of_face(element);
+        splines1 = in_own_parameter(knots[0], face.span[0], local[0]);
+        splines2 = in_own_parameter(knots[1], face.span[1], local[1]);
+      }
 
     basis.element             = element;
     basis.control_point       = element_control_points(element);

@@ -321,6 +321,17 @@ namespace Debond
         throw EntryError(std::string(section) + " / Shape",
                          "Model = auto makes its own meshes: expected Model = "
                          "finite elements, or another shape");
+    for (const auto &[body, section] :
+         {std::pair(&bone, "Bone"), std::pair(&implant, "Implant")})
+      if (model == ModelKind::automatic && body->is_fitted())
+        throw EntryError(std::string(section) + " / Cells",
+                         "Model = auto makes its own cells: expected numbers");
+    if (bone.is_fitted() && implant.shape != BodyShape::coin &&
+        implant.shape != BodyShape::cap)
+      throw EntryError("Bone / Cells",
+                       "cells are fitted to the rim of a coin or a cap, and "
+                       "Implant / Shape is " +
+                         implant.geometry().name() + ": expected numbers");
     interface.check(implant);
     check_bonding_pattern(interface.bonding, implant);
     if (model == ModelKind::automatic)

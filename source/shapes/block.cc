@@ -44,6 +44,13 @@ namespace Debond
       NurbsSurface
       contact_face(const BodyParameters &body, const Side) const override
       {
+        if (body.is_fitted())
+          return NurbsSurface::fitted_rectangle(body.size[0],
+                                                body.size[1],
+                                                body.rim[0],
+                                                body.fitted_cells[0],
+                                                body.fitted_cells[1],
+                                                body.fitted_cells[2]);
         return NurbsSurface::rectangle(
           body.size[0],
           body.size[1],

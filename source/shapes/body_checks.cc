@@ -95,6 +95,47 @@ namespace Debond
 
 
 
+    void
+    check_fitted_cells(const BodyParameters &body,
+                       const bool            is_bone,
+                       const EntryCheck     &refuse)
+    {
+      const std::string fitted = "cells that are fitted to the rim ";
+      refuse(body.shape != (is_bone ? BodyShape::block : BodyShape::coin),
+             "Cells",
+             fitted + "are those of a " + (is_bone ? "block" : "coin") +
+               ": expected numbers");
+      refuse(body.fitted_cells[0] % 4 != 0,
+             "Cells",
+             fitted + "have a square core: expected 4, 8, 12, ... around");
+      refuse(body.element != ElementKind::spline,
+             "Element",
+             fitted + "are splines: expected spline");
+      refuse(body.contact_surface != SurfaceKind::nurbs,
+             "Contact surface",
+             fitted + "have smooth faces: expected nurbs");
+      refuse(is_bone &&
+               !(body.rim[0] < 0.499 * std::min(body.size[0], body.size[1])),
+             "Cells",
+             fitted + "lie around an implant that the bone extends beyond: "
+                      "expected numbers");
+      for (const auto &[is_set, entry, expected] :
+           {std::make_tuple(body.layer_grading != 1., "Layer grading", "1"),
+            std::make_tuple(body.lateral_grading != 1., "Lateral grading", "1"),
+            std::make_tuple(body.cells_under_implant > 0,
+                            "Cells under implant",
+                            "0"),
+            std::make_tuple(body.coarser_below, "Coarser below", "false"),
+            std::make_tuple(body.bulk_solver == BulkSolver::lattice,
+                            "Bulk solver",
+                            "auto or direct")})
+        refuse(is_set,
+               entry,
+               fitted + "are as small as they should: expected " + expected);
+    }
+
+
+
     /** An entry of another shape that was changed was meant to do something:
      *  refuse it rather than ignore it. */
     void
@@ -147,7 +188,9 @@ namespace Debond
                 section == "Bone" ? BodyParameters() : default_implant(),
                 refuse);
     check_number_of_cells(*this, refuse);
-    if (geometry().is_lattice())
+    if (is_fitted())
+      check_fitted_cells(*this, section == "Bone", refuse);
+    else if (geometry().is_lattice())
       check_cells(*this, refuse);
   }
 

@@ -6,6 +6,9 @@
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 
+#include <boost/algorithm/string/predicate.hpp>
+#include <boost/algorithm/string/trim.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -169,13 +172,18 @@ namespace Debond
               "in push-out tests: its bottom is held from there outwards - "
               "cells whose middle is beyond it -, its outer face is free. 0: "
               "the outer face is held.");
-    table.add("Cells",
-              cells,
-              Allowed::list(allowed_cells, 3, 3),
-              "Number of cells in x, y and z; of a sleeve around, radial and "
-              "along; of a cavity around (4, 8, 12, ...), radial, and along a "
-              "meridian from a square below, of a quarter of those around "
-              "across, to the rim.");
+    declare_cells(
+      table,
+      true,
+      "Number of cells in x, y and z; of a sleeve around, radial and "
+      "along; of a cavity around (4, 8, 12, ...), radial, and along a "
+      "meridian from a square below, of a quarter of those around "
+      "across, to the rim. `fitted a, i, o, l': cells of a block that "
+      "follow the rim of a coin or cap, a (a multiple of 4) around it, "
+      "i from a square core to it, o from it to the sides, in l "
+      "layers, all smaller towards the rim; `fitted': 16, 5, 8, 8. "
+      "They are for Element = spline, and pay where the interface is "
+      "stiff.");
     table.add(
       "Lateral grading",
       lateral_grading,
@@ -277,24 +285,82 @@ namespace Debond
               size,
               Allowed::list(allowed_length, 3, 3),
               "Edge lengths [mm] of a block in x, y and z.");
-    const auto set_cells = [this](const std::string &text) {
-      std::vector<unsigned int> numbers;
-      read_entry(text, numbers);
-      cells = {{numbers.front(), numbers[numbers.size() - 2], numbers.back()}};
-    };
-    table.add(
-      "Cells",
-      cells[0] == cells[1] ?
-        entry_text(std::vector<unsigned int>{cells[0], cells[2]}) :
-        entry_text(cells),
-      set_cells,
-      Allowed::list(allowed_cells, 2, 3),
+    declare_cells(
+      table,
+      false,
       "Number of cells in x, y and z. Two numbers n, m mean n, n, m: "
       "of a coin and a cap across the disk and along the axis. Of a pin and "
       "a ring around, radial and along; around a solid one 4, 8, 12, ... Of a "
-      "cup as of a cavity.");
+      "cup as of a cavity. `fitted a, i, l': cells of a coin as they are of "
+      "the bone; `fitted': 12, 4, 4.");
     declare_material(table, false);
     table.leave_subsection();
+  }
+
+
+
+  // A lattice is given by its numbers of cells, what is fitted by a word and
+  // those of its parts.
+  void
+  BodyParameters::declare_cells(EntryTable        &table,
+                                const bool         is_bone,
+                                const std::string &description)
+  {
+    static const std::string word    = "fitted";
+    const unsigned int       n_parts = is_bone ? 4 : 3;
+    const AllowedValues      of_fitted =
+                          Allowed::list(allowed_cells, n_parts, n_parts),
+                        of_lattice =
+                          Allowed::list(allowed_cells, is_bone ? 3 : 2, 3);
+    const auto rest_of = [](const std::string &text) {
+      return boost::trim_copy(text.substr(word.size()));
+    };
+    const auto is_word = [](const std::string &text) {
+      return boost::starts_with(text, word);
+    };
+    AllowedValues allowed = of_lattice;
+    allowed.test          = [=](const std::string &text) {
+      return is_word(text) ?
+                        rest_of(text).empty() || of_fitted.test(rest_of(text)) :
+                        of_lattice.test(text);
+    };
+    allowed.description +=
+      ", or fitted, alone or with " + std::to_string(n_parts) + " numbers";
+    const auto set = [=](const std::string &text) {
+      fitted_cells = {{0, 0, 0}};
+      std::vector<unsigned int> numbers;
+      if (!is_word(text))
+        {
+          read_entry(text, numbers);
+          cells = {
+            {numbers.front(), numbers[numbers.size() - 2], numbers.back()}};
+          return;
+        }
+      if (rest_of(text).empty())
+        numbers = is_bone ? std::vector<unsigned int>{16, 5, 8, 8} :
+                            std::vector<unsigned int>{12, 4, 4};
+      else
+        read_entry(rest_of(text), numbers);
+      fitted_cells = {{numbers[0], numbers[1], is_bone ? numbers[2] : 0}};
+      const double       quarter = numbers[0] / 4;
+      const unsigned int across  = std::ceil(
+        std::sqrt(quarter * (quarter + 4. * (numbers[1] + fitted_cells[2]))));
+      cells = {{across, across, numbers.back()}};
+    };
+    std::vector<unsigned int> numbers{cells.begin(), cells.end()};
+    if (is_fitted())
+      {
+        numbers.assign(fitted_cells.begin(),
+                       fitted_cells.begin() + n_parts - 1);
+        numbers.push_back(cells[2]);
+      }
+    else if (!is_bone && cells[0] == cells[1])
+      numbers.erase(numbers.begin());
+    table.add("Cells",
+              (is_fitted() ? word + " " : "") + entry_text(numbers),
+              set,
+              allowed,
+              description);
   }
 
 

@@ -59,7 +59,10 @@ namespace Debond
   NurbsSurface
   Coin::contact_face(const BodyParameters &body, const Side) const
   {
-    return NurbsSurface::disk(body.radius, body.cells[0]);
+    return body.is_fitted() ? NurbsSurface::fitted_disk(body.radius,
+                                                        body.fitted_cells[0],
+                                                        body.fitted_cells[1]) :
+                              NurbsSurface::disk(body.radius, body.cells[0]);
   }
 
 

@@ -220,6 +220,11 @@ namespace Debond
     };
     if (bone.is_rigid())
       return; // nothing is dealt out
+    if (n > 1 && bone.is_fitted())
+      throw EntryError("Bone / Cells",
+                       "cells that are fitted are for one process, and here "
+                       "are " +
+                         std::to_string(n) + ": expected numbers");
     if (n > 1 && (bone.bulk_solver == BulkSolver::direct ||
                   bone.bulk_solver == BulkSolver::lattice))
       refuse("that solver is for one process, and here are " +

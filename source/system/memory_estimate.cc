@@ -73,7 +73,9 @@ namespace Debond
     {
       if (side == Side::implant)
         return 1.;
-      double share = model.implant.geometry().share_of_rectangle();
+      double share = model.bone.is_fitted() ?
+                       1. :
+                       model.implant.geometry().share_of_rectangle();
       for (const unsigned int d : {0, 1})
         {
           const double n = model.bone.lattice_of_cells()[d],
@@ -81,6 +83,8 @@ namespace Debond
                          std::min(1.,
                                   model.implant.width(d) / model.bone.width(d)),
                        under =
+                         model.bone.is_fitted() ?
+                           model.bone.cells_across_fitted_disk() :
                          model.bone.cells_under_implant > 0 ?
                            model.bone.cells_under_implant :
                            n * std::pow(width, 1. / model.bone.lateral_grading);

@@ -152,9 +152,38 @@ check_unsymmetric(const ElementKind element, const std::string &name)
 
 
 
+/** Cells that follow the rim, in patches that are turned; with a modulus that
+ *  differs they are taken as a whole. */
+void
+check_fitted()
+{
+  BodyParameters coin, bone;
+  coin.shape   = BodyShape::coin;
+  coin.element = bone.element = ElementKind::spline;
+  coin.fitted_cells           = {{8, 1, 0}};
+  coin.cells                  = {{4, 4, 2}};
+  bone.fitted_cells           = {{8, 1, 1}};
+  bone.cells                  = {{5, 5, 2}};
+  bone.size                   = {{9., 8., 3.}};
+  bone.rim                    = {{coin.radius, coin.radius}};
+  for (const auto &[body, side] :
+       {std::pair(&coin, Side::implant), std::pair(&bone, Side::bone)})
+    {
+      const BulkSpace mesh(*body, side);
+      check(std::string("Fitted cells of ") +
+              (side == Side::bone ? "bone" : "coin"),
+            mesh);
+      report("  are their own mirror image",
+             MirrorSymmetry::of(mesh, EnrichedCells(mesh, {})).has_value());
+    }
+}
+
+
+
 int
 main()
 {
+  check_fitted();
   for (const ElementKind element :
        {ElementKind::trilinear, ElementKind::quadratic, ElementKind::spline})
     {

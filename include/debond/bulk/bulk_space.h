@@ -270,6 +270,8 @@ namespace Debond
     make_constraints();
     void
     hold_splines();
+    unsigned int
+    direction_across(const Cell &cell, unsigned int side) const;
     void
     hold_and_tie_cells();
     void

@@ -53,9 +53,10 @@ namespace Debond
    * positions, so the deformed surface is the same basis over another
    * ControlNet.
    *
-   * Parameters xi = (xi^1, xi^2) of one patch run over [0,1]^2. Those of
-   * several lie side by side with gaps between, [2 i, 2 i + 1] x [2 j, 2 j +
-   * 1], so that they say in which patch a point is.
+   * Parameters xi = (xi^1, xi^2) of one patch run over [0,1]^2. Where there are
+   * several each element has its own, which lie side by side with gaps between,
+   * [2 i, 2 i + 1] x [2 j, 2 j + 1], so that they say in which element a point
+   * is.
    */
   class NurbsSurface
   {
@@ -76,6 +77,12 @@ namespace Debond
                  const std::vector<std::vector<unsigned int>> &faces,
                  const ControlNet                             &control_points,
                  const std::vector<double>                    &weights = {});
+
+    /** One surface of several patches. Control points at the same place are
+     *  one, and elements meet where corners of both are at the same place.
+     *  Throws std::invalid_argument if weights differ there. */
+    static NurbsSurface
+    joined(const std::vector<NurbsSurface> &patches);
 
     unsigned int
     degree() const
@@ -117,6 +124,23 @@ namespace Debond
     {
       return degree() == 1 || !is_one_patch();
     }
+
+    /** Corners of elements. */
+    unsigned int
+    n_corners() const
+    {
+      return is_one_patch() ? (knot_vectors[0].n_spans() + 1) *
+                                (knot_vectors[1].n_spans() + 1) :
+                              faces_at.size();
+    }
+    /** The number of a corner of an element: at the lower ends of both
+     *  parameters, at the upper end of the first, of the second, of both. */
+    unsigned int
+    corner(unsigned int element, unsigned int which) const;
+    /** Whether nothing of the surface is beyond this side of an element: xi^1 =
+     *  0, 1, xi^2 = 0, 1 of its own. */
+    bool
+    is_border(unsigned int element, unsigned int side) const;
 
     /** Whether it lies in a plane z = const. */
     bool
@@ -222,6 +246,22 @@ namespace Debond
     static NurbsSurface
     disk(double R, unsigned int n);
 
+    /** A disk in the plane z = 0 with a square core, and rings around it whose
+     *  elements shrink towards the rim: @p n_around elements, a multiple of 4,
+     *  around, @p n_rings from the core to the rim. Patches meet along the
+     *  core and the diagonals; none is singular. */
+    static NurbsSurface
+    fitted_disk(double R, unsigned int n_around, unsigned int n_rings);
+    /** Such a disk with @p n_outside rings more, to the sides of the rectangle
+     *  [-lx/2,lx/2] x [-ly/2,ly/2]; they shrink towards the rim. */
+    static NurbsSurface
+    fitted_rectangle(double       lx,
+                     double       ly,
+                     double       R,
+                     unsigned int n_around,
+                     unsigned int n_rings,
+                     unsigned int n_outside);
+
     /** The disk with the heights of a sphere of radius @p cap_radius > @p R
      *  that touches z = 0 at the origin from above. The control points stand
      *  over those of the disk; the surface meets the sphere at the Greville
@@ -263,11 +303,14 @@ namespace Debond
     void
     find_neighbours();
 
-    /** A patch of several. Sides are xi^1 = 0, 1, xi^2 = 0, 1, corners as in
-     *  the control points. */
+    /** An element of several patches: spans of the knots of its own. Sides are
+     *  xi^1 = 0, 1, xi^2 = 0, 1, corners as in the control points. */
     struct Face
     {
-      std::vector<unsigned int> control_points;
+      std::vector<unsigned int>   control_points;
+      std::array<unsigned int, 4> corners{{0, 0, 0, 0}};
+      unsigned int                patch = 0;
+      std::array<unsigned int, 2> span{{0, 0}};
       struct Neighbour
       {
         int  face     = -1; ///< none
@@ -276,8 +319,12 @@ namespace Debond
       };
       std::array<Neighbour, 4> across;
     };
-    unsigned int
-    corner_of(const Face &face, unsigned int corner) const;
+    /** Of one patch to be joined with others, whose control points and corners
+     *  are @p own_points and @p own_corners. */
+    void
+    add_patch(const NurbsSurface              &patch,
+              const std::vector<unsigned int> &own_points,
+              const std::vector<unsigned int> &own_corners);
     Place
     across(unsigned int face, unsigned int side, double along) const;
 
@@ -286,8 +333,9 @@ namespace Debond
     std::vector<double>                    weight;
     bool                                   is_rational; ///< a weight is not 1
     std::vector<Face>                      faces;       ///< empty: one patch
+    std::vector<std::array<KnotVector, 2>> patch_knots; ///< of several
     unsigned int                           n_in_row = 1;
-    std::vector<std::vector<unsigned int>> faces_at; ///< corner control points
+    std::vector<std::vector<unsigned int>> faces_at; ///< corners
   };
 } // namespace Debond
 #endif

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -93,6 +94,9 @@ namespace Debond
     /** Number of cells in x, y, z; z along the axis (`Cells = n, m` becomes
      *  n, n, m). Around, radial and along of pin and sleeve. */
     std::array<unsigned int, 3> cells{{15, 15, 2}};
+    /** Of `Cells = fitted ...`: around the rim, from the core to it, from it to
+     *  the sides of a bone. `cells` are those of a lattice with as many. */
+    std::array<unsigned int, 3> fitted_cells{{0, 0, 0}};
     ElementKind                 element         = ElementKind::trilinear;
     double                      lateral_grading = 1; ///< bone
     unsigned int cells_under_implant            = 0; ///< bone; 0: as they come
@@ -126,6 +130,27 @@ namespace Debond
     {
       return material > Material::linear;
     }
+    /** Whether its cells follow the rim of the implant. */
+    bool
+    is_fitted() const
+    {
+      return fitted_cells[0] > 0;
+    }
+    /** Exponent of the layers of cells: those that are fitted have their own,
+     *  for layers become smaller with them. */
+    double
+    exponent_of_layers() const
+    {
+      return is_fitted() ? 2. : layer_grading;
+    }
+    /** Cells across the disk within the rim, of cells that are fitted: of a
+     *  square grid with as many. */
+    double
+    cells_across_fitted_disk() const
+    {
+      const double quarter = fitted_cells[0] / 4;
+      return std::sqrt(quarter * (quarter + 4. * fitted_cells[1]));
+    }
     /** What its shape is asked for. */
     const BodyGeometry &
     geometry() const;
@@ -134,7 +159,7 @@ namespace Debond
     has_equal_splines() const
     {
       return element == ElementKind::spline && shape == BodyShape::block &&
-             cells_under_implant == 0 && lateral_grading == 1.;
+             cells_under_implant == 0 && lateral_grading == 1. && !is_fitted();
     }
     /** Height of the body on its axis [mm]; of one from a file how far it
      *  reaches from z = 0. */
@@ -162,9 +187,11 @@ namespace Debond
     double
     cell_width(const unsigned int direction) const
     {
-      return cells_under_implant > 0 ?
-               2. * rim[direction] / cells_under_implant :
-               width(direction) / lattice_of_cells()[direction];
+      return is_fitted() ? 2. * characteristic_radius_of_fit() /
+                             cells_across_fitted_disk() :
+             cells_under_implant > 0 ?
+                           2. * rim[direction] / cells_under_implant :
+                           width(direction) / lattice_of_cells()[direction];
     }
     /** Radius of a coin or a cap, half the shorter side of a block [mm]: the
      * `R` of expressions and of length tolerances. */
@@ -172,6 +199,13 @@ namespace Debond
     characteristic_radius() const
     {
       return 0.5 * std::min(width(0), width(1));
+    }
+
+    /** Of the rim that cells are fitted to [mm]. */
+    double
+    characteristic_radius_of_fit() const
+    {
+      return rim[0] > 0. ? rim[0] : radius;
     }
 
     /** Sides of the cells across a block along x (0) or y (1), as fractions of
@@ -217,6 +251,10 @@ namespace Debond
     declare_shape(EntryTable &table, bool is_bone);
     void
     declare_material(EntryTable &table, bool is_bone);
+    void
+    declare_cells(EntryTable        &table,
+                  bool               is_bone,
+                  const std::string &description);
     void
     declare_modulus(EntryTable &table, bool is_bone);
   };

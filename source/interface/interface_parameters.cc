@@ -26,7 +26,7 @@ namespace Debond
       },
       Allowed::whole_number(1, most_points).or_word("auto"),
       "Gauss points per direction and slave surface element. `auto': 5; if a "
-      "body has splines 6, or as many as keep the distance between points "
+      "body has splines 6 (5 if both have fitted cells), or as many as keep the distance between points "
       "below the width of the other body's cells.");
     table.add("Penalty stiffness",
               normal_penalty,
@@ -63,8 +63,8 @@ namespace Debond
 
 
 
-  // Six: with splines the error of five is as large as that of the bulk
-  // (doc/speed_and_accuracy.md).
+  // Six: with splines the error of five is as large as that of the bulk, but
+  // where elements are small at the rim (doc/speed_and_accuracy.md).
   unsigned int
   InterfaceParameters::points_per_element(const BodyParameters &bone,
                                           const BodyParameters &implant) const
@@ -75,7 +75,7 @@ namespace Debond
         implant.element == ElementKind::trilinear)
       return 5;
     return std::clamp(fewest_points_per_element(bone, implant),
-                      6U,
+                      bone.is_fitted() && implant.is_fitted() ? 5U : 6U,
                       most_points);
   }
 

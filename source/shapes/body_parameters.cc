@@ -325,7 +325,10 @@ namespace Debond
                         of_lattice.test(text);
     };
     allowed.description +=
-      ", or fitted, alone or with " + std::to_string(n_parts) + " numbers";
+      ", or fitted, alone or with " + std::to_string(n_parts) + " of them";
+    allowed.hint = [=](const std::string &text) {
+      return is_word(text) ? "" : of_lattice.hint(text);
+    };
     const auto set = [=](const std::string &text) {
       fitted_cells = {{0, 0, 0}};
       std::vector<unsigned int> numbers;

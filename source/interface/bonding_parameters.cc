@@ -158,7 +158,7 @@ namespace Debond
     if (is_disk && !implant.geometry().is_round() &&
         implant.shape != BodyShape::file)
       throw EntryError(bonding_section + "Pattern",
-                       "it is for round implants: Implant / Shape = coin, cap "
-                       "or file");
+                       "it is for round implants: Implant / Shape = coin, cap, "
+                       "ring, cup or file");
   }
 } // namespace Debond

@@ -50,8 +50,10 @@ namespace Debond
   InterfaceMaps::InterfaceMaps(const Scene &scene)
     : wanted(scene.output.report && scene.model == ModelKind::finite_elements)
     , radius(scene.implant.characteristic_radius())
-    , is_round(scene.implant.geometry().is_round())
     , is_mesh(scene.implant.mesh != nullptr)
+    , has_face_at([implant = scene.implant](const Eigen::Vector2d &place) {
+      return implant.geometry().has_face_at(implant, place);
+    })
     , box(scene.implant.geometry().box_of_face(scene.implant))
     , pulls(scene.interface.joint()->pulls())
   {}
@@ -206,9 +208,9 @@ namespace Debond
               const dealii::Point<2> place(box[0][0] + (i + 0.5) * dx,
                                            box[0][1] + (j + 0.5) * dy);
               const auto *const      point =
-                is_round && place.norm() > box[1][0] ?
-                       nullptr :
-                       closest(one.points, tree, place, reach);
+                has_face_at({place[0], place[1]}) ?
+                       closest(one.points, tree, place, reach) :
+                       nullptr;
               table +=
                 of_event + to_text(place[0], 6) + "," + to_text(place[1], 6);
               for (const Column &column : shown)

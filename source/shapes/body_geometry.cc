@@ -64,6 +64,15 @@ namespace Debond
 
 
 
+  bool
+  BodyGeometry::has_face_at(const BodyParameters  &body,
+                            const Eigen::Vector2d &place) const
+  {
+    return !is_round() || place.norm() <= box_of_face(body)[1][0];
+  }
+
+
+
   std::shared_ptr<const BodyMesh>
   BodyGeometry::make_mesh(const BodyParameters &,
                           const BodyParameters &,
@@ -71,5 +80,4 @@ namespace Debond
   {
     return nullptr;
   }
-
 } // namespace Debond

@@ -75,7 +75,8 @@ namespace Debond
 
     const bool   wanted;
     const double radius; ///< R [mm], of a torque's force
-    const bool   is_round, is_mesh;
+    const bool   is_mesh;
+    const std::function<bool(const Eigen::Vector2d &)> has_face_at;
     const std::array<Eigen::Vector2d, 2> box; ///< of the grid [mm]
     const bool   pulls; ///< the law has strength in tension
     unsigned int n_rows    = 0;

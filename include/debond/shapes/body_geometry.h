@@ -118,6 +118,9 @@ namespace Debond
     /** The rectangle around the face in these. */
     virtual std::array<Eigen::Vector2d, 2>
     box_of_face(const BodyParameters &body) const;
+    /** Whether there is a face at a place of that rectangle; maps ask. */
+    virtual bool
+    has_face_at(const BodyParameters &body, const Eigen::Vector2d &place) const;
     /** Area of the contact face [mm^2] where there is a closed form; 0: the sum
      *  of its elements. */
     virtual double

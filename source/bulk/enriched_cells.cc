@@ -99,14 +99,16 @@ namespace Debond
     for (const double weight : line.get_weights())
       ends.push_back(ends.back() + weight);
     factors.reserve(n_points() * n_cells());
+    // cells of one patch are boxes, edges along x, y and z
+    const bool has_boxes = mesh.has_lattice() && mesh.surface().is_one_patch();
     for (const BulkSpace::Cell &cell : mesh.cells())
       {
         const CellFunctions   functions(mesh, cell);
         const Eigen::Vector3d corner = functions.position({0., 0., 0.}),
                               edges = functions.position({1., 1., 1.}) - corner;
         const auto at = [&](const Eigen::Vector3d &t) -> Eigen::Vector3d {
-          return mesh.has_lattice() ? corner + edges.cwiseProduct(t) :
-                                      functions.position({t[0], t[1], t[2]});
+          return has_boxes ? corner + edges.cwiseProduct(t) :
+                             functions.position({t[0], t[1], t[2]});
         };
         for (unsigned int q = 0; q < n_points(); ++q)
           {
@@ -119,7 +121,7 @@ namespace Debond
                 point[d] = line.point(i[d])[0];
               }
             Eigen::Vector3d least = at(lower), most = at(upper);
-            for (unsigned int v = 1; v < 7 && !mesh.has_lattice(); ++v)
+            for (unsigned int v = 1; v < 7 && !has_boxes; ++v)
               {
                 Eigen::Vector3d t = lower;
                 for (unsigned int d = 0; d < 3; ++d)

@@ -40,7 +40,12 @@ namespace Debond
       if (value.is_number_float())
         return to_text(value);
       if (value.is_array())
-        return boost::join(value.get<std::vector<std::string>>(), "; ");
+        {
+          std::vector<std::string> items;
+          for (const auto &item : value)
+            items.push_back(text_of(item));
+          return boost::join(items, "; ");
+        }
       return value.is_null() ? "nan" : value.dump();
     }
 
@@ -66,7 +71,7 @@ namespace Debond
       std::vector<std::string> varied; ///< full names of the varied entries
       std::vector<Variant>     variants;
       std::string              directory;
-      unsigned int             reference  = 0; ///< number of a variant, 0: none
+      unsigned int             reference = 0; ///< number of a variant, 0: none
       unsigned int             n_compared_anew = 0; ///< with references
       bool                     reports         = true;
       dealii::Timer            since_table;
@@ -88,9 +93,9 @@ namespace Debond
           }
         const Scene first =
           Scene::from_entries(study_variants(entries)[0].entries, name);
-        directory  = first.output.directory;
-        reference  = first.study.reference_variant;
-        reports    = first.output.report;
+        directory = first.output.directory;
+        reference = first.study.reference_variant;
+        reports   = first.output.report;
         auto combinations =
           study_variants(entries, first.study.factors_at_once);
         if (reference > combinations.size())
@@ -116,8 +121,8 @@ namespace Debond
                                              "Output/Directory=" + directory +
                                                "/" + directory_name});
             Variant    next;
-            next.name   = directory_name + ": " + names[variants.size()];
-            next.values = combination.values;
+            next.name          = directory_name + ": " + names[variants.size()];
+            next.values        = combination.values;
             next.n_repetitions = first.study.repetitions;
             next.scene         = Scene::from_entries(own, name);
             next.scene.changed_entries.clear();
@@ -420,7 +425,8 @@ namespace Debond
               remove_file(directory + name);
             return;
           }
-        if (const int code = Laboratory::run("ensemble", {directory}); code == 127)
+        if (const int code = Laboratory::run("ensemble", {directory});
+            code == 127)
           out << "There are no statistics over all seeds: "
               << Laboratory::what_it_needs << std::endl;
         else if (code != 0)

@@ -197,7 +197,9 @@ namespace Debond
                 "") +
              "larger Cells there");
       const auto         cells = scene.implant.lattice_of_cells();
-      const unsigned int n     = cells[0] * cells[1];
+      const unsigned int n     = scene.implant.is_fitted() ?
+                                   scene.implant.n_fitted_elements() :
+                                   cells[0] * cells[1];
       note(bonding.pattern == BondingPatternKind::random &&
              bonding.resolution == BondingResolution::element && n < 50,
            "elements of the pattern",
@@ -329,6 +331,15 @@ namespace Debond
              to_text(100. * ripple, 2) +
              " % from cell to cell. Finer Bone / Cells, or a smaller Penalty "
              "stiffness");
+      const double R   = 0.5 * implant.width(d),
+                   off = std::max(std::abs(*most), std::abs(*least));
+      note(bone.is_fitted() && off > 0.1 * R &&
+             scene.interface.normal_penalty * R > 0.5 * bone.softest_modulus(),
+           "cells off the rim",
+           entry + " moves the implant " + to_text(off, 3) +
+             " mm from where the cells of the bone are fitted to its rim; "
+             "beyond they are coarse. For such a way expected equal "
+             "Bone / Cells");
       const bool over_edge = std::max(*most, -*least) + 0.5 * implant.width(d) >
                              0.5 * bone.width(d) * (1. + 1e-9);
       // the largest Gauss weight of n points tends to pi / n of 2

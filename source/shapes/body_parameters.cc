@@ -316,7 +316,7 @@ namespace Debond
       return boost::trim_copy(text.substr(word.size()));
     };
     const auto is_word = [](const std::string &text) {
-      return boost::starts_with(text, word);
+      return text == word || boost::starts_with(text, word + " ");
     };
     AllowedValues allowed = of_lattice;
     allowed.test          = [=](const std::string &text) {
@@ -345,10 +345,8 @@ namespace Debond
       else
         read_entry(rest_of(text), numbers);
       fitted_cells = {{numbers[0], numbers[1], is_bone ? numbers[2] : 0}};
-      const double       quarter = numbers[0] / 4;
-      const unsigned int across  = std::ceil(
-        std::sqrt(quarter * (quarter + 4. * (numbers[1] + fitted_cells[2]))));
-      cells = {{across, across, numbers.back()}};
+      const unsigned int across = std::ceil(std::sqrt(n_fitted_elements()));
+      cells                     = {{across, across, numbers.back()}};
     };
     std::vector<unsigned int> numbers{cells.begin(), cells.end()};
     if (is_fitted())

@@ -7,6 +7,8 @@
 #include <debond/bulk/enriched_cells.h>
 #include <debond/bulk/neo_hookean.h>
 
+#include <deal.II/base/quadrature_lib.h>
+
 #include <cmath>
 
 #include "checks.h"
@@ -92,6 +94,30 @@ check_supports(const BodyParameters &bone)
   report("bottom and sides are held, and nothing else", wrong == 0);
 }
 
+/** A modulus that depends on the place is that of the Gauss points. */
+void
+check_modulus(BodyParameters bone)
+{
+  bone.modulus_expression = "18000 * (1 + 0.1 * x - 0.05 * y * z)";
+  bone.read_modulus(1.);
+  const BulkSpace         mesh(bone, Side::bone);
+  const EnrichedCells     cells(mesh, {});
+  const dealii::QGauss<3> quadrature(cells.n_along());
+  double                  difference = 0.;
+  for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
+    for (unsigned int q = 0; q < quadrature.size(); ++q)
+      {
+        const Eigen::Vector3d X =
+          CellFunctions(mesh, mesh.cells()[cell]).position(quadrature.point(q));
+        grow(difference,
+             std::abs(cells.stiffness_factors(cell)[q] * bone.young_modulus -
+                      18000. * (1. + 0.1 * X[0] - 0.05 * X[1] * X[2])));
+      }
+  report("a modulus by the place [MPa]", difference, 1e-8);
+}
+
+
+
 int
 main()
 {
@@ -109,4 +135,5 @@ main()
         M_PI * coin.radius * coin.radius * coin.height);
   check("bone", bone, Side::bone, bone.size[0] * bone.size[1] * bone.size[2]);
   check_supports(bone);
+  check_modulus(bone);
 }

@@ -143,6 +143,14 @@ namespace Debond
     {
       return is_fitted() ? 2. : layer_grading;
     }
+    /** Elements of the contact face, of cells that are fitted. */
+    double
+    n_fitted_elements() const
+    {
+      const double quarter = fitted_cells[0] / 4,
+                   rings   = double(fitted_cells[1]) + fitted_cells[2];
+      return quarter * (quarter + 4. * rings);
+    }
     /** Cells across the disk within the rim, of cells that are fitted: of a
      *  square grid with as many. */
     double

@@ -106,7 +106,7 @@ subsection Load steps
   set Steps = 1 , 100
 end
 subsection Output
-  set Fields every = 0
+  set Fields every = 100
   set Directory    = results/study
 end
 )";
@@ -243,6 +243,9 @@ test()
   report("foundation against finite elements, largest difference of torque",
          std::atof(table["difference_max"][1].c_str()),
          0.01);
+  const std::string &place = table["bone_tension_at_mm"][0];
+  report("a list of numbers stands in one field",
+         std::count(place.begin(), place.end(), ';') == 2);
   report("a variant has its own directory",
          std::filesystem::exists("results/study/variant-003/torque.csv"));
 

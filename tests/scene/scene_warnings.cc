@@ -81,6 +81,14 @@ main()
   show({shear + "5 * max(t - 1, 0)"});
   show({shear + "3 * max(t - 1, 0)"});
   show({shear + "5 * max(t - 1, 0)", "Implant/Cells=8, 2"});
+  for (const std::string way : {"0.2", "0.3"})
+    show({shear + way + " * max(t - 1, 0)",
+          stiff,
+          "Bone/Cells=fitted",
+          "Bone/Element=spline"});
+  show({shear + "0.3 * max(t - 1, 0)",
+        "Bone/Cells=fitted",
+        "Bone/Element=spline"});
 
   show({twist + "5 * (t - 1)"});
   show({twist + "5 * (t - 1)", "Load steps/Times=1, 2, 3"});

@@ -1,0 +1,176 @@
+#include <debond/geometry/nurbs_surface.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+// Faces whose elements follow the rim of a disk.
+namespace Debond
+{
+  namespace
+  {
+    /** The four sides of a core, a circle or a rectangle around the origin,
+     * from corner to corner: side k begins at corner k, and its middle control
+     *  point, of weight 1/sqrt2, is middle k. */
+    struct Outline
+    {
+      std::array<Eigen::Vector2d, 4> corner, middle;
+
+      /** With a corner at (c_x, c_y), middle control points at the distances
+       *  m_x and m_y on the axes. */
+      Outline(const double c_x,
+              const double c_y,
+              const double m_x,
+              const double m_y)
+        : corner{{{c_x, -c_y}, {c_x, c_y}, {-c_x, c_y}, {-c_x, -c_y}}}
+        , middle{{{m_x, 0.}, {0., m_y}, {-m_x, 0.}, {0., -m_y}}}
+      {}
+    };
+
+
+
+    /** A patch with these 3 x 3 control points, first index fastest, cut at
+     *  inner knots. */
+    NurbsSurface
+    patch_of(const std::array<Eigen::Vector2d, 9> &net,
+             const std::array<double, 9>          &weights,
+             const std::vector<double>            &breaks_1,
+             const std::vector<double>            &breaks_2)
+    {
+      ControlNet points = ControlNet::Zero(3, 9);
+      for (unsigned int A = 0; A < 9; ++A)
+        points.col(A).head<2>() = net[A];
+      const KnotVector one_span = KnotVector::graded(2, 1);
+      NurbsSurface     result(one_span,
+                          one_span,
+                          points,
+                          {weights.begin(), weights.end()});
+      for (const auto &[d, breaks] :
+           {std::pair(0U, breaks_1), std::pair(1U, breaks_2)})
+        for (unsigned int i = 1; i + 1 < breaks.size(); ++i)
+          result = result.insert_knot(d, breaks[i]);
+      return result;
+    }
+
+
+
+    /** (i/n)^g, from 0 to 1; g makes the first ones short. */
+    std::vector<double>
+    graded_breaks(const unsigned int n, const double g)
+    {
+      std::vector<double> result;
+      for (unsigned int i = 0; i <= n; ++i)
+        result.push_back(std::pow(double(i) / n, g));
+      return result;
+    }
+
+
+
+    const double s = std::sqrt(0.5);
+
+    /** Elements of fitted faces shrink towards the rim with this exponent, from
+     *  both sides: what the pressure at the rim of stiff interfaces needs. */
+    constexpr double rim_exponent = 2.5;
+
+
+
+    /** The four patches between two outlines. */
+    void
+    add_ring(const Outline             &from,
+             const Outline             &to,
+             const std::vector<double> &across,
+             const std::vector<double> &around,
+             std::vector<NurbsSurface> &patches)
+    {
+      for (unsigned int k = 0; k < 4; ++k)
+        {
+          const unsigned int             next = (k + 1) % 4;
+          std::array<Eigen::Vector2d, 9> net{{from.corner[k],
+                                              {0., 0.},
+                                              to.corner[k],
+                                              from.middle[k],
+                                              {0., 0.},
+                                              to.middle[k],
+                                              from.corner[next],
+                                              {0., 0.},
+                                              to.corner[next]}};
+          for (unsigned int j = 0; j < 3; ++j)
+            net[3 * j + 1] = 0.5 * (net[3 * j] + net[3 * j + 2]);
+          patches.push_back(
+            patch_of(net, {{1, 1, 1, s, s, s, 1, 1, 1}}, across, around));
+        }
+    }
+
+
+
+    /** The core of a disk of radius R and the rings around it to its rim, and
+     *  on to the @p outside, if there is one. */
+    NurbsSurface
+    fitted_patches(const double                  R,
+                   const unsigned int            n_around,
+                   const unsigned int            n_rings,
+                   const unsigned int            n_outside,
+                   const std::optional<Outline> &outside)
+    {
+      if (n_around < 4 || n_around % 4 != 0 || n_rings == 0)
+        throw std::invalid_argument(
+          "A fitted disk has 4, 8, 12, ... elements around.");
+      // corners of the core at 0.55 R, its sides bulged by 1.4: half way
+      // between straight lines and arcs of a circle. Other values hardly change
+      // results.
+      const double        c = 0.55 * R * s, m = 1.4 * c;
+      const Outline       core(c, c, m, m), rim(R * s, R * s, R / s, R / s);
+      std::vector<double> around = graded_breaks(n_around / 4, 1.),
+                          inside = graded_breaks(n_rings, rim_exponent);
+      for (double &x : inside)
+        x = 1. - x;
+      std::reverse(inside.begin(), inside.end());
+
+      const auto &[a, b] = std::tie(core.corner, core.middle);
+      std::vector<NurbsSurface> patches{
+        patch_of({{a[3], b[3], a[0], b[2], {0., 0.}, b[0], a[2], b[1], a[1]}},
+                 {{1, s, 1, s, 0.5, s, 1, s, 1}},
+                 around,
+                 around)};
+      add_ring(core, rim, inside, around, patches);
+      if (outside)
+        add_ring(rim,
+                 *outside,
+                 graded_breaks(n_outside, rim_exponent),
+                 around,
+                 patches);
+      return NurbsSurface::joined(patches);
+    }
+  } // namespace
+
+
+
+  NurbsSurface
+  NurbsSurface::fitted_disk(const double       R,
+                            const unsigned int n_around,
+                            const unsigned int n_rings)
+  {
+    return fitted_patches(R, n_around, n_rings, 0, {});
+  }
+
+
+
+  NurbsSurface
+  NurbsSurface::fitted_rectangle(const double       lx,
+                                 const double       ly,
+                                 const double       R,
+                                 const unsigned int n_around,
+                                 const unsigned int n_rings,
+                                 const unsigned int n_outside)
+  {
+    return fitted_patches(R,
+                          n_around,
+                          n_rings,
+                          n_outside,
+                          Outline(0.5 * lx, 0.5 * ly, 0.5 * lx, 0.5 * ly));
+  }
+} // namespace Debond

@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "checks.h"
+#include "uniform_strain.h"
 
 using namespace Debond;
 
@@ -23,21 +24,14 @@ struct Error
 Error
 patch_test(const BodyParameters &body, const Side side, const double volume)
 {
-  const BulkSpace     mesh(body, side);
-  const EnrichedCells cells(mesh,
+  const BulkSpace       mesh(body, side);
+  const EnrichedCells   cells(mesh,
                             material_of(NeoHookean::from_young(18000., 0.3)));
-  Eigen::Matrix3d     H;
-  H << 2e-3, -1e-3, 3e-3, 4e-3, 1e-3, -2e-3, 1e-3, 5e-3, -3e-3;
-  Eigen::VectorXd v(3 * mesh.n_nodes());
-  for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
-    v.segment<3>(3 * node) = H * mesh.reference_position(node);
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(v.size());
-  double          energy;
-  cells.internal_forces(v, force, energy);
-  Error           error;
-  Eigen::Vector3d sum     = Eigen::Vector3d::Zero();
-  const double    largest = force.lpNorm<Eigen::Infinity>(),
-               half       = 0.5 * std::min(body.size[0], body.size[1]);
+  const Eigen::VectorXd force = forces_of_uniform_strain(mesh, cells);
+  Error                 error;
+  Eigen::Vector3d       sum     = Eigen::Vector3d::Zero();
+  const double          largest = force.lpNorm<Eigen::Infinity>(),
+               half             = 0.5 * std::min(body.size[0], body.size[1]);
   for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
     {
       const Eigen::Vector3d X = mesh.reference_position(node);

@@ -17,6 +17,7 @@
 #include <cmath>
 
 #include "checks.h"
+#include "uniform_strain.h"
 
 using namespace Debond;
 
@@ -112,18 +113,10 @@ patch_test(const BodyParameters &implant,
            const BodyParameters &body,
            const Side            side)
 {
-  const BulkSpace     mesh(body, side);
-  const NeoHookean    material = NeoHookean::from_young(18000., 0.3);
-  const EnrichedCells cells(mesh, material_of(material));
-  Eigen::Matrix3d     H;
-  H << 2e-3, -1e-3, 3e-3, 4e-3, 1e-3, -2e-3, 1e-3, 5e-3, -3e-3;
-  Eigen::VectorXd v(3 * mesh.n_nodes());
-  for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
-    v.segment<3>(3 * node) = H * mesh.reference_position(node);
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(v.size());
-  double          energy;
-  cells.internal_forces(v, force, energy);
-  mesh.condense(force);
+  const BulkSpace       mesh(body, side);
+  const NeoHookean      material = NeoHookean::from_young(18000., 0.3);
+  const EnrichedCells   cells(mesh, material_of(material));
+  const Eigen::VectorXd force = forces_of_uniform_strain(mesh, cells);
 
   Patch           result;
   Eigen::Vector3d sum     = Eigen::Vector3d::Zero();

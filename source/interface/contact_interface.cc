@@ -422,6 +422,7 @@ namespace Debond
       spread(result.basis, -f, sums[master_side()]);
     };
     forces = sum_in_chunks(points.size(), zero_sums(configuration), update);
+    average(forces);
     for (unsigned int q = 0; q < shares.size(); ++q)
       points[q].trial.state.damage = shares[q].damage;
     // One point without a solution is enough to fail the iteration: a traction
@@ -526,7 +527,10 @@ namespace Debond
       spread(point.basis, f, sums[slave]);
       spread(point.trial.basis, -f, sums[master_side()]);
     };
-    return sum_in_chunks(points.size(), zero_sums(configuration), update);
+    NodalSums result =
+      sum_in_chunks(points.size(), zero_sums(configuration), update);
+    average(result);
+    return result;
   }
 
 

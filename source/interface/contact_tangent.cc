@@ -158,13 +158,15 @@ namespace Debond
         Matrix<double, 9, W::size> force; // by w, as in add_product()
         force << point.JxW * point.trial.dt, -t * point.trial.dxi.row(0),
           -t * point.trial.dxi.row(1);
+        const Matrix<double, 9, Eigen::Dynamic, 0, 9, max_unknowns> changes =
+          force * dw.leftCols(n);
+        // one product for all columns, as such small ones cost calls
+        Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_unknowns, max_unknowns>
+          block(n, n);
+        block.noalias() = dw.topLeftCorner(9, n).transpose() * changes;
         for (unsigned int j = 0; j < n; ++j)
-          {
-            const Matrix<double, 9, 1> change = force * dw.col(j);
-            const Rows rows = dw.topLeftCorner(9, n).transpose() * change;
-            for (unsigned int i = 0; i < n; ++i)
-              matrix(number[i], number[j]) += rows[i];
-          }
+          for (unsigned int i = 0; i < n; ++i)
+            matrix(number[i], number[j]) += block(i, j);
       }
 
     private:
@@ -177,14 +179,17 @@ namespace Debond
         for (unsigned int k = 0; k < by_chuck.size(); ++k)
           dw.col(k).head<W::turn>() +=
             (by_chuck[k][s].col(control_point) * factors).reshaped();
-        const auto &side = configuration.side[s];
+        const auto           &side = configuration.side[s];
+        const Eigen::Matrix3d frame =
+          side.turns.empty() ? side.frame :
+                               side.frame * side.turns[control_point];
         for (unsigned int c = 0; c < 3; ++c)
           // A control point that is fixed, out of reach of contact or of a
           // rigid body has no number.
           if (const int unknown = side.unknown_of[3 * control_point + c];
               unknown >= 0)
             {
-              dw.col(n) << (side.frame.col(c) * factors).reshaped(), 0.;
+              dw.col(n) << (frame.col(c) * factors).reshaped(), 0.;
               number[n++] = unknown;
             }
       }
@@ -397,10 +402,9 @@ namespace Debond
                                           forces[other(slave)]);
                       add_products_of_shares(chunk, moved, forces);
                     });
-    add_in_unknowns({{sums[0].topRows<3>(), sums[1].topRows<3>()}},
-                    configuration,
-                    1.,
-                    result);
+    NodalSums by_all{{sums[0].topRows<3>(), sums[1].topRows<3>()}};
+    average(by_all);
+    add_in_unknowns(by_all, configuration, 1., result);
   }
 
 
@@ -511,6 +515,7 @@ namespace Debond
       }
     // dimensionless gradient: mm per mm of a control point
     result.value /= area;
+    average(result.gradient);
     for (ControlNet &gradient : result.gradient)
       gradient /= area;
     result.by_chuck /= area;

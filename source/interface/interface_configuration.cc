@@ -160,6 +160,21 @@ namespace Debond
 
 
   std::vector<bool>
+  faced_bone_control_points(const NurbsSurface            &bone,
+                            const std::vector<SlavePoint> &points,
+                            const Side                     slave)
+  {
+    std::vector<bool> faced(bone.n_elements(), false);
+    for (const SlavePoint &point : points)
+      if (point.accepted.has_partner)
+        faced[slave == Side::bone ? point.element :
+                                    bone.element_of(point.accepted.xi)] = true;
+    return control_points_of(bone, faced);
+  }
+
+
+
+  std::vector<bool>
   touched_bone_control_points(const NurbsSurface            &bone,
                               const std::vector<SlavePoint> &points,
                               const Side                     slave)

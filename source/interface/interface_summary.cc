@@ -84,8 +84,11 @@ namespace Debond
     const auto number = [&](const unsigned int i, const unsigned int j) {
       return ((j / n * elements[0] + i / n) * n + j % n) * n + i % n;
     };
+    const auto point = [&](const unsigned int q) -> const SlavePoint & {
+      return points[sectors ? number_of_kept[q] : q];
+    };
     // in its row, its column, or both
-    std::vector<unsigned int> times_enclosed(points.size(), 0);
+    std::vector<unsigned int> times_enclosed(n_points(), 0);
     for (const bool is_row : {true, false})
       for (unsigned int line = 0; line < n * elements[is_row]; ++line)
         {
@@ -94,9 +97,9 @@ namespace Debond
           for (unsigned int k = 0; k < n * elements[!is_row]; ++k)
             {
               const unsigned int q = is_row ? number(k, line) : number(line, k);
-              if (status(points[q]) == PointStatus::open)
+              if (status(point(q)) == PointStatus::open)
                 {
-                  if (points[q].accepted.has_partner) // not beyond the edge
+                  if (point(q).accepted.has_partner) // not beyond the edge
                     since_closed.push_back(q);
                 }
               else
@@ -154,14 +157,15 @@ namespace Debond
             summary.pressure += point.JxW * trial.pressure;
             *share_of[static_cast<unsigned int>(status(point))] += point.JxW;
           }
-        summary.n_closed += status(point) != PointStatus::open;
+        if (status(point) != PointStatus::open)
+          summary.n_closed += point.n_images;
         if (trial.state.status == PointStatus::open)
           {
             // whether it was bonded: opening itself may have broken it
             if (!law.joint->pulls() && law.joint->friction->has_bond() &&
                 point.accepted.status != PointStatus::open &&
                 point.friction(*law.joint, point.accepted).phi > 0.)
-              ++summary.bonded_opened;
+              summary.bonded_opened += point.n_images;
             continue;
           }
         // Energy of the springs eps_n and eps_t [N mm], the potential that Eq.

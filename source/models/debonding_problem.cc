@@ -87,12 +87,16 @@ namespace Debond
     {
       const BulkSpace &bone    = system.bone.mesh();
       const BulkSpace &implant = system.implant.mesh();
-      return Text() << bone.n_dofs_as_published() +
-                         implant.n_dofs_as_published()
-                    << " degrees of freedom, "
-                    << bone.n_unknowns() + implant.n_unknowns()
-                    << " of them unknowns, " << system.n_unknowns()
-                    << " after condensation on the contact surfaces";
+      Text               text;
+      text << bone.n_dofs_as_published() + implant.n_dofs_as_published()
+           << " degrees of freedom, "
+           << bone.n_unknowns() + implant.n_unknowns()
+           << " of them unknowns, " << system.n_unknowns()
+           << " after condensation on the contact surfaces";
+      if (system.n_sectors() > 1)
+        text << ", " << system.n_unknowns_of_sector() << " of them in one of "
+             << system.n_sectors() << " like sectors";
+      return text;
     }
 
 
@@ -454,7 +458,7 @@ namespace Debond
     if (scene.bone.element == ElementKind::spline ||
         scene.bulk_solver() == BulkSolver::multigrid)
       out << scene.bulk_solver_in_words() << '\n';
-    out << interface.get_points().size() << " slave quadrature points on the "
+    out << interface.n_points() << " slave quadrature points on the "
         << name_of(interface.slave_side()) << '\n'
         << "memory: some "
         << std::ceil(1e3 * MemoryEstimate(scene,

@@ -429,10 +429,10 @@ namespace Debond
            "pull there is no quasi-static solution; Interface / Viscosity "
            "limits the speed";
     const auto        &points = coupled_system.interface.get_points();
-    const unsigned int n_beyond =
-      std::count_if(points.begin(), points.end(), [](const SlavePoint &point) {
-        return point.faces_implant && !point.accepted.has_partner;
-      });
+    unsigned int       n_beyond = 0;
+    for (const SlavePoint &point : points)
+      if (point.faces_implant && !point.accepted.has_partner)
+        n_beyond += point.n_images;
     if (n_beyond > 0)
       message
         << ". " << n_beyond

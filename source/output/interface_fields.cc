@@ -117,7 +117,7 @@ namespace Debond
     public:
       QuadratureGrid(const ContactInterface &interface,
                      const NurbsSurface     &surface)
-        : points(interface.get_points())
+        : points(interface.points_of_all_sectors(images))
         , n(interface.points_per_element())
         , is_one_patch(surface.is_one_patch())
         , n_elements(is_one_patch ? surface.n_elements_per_direction() :
@@ -198,6 +198,7 @@ namespace Debond
         return n * n * element + i % n + n * (j % n);
       }
 
+      std::vector<SlavePoint>            images;
       const std::vector<SlavePoint>     &points;
       const unsigned int                 n;
       const bool                         is_one_patch;

@@ -67,7 +67,8 @@ namespace Debond
   {
     const BodyParameters       &implant = interface.implant();
     std::vector<InterfacePoint> points;
-    for (const SlavePoint &point : interface.get_points())
+    std::vector<SlavePoint>     images;
+    for (const SlavePoint &point : interface.points_of_all_sectors(images))
       if (point.faces_implant)
         {
           const auto &X           = point.X;

@@ -44,10 +44,14 @@ namespace Debond
       NurbsSurface
       contact_face(const BodyParameters &body, const Side) const override
       {
+        // Elements meet at an angle at the rim. It is a little outside of the
+        // implant's, so that no point of this one goes over it as the bodies
+        // give way: the state would jump there, and might have no equilibrium.
+        constexpr double margin = 1.001;
         if (body.is_fitted())
           return NurbsSurface::fitted_rectangle(body.size[0],
                                                 body.size[1],
-                                                body.rim[0],
+                                                margin * body.rim[0],
                                                 body.fitted_cells[0],
                                                 body.fitted_cells[1],
                                                 body.fitted_cells[2]);

@@ -177,7 +177,7 @@ namespace Debond
       "across, to the rim. `fitted a, i, o, l': cells of a block that "
       "follow the rim of a coin or cap, a (a multiple of 4) around it, "
       "i from a square core to it, o from it to the sides, in l "
-      "layers, all smaller towards the rim; `fitted': 16, 5, 8, 8. "
+      "layers, all smaller towards the rim; `fitted': 16, 6, 10, 9. "
       "They are for Element = spline, and pay where the interface is "
       "stiff.");
     table.add(
@@ -288,7 +288,7 @@ namespace Debond
       "of a coin and a cap across the disk and along the axis. Of a pin and "
       "a ring around, radial and along; around a solid one 4, 8, 12, ... Of a "
       "cup as of a cavity. `fitted a, i, l': cells of a coin as they are of "
-      "the bone; `fitted': 12, 4, 4.");
+      "the bone; `fitted': 12, 5, 5.");
     declare_material(table, false);
     table.leave_subsection();
   }

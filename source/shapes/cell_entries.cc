@@ -52,8 +52,8 @@ namespace Debond
           return;
         }
       if (rest_of(text).empty())
-        numbers = is_bone ? std::vector<unsigned int>{16, 5, 8, 8} :
-                            std::vector<unsigned int>{12, 4, 4};
+        numbers = is_bone ? std::vector<unsigned int>{16, 6, 10, 9} :
+                            std::vector<unsigned int>{12, 5, 5};
       else
         read_entry(rest_of(text), numbers);
       fitted_cells = {{numbers[0], numbers[1], is_bone ? numbers[2] : 0}};

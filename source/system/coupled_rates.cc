@@ -59,7 +59,7 @@ namespace Debond
       const TimedSection    t(timer, "dense solve");
       const Eigen::VectorXd response = bone.whole() ?
                                          -solve_with_whole_bone(right, 1e-4) :
-                                         -solver.solve(matrix, right, 1e-4);
+                                         -solve_condensed(right, 1e-4);
       motion.head(n_v)               = response.head(n_v);
       for (const auto &[k, number] : configuration.chuck_unknowns)
         motion[n_v + k] = response[number];

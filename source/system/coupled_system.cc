@@ -52,6 +52,24 @@ namespace Debond
         return bodies;
       return std::make_shared<BodyPair>(parameters);
     }
+
+
+
+    /** Whether the chuck moves along z and turns about it, and no more. */
+    bool
+    is_axial(const ChuckParameters &chuck)
+    {
+      for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
+        {
+          const auto &component = chuck.component[k];
+          if (k != ChuckComponent::translation_z &&
+              k != ChuckComponent::rotation_z &&
+              (component.is_unknown() || component.value != "0" ||
+               !component.file.empty() || component.function))
+            return false;
+        }
+      return true;
+    }
   } // namespace
 
 
@@ -89,6 +107,8 @@ namespace Debond
         (interface.get_law().pulls() ?
            std::max(1e-6, 1e-16 / parameters.load_steps.residual_tolerance) :
            1e-6))
+    , load_is_axial(parameters.load_steps.cyclic_symmetry &&
+                    is_axial(parameters.chuck))
     , matrix(body, interface, configuration, path)
   {
     configuration.chuck = &chuck;
@@ -158,6 +178,9 @@ namespace Debond
     path.number = first;
     unknowns    = first + (path.follow ? 1 : 0);
     solver.forget();
+    folded_bulk = {};
+    if (sectors)
+      folded.emplace(*sectors, configuration, unknowns);
   }
 
 
@@ -182,11 +205,24 @@ namespace Debond
       interface.initialise(configuration, 1e-12 * R);
     }
     const TimedSection t(timer, "condensation");
-    bone.set_contact_control_points(bone_control_points_under_implant(
-      bone.surface(), implant.surface(), configuration));
+    auto               found = find_sectors(most_sectors);
+    std::vector<bool>  wanted =
+      bone_control_points_under_implant(bone.surface(),
+                                        implant.surface(),
+                                        configuration);
+    const std::vector<bool> faced =
+      faced_bone_control_points(bone.surface(),
+                                interface.get_points(),
+                                interface.slave_side());
+    for (unsigned int A = 0; A < wanted.size(); ++A)
+      wanted[A] = wanted[A] || faced[A];
+    if (found)
+      wanted = (*found)[Side::bone].with_images(wanted);
+    bone.set_contact_control_points(wanted);
     implant.set_contact_control_points(
       std::vector<bool>(implant.surface().n_control_points(), true));
     number_unknowns();
+    choose_sectors(std::move(found));
   }
 
 
@@ -212,12 +248,16 @@ namespace Debond
     add(touched_bone_control_points(bone.surface(),
                                     interface.get_points(),
                                     interface.slave_side()));
+    if (sectors)
+      wanted = (*sectors)[Side::bone].with_images(wanted);
     if (wanted == bone.contact_control_points())
       return false;
     // everything under the implant now, so that this happens seldom
     add(bone_control_points_under_implant(bone.surface(),
                                           implant.surface(),
                                           configuration));
+    if (sectors)
+      wanted = (*sectors)[Side::bone].with_images(wanted);
     const TimedSection t(timer, "condensation");
     bone.set_contact_control_points(wanted);
     number_unknowns();
@@ -493,7 +533,7 @@ namespace Debond
       {
         const TimedSection t(timer, "dense solve");
         result.unknowns =
-          -solver.solve(matrix, residual.unknowns, relative_tolerance);
+          -solve_condensed(residual.unknowns, relative_tolerance);
       }
     // A singular matrix shows as numbers that are not finite, or, as rounding
     // seldom leaves an exact zero, as a chuck that flies away: by more than a
@@ -595,6 +635,7 @@ namespace Debond
   {
     const TimedSection t(timer, "condensation");
     solver.forget();
+    folded_bulk = {};
     return bone.refactor() && implant.refactor();
   }
 

@@ -1,4 +1,5 @@
 #include <debond/system/coupled_tangent.h>
+#include <debond/system/folded_tangent.h>
 
 #include <Eigen/Geometry>
 
@@ -75,6 +76,17 @@ namespace Debond
       else
         y[row] -= chuck.machine_load_per_value(k) * rates[k] * dt;
     y[number] = gradient.dot(x);
+  }
+
+
+
+  PathEquation
+  PathEquation::folded(const FoldedUnknowns &unknowns) const
+  {
+    PathEquation result = *this;
+    result.gradient     = unknowns.fold(gradient);
+    result.number       = result.gradient.size() - 1;
+    return result;
   }
 
 
@@ -249,35 +261,84 @@ namespace Debond
 
 
 
+  // The geometric part of the matrix, column by column: that of a chuck
+  // component is what it makes of a unit vector. The part of the border that
+  // couples with v is symmetric. What couples components with each other is in
+  // the column already.
+  template <typename Fold>
+  void
+  CoupledTangent::add_chuck(const InterfaceConfiguration &numbers,
+                            const Fold                   &fold,
+                            Eigen::MatrixXd              &matrix) const
+  {
+    for (unsigned int i = 0; i < numbers.chuck_unknowns.size(); ++i)
+      {
+        Eigen::VectorXd whole = Eigen::VectorXd::Zero(size());
+        add_geometric_part(
+          Eigen::VectorXd::Unit(size(), configuration.chuck_unknowns[i].second),
+          whole);
+        const Eigen::VectorXd column = fold(whole);
+        const unsigned int    number = numbers.chuck_unknowns[i].second,
+                           n_v       = numbers.chuck_unknowns[0].second;
+        matrix.col(number) += column;
+        matrix.row(number).head(n_v) += column.head(n_v).transpose();
+      }
+  }
+
+
+
+  Eigen::MatrixXd
+  CoupledTangent::bulk_stiffness() const
+  {
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size(), size());
+    for_each_bulk(
+      [&](const CondensingBulk &bulk, const int first, const int n) {
+        matrix.block(first, first, n, n) = bulk.dense_stiffness();
+      });
+    return matrix;
+  }
+
+
+
   // The same as a matrix, for a factorisation where the bulk alone is no good
   // preconditioner: with a loaded chuck, or an interface that is stiff against
   // the bodies.
   void
   CoupledTangent::assemble(Eigen::MatrixXd &matrix) const
   {
-    matrix.setZero(size(), size());
-    for_each_bulk(
-      [&](const CondensingBulk &bulk, const int first, const int n) {
-        matrix.block(first, first, n, n) = bulk.dense_stiffness();
-      });
+    matrix = bulk_stiffness();
     interface.add_tangent(configuration, matrix);
-    const unsigned int n_v = bodies[0]->n_unknowns() + bodies[1]->n_unknowns();
-    Eigen::VectorXd    column(size());
-    for (const auto &[k, number] : configuration.chuck_unknowns)
-      {
-        // The geometric part column by column: that of a chuck component is
-        // what it makes of a unit vector.
-        column.setZero();
-        add_geometric_part(Eigen::VectorXd::Unit(size(), number), column);
-        matrix.col(number) += column;
-        // The part of the border that couples with v is symmetric. What couples
-        // components with each other is in the column already.
-        matrix.row(number).head(n_v) += column.head(n_v).transpose();
-      }
+    add_chuck(
+      configuration,
+      [](const Eigen::VectorXd &column) { return column; },
+      matrix);
     if (path.follow)
       for (unsigned int j = 0; j < size(); ++j)
         path.apply(configuration,
                    Eigen::VectorXd::Unit(size(), j),
                    matrix.col(j));
+  }
+
+
+
+  // The same in the unknowns of one sector.
+  void
+  CoupledTangent::add_all_but_bulk(const FoldedUnknowns &unknowns,
+                                   Eigen::MatrixXd      &matrix) const
+  {
+    const InterfaceConfiguration numbers = unknowns.folded(configuration);
+    interface.add_tangent(numbers, matrix);
+    add_chuck(
+      numbers,
+      [&](const Eigen::VectorXd &b) { return unknowns.fold(b); },
+      matrix);
+    if (path.follow)
+      {
+        const PathEquation folded = path.folded(unknowns);
+        for (unsigned int j = 0; j < matrix.cols(); ++j)
+          folded.apply(numbers,
+                       Eigen::VectorXd::Unit(matrix.cols(), j),
+                       matrix.col(j));
+      }
   }
 } // namespace Debond

@@ -104,6 +104,14 @@ namespace Debond
               "Model = auto the largest difference, relative to the largest "
               "torque, from the curve of the scene's bodies on a converged "
               "mesh. Else not used.");
+    table.add("Cyclic symmetry",
+              cyclic_symmetry,
+              Allowed::choice("none | auto"),
+              "`auto': where bodies, bond and load look the same after a turn "
+              "about the z axis, by 90 degrees for a coin on a block, contact "
+              "points and unknowns of one sector stand for all. Results are "
+              "the same but for rounding. `none': compute all of them, as a "
+              "bond that breaks on one side first would ask for.");
     declare_path(*this, table);
     declare_iteration(*this, table);
     table.leave_subsection();

@@ -1,6 +1,7 @@
 #ifndef debond_interface_contact_interface_h
 #define debond_interface_contact_interface_h
 
+#include <debond/geometry/cyclic_symmetry.h>
 #include <debond/interface/bonding_pattern.h>
 #include <debond/interface/cohesive_share.h>
 #include <debond/interface/interface_configuration.h>
@@ -186,6 +187,12 @@ namespace Debond
     initialise(const InterfaceConfiguration &configuration,
                double                        touch_tolerance);
 
+    /** From here on the points of one sector stand for all. To be called after
+     *  initialise(), of surfaces that have this symmetry; nothing is done, and
+     *  false returned, if the bond of the points has not. */
+    bool
+    keep_one_sector(const std::array<CyclicSymmetry, 2> &sectors_of_surfaces);
+
     /** Updates all points. Returns false if a point found no solution. */
     bool
     evaluate(const InterfaceConfiguration &configuration,
@@ -280,10 +287,22 @@ namespace Debond
     unsigned int
     n_enclosed() const;
 
+    /** Those that are updated: of one sector, if one stands for all. */
     const std::vector<SlavePoint> &
     get_points() const
     {
       return points;
+    }
+    /** All points of the slave surface, numbered as surface_quadrature() does,
+     *  with their trial states, for output: get_points(), or @p images, into
+     *  which those of all sectors are put. */
+    const std::vector<SlavePoint> &
+    points_of_all_sectors(std::vector<SlavePoint> &images) const;
+    /** How many of them there are. */
+    unsigned int
+    n_points() const
+    {
+      return sectors ? number_of_kept.size() : points.size();
     }
     /** Quadrature points per direction and slave surface element. */
     unsigned int
@@ -394,6 +413,9 @@ namespace Debond
     }
 
   private:
+    /** Gives all sectors what the one that is kept has. */
+    void
+    average(NodalSums &sums) const;
     Side
     master_side() const
     {
@@ -461,6 +483,10 @@ namespace Debond
     const bool                       master_is_level, master_is_flat;
     const unsigned int               n; ///< points per direction, element
     std::vector<SlavePoint>          points;
+    /** Of both surfaces, if one sector stands for all; else null. */
+    std::unique_ptr<const std::array<CyclicSymmetry, 2>> sectors;
+    /** Which of `points' stands for each of all. */
+    std::vector<unsigned int> number_of_kept;
     /** Of each point, by laws that hold one; else empty. */
     std::vector<CohesiveShare>            shares;
     double                                area_of_implant = 0;

@@ -21,6 +21,9 @@ namespace Debond
     {
       ControlNet positions; ///< spatial positions of the control points [mm]
       Eigen::Matrix3d frame = Eigen::Matrix3d::Identity(); ///< Q of the body
+      /** By which the frame of each control point is turned against that; empty:
+       *  none is. */
+      std::vector<Eigen::Matrix3d> turns;
       /** For 3 (control point) + component (body frame): number in the coupled
        *  system, -1: none. */
       std::vector<int> unknown_of;
@@ -86,6 +89,13 @@ namespace Debond
     const NurbsSurface           &bone,
     const NurbsSurface           &implant,
     const InterfaceConfiguration &configuration);
+
+  /** Elements of the @p bone that accepted @p points lie on where they face the
+   *  other surface. */
+  std::vector<bool>
+  faced_bone_control_points(const NurbsSurface            &bone,
+                            const std::vector<SlavePoint> &points,
+                            Side                           slave);
 
   /** Elements of the @p bone that closed ones of the @p points lie on in their
    *  trial states. */

@@ -5,6 +5,7 @@
 #include <debond/bulk/chuck.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/system/coupled_tangent.h>
+#include <debond/system/folded_tangent.h>
 #include <debond/system/load_step_parameters.h>
 #include <debond/system/press_fit.h>
 #include <debond/system/whole_solver.h>
@@ -108,6 +109,19 @@ namespace Debond
     commit(double parameter);
     void
     rollback();
+
+    /** How many sectors are alike, of which one is computed; 1: all is. */
+    unsigned int
+    n_sectors() const
+    {
+      return sectors ? (*sectors)[Side::implant].n_sectors() : 1;
+    }
+    /** Number of unknowns of one sector. */
+    unsigned int
+    n_unknowns_of_sector() const
+    {
+      return folded ? folded->size() : unknowns;
+    }
 
     struct Residual
     {
@@ -298,6 +312,25 @@ namespace Debond
       return is_rotation(chuck_component) ? R : 1.;
     }
 
+    /** @name Cyclic symmetry (coupled_symmetry.cc) */
+    //@{
+    /** A coin of equal cells has 4, round bodies as many as cells around. */
+    static constexpr unsigned int most_sectors = 96;
+    /** Like sectors, as many as can be and @p most at most, into which turns
+     *  about the z axis divide both surfaces; nothing if they do not, or if the
+     *  load or the law is none that leaves the symmetry. */
+    std::optional<SectorsOfSurfaces>
+    find_sectors(unsigned int most) const;
+    /** Whether the bodies resist alike in all of them. */
+    bool
+    bodies_have(const SectorsOfSurfaces &sectors_of_surfaces) const;
+    /** Takes what was found, or fewer sectors, if bodies and bond have them. */
+    void
+    choose_sectors(std::optional<SectorsOfSurfaces> found);
+    //@}
+    /** Solves with the tangent where both bodies are condensed. */
+    Eigen::VectorXd
+    solve_condensed(const Eigen::VectorXd &b, double relative_tolerance);
     /** Solves with the tangent where the bone is a WholeBulk. */
     WholeSolution
     solve_whole(const Eigen::VectorXd &b,
@@ -315,6 +348,11 @@ namespace Debond
     /** Of each body in the last evaluate(). */
     std::array<Body::Residual, 2> bulk_residual;
     DenseSolver                   solver;
+    /** Whether the load leaves a cyclic symmetry as it is. */
+    const bool                       load_is_axial;
+    std::optional<SectorsOfSurfaces> sectors;
+    std::optional<FoldedUnknowns>    folded; ///< if there are sectors
+    FoldedBulk                       folded_bulk;
     double                        trial_time = 0;
     PathEquation                  path;
     const CoupledTangent          matrix;

@@ -8,6 +8,8 @@
 
 namespace Debond
 {
+  class FoldedUnknowns;
+
   /**
    * What it takes to follow a path of equilibrium: all six chuck components and
    * the time are unknowns of the coupled system then, with the equations q_k =
@@ -41,6 +43,10 @@ namespace Debond
     apply(const InterfaceConfiguration &configuration,
           const Eigen::VectorXd        &x,
           Eigen::Ref<Eigen::VectorXd>   y) const;
+
+    /** The same for unknowns that are folded. */
+    PathEquation
+    folded(const FoldedUnknowns &unknowns) const;
 
   private:
     /** d equation / d unknowns, of the last evaluate(). */
@@ -88,6 +94,13 @@ namespace Debond
     solve_bulk(const Eigen::VectorXd &b) const override;
     void
     assemble(Eigen::MatrixXd &matrix) const override;
+    /** B, where A can be assembled. */
+    Eigen::MatrixXd
+    bulk_stiffness() const;
+    /** Adds E^T C E. */
+    void
+    add_all_but_bulk(const FoldedUnknowns &unknowns,
+                     Eigen::MatrixXd      &matrix) const;
 
     /** @name Without the bone
      *  B of the unknowns that follow those of the bone, and its inverse. */
@@ -123,6 +136,13 @@ namespace Debond
     /** All of the tangent but the bodies, times x. */
     Eigen::VectorXd
     product_without_bulk(const Eigen::VectorXd &x) const;
+    /** Adds the part of it that add_geometric_part() makes of the component of
+     *  the chuck with a number, as a column, and of the coupling as a row. */
+    template <typename Fold>
+    void
+    add_chuck(const InterfaceConfiguration &numbers,
+              const Fold                   &fold,
+              Eigen::MatrixXd              &matrix) const;
     /** D: stiffness of the unknown component @p k of the chuck in B [N/mm,
      *  N mm]. No body resists it. Where A can be assembled D is 0, B has no
      *  inverse, and LU takes over. Otherwise the stiffness of the whole face

@@ -43,6 +43,12 @@ namespace Debond
     {
       return half * outwards;
     }
+    /** The same per length that the face is to stand out. */
+    const ControlNet &
+    direction() const
+    {
+      return outwards;
+    }
     /** What thickening has put in up to the accepted state [N mm], a trapezoid.
      */
     double

@@ -278,10 +278,10 @@ def check_posteriors():
                                                      - found.problem.unknowns.to_search(found.values)[j]) * 1.96 / found.told.half_widths[j]) ** 2).max() / 15.4
                 for j, name in enumerate(found.names))
     report("profiles are parabolas, to 10 % of the largest", worst < 0.1, worst)
-    drawn = numpy.log(found.bootstrap(100)[:, 1])
+    drawn = numpy.log(found.bootstrap(200 if n_seeds >= 100 else 100)[:, 1])
     report("bootstrap: standard deviation of log a_s to 20 %", abs(numpy.std(drawn) / sd[1] - 1) < 0.2, numpy.std(drawn) / sd[1])
     try:
-        samples = found.posterior(200)
+        samples = found.posterior(400 if n_seeds >= 100 else 200)
     except ImportError:
         return
     report("posterior: standard deviation of mu_ub, with the noise as it hangs together, at most that of least squares to 20 %",

@@ -1,7 +1,8 @@
 """The module of Python under mpirun: each process by itself, or those of a communicator together. Numbers are those of the
 direct solver in one process, which other tests compare with exact solutions and independent codes.
-Usage: ranks.py MPIRUN.sh MPIRUN, where `import debond` finds the module and mpi4py is there. It starts itself under mpirun,
-as `ranks.py CASE`, and prints what must be so."""
+Usage: ranks.py MPIRUN.sh MPIRUN [one-and-three], where `import debond` finds the module and mpi4py is there. It starts itself
+under mpirun, as `ranks.py CASE,...`, and prints what must be so. one-and-three: only what two processes by themselves do, in one
+and in three."""
 
 import json
 import os
@@ -241,16 +242,31 @@ def same(a, b, tolerance=1e-7):
     return numpy.shape(a) == numpy.shape(b) and numpy.allclose(a, b, rtol=tolerance, atol=tolerance * numpy.abs(b).max())
 
 
-def run(n, name, *options, n_lines=0):
-    """What the case returns in each of n processes; what they have said if they do not end with 0 and so many lines."""
-    for rank in range(n):
-        if os.path.exists(f"{name}.{rank}"):
-            os.remove(f"{name}.{rank}")
-    done = subprocess.run([sys.argv[1], sys.argv[2], str(n), sys.executable, *options, os.path.abspath(__file__), name],
+def run(n, names, *options, n_lines=0):
+    """What the cases, one after the other, return in each of n processes, of several as {name: returned}; what they have said if
+    they do not end with 0 and so many lines."""
+    names = names.split(",")
+    files = [f"{name}.{rank}" for name in names for rank in range(n)]
+    for file in files:
+        if os.path.exists(file):
+            os.remove(file)
+    done = subprocess.run([sys.argv[1], sys.argv[2], str(n), sys.executable, *options, os.path.abspath(__file__), ",".join(names)],
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=400)
     if done.returncode != 0 or len(done.stdout.splitlines()) != n_lines:
         return done
-    return [json.load(open(f"{name}.{rank}")) for rank in range(n) if os.path.exists(f"{name}.{rank}")]
+    said = {name: [json.load(open(f"{name}.{rank}")) for rank in range(n) if os.path.exists(f"{name}.{rank}")] for name in names}
+    return said if len(names) > 1 else said[names[0]]
+
+
+def check_by_themselves(n, by_direct, more=()):
+    """Each of n processes; returns what `more` cases give after those that import mpi4py first."""
+    said = run(n, "without_mpi4py")
+    check(f"  {n} without mpi4py", said == [said[0]] * n and same(said[0], by_direct))
+    found = run(n, ",".join(["mpi4py_first", *more]), n_lines=len(more) > 0)  # a warning, of the first one
+    for name, said in ("mpi4py_first", found["mpi4py_first"] if more else found), ("mpi4py_later", run(n, "mpi4py_later")):
+        check(f"  {n}, {name}, then together", len(said) == n and all(
+            same(alone, by_direct) and same(joined, by_direct) and size == n for alone, joined, size in said))
+    return found
 
 
 def check_all():
@@ -258,16 +274,11 @@ def check_all():
     stiffer, longer = forces(coin({**STIFFER, **DIRECT}).run()), forces(coin({**LONGER, **DIRECT}).run())
 
     print("Each process by itself")
-    for n in 1, 2, 3:
-        said = run(n, "without_mpi4py")
-        check(f"  {n} without mpi4py", said == [said[0]] * n and same(said[0], by_direct))
-        for name in "mpi4py_first", "mpi4py_later":
-            said = run(n, name)
-            check(f"  {n}, {name}, then together", len(said) == n and all(
-                same(alone, by_direct) and same(joined, by_direct) and size == n for alone, joined, size in said))
-    said = run(3, "other_scenes")
+    of_two = check_by_themselves(2, by_direct, ("one_without_multigrid", "looking_on", "into_directory"))
+    of_three = run(3, "other_scenes,refused")
+    said = of_three["other_scenes"]
     check("  scenes of their own", same(said[0], by_direct) and same(said[1], longer) and same(said[2], by_direct))
-    said = run(2, "one_without_multigrid")
+    said = of_two["one_without_multigrid"]
     check("  and solvers", len(said) == 2 and all(same(of_one, by_direct) for of_one in said))
     said = run(3, "futures", "-m", "mpi4py.futures")
     check("  a pool of mpi4py.futures", len(said) == 1 and all(
@@ -292,10 +303,10 @@ def check_all():
         rows.append([forces(simulation.result()), simulation.points()["slip_mm"].sum()])
     check("  as driven in one process",
           all(same(said[k][0], rows[k][0]) and abs(said[k][2] / rows[k][1] - 1) < 1e-6 for k in (0, 1)))
-    said = run(2, "looking_on")
+    said = of_two["looking_on"]
     print("  on_row on rank 1:", *(f"\n    {of_one[0]}" for of_one in said))
     check("  in the same row, and can go on", all(of_one[1] == 2 and same(of_one[2], by_direct) for of_one in said))
-    said = run(2, "into_directory", n_lines=1)  # a warning, of the first one
+    said = of_two["into_directory"]
     import numpy
 
     table = numpy.genfromtxt("written/torque.csv", delimiter=",", names=True)
@@ -305,7 +316,7 @@ def check_all():
     check("  a file that cannot be written ends all", said.returncode not in (0, None) and "cannot write 'full/torque.csv'" in said.stdout)
 
     print("Refused")
-    said = run(3, "refused")
+    said = of_three["refused"]
     for name, message in said[0][0].items():
         print(f"  {name}:\n    {message}")
     check("  in the same words on all", all(of_one[0] == said[0][0] for of_one in said))
@@ -313,9 +324,13 @@ def check_all():
 
 
 if __name__ == "__main__":
-    if len(sys.argv) == 3:
+    if sys.argv[3:] == ["one-and-three"]:
+        for n_processes in 1, 3:
+            check_by_themselves(n_processes, forces(coin(DIRECT).run()))
+    elif len(sys.argv) == 3:
         check_all()
     else:
-        result = CASES[sys.argv[1]]()
-        with open(f"{sys.argv[1]}.{own_rank()}", "w", encoding="utf-8") as file:
-            json.dump(result, file)
+        for name_of_case in sys.argv[1].split(","):
+            result = CASES[name_of_case]()
+            with open(f"{name_of_case}.{own_rank()}", "w", encoding="utf-8") as file:
+                json.dump(result, file)

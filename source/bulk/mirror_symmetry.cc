@@ -107,6 +107,43 @@ namespace Debond
                          i      = q / stride % n_along;
       return q + (n_along - 1 - i) * stride - i * stride;
     }
+
+
+    /** The image of each cell in mirror d, by those of its nodes; none if a
+     * cell has none, or one of another modulus. */
+    std::vector<unsigned int>
+    images_of_cells_in(const unsigned int               d,
+                       const BulkSpace                 &space,
+                       const EnrichedCells             &cells,
+                       const std::vector<unsigned int> &image)
+    {
+      CellsByNodes cell_of;
+      const auto   sorted = [](std::vector<unsigned int> nodes) {
+        std::sort(nodes.begin(), nodes.end());
+        return nodes;
+      };
+      for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
+        cell_of.emplace(sorted(space.cells()[cell].nodes), cell);
+      std::vector<unsigned int> result;
+      for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
+        {
+          std::vector<unsigned int> nodes = space.cells()[cell].nodes;
+          for (unsigned int &node : nodes)
+            node = image[node];
+          const auto found = cell_of.find(sorted(nodes));
+          if (found == cell_of.end())
+            return {};
+          result.push_back(found->second);
+          const Eigen::ArrayXd own   = cells.stiffness_factors(cell),
+                               other = cells.stiffness_factors(found->second);
+          for (unsigned int q = 0; q < own.size(); ++q)
+            if (std::abs(own[q] -
+                         other[image_of_point(q, d, cells.n_along())]) >
+                rounding * own[q])
+              return {};
+        }
+      return result;
+    }
   } // namespace
 
 
@@ -127,14 +164,6 @@ namespace Debond
             space.is_tied(node)           ? 1 :
                                             0]
         .push_back(node);
-    CellsByNodes cell_of;
-    const auto   sorted = [](std::vector<unsigned int> nodes) {
-      std::sort(nodes.begin(), nodes.end());
-      return nodes;
-    };
-    for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
-      cell_of.emplace(sorted(space.cells()[cell].nodes), cell);
-
     for (const unsigned int d : {0, 1})
       {
         result.image[d].assign(space.n_nodes(),
@@ -156,24 +185,9 @@ namespace Debond
     std::array<std::vector<unsigned int>, 2> image_of_cell;
     for (const unsigned int d : {0, 1})
       {
-        const std::vector<unsigned int> &image = result.image[d];
-        for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
-          {
-            std::vector<unsigned int> nodes = space.cells()[cell].nodes;
-            for (unsigned int &node : nodes)
-              node = image[node];
-            const auto found = cell_of.find(sorted(nodes));
-            if (found == cell_of.end())
-              return {};
-            image_of_cell[d].push_back(found->second);
-            const Eigen::ArrayXd own   = cells.stiffness_factors(cell),
-                                 other = cells.stiffness_factors(found->second);
-            for (unsigned int q = 0; q < own.size(); ++q)
-              if (std::abs(own[q] -
-                           other[image_of_point(q, d, cells.n_along())]) >
-                  rounding * own[q])
-                return {};
-          }
+        image_of_cell[d] = images_of_cells_in(d, space, cells, result.image[d]);
+        if (image_of_cell[d].empty())
+          return {};
       }
     for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
       {

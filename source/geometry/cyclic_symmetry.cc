@@ -12,7 +12,7 @@ namespace Debond
 {
   namespace
   {
-    constexpr double rounding = 1e-10; // of positions and functions, relative
+    constexpr double rounding = 1e-12; // of positions and functions, relative
 
     using Images = std::vector<CyclicSymmetry::Image>;
 
@@ -44,8 +44,8 @@ namespace Debond
       std::vector<dealii::Point<3>> known;
       for (const auto X : places.colwise())
         known.emplace_back(X[0], X[1], X[2]);
-      const auto   tree   = dealii::pack_rtree_of_indices(known);
-      const double extent = places.colwise().norm().maxCoeff();
+      const auto                tree   = dealii::pack_rtree_of_indices(known);
+      const double              extent = places.colwise().norm().maxCoeff();
       std::vector<unsigned int> result, nearest;
       std::vector<bool>         is_taken(known.size(), false);
       for (const auto X : places.colwise())
@@ -102,10 +102,10 @@ namespace Debond
     {
       for (unsigned int a = 0; a < own.size; ++a)
         {
-          const auto *const begin = image.control_point.data(),
-                     *const end   = begin + image.size,
-                     *const found =
-                       std::find(begin, end, next[own.control_point[a]]);
+          const auto *const        begin = image.control_point.data(),
+                            *const end   = begin + image.size,
+                            *const found =
+                              std::find(begin, end, next[own.control_point[a]]);
           const double other = found == end ? 0. : image.N[found - begin];
           if (std::abs(own.N[a] - other) > rounding)
             return false;

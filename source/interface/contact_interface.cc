@@ -296,7 +296,8 @@ namespace Debond
       SurfaceGeometry geometry;
       surface.evaluate(xi, basis, false);
       contract(basis, surface.control_points(), false, geometry);
-      return {Q * MasterNormal(geometry, master.outward_sign).n, master.is_flat};
+      return {Q * MasterNormal(geometry, master.outward_sign).n,
+              master.is_flat};
     }
 
 

@@ -14,7 +14,7 @@ namespace Debond
   ContactInterface::keep_one_sector(
     const std::array<CyclicSymmetry, 2> &sectors_of_surfaces)
   {
-    const auto             &images = sectors_of_surfaces[slave].points;
+    const auto               &images = sectors_of_surfaces[slave].points;
     std::vector<SlavePoint>   kept;
     std::vector<unsigned int> numbers(points.size());
     for (unsigned int q = 0; q < points.size(); ++q)
@@ -33,8 +33,8 @@ namespace Debond
       }
     points         = std::move(kept);
     number_of_kept = std::move(numbers);
-    sectors =
-      std::make_unique<const std::array<CyclicSymmetry, 2>>(sectors_of_surfaces);
+    sectors        = std::make_unique<const std::array<CyclicSymmetry, 2>>(
+      sectors_of_surfaces);
     return true;
   }
 
@@ -52,8 +52,7 @@ namespace Debond
 
   // What is a vector in space is turned; numbers are the same.
   const std::vector<SlavePoint> &
-  ContactInterface::points_of_all_sectors(
-    std::vector<SlavePoint> &images) const
+  ContactInterface::points_of_all_sectors(std::vector<SlavePoint> &images) const
   {
     if (!sectors)
       return points;
@@ -67,11 +66,10 @@ namespace Debond
         static_cast<SurfaceQuadraturePoint &>(point) = places[q];
         point.n_images                               = 1;
         const Eigen::Matrix3d turn = of_slave.turn[of_slave.points[q].turns];
-        for (Eigen::Vector3d *const vector :
-             {&point.trial.traction,
-              &point.trial.tangential_traction,
-              &point.trial.viscous_traction,
-              &point.trial.slip_increment})
+        for (Eigen::Vector3d *const vector : {&point.trial.traction,
+                                              &point.trial.tangential_traction,
+                                              &point.trial.viscous_traction,
+                                              &point.trial.slip_increment})
           *vector = turn * vector->eval();
       }
     return images;

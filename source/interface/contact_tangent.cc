@@ -161,7 +161,12 @@ namespace Debond
         const Matrix<double, 9, Eigen::Dynamic, 0, 9, max_unknowns> changes =
           force * dw.leftCols(n);
         // one product for all columns, as such small ones cost calls
-        Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_unknowns, max_unknowns>
+        Matrix<double,
+               Eigen::Dynamic,
+               Eigen::Dynamic,
+               0,
+               max_unknowns,
+               max_unknowns>
           block(n, n);
         block.noalias() = dw.topLeftCorner(9, n).transpose() * changes;
         for (unsigned int j = 0; j < n; ++j)
@@ -179,10 +184,10 @@ namespace Debond
         for (unsigned int k = 0; k < by_chuck.size(); ++k)
           dw.col(k).head<W::turn>() +=
             (by_chuck[k][s].col(control_point) * factors).reshaped();
-        const auto           &side = configuration.side[s];
-        const Eigen::Matrix3d frame =
-          side.turns.empty() ? side.frame :
-                               side.frame * side.turns[control_point];
+        const auto           &side  = configuration.side[s];
+        const Eigen::Matrix3d frame = side.turns.empty() ?
+                                        side.frame :
+                                        side.frame * side.turns[control_point];
         for (unsigned int c = 0; c < 3; ++c)
           // A control point that is fixed, out of reach of contact or of a
           // rigid body has no number.

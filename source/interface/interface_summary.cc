@@ -180,20 +180,7 @@ namespace Debond
           std::max(summary.max_traction, trial.traction.norm());
         if (mode_now.frictionless)
           continue;
-        // -dL/dg_s where it is largest, from the accepted g_s on [MPa/mm]. The
-        // steepest point is kept with its numbers, which the message of a run
-        // that ends here has to give.
-        const double slope =
-          law.joint->softening_by_slip(point.begin(*law.joint, mode_now),
-                                       trial.pressure,
-                                       trial.state.slip - point.accepted.slip);
-        const double softening = slope / resistance;
-        if (softening > summary.steepest_softening)
-          {
-            summary.steepest_softening = softening;
-            summary.softening_pressure = std::max(0., trial.pressure);
-            summary.softening_slope    = slope;
-          }
+        find_steepest(point, resistance, summary);
       }
     find_side(summary);
     // means over the area that faced the implant at the start
@@ -202,6 +189,30 @@ namespace Debond
     for (double *part : share_of)
       *part /= area;
     return summary;
+  }
+
+
+
+  // -dL/dg_s where it is largest, from the accepted g_s on [MPa/mm]. The
+  // steepest point is kept with its numbers, which the message of a run that
+  // ends here has to give.
+  void
+  ContactInterface::find_steepest(const SlavePoint &point,
+                                  const double      resistance,
+                                  InterfaceSummary &summary) const
+  {
+    const double slope =
+      law.joint->softening_by_slip(point.begin(*law.joint, mode_now),
+                                   point.trial.pressure,
+                                   point.trial.state.slip -
+                                     point.accepted.slip);
+    const double softening = slope / resistance;
+    if (softening > summary.steepest_softening)
+      {
+        summary.steepest_softening = softening;
+        summary.softening_pressure = std::max(0., point.trial.pressure);
+        summary.softening_slope    = slope;
+      }
   }
 
 

@@ -260,8 +260,8 @@ namespace Debond
       }
     // as the trapezoid of the chuck's work has it, with a traction that falls
     // evenly to zero over the whole step
-    const double as_trapezoid = 0.5 * old_traction.dot(motion.gap);
-    const double bound        = point.JxW * std::abs(lost - as_trapezoid);
+    const double bound =
+      point.JxW * std::abs(lost - 0.5 * old_traction.dot(motion.gap));
     dissipation += point.JxW * (lost + of_springs);
     friction += point.JxW * (lost + of_springs);
     dissipation_bound += bound;

@@ -87,11 +87,11 @@ namespace Debond
     {
       const BulkSpace &bone    = system.bone.mesh();
       const BulkSpace &implant = system.implant.mesh();
-      Text               text;
+      Text             text;
       text << bone.n_dofs_as_published() + implant.n_dofs_as_published()
            << " degrees of freedom, "
-           << bone.n_unknowns() + implant.n_unknowns()
-           << " of them unknowns, " << system.n_unknowns()
+           << bone.n_unknowns() + implant.n_unknowns() << " of them unknowns, "
+           << system.n_unknowns()
            << " after condensation on the contact surfaces";
       if (system.n_sectors() > 1)
         text << ", " << system.n_unknowns_of_sector() << " of them in one of "

@@ -34,6 +34,38 @@ namespace Debond
 
 
 
+    /** A number of the summary; NaN if it has none. */
+    double
+    value_in(const nlohmann::ordered_json &summary, const char *const name)
+    {
+      const auto found = summary.find(name);
+      return found != summary.end() && found->is_number() ?
+               found->get<double>() :
+               std::numeric_limits<double>::quiet_NaN();
+    }
+
+
+
+    /** "1.3 s, 45 steps, 76 Newton iterations, 1 warning" */
+    std::string
+    effort_in_words(const nlohmann::ordered_json &summary,
+                    const std::size_t             n_warnings)
+    {
+      const double steps = value_in(summary, "steps");
+      return to_text(value_in(summary, "wall_seconds"), 2) + " s" +
+             (std::isfinite(steps) ?
+                ", " + to_text(steps, 6) + " steps, " +
+                  to_text(value_in(summary, "newton_iterations"), 6) +
+                  " Newton iterations" :
+                "") +
+             (n_warnings == 0 ? "" :
+              n_warnings == 1 ? ", 1 warning" :
+                                ", " + std::to_string(n_warnings) +
+                                  " warnings");
+    }
+
+
+
     /** What a run has found, for the console; what is not known is left out. */
     std::vector<std::string>
     findings(const nlohmann::ordered_json &summary,
@@ -43,10 +75,7 @@ namespace Debond
     {
       std::vector<std::string> lines;
       const auto               value = [&](const char *const name) {
-        const auto found = summary.find(name);
-        return found != summary.end() && found->is_number() ?
-                               found->get<double>() :
-                               std::numeric_limits<double>::quiet_NaN();
+        return value_in(summary, name);
       };
       const auto number = [](const double value) { return to_text(value, 6); };
       // a line is there if the first of its numbers is known
@@ -100,16 +129,7 @@ namespace Debond
             " of the work, in each row to " + to_text(defect, 2) +
             " of that so far, forces on both sides of the implant to " +
             to_text(unbalanced, 2));
-      add(value("wall_seconds"),
-          to_text(value("wall_seconds"), 2) + " s" +
-            (std::isfinite(value("steps")) ?
-               ", " + number(value("steps")) + " steps, " +
-                 number(value("newton_iterations")) + " Newton iterations" :
-               "") +
-            (n_warnings == 0 ? "" :
-             n_warnings == 1 ? ", 1 warning" :
-                               ", " + std::to_string(n_warnings) +
-                                 " warnings"));
+      add(value("wall_seconds"), effort_in_words(summary, n_warnings));
       return lines;
     }
   } // namespace

@@ -428,8 +428,8 @@ namespace Debond
         << ". Where friction falls with the speed faster than the springs "
            "pull there is no quasi-static solution; Interface / Viscosity "
            "limits the speed";
-    const auto        &points = coupled_system.interface.get_points();
-    unsigned int       n_beyond = 0;
+    const auto  &points   = coupled_system.interface.get_points();
+    unsigned int n_beyond = 0;
     for (const SlavePoint &point : points)
       if (point.faces_implant && !point.accepted.has_partner)
         n_beyond += point.n_images;

@@ -160,6 +160,23 @@ namespace Debond
             "tests, are compared with one curve");
       return remarks;
     }
+
+
+
+    /** Of two curves that have nothing in common. */
+    std::string
+    ranges_of(const ReferenceCurve &computed,
+              const ReferenceCurve &measured,
+              const CurveAxes      &axes)
+    {
+      const auto range = [&](const ReferenceCurve &curve) {
+        return " from " + to_text(curve.front().first, 4) + " to " +
+               to_text(curve.back().first, 4) + " " + axes.position_unit();
+      };
+      return std::string("the run ") +
+             (is_rotation(axes.position) ? "turns" : "moves") +
+             range(computed) + ", and the curve" + range(measured);
+    }
   } // namespace
 
 
@@ -222,14 +239,7 @@ namespace Debond
       {
         why_none = T_largest == 0. ?
                      std::string("all ") + axes.load_word() + "s are zero" :
-                     std::string("the run ") +
-                       (is_rotation(axes.position) ? "turns" : "moves") +
-                       " from " + to_text(computed.front().first, 4) + " to " +
-                       to_text(computed.back().first, 4) + " " +
-                       axes.position_unit() + ", and the curve from " +
-                       to_text(measured.front().first, 4) + " to " +
-                       to_text(measured.back().first, 4) + " " +
-                       axes.position_unit();
+                     ranges_of(computed, measured, axes);
         return;
       }
     e_mp            = sum_mp / rows_used;

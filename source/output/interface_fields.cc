@@ -292,6 +292,30 @@ namespace Debond
           u.col(A) = chuck.map(X.col(A), u.col(A)) - X.col(A);
       return u;
     }
+
+
+
+    /** Names and numbers of components. */
+    std::vector<std::pair<std::string, unsigned int>>
+    fields_of(const InterfaceLaw &law)
+    {
+      std::vector<std::pair<std::string, unsigned int>> fields{
+        {"pressure_MPa", 1},
+        {"traction_MPa", 3},
+        {"gap_mm", 1},
+        {"slip_mm", 1},
+        {"phi_0", 1},
+        {"phi", 1},
+        {"mu", 1},
+        {"state", 1},
+        {"displacement", 3}};
+      if (law.pulls())
+        fields.insert(fields.end(),
+                      {{"left_by_opening", 1},
+                       {"left_by_slip", 1},
+                       {"mode_deg", 1}});
+      return fields;
+    }
   } // namespace
 
 
@@ -310,22 +334,7 @@ namespace Debond
     const unsigned int   n = n_pieces(surface, 96, 4, 16);
     const auto           corners =
       dealii::QIterated<2>(dealii::QTrapezoid<1>(), n).get_points();
-    std::vector<std::pair<std::string, unsigned int>> fields{
-      {"pressure_MPa", 1},
-      {"traction_MPa", 3},
-      {"gap_mm", 1},
-      {"slip_mm", 1},
-      {"phi_0", 1},
-      {"phi", 1},
-      {"mu", 1},
-      {"state", 1},
-      {"displacement", 3}};
-    if (law.pulls())
-      fields.insert(fields.end(),
-                    {{"left_by_opening", 1},
-                     {"left_by_slip", 1},
-                     {"mode_deg", 1}});
-    DrawnFace face(fields, n);
+    DrawnFace face(fields_of(law), n);
     for (unsigned int element = 0; element < surface.n_elements(); ++element)
       face.add_element([&](const unsigned int k, std::vector<double> &values) {
         const Eigen::Vector2d xi =

@@ -129,6 +129,83 @@ namespace Debond
     const AllowedValues allowed_length =
       Allowed::number_between(1e-6, 1e6, "mm");
     const AllowedValues allowed_grading = Allowed::number_above(0, "");
+
+
+    void
+    declare_grading(BodyParameters &bone, EntryTable &table)
+    {
+      table.add(
+        "Lateral grading",
+        bone.lateral_grading,
+        allowed_grading,
+        "Exponent g that places the cells across the block: their sides are at x "
+        "= sign(s) |s|^g L/2 with s equally spaced from -1 to 1 and L the edge "
+        "length, in y alike. 1: equal cells; more than 1: smaller cells towards "
+        "the centre, under the implant.");
+      table.add(
+        "Cells under implant",
+        bone.cells_under_implant,
+        Allowed::whole_number(0, 1000000000),
+        "How many of the cells across are under the implant, within its "
+        "rim, the others as many to the left as to the right: cells "
+        "become smaller towards the rim, where the pressure changes "
+        "most. 0: cells do not heed the rim. It is for Element = spline "
+        "or quadratic; trilinear cells become too stiff below the rim.");
+      table.add(
+        "Rim grading",
+        bone.rim_grading,
+        allowed_grading,
+        "Exponent g of cells that heed the rim: their sides are at the "
+        "distances R s^g from it within, and (L/2 - R) s^g beside, with "
+        "s equally spaced from 0 to 1, R the radius of the implant and L "
+        "the edge length.");
+    }
+
+
+    void
+    declare_solver(BodyParameters &bone, EntryTable &table)
+    {
+      table.add(
+        "Bulk solver",
+        bone.bulk_solver,
+        Allowed::choice("auto | direct | lattice | multigrid"),
+        "How the stiffness of the bone is solved. `direct': by a sparse "
+        "factorisation, condensed on the contact face. `lattice': by "
+        "sines and cosines across, exact for a bone of splines with "
+        "cells of equal width, at the cost of a few products of "
+        "matrices; the bone has no shear at its sides then, which is "
+        "what sides that slide come to with ever finer cells. The "
+        "stiffness of a Neo-Hookean bone stays that at rest, which leads "
+        "Newton's method to the same solution as long as strains are "
+        "small. `multigrid': "
+        "by iterations for the whole system with algebraic multigrid, "
+        "for bones that are too large to be factorised, on any number "
+        "of processes (mpirun). `auto': multigrid on several, or where factors "
+        "would not fit into the memory; lattice where that is possible, the "
+        "implant stays away from the sides, and strains are below some 1 %. The "
+        "program says which, and why.");
+    }
+
+
+
+    void
+    declare_thread(BodyParameters &implant, EntryTable &table)
+    {
+      table.add(
+        "Pitch",
+        implant.pitch,
+        allowed_length,
+        "Distance [mm] along the axis between neighbouring crests of the "
+        "thread of a screw. In a turn it comes out by this times Starts.");
+      table.add("Thread depth",
+                implant.thread_depth,
+                allowed_length,
+                "Height [mm] of the thread of a screw.");
+      table.add("Starts",
+                implant.starts,
+                Allowed::whole_number(1, 100),
+                "Number of threads of a screw.");
+    }
   } // namespace
 
 
@@ -180,48 +257,8 @@ namespace Debond
       "layers, all smaller towards the rim; `fitted': 16, 6, 10, 9. "
       "They are for Element = spline, and pay where the interface is "
       "stiff.");
-    table.add(
-      "Lateral grading",
-      lateral_grading,
-      allowed_grading,
-      "Exponent g that places the cells across the block: their sides are at x "
-      "= sign(s) |s|^g L/2 with s equally spaced from -1 to 1 and L the edge "
-      "length, in y alike. 1: equal cells; more than 1: smaller cells towards "
-      "the centre, under the implant.");
-    table.add("Cells under implant",
-              cells_under_implant,
-              Allowed::whole_number(0, 1000000000),
-              "How many of the cells across are under the implant, within its "
-              "rim, the others as many to the left as to the right: cells "
-              "become smaller towards the rim, where the pressure changes "
-              "most. 0: cells do not heed the rim. It is for Element = spline "
-              "or quadratic; trilinear cells become too stiff below the rim.");
-    table.add("Rim grading",
-              rim_grading,
-              allowed_grading,
-              "Exponent g of cells that heed the rim: their sides are at the "
-              "distances R s^g from it within, and (L/2 - R) s^g beside, with "
-              "s equally spaced from 0 to 1, R the radius of the implant and L "
-              "the edge length.");
-    table.add(
-      "Bulk solver",
-      bulk_solver,
-      Allowed::choice("auto | direct | lattice | multigrid"),
-      "How the stiffness of the bone is solved. `direct': by a sparse "
-      "factorisation, condensed on the contact face. `lattice': by "
-      "sines and cosines across, exact for a bone of splines with "
-      "cells of equal width, at the cost of a few products of "
-      "matrices; the bone has no shear at its sides then, which is "
-      "what sides that slide come to with ever finer cells. The "
-      "stiffness of a Neo-Hookean bone stays that at rest, which leads "
-      "Newton's method to the same solution as long as strains are "
-      "small. `multigrid': "
-      "by iterations for the whole system with algebraic multigrid, "
-      "for bones that are too large to be factorised, on any number "
-      "of processes (mpirun). `auto': multigrid on several, or where factors "
-      "would not fit into the memory; lattice where that is possible, the "
-      "implant stays away from the sides, and strains are below some 1 %. The "
-      "program says which, and why.");
+    declare_grading(*this, table);
+    declare_solver(*this, table);
     declare_material(table, true);
     table.leave_subsection();
   }
@@ -251,20 +288,7 @@ namespace Debond
               Allowed::number_between(0, 60, "degrees"),
               "Angle [deg] between the side of a taper and its axis, half of "
               "that of the cone; below it is thinner.");
-    table.add(
-      "Pitch",
-      pitch,
-      allowed_length,
-      "Distance [mm] along the axis between neighbouring crests of the "
-      "thread of a screw. In a turn it comes out by this times Starts.");
-    table.add("Thread depth",
-              thread_depth,
-              allowed_length,
-              "Height [mm] of the thread of a screw.");
-    table.add("Starts",
-              starts,
-              Allowed::whole_number(1, 100),
-              "Number of threads of a screw.");
+    declare_thread(*this, table);
     table.add("Height",
               height,
               allowed_length,

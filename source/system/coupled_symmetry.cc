@@ -53,8 +53,8 @@ namespace Debond
     Eigen::VectorXd      y(folding.size());
     for (unsigned int i = 0; i < y.size(); ++i)
       y[i] = std::sin(1. + i * i); // any
-    const Eigen::VectorXd z = folding.unfold(y);
-    unsigned int          first = 0;
+    const Eigen::VectorXd z      = folding.unfold(y);
+    unsigned int          first  = 0;
     Eigen::VectorXd       forces = Eigen::VectorXd::Zero(unknowns);
     for (const Body *each : body)
       {
@@ -64,9 +64,9 @@ namespace Debond
             each->condensing()->product(z.segment(first, n));
         first += n;
       }
-    const Eigen::VectorXd even = folding.unfold(
-      folding.fold(forces).cwiseQuotient(folding.n_images()));
-    return (forces - even).norm() <= 1e-9 * forces.norm();
+    const Eigen::VectorXd even =
+      folding.unfold(folding.fold(forces).cwiseQuotient(folding.n_images()));
+    return (forces - even).norm() <= 1e-12 * forces.norm();
   }
 
 
@@ -76,8 +76,7 @@ namespace Debond
   void
   CoupledSystem::choose_sectors(std::optional<SectorsOfSurfaces> found)
   {
-    while (found &&
-           !(bodies_have(*found) && interface.keep_one_sector(*found)))
+    while (found && !(bodies_have(*found) && interface.keep_one_sector(*found)))
       found = find_sectors((*found)[Side::bone].n_sectors() - 1);
     sectors = std::move(found);
     number_unknowns();

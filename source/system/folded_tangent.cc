@@ -20,8 +20,8 @@ namespace Debond
     unsigned int                        n = 0;
     for (const Side side : both_sides)
       {
-        const std::vector<int> &old    = configuration.side[side].unknown_of;
-        const auto             &images = sectors[side].control_points;
+        const std::vector<int> &old     = configuration.side[side].unknown_of;
+        const auto             &images  = sectors[side].control_points;
         auto                   &numbers = surfaces[side].unknown_of;
         numbers.assign(old.size(), -1);
         for (unsigned int A = 0; A < images.size(); ++A)
@@ -121,8 +121,7 @@ namespace Debond
     if (can_be_assembled())
       return known_bulk().factor.solve(b);
     const Eigen::VectorXd &n = unknowns.n_images();
-    return unknowns
-      .fold(whole.solve_bulk(unknowns.unfold(b.cwiseQuotient(n))))
+    return unknowns.fold(whole.solve_bulk(unknowns.unfold(b.cwiseQuotient(n))))
       .cwiseQuotient(n);
   }
 

@@ -29,7 +29,8 @@ count_points(const Debond::ContactInterface &interface,
 {
   number = 0;
   area   = 0;
-  for (const auto &point : interface.get_points())
+  std::vector<Debond::SlavePoint> images;
+  for (const auto &point : interface.points_of_all_sectors(images))
     if (bone.point(point.xi).head<2>().norm() <= 2.5 + 1e-12)
       {
         ++number;

@@ -430,6 +430,12 @@ namespace Debond
                    const ControlNet             &before) const;
     void
     find_side(InterfaceSummary &summary) const;
+    /** Puts a point in if its law may fall steeper than those before; @p
+     *  resistance against that [MPa/mm]. */
+    void
+    find_steepest(const SlavePoint &point,
+                  double            resistance,
+                  InterfaceSummary &summary) const;
     /** The share of a point that is held; null: none is. */
     const CohesiveShare *
     held_share(const SlavePoint &point) const;

@@ -21,8 +21,8 @@ namespace Debond
     {
       ControlNet positions; ///< spatial positions of the control points [mm]
       Eigen::Matrix3d frame = Eigen::Matrix3d::Identity(); ///< Q of the body
-      /** By which the frame of each control point is turned against that; empty:
-       *  none is. */
+      /** By which the frame of each control point is turned against that;
+       * empty: none is. */
       std::vector<Eigen::Matrix3d> turns;
       /** For 3 (control point) + component (body frame): number in the coupled
        *  system, -1: none. */

@@ -353,9 +353,9 @@ namespace Debond
     std::optional<SectorsOfSurfaces> sectors;
     std::optional<FoldedUnknowns>    folded; ///< if there are sectors
     FoldedBulk                       folded_bulk;
-    double                        trial_time = 0;
-    PathEquation                  path;
-    const CoupledTangent          matrix;
+    double                           trial_time = 0;
+    PathEquation                     path;
+    const CoupledTangent             matrix;
   };
 } // namespace Debond
 #endif

@@ -155,7 +155,8 @@ namespace Debond
     point.clearance            = projection.clearance;
     // close to the singular corner of a disk, where there is no clearance, the
     // search may end early: no partner is to be found there anyway
-    unprojected += !projection.converged && projection.clearance > 0.;
+    if (!projection.converged && projection.clearance > 0.)
+      unprojected += point.n_images;
     return projection;
   }
 

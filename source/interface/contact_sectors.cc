@@ -1,7 +1,9 @@
 #include <debond/bulk/bulk_space.h>
 #include <debond/interface/contact_interface.h>
+#include <debond/support/input_error.h>
 
 #include <cmath>
+#include <string>
 #include <utility>
 
 // Where bodies, bond and load have a cyclic symmetry the points of one sector
@@ -46,6 +48,19 @@ namespace Debond
     if (sectors)
       for (const Side side : both_sides)
         (*sectors)[side].average(sums[side]);
+  }
+
+
+
+  // An extension of a run may leave the symmetry that it had.
+  void
+  ContactInterface::refuse_sectors(const unsigned int saved) const
+  {
+    throw ForeignCheckpoint(
+      "Load steps / Cyclic symmetry: the run was computed in " +
+      std::to_string(saved) + " like sectors, and this scene has " +
+      std::to_string(n_sectors()) +
+      ": where load or bond leave the symmetry later on, begin anew with none");
   }
 
 

@@ -241,7 +241,7 @@ namespace Debond
                      &point.trial.state.xi)
                 .height < 0.5 * depth)
           continue;
-        ++summary.n_from_side;
+        summary.n_from_side += point.n_images;
         summary.side_depth = std::max(summary.side_depth, depth);
       }
   }

@@ -93,9 +93,9 @@ namespace Debond
            << bone.n_unknowns() + implant.n_unknowns() << " of them unknowns, "
            << system.n_unknowns()
            << " after condensation on the contact surfaces";
-      if (system.n_sectors() > 1)
+      if (system.interface.n_sectors() > 1)
         text << ", " << system.n_unknowns_of_sector() << " of them in one of "
-             << system.n_sectors() << " like sectors";
+             << system.interface.n_sectors() << " like sectors";
       return text;
     }
 

@@ -35,7 +35,7 @@ namespace Debond
             const ControlNet own      = outwards;
             if (!press_fit.is_none())
               on_implant->average(outwards);
-            if ((outwards - own).norm() <= 1e-10 * own.norm())
+            if ((outwards - own).norm() <= 1e-12 * own.norm())
               return SectorsOfSurfaces{
                 {std::move(*on_bone), std::move(*on_implant)}};
           }
@@ -45,7 +45,10 @@ namespace Debond
 
 
   // What no plan of a mesh tells, supports and stiffness at every place, shows
-  // in the forces of some motion that has the symmetry: they have it, too.
+  // in the forces of some motion that has the symmetry: they have it, too. So
+  // do components that are held on one side and free on its image, which the
+  // motion lacks but not the forces. What is not symmetric in them no iteration
+  // could remove: it has to be less than any residual that is asked for.
   bool
   CoupledSystem::bodies_have(const SectorsOfSurfaces &sectors_of_surfaces) const
   {

@@ -1,5 +1,5 @@
 #include <debond/system/coupled_tangent.h>
-#include <debond/system/folded_tangent.h>
+#include <debond/system/folded_unknowns.h>
 
 #include <Eigen/Geometry>
 

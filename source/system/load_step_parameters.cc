@@ -110,8 +110,10 @@ namespace Debond
               "`auto': where bodies, bond and load look the same after a turn "
               "about the z axis, by 90 degrees for a coin on a block, contact "
               "points and unknowns of one sector stand for all. Results are "
-              "the same but for rounding. `none': compute all of them, as a "
-              "bond that breaks on one side first would ask for.");
+              "the same but for rounding. `none': compute all of them. A bond "
+              "that may break on one side first needs an imperfection for "
+              "that, a Pattern or a small motion in x, and is computed as a "
+              "whole then.");
     declare_path(*this, table);
     declare_iteration(*this, table);
     table.leave_subsection();

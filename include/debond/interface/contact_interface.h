@@ -400,6 +400,13 @@ namespace Debond
     serialize(Archive &archive, const unsigned int)
     {
       tangent_is_gathered = false;
+      if constexpr (!is_in_memory<Archive>)
+        {
+          unsigned int saved = n_sectors();
+          archive     &saved;
+          if (saved != n_sectors())
+            refuse_sectors(saved);
+        }
       for (SlavePoint &point : points)
         archive &point;
       for (CohesiveShare &share : shares)
@@ -412,7 +419,17 @@ namespace Debond
         failed = nullptr; // no state that has been accepted did
     }
 
+    /** How many there are, of which the points of one are updated; or 1. */
+    unsigned int
+    n_sectors() const
+    {
+      return sectors ? (*sectors)[slave].n_sectors() : 1;
+    }
+
   private:
+    /** Throws ForeignCheckpoint. */
+    [[noreturn]] void
+    refuse_sectors(unsigned int saved) const;
     /** Gives all sectors what the one that is kept has. */
     void
     average(NodalSums &sums) const;

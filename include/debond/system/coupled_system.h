@@ -11,6 +11,7 @@
 #include <debond/system/whole_solver.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace dealii
@@ -110,12 +111,6 @@ namespace Debond
     void
     rollback();
 
-    /** How many sectors are alike, of which one is computed; 1: all is. */
-    unsigned int
-    n_sectors() const
-    {
-      return sectors ? (*sectors)[Side::implant].n_sectors() : 1;
-    }
     /** Number of unknowns of one sector. */
     unsigned int
     n_unknowns_of_sector() const

@@ -8,6 +8,26 @@
 // load, law and the resistance of the bodies.
 namespace Debond
 {
+  // Other values than those along z and about it are 0 as a number, not as an
+  // expression: that might be 0 at some times only.
+  bool
+  CoupledSystem::is_axial(const ChuckParameters &chuck)
+  {
+    for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
+      {
+        const auto &component = chuck.component[k];
+        if (k != ChuckComponent::translation_z &&
+            k != ChuckComponent::rotation_z &&
+            (component.is_unknown() || !component.file.empty() ||
+             component.function ||
+             component.value.find_first_not_of(" -0.") != std::string::npos))
+          return false;
+      }
+    return true;
+  }
+
+
+
   // Laws with strength in tension are left out: their uniqueness is asked for
   // among all motions, also those that open the bond on one side only.
   std::optional<SectorsOfSurfaces>

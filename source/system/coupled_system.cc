@@ -52,27 +52,6 @@ namespace Debond
         return bodies;
       return std::make_shared<BodyPair>(parameters);
     }
-
-
-
-    /** Whether the chuck moves along z and turns about it, and no more. Other
-     *  values are 0 as a number, not as an expression: that might be 0 at some
-     *  times only. */
-    bool
-    is_axial(const ChuckParameters &chuck)
-    {
-      for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
-        {
-          const auto &component = chuck.component[k];
-          if (k != ChuckComponent::translation_z &&
-              k != ChuckComponent::rotation_z &&
-              (component.is_unknown() || !component.file.empty() ||
-               component.function ||
-               component.value.find_first_not_of(" -0.") != std::string::npos))
-            return false;
-        }
-      return true;
-    }
   } // namespace
 
 

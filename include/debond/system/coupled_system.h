@@ -309,6 +309,9 @@ namespace Debond
 
     /** @name Cyclic symmetry (coupled_symmetry.cc) */
     //@{
+    /** Whether the chuck moves along z and turns about it, and no more. */
+    static bool
+    is_axial(const ChuckParameters &chuck);
     /** A coin of equal cells has 4, round bodies as many as cells around. */
     static constexpr unsigned int most_sectors = 96;
     /** Like sectors, as many as can be and @p most at most, into which turns

@@ -14,7 +14,7 @@ namespace Debond
   // The bond may be without the symmetry that its surfaces have.
   bool
   ContactInterface::keep_one_sector(
-    const std::array<CyclicSymmetry, 2> &sectors_of_surfaces)
+    const SectorsOfSurfaces &sectors_of_surfaces)
   {
     const auto               &images = sectors_of_surfaces[slave].points;
     std::vector<SlavePoint>   kept;
@@ -35,8 +35,7 @@ namespace Debond
       }
     points         = std::move(kept);
     number_of_kept = std::move(numbers);
-    sectors        = std::make_unique<const std::array<CyclicSymmetry, 2>>(
-      sectors_of_surfaces);
+    sectors = std::make_unique<const SectorsOfSurfaces>(sectors_of_surfaces);
     return true;
   }
 

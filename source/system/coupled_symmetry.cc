@@ -76,17 +76,7 @@ namespace Debond
     Eigen::VectorXd      y(folding.size());
     for (unsigned int i = 0; i < y.size(); ++i)
       y[i] = std::sin(1. + i * i); // any
-    const Eigen::VectorXd z      = folding.unfold(y);
-    unsigned int          first  = 0;
-    Eigen::VectorXd       forces = Eigen::VectorXd::Zero(unknowns);
-    for (const Body *each : body)
-      {
-        const unsigned int n = each->n_unknowns();
-        if (each->condensing())
-          forces.segment(first, n) =
-            each->condensing()->product(z.segment(first, n));
-        first += n;
-      }
+    const Eigen::VectorXd forces = matrix.bulk_product(folding.unfold(y));
     const Eigen::VectorXd even =
       folding.unfold(folding.fold(forces).cwiseQuotient(folding.n_images()));
     return (forces - even).norm() <= 1e-12 * forces.norm();
@@ -101,8 +91,8 @@ namespace Debond
   {
     while (found && !(bodies_have(*found) && interface.keep_one_sector(*found)))
       found = find_sectors((*found)[Side::bone].n_sectors() - 1);
-    sectors = std::move(found);
-    number_unknowns();
+    if (found)
+      number_unknowns();
   }
 
 

@@ -161,7 +161,7 @@ namespace Debond
     unknowns    = first + (path.follow ? 1 : 0);
     solver.forget();
     folded_bulk = {};
-    if (sectors)
+    if (const auto *const sectors = interface.like_sectors())
       folded.emplace(*sectors, configuration, unknowns);
   }
 
@@ -230,6 +230,7 @@ namespace Debond
     add(touched_bone_control_points(bone.surface(),
                                     interface.get_points(),
                                     interface.slave_side()));
+    const auto *const sectors = interface.like_sectors();
     if (sectors)
       wanted = (*sectors)[Side::bone].with_images(wanted);
     if (wanted == bone.contact_control_points())

@@ -187,10 +187,18 @@ namespace Debond
   Eigen::VectorXd
   CoupledTangent::product(const Eigen::VectorXd &x) const
   {
-    Eigen::VectorXd y = product_without_bulk(x);
+    return product_without_bulk(x) + bulk_product(x);
+  }
+
+
+
+  Eigen::VectorXd
+  CoupledTangent::bulk_product(const Eigen::VectorXd &x) const
+  {
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(x.size());
     for_each_bulk(
       [&](const CondensingBulk &bulk, const int first, const int n) {
-        y.segment(first, n) += bulk.product(x.segment(first, n));
+        y.segment(first, n) = bulk.product(x.segment(first, n));
       });
     return y;
   }

@@ -3,6 +3,7 @@
 
 #include <debond/geometry/surface_geometry.h>
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -47,5 +48,10 @@ namespace Debond
     std::vector<bool>
     with_images(const std::vector<bool> &marked) const;
   };
+
+
+
+  /** Of both contact surfaces. */
+  using SectorsOfSurfaces = std::array<CyclicSymmetry, 2>;
 } // namespace Debond
 #endif

@@ -191,7 +191,7 @@ namespace Debond
      *  initialise(), of surfaces that have this symmetry; nothing is done, and
      *  false returned, if the bond of the points has not. */
     bool
-    keep_one_sector(const std::array<CyclicSymmetry, 2> &sectors_of_surfaces);
+    keep_one_sector(const SectorsOfSurfaces &sectors_of_surfaces);
 
     /** Updates all points. Returns false if a point found no solution. */
     bool
@@ -419,6 +419,12 @@ namespace Debond
         failed = nullptr; // no state that has been accepted did
     }
 
+    /** Null if all points are updated. */
+    const SectorsOfSurfaces *
+    like_sectors() const
+    {
+      return sectors.get();
+    }
     /** How many there are, of which the points of one are updated; or 1. */
     unsigned int
     n_sectors() const
@@ -507,7 +513,7 @@ namespace Debond
     const unsigned int               n; ///< points per direction, element
     std::vector<SlavePoint>          points;
     /** Of both surfaces, if one sector stands for all; else null. */
-    std::unique_ptr<const std::array<CyclicSymmetry, 2>> sectors;
+    std::unique_ptr<const SectorsOfSurfaces> sectors;
     /** Which of `points' stands for each of all. */
     std::vector<unsigned int> number_of_kept;
     /** Of each point, by laws that hold one; else empty. */

@@ -347,13 +347,12 @@ namespace Debond
     std::array<Body::Residual, 2> bulk_residual;
     DenseSolver                   solver;
     /** Whether the load leaves a cyclic symmetry as it is. */
-    const bool                       load_is_axial;
-    std::optional<SectorsOfSurfaces> sectors;
-    std::optional<FoldedUnknowns>    folded; ///< if there are sectors
-    FoldedBulk                       folded_bulk;
-    double                           trial_time = 0;
-    PathEquation                     path;
-    const CoupledTangent             matrix;
+    const bool                    load_is_axial;
+    std::optional<FoldedUnknowns> folded; ///< if there are like sectors
+    FoldedBulk                    folded_bulk;
+    double                        trial_time = 0;
+    PathEquation                  path;
+    const CoupledTangent          matrix;
   };
 } // namespace Debond
 #endif

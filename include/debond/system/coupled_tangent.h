@@ -94,6 +94,9 @@ namespace Debond
     solve_bulk(const Eigen::VectorXd &b) const override;
     void
     assemble(Eigen::MatrixXd &matrix) const override;
+    /** B x without the chuck. */
+    Eigen::VectorXd
+    bulk_product(const Eigen::VectorXd &x) const;
     /** B, where A can be assembled. */
     Eigen::MatrixXd
     bulk_stiffness() const;

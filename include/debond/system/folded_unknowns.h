@@ -12,9 +12,6 @@
 
 namespace Debond
 {
-  /** Of both contact surfaces. */
-  using SectorsOfSurfaces = std::array<CyclicSymmetry, 2>;
-
   /**
    * The unknowns z of the coupled system where bodies, bond and load have a
    * cyclic symmetry: those of one sector, y, say all, z = E y. Unknowns of the

@@ -969,33 +969,21 @@ def refined_parts():
     return table(['mesh', 'unknowns', 'error of the curve'], lines)
 
 
-@numbers('minutes')
-def splines_elsewhere():
-    def mesh(bone, implant, grading, element, tolerance):
-        return tuple('%s/%s' % pair for body, cells in (('Bone', bone), ('Implant', implant)) for pair in (
-            (body, 'Cells=' + cells), (body, 'Layer grading=%g' % grading), (body, 'Element=' + element))) + ADAPTIVE + (
-                'Load steps/Tolerance=' + tolerance,) + THREE_PHASES
-    choices = (('trilinear 30 x 30 x 8 / 6 x 6 x 8', mesh('30, 30, 8', '6, 8', 1.5, 'trilinear', '1e-3')),
-               ('splines 32 x 32 x 8 / 6 x 6 x 4', mesh('32, 32, 8', '6, 4', 2, 'spline', '3e-4')),
-               ('trilinear 60 x 60 x 12 / 12 x 12 x 12', mesh('60, 60, 12', '12, 12', 1.5, 'trilinear', '2e-4')),
-               ('splines 60 x 60 x 8 / 12 x 12 x 6', mesh('60, 60, 8', '12, 6', 2, 'spline', '2e-4')))
-    fine = mesh('120, 120, 12', '16, 10', 2, 'spline', '2e-5') + ('Interface/Quadrature points=8',)
-    bonded_half = ('Interface/Bonding/Pattern=expression', 'Interface/Bonding/Expression=x > 0 ? 1 : 0')
-    # about an axis half a millimetre beside that of the coin
-    off_centre = ('Chuck/Translation x/Value=0.5 * (1 - cos(pi / 18 * max(t - 1, 0)))',
-                  'Chuck/Translation y/Value=-0.5 * sin(pi / 18 * max(t - 1, 0))')
-    scenes = (
-        ('main scene', ()),
-        ('1800 MPa/mm', ('Interface/Penalty stiffness=1800',)),
-        ('6000 MPa/mm', ('Interface/Penalty stiffness=6000',)),
-        ("Poisson's ratio of the bone 0.45", ('Bone/Poisson ratio=0.45',)),
-        ("Poisson's ratio of the bone 0.49", ('Bone/Poisson ratio=0.49',)),
-        ('bonded in a disk, f = 0.55', ('Interface/Bonding/Pattern=disk', 'Interface/Bonding/Bonded fraction=0.55',
-                                        'Interface/Bonding/Resolution=quadrature point')),
-        ('one half bonded, turned about an axis 0.5 mm off centre', bonded_half + off_centre),
-        ('a cap, pressed by 0.02 mm', ('Implant/Shape=cap', 'Chuck/Translation z/Value=-0.02 * min(t, 1)')),
-        ('tilted by 0.1 degrees', ('Chuck/Rotation x/Value=0.1 * min(t, 1)',)),
-        ('a force instead of a depth', ('Chuck/Translation z/Control=force', 'Chuck/Translation z/Value=-51.5 * min(t, 1)')))
+def with_mesh(bone, implant, grading, element, tolerance):
+    return tuple('%s/%s' % pair for body, cells in (('Bone', bone), ('Implant', implant)) for pair in (
+        (body, 'Cells=' + cells), (body, 'Layer grading=%g' % grading), (body, 'Element=' + element))) + ADAPTIVE + (
+            'Load steps/Tolerance=' + tolerance,) + THREE_PHASES
+
+
+BONDED_IN_A_DISK = ('Interface/Bonding/Pattern=disk', 'Interface/Bonding/Bonded fraction=0.55', 'Interface/Bonding/Resolution=quadrature point')
+BONDED_HALF = ('Interface/Bonding/Pattern=expression', 'Interface/Bonding/Expression=x > 0 ? 1 : 0')
+# about an axis half a millimetre beside that of the coin
+OFF_CENTRE = ('Chuck/Translation x/Value=0.5 * (1 - cos(pi / 18 * max(t - 1, 0)))',
+              'Chuck/Translation y/Value=-0.5 * sin(pi / 18 * max(t - 1, 0))')
+TILTED = ('Chuck/Rotation x/Value=0.1 * min(t, 1)',)
+
+
+def errors_elsewhere(scenes, fine, choices):
     lines = []
     for name, changes in scenes:
         reference = run(MAIN, *fine, *LINEAR, *changes)['curve']
@@ -1005,6 +993,44 @@ def splines_elsewhere():
             line += [small(largest_error(reference, result['fine curve'], [FORCES, MOMENTS])), '%.2g s' % result['wall_seconds']]
         lines.append(line)
     return table(['scene'] + [column for name, _ in choices for column in (name, 'seconds')], lines)
+
+
+@numbers('minutes')
+def splines_elsewhere():
+    choices = (('trilinear 30 x 30 x 8 / 6 x 6 x 8', with_mesh('30, 30, 8', '6, 8', 1.5, 'trilinear', '1e-3')),
+               ('splines 32 x 32 x 8 / 6 x 6 x 4', with_mesh('32, 32, 8', '6, 4', 2, 'spline', '3e-4')),
+               ('trilinear 60 x 60 x 12 / 12 x 12 x 12', with_mesh('60, 60, 12', '12, 12', 1.5, 'trilinear', '2e-4')),
+               ('splines 60 x 60 x 8 / 12 x 12 x 6', with_mesh('60, 60, 8', '12, 6', 2, 'spline', '2e-4')))
+    return errors_elsewhere((
+        ('main scene', ()),
+        ('1800 MPa/mm', ('Interface/Penalty stiffness=1800',)),
+        ('6000 MPa/mm', ('Interface/Penalty stiffness=6000',)),
+        ("Poisson's ratio of the bone 0.45", ('Bone/Poisson ratio=0.45',)),
+        ("Poisson's ratio of the bone 0.49", ('Bone/Poisson ratio=0.49',)),
+        ('bonded in a disk, f = 0.55', BONDED_IN_A_DISK),
+        ('one half bonded, turned about an axis 0.5 mm off centre', BONDED_HALF + OFF_CENTRE),
+        ('a cap, pressed by 0.02 mm', ('Implant/Shape=cap', 'Chuck/Translation z/Value=-0.02 * min(t, 1)')),
+        ('tilted by 0.1 degrees', TILTED),
+        ('a force instead of a depth', ('Chuck/Translation z/Control=force', 'Chuck/Translation z/Value=-51.5 * min(t, 1)'))),
+        with_mesh('120, 120, 12', '16, 10', 2, 'spline', '2e-5') + ('Interface/Quadrature points=8',), choices)
+
+
+@numbers('minutes')
+def stiff_elsewhere():
+    choices = (('equal 32 x 32 x 8 / 6 x 6 x 4', with_mesh('32, 32, 8', '6, 4', 2, 'spline', '3e-4')),
+               ('equal 64 x 64 x 10 / 12 x 12 x 6', with_mesh('64, 64, 10', '12, 6', 2, 'spline', '3e-4')),
+               ('fitted 12, 4, 7, 6 / 12, 4, 4', with_mesh('fitted 12, 4, 7, 6', 'fitted 12, 4, 4', 1, 'spline', '3e-4')),
+               ('fitted 16, 6, 10, 9 / 12, 5, 5', with_mesh('fitted 16, 6, 10, 9', 'fitted 12, 5, 5', 1, 'spline', '3e-4')))
+    stiff = ('Interface/Penalty stiffness=1e5',)
+    return errors_elsewhere((
+        ('coin_stiff', stiff),
+        ('Neo-Hookean', stiff + ('Bone/Material=neo-hookean', 'Implant/Material=neo-hookean')),
+        ('a force instead of a depth', stiff + ('Chuck/Translation z/Control=force', 'Chuck/Translation z/Value=-600 * min(t, 1)')),
+        ('bonded in a disk, f = 0.55', stiff + BONDED_IN_A_DISK),
+        ('one half bonded, turned about an axis 0.5 mm off centre', stiff + BONDED_HALF + OFF_CENTRE),
+        ('tilted by 0.1 degrees', stiff + TILTED),
+        ('a modulus of 12 000 MPa that waves by half', stiff + ('Bone/Young modulus=12000 + 6000 * sin(2 * x) * cos(2 * y)',))),
+        with_mesh('fitted 24, 8, 14, 11', 'fitted 20, 6, 6', 1, 'spline', '2e-4'), choices)
 
 
 @numbers('minutes')

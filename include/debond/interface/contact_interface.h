@@ -353,11 +353,6 @@ namespace Debond
     }
     const BodyParameters &
     implant() const;
-    const InterfaceParameters &
-    get_parameters() const
-    {
-      return parameters;
-    }
     const InterfaceLaw &
     get_law() const
     {

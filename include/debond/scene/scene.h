@@ -54,38 +54,6 @@ namespace Debond
     unsigned int repetitions       = 1; ///< runs of each variant
   };
 
-  /** What a calibration makes small. */
-  enum class MisfitMeasure
-  {
-    least_squares,
-    e_mp, ///< Eq. (19)
-    e_rel ///< Eq. (50)
-  };
-
-  /** The subsection `Calibration`, for `Task = calibrate`. */
-  struct CalibrationParameters
-  {
-    /** Columns of torque.csv, and what they are drawn over; empty: those of
-     *  `Output / Curve'. */
-    std::vector<std::string> curves;
-    std::string              over;
-    std::vector<double>      windows; ///< pairs of bounds in `over`; empty: all
-    /** Standard deviation over the largest measured value, of each curve or of
-     *  all; 0: from the residuals. */
-    std::vector<double>      noise{0.};
-    std::vector<std::string> noise_columns; ///< of the file, instead of noise
-    double                   angle_offset       = 0; ///< [deg]
-    double                   slack              = 0; ///< [deg]
-    double                   machine_compliance = 0; ///< [deg/(N mm)]
-    double                   torque_offset      = 0; ///< [N mm]
-    double                   torque_drift       = 0; ///< [N mm]
-    MisfitMeasure            measure            = MisfitMeasure::least_squares;
-    double                   largest_misfit     = 0.1; ///< e_rel
-    unsigned int             starts             = 20;
-    unsigned int             seed               = 1;
-    bool                     profiles           = false; ///< of the likelihood
-  };
-
   /** The subsection `Output` of a scene. */
   struct OutputParameters
   {
@@ -149,10 +117,9 @@ namespace Debond
     Task                 task  = Task::simulate;
     ClosedFormParameters closed_form;
     /** The subsection `Auto`, for `Model = auto`. */
-    unsigned int          largest_number_of_unknowns = 250000;
-    StudyParameters       study;
-    CalibrationParameters calibration;
-    OutputParameters      output;
+    unsigned int     largest_number_of_unknowns = 250000;
+    StudyParameters  study;
+    OutputParameters output;
 
     /** The entries that the scene sets, and its name: where to look for a
      *  mistake. */

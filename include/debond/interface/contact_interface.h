@@ -208,7 +208,7 @@ namespace Debond
     bool
     depends_on_rate() const
     {
-      return is_viscous() || law.joint->friction->depends_on_rate();
+      return is_viscous() || law.joint->depends_on_rate();
     }
     bool
     is_viscous() const

@@ -187,6 +187,10 @@ namespace Debond
     warnings() const;
   };
 
+  /** Whether an entry has the value of a scene that nothing was said of. */
+  bool
+  is_default(const SceneEntry &entry);
+
   /** Writes all entries with documentation, what they allow and their values:
    *  those of @p scene, or the defaults without one. */
   void

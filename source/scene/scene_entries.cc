@@ -363,7 +363,8 @@ namespace Debond
                 "study write none.");
       table.add(
         "Published values",
-        output.published,
+        "",
+        nullptr,
         Allowed::list(Allowed::number(""), 0, 4),
         "T_max, T_inf [N mm], theta_lin, theta_max (of the peak) [deg], the "
         "first of them or all, that the report marks in the curve. Empty: "
@@ -403,7 +404,8 @@ namespace Debond
               "Load steps / Tolerance, and answers with the cheapest model "
               "that is; the program chooses the steps.");
     table.add("Task",
-              task,
+              "simulate",
+              nullptr,
               Allowed::choice("simulate | calibrate"),
               "What to do with the model. `simulate': run it once. "
               "`calibrate': find the numbers that stand in entries as "

@@ -26,13 +26,6 @@ namespace Debond
     automatic ///< `auto`
   };
 
-  /** What is done with the model. */
-  enum class Task
-  {
-    simulate, ///< run it once
-    calibrate ///< find unknowns of the scene from measured curves
-  };
-
   /** The subsection `Closed form` of a scene: what the models foundation,
    *  analytical and mathieu need besides the other entries. */
   struct ClosedFormParameters
@@ -74,9 +67,6 @@ namespace Debond
     double              checkpoint_minutes = 5.;    ///< 0: no such checkpoints
     bool                quiet              = false; ///< warnings only
     bool                report             = true;  ///< write report.html
-    /** T_max, T_inf [N mm], theta_lin, theta_max [deg] to mark in the report.
-     */
-    std::vector<double> published;
     /** Use a directory that holds results of another scene, or the checkpoint
      * of an interrupted run. No entry of the scene: the option --force of the
      *  program. */
@@ -114,7 +104,6 @@ namespace Debond
   {
     std::string          title;
     ModelKind            model = ModelKind::finite_elements;
-    Task                 task  = Task::simulate;
     ClosedFormParameters closed_form;
     /** The subsection `Auto`, for `Model = auto`. */
     unsigned int     largest_number_of_unknowns = 250000;

@@ -9,7 +9,7 @@
 #include <debond/models/varying_curve.h>
 #include <debond/output/curve_comparison.h>
 #include <debond/output/result_files.h>
-#include <debond/support/interruption.h>
+#include <debond/support/input_error.h>
 #include <debond/support/provenance.h>
 #include <debond/support/runtime.h>
 

@@ -66,7 +66,7 @@ work_together(const Ranks::TeamPointer &team, const Work &work)
     {
       const bool of_python =
         dynamic_cast<const py::error_already_set *>(&error) != nullptr;
-      if (Ranks::number() > 1 && !of_python && !is_of_all_ranks(error))
+      if (!of_python && !Ranks::all_meet(error))
         {
           std::cerr << "debond: rank " << Ranks::own() << ": " << error.what()
                     << "; all that it works with end" << std::endl;

@@ -49,7 +49,7 @@ namespace Debond
                              Eigen::VectorXd       &force,
                              double                &energy) const
   {
-    const bool is_valid = BulkOfCells::internal_forces(v, force, energy);
+    const bool is_valid = Bulk::internal_forces(v, force, energy);
     double     sums[]{is_valid ? energy : 0., is_valid ? 0. : 1.};
     Ranks::add_up(sums, 2);
     energy = sums[0];

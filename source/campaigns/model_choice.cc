@@ -4,7 +4,6 @@
 #include <debond/models/debonding_problem.h>
 #include <debond/output/console.h>
 #include <debond/support/input_error.h>
-#include <debond/support/interruption.h>
 #include <debond/support/number_text.h>
 #include <debond/system/memory_estimate.h>
 

@@ -4,7 +4,6 @@
 #include <debond/models/debonding_problem.h>
 #include <debond/output/curve_comparison.h>
 #include <debond/support/input_error.h>
-#include <debond/support/interruption.h>
 #include <debond/support/ranks.h>
 
 #include <deal.II/base/timer.h>
@@ -48,16 +47,5 @@ namespace Debond
       {
         throw scene.with_place(error); // what is said of the scene gets a place
       }
-  }
-
-
-
-  bool
-  is_of_all_ranks(const std::exception &error)
-  {
-    return dynamic_cast<const WriteError *>(&error) == nullptr &&
-           (dynamic_cast<const InputError *>(&error) != nullptr ||
-            dynamic_cast<const RunError *>(&error) != nullptr ||
-            dynamic_cast<const Interrupted *>(&error) != nullptr);
   }
 } // namespace Debond

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 namespace Debond
 {
@@ -21,7 +22,8 @@ namespace Debond
     {
       boost::remove_erase_if(values,
                              [](const double x) { return !std::isfinite(x); });
-      return values.empty() ? unknown : boost::math::statistics::median(values);
+      return values.empty() ? std::numeric_limits<double>::quiet_NaN() :
+                              boost::math::statistics::median(values);
     }
   } // namespace
 
@@ -54,16 +56,6 @@ namespace Debond
                                                            text);
       }
     return names;
-  }
-
-
-
-  double
-  number_in(const nlohmann::ordered_json &summary, const std::string &name)
-  {
-    const auto found = summary.find(name);
-    return found != summary.end() && found->is_number() ? found->get<double>() :
-                                                          unknown;
   }
 
 

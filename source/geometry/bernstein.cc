@@ -119,9 +119,7 @@ namespace Debond
                      const unsigned int n_spans,
                      const double       grading)
   {
-    if (!(grading > 0.) || n_spans == 0)
-      throw std::invalid_argument(
-        "A knot vector needs a positive grading and one span at least.");
+    assert(grading > 0. && n_spans > 0);
     std::vector<double> breakpoints{0.};
     for (unsigned int i = 1; i < n_spans; ++i)
       {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <vector>
 
 // How the projection works. Inside one element the surface is smooth, so half
@@ -536,9 +536,7 @@ namespace Debond
                 const Vector3d     &x,
                 const Vector2d     *guess)
   {
-    if (control_points.cols() != surface.n_control_points())
-      throw std::invalid_argument(
-        "The control net does not belong to this surface.");
+    assert(control_points.cols() == surface.n_control_points());
 
     const DistanceProblem problem{surface, control_points, x};
     if (guess != nullptr && guess->allFinite())

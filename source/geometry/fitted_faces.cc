@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <optional>
-#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -116,9 +116,7 @@ namespace Debond
                    const unsigned int            n_outside,
                    const std::optional<Outline> &outside)
     {
-      if (n_around < 4 || n_around % 4 != 0 || n_rings == 0)
-        throw std::invalid_argument(
-          "A fitted disk has 4, 8, 12, ... elements around.");
+      assert(n_around >= 4 && n_around % 4 == 0 && n_rings > 0);
       // corners of the core at 0.55 R, its sides bulged by 1.4: half way
       // between straight lines and arcs of a circle. Other values hardly change
       // results.

@@ -3,8 +3,8 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 // Refinement, and the faces that are made by it.
@@ -39,9 +39,7 @@ namespace Debond
   NurbsSurface::insert_knot(const unsigned int direction,
                             const double       knot) const
   {
-    if (direction > 1 || !(knot > 0. && knot < 1.))
-      throw std::invalid_argument(
-        "A knot is inserted in direction 0 or 1, strictly between 0 and 1.");
+    assert(direction <= 1 && knot > 0. && knot < 1.);
 
     const std::vector<double> &U = knot_vectors[direction].knots();
     std::vector<double>        refined(U);
@@ -86,9 +84,7 @@ namespace Debond
   NurbsSurface::refine_uniformly(const unsigned int n1,
                                  const unsigned int n2) const
   {
-    if (n_elements() != 1 || n1 == 0 || n2 == 0)
-      throw std::invalid_argument(
-        "Uniform refinement starts from one element and makes one at least.");
+    assert(n_elements() == 1 && n1 > 0 && n2 > 0);
 
     NurbsSurface result = *this;
     for (const auto &[direction, n] : {std::pair(0U, n1), std::pair(1U, n2)})
@@ -102,9 +98,7 @@ namespace Debond
   NurbsSurface
   NurbsSurface::disk(const double R, const unsigned int n)
   {
-    if (!(R > 0. && std::isfinite(R)) || n == 0)
-      throw std::invalid_argument(
-        "A disk needs a positive radius and one element at least.");
+    assert(R > 0. && n > 0);
 
     // Each edge is a quarter circle: middle weight cos(45 degrees), middle
     // control point where the tangents of its ends meet.
@@ -138,8 +132,7 @@ namespace Debond
                     const double       cap_radius,
                     const unsigned int n)
   {
-    if (!(cap_radius > R && std::isfinite(cap_radius)))
-      throw std::invalid_argument("A cap is part of a larger sphere.");
+    assert(cap_radius > R);
 
     NurbsSurface              result = disk(R, n);
     const KnotVector         &knots  = result.knot_vectors[0];
@@ -183,8 +176,7 @@ namespace Debond
                           const KnotVector &knots_1,
                           const KnotVector &knots_2)
   {
-    if (!(lx > 0. && ly > 0. && std::isfinite(lx) && std::isfinite(ly)))
-      throw std::invalid_argument("A rectangle needs positive edge lengths.");
+    assert(lx > 0. && ly > 0.);
 
     return unweighted(knots_1,
                       knots_2,

@@ -87,15 +87,11 @@ namespace Debond
     , points(control_points)
     , weight(weights)
   {
-    if (knots_1.n_spans() == 0 || knots_2.n_spans() == 0 ||
-        knots_1.degree() != knots_2.degree())
-      throw std::invalid_argument(
-        "A surface needs two knot vectors of the same degree.");
-    const unsigned int n_functions =
-      knots_1.n_basis_functions() * knots_2.n_basis_functions();
-    if (points.cols() != n_functions || weight.size() != n_functions)
-      throw std::invalid_argument(
-        "A surface needs one control point and one weight per basis function.");
+    assert(knots_1.n_spans() > 0 && knots_2.n_spans() > 0 &&
+           knots_1.degree() == knots_2.degree());
+    assert(points.cols() == Eigen::Index(weight.size()) &&
+           weight.size() ==
+             knots_1.n_basis_functions() * knots_2.n_basis_functions());
     const Eigen::Map<const Eigen::ArrayXd> w(weight.data(), weight.size());
     if (!points.allFinite() || !w.allFinite() || !(w > 0.).all())
       throw std::invalid_argument(

@@ -1,6 +1,7 @@
 #include <debond/geometry/nurbs_surface.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -28,9 +29,7 @@ namespace Debond
   {
     for (const auto &each : control_points_of_faces)
       {
-        if (each.size() != (degree + 1) * (degree + 1))
-          throw std::invalid_argument(
-            "A face has (p+1)^2 control points, p its degree.");
+        assert(each.size() == (degree + 1) * (degree + 1));
         Face &face          = faces.emplace_back();
         face.control_points = each;
         face.corners        = {{each.front(),
@@ -120,9 +119,8 @@ namespace Debond
             own_points.push_back(number_of_point(patch.points.col(A)));
             if (own_points.back() == weights.size())
               weights.push_back(patch.weight[A]);
-            if (std::abs(weights[own_points.back()] - patch.weight[A]) > 1e-9)
-              throw std::invalid_argument(
-                "Patches that meet need the same weights there.");
+            assert(std::abs(weights[own_points.back()] - patch.weight[A]) <=
+                   1e-9);
           }
         for (const double v : patch.knots(1).breakpoints())
           for (const double u : patch.knots(0).breakpoints())

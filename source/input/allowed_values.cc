@@ -321,16 +321,5 @@ namespace Debond
                        "without ~ or $ at its beginning, and not /";
               }};
     }
-
-
-
-    AllowedValues
-    reserved(const std::string &value)
-    {
-      return {[value](const std::string &text) { return text == value; },
-              (value.empty() ? "no value" : value) +
-                " (nothing else in this version)",
-              nullptr};
-    }
   } // namespace Allowed
 } // namespace Debond

@@ -159,20 +159,6 @@ namespace Debond
 
 
 
-  std::vector<std::vector<std::string>>
-  read_csv_texts(const std::string &filename, const std::string &entry)
-  {
-    std::vector<std::vector<std::string>> lines;
-    for_each_line(filename, entry, [&](unsigned int, const auto &line) {
-      lines.push_back(split_csv_line(line, ','));
-    });
-    if (lines.empty())
-      throw EntryError(entry, "this file is empty", filename);
-    return lines;
-  }
-
-
-
   std::string
   csv_line(const std::vector<std::string> &texts)
   {

@@ -3,11 +3,10 @@
 
 #include <cmath>
 #include <limits>
-#include <utility>
 
 // Methods that are there to be compared with, and not to be used: the direction
-// of slip that does not turn within a step, or, as Eq. (31) has it, not at all,
-// and friction that is a step late. doc/stability.md shows where they fail.
+// of slip that does not turn within a step, or, as Eq. (31) has it, not at all.
+// doc/stability.md shows where they fail.
 // What the program does by itself needs nothing of this file.
 namespace Debond
 {
@@ -80,87 +79,5 @@ namespace Debond
       with(limit / pull_along_surface * m, 0.) * m.transpose();
     (is_previous_gap ? change.old_gap : change.trial) += turn;
     change.normal = -pull_along_n * turn;
-  }
-
-
-
-  namespace
-  {
-    /** A law that is asked where the step begins, so that a softening bond lags
-     *  behind by a step. Its local problem has no slope and is never ambiguous.
-     *  Works are still those of the law. */
-    class ExplicitUpdate : public FrictionLaw
-    {
-    public:
-      explicit ExplicitUpdate(FrictionLawPointer law)
-        : law(std::move(law))
-      {}
-
-      FrictionCoefficient
-      coefficient(const FrictionState &start, double) const override
-      {
-        FrictionCoefficient result = law->coefficient(start, 0.);
-        result.dmu                 = 0.;
-        return result;
-      }
-      double
-      steepest_fall(const FrictionState &, double) const override
-      {
-        return 0.;
-      }
-
-      InternalVariables
-      advance(const FrictionState &start, const double distance) const override
-      {
-        return law->advance(start, distance);
-      }
-      InternalVariables
-      initial_variables() const override
-      {
-        return law->initial_variables();
-      }
-      double
-      friction_strength(const FrictionState &start,
-                        const double         distance) const override
-      {
-        return law->friction_strength(start, distance);
-      }
-      FrictionCoefficient
-      reported(const FrictionState &state) const override
-      {
-        return law->reported(state);
-      }
-      bool
-      is_frictionless() const override
-      {
-        return law->is_frictionless();
-      }
-      bool
-      has_bond() const override
-      {
-        return law->has_bond();
-      }
-      double
-      mu_without_bond() const override
-      {
-        return law->mu_without_bond();
-      }
-      double
-      characteristic_distance() const override
-      {
-        return law->characteristic_distance();
-      }
-
-    private:
-      const FrictionLawPointer law;
-    };
-  } // namespace
-
-
-
-  FrictionLawPointer
-  explicit_update(FrictionLawPointer law)
-  {
-    return std::make_shared<ExplicitUpdate>(std::move(law));
   }
 } // namespace Debond

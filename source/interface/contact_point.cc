@@ -28,18 +28,15 @@ namespace Debond
              const ContactPointState &old_state,
              ContactPointResult      &result)
   {
-    result.failed = result.negative_friction = false;
-    result.state                             = old_state;
-    result.state.status                      = PointStatus::open;
+    ContactPointAnswer open;
+    open.state        = old_state;
+    open.state.status = PointStatus::open;
+    open.state.gap.setZero();
     if (old_state.status != PointStatus::open)
-      static_cast<PointHistory &>(result.state) = law.joint->open(old_state);
+      static_cast<PointHistory &>(open.state) = law.joint->open(old_state);
     // No traction, no stored energy, and no derivatives: an open point drops
     // out of forces and tangent.
-    result.traction = result.tangential_traction = result.viscous_traction =
-      result.slip_increment                      = Vector3d::Zero();
-    result.normal_gap = result.energy = result.softening = result.path_to_edge =
-      result.pressure = result.viscous_pressure = 0.;
-    result.state.gap.setZero();
+    static_cast<ContactPointAnswer &>(result) = open;
     result.dt.setZero();
     result.dxi.setZero();
     result.by_damage = {};

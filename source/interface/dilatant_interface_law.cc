@@ -129,7 +129,7 @@ namespace Debond
         const double height = choice.number("Height"),
                      length = choice.number("Length"),
                      least  = parts.friction->mu_without_bond();
-        if (!parts.friction->depends_on_rate() && height > least * length)
+        if (!parts.depends_on_rate() && height > least * length)
           throw EntryError(
             "Interface / Dilatant / Height",
             "the faces would climb by " + to_text(height / length) +

@@ -7,14 +7,6 @@
 
 namespace Debond
 {
-  InterfaceLaw::InterfaceLaw(const InterfaceLawParts &parts)
-    : stiffness(parts.stiffness)
-    , friction(parts.friction)
-    , opening_breaks_bond(parts.opening_breaks_bond)
-  {}
-
-
-
   PointStart
   InterfaceLaw::begin(const PointHistory &history,
                       const double        phi_0,
@@ -109,8 +101,9 @@ namespace Debond
                  per_pressure = friction->friction_strength(state, distance);
     PointWork result;
     result.friction       = mean * per_pressure;
-    result.friction_bound = 0.5 * std::abs(p - p_end) * per_pressure +
-                            mean * friction->strength_bound(state, distance);
+    result.friction_bound = 0.5 * std::abs(p - p_end) * per_pressure;
+    if (depends_on_rate())
+      result.friction_bound += mean * friction->strength_bound(state, distance);
     if (friction->has_bond())
       result.adhesive =
         mean * (per_pressure - friction->mu_without_bond() * distance);
@@ -125,8 +118,10 @@ namespace Debond
                                   const double      pressure,
                                   const double      distance) const
   {
-    return friction->steepest_fall(start.friction(), distance) *
-           std::max(0., pressure);
+    return explicit_friction ?
+             0. :
+             friction->steepest_fall(start.friction(), distance) *
+               std::max(0., pressure);
   }
 
 
@@ -141,7 +136,7 @@ namespace Debond
                          "expected false",
                        "true");
     auto bond = std::dynamic_pointer_cast<const BondFriction>(parts.friction);
-    if (!bond)
+    if (!bond || parts.explicit_friction)
       throw EntryError("Interface / Law",
                        "the law " + law +
                          " needs a friction law whose bond breaks with the "

@@ -103,10 +103,9 @@ namespace Debond
   InterfaceParameters::joint() const
   {
     const InterfaceLawParts parts{normal_penalty,
-                                  explicit_friction ?
-                                    explicit_update(friction) :
-                                    friction,
-                                  opening_breaks_bond};
+                                  friction,
+                                  opening_breaks_bond,
+                                  explicit_friction};
     return law_choice.law.empty() ? friction_under_pressure(parts) :
                                     create_interface_law(law_choice, parts);
   }

@@ -11,8 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <limits>
-#include <set>
 
 namespace Debond
 {
@@ -34,28 +32,16 @@ namespace Debond
 
 
 
-    /** A number of the summary; NaN if it has none. */
-    double
-    value_in(const nlohmann::ordered_json &summary, const char *const name)
-    {
-      const auto found = summary.find(name);
-      return found != summary.end() && found->is_number() ?
-               found->get<double>() :
-               std::numeric_limits<double>::quiet_NaN();
-    }
-
-
-
     /** "1.3 s, 45 steps, 76 Newton iterations, 1 warning" */
     std::string
     effort_in_words(const nlohmann::ordered_json &summary,
                     const std::size_t             n_warnings)
     {
-      const double steps = value_in(summary, "steps");
-      return to_text(value_in(summary, "wall_seconds"), 2) + " s" +
+      const double steps = number_in(summary, "steps");
+      return to_text(number_in(summary, "wall_seconds"), 2) + " s" +
              (std::isfinite(steps) ?
                 ", " + to_text(steps, 6) + " steps, " +
-                  to_text(value_in(summary, "newton_iterations"), 6) +
+                  to_text(number_in(summary, "newton_iterations"), 6) +
                   " Newton iterations" :
                 "") +
              (n_warnings == 0 ? "" :
@@ -75,7 +61,7 @@ namespace Debond
     {
       std::vector<std::string> lines;
       const auto               value = [&](const char *const name) {
-        return value_in(summary, name);
+        return number_in(summary, name);
       };
       const auto number = [](const double value) { return to_text(value, 6); };
       // a line is there if the first of its numbers is known
@@ -145,18 +131,11 @@ namespace Debond
       Scene      defaults;
       EntryTable table;
       defaults.declare(table);
-      std::set<std::string> as_ever{"Output / Directory"};
-      const auto            add = [&](const SceneEntry &entry) {
-        as_ever.insert(entry.full_name() + " = " + entry.value);
-      };
-      for (const SceneEntry &entry : read_scene_text(table.text(), ""))
-        add(entry);
       nlohmann::ordered_json list = nlohmann::ordered_json::array();
       for (const SceneEntry &entry :
            read_scene_text(scene.completed_parameters, ""))
         if (const std::string name = entry.full_name();
-            as_ever.count(name) == 0 &&
-            as_ever.count(name + " = " + entry.value) == 0)
+            name != "Output / Directory" && !is_default(entry))
           list.push_back({{"entry", name},
                           {"value", entry.value},
                           {"unit", table.unit_of(name)}});

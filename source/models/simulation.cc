@@ -159,17 +159,19 @@ namespace Debond
     const std::size_t n_rows     = all_rows.size(),
                       n_warnings = all_warnings.size();
     last_row.save(*this);
+    is_lost = true;
     try
       {
         if (all_rows.empty())
           solve_first_row();
         else
           solve_row();
+        is_lost = false;
       }
-    catch (...)
+    // Several ranks have to restore their parts of a body together.
+    catch (const std::exception &error)
       {
-        is_lost = true;
-        if (is_met_by_all_ranks())
+        if (Ranks::all_meet(error))
           try
             {
               last_row.restore(*this);
@@ -182,34 +184,6 @@ namespace Debond
         throw;
       }
     Ranks::in_agreement([this] { signals.row(all_rows.back()); });
-  }
-
-
-
-  // Of the exception at hand. Several ranks have to restore their parts of a
-  // body together. What one of them alone has met, as a lack of memory, the
-  // others do not know of.
-  bool
-  Simulation::is_met_by_all_ranks() const
-  {
-    if (Ranks::number() == 1)
-      return true;
-    try
-      {
-        throw;
-      }
-    catch (const RunError &)
-      {
-        return true;
-      }
-    catch (const InputError &)
-      {
-        return true;
-      }
-    catch (...)
-      {
-        return false;
-      }
   }
 
 

@@ -62,8 +62,7 @@ namespace Debond
       double
       path_at(const double slip) const
       {
-        return slip +
-               law(slip).mu * disk.pressure / disk.stiffness;
+        return slip + law(slip).mu * disk.pressure / disk.stiffness;
       }
 
       /** The sliding distance at a path, which is beyond the last one. */
@@ -85,23 +84,16 @@ namespace Debond
       void
       slide_to(const double end)
       {
-        using Gauss       = boost::math::quadrature::gauss<double, 7>;
-        const double half = 0.5 * (end - g), middle = 0.5 * (end + g);
-        for (unsigned int q = 0; q < Gauss::abscissa().size(); ++q)
-          for (const double side : {-1., 1.})
-            if (side > 0. || Gauss::abscissa()[q] != 0.)
-              add(middle + side * half * Gauss::abscissa()[q],
-                  half * Gauss::weights()[q]);
+        integral += boost::math::quadrature::gauss<double, 7>::integrate(
+          [&](const double slip) {
+            const double p = disk.pressure, stiffness = disk.stiffness;
+            const auto   mu = law(slip);
+            const double s  = slip + mu.mu * p / stiffness;
+            return s * s * mu.mu * p * (1. + mu.dmu * p / stiffness);
+          },
+          g,
+          end);
         g = end;
-      }
-
-      void
-      add(const double slip, const double weight)
-      {
-        const double p = disk.pressure, stiffness = disk.stiffness;
-        const auto   mu = law(slip);
-        const double s  = slip + mu.mu * p / stiffness;
-        integral += s * s * mu.mu * p * (1. + mu.dmu * p / stiffness) * weight;
       }
 
       const TorsionModel::Disk &disk;

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <regex>
 #include <vector>
 
@@ -178,5 +179,16 @@ namespace Debond
     const nlohmann::ordered_json json =
       nlohmann::ordered_json::parse(file, nullptr, false);
     return json.is_object() ? json : nlohmann::ordered_json::object();
+  }
+
+
+
+  double
+  number_in(const nlohmann::ordered_json &summary, const std::string &name)
+  {
+    const auto found = summary.find(name);
+    return found != summary.end() && found->is_number() ?
+             found->get<double>() :
+             std::numeric_limits<double>::quiet_NaN();
   }
 } // namespace Debond

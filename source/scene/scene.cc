@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <ostream>
+#include <set>
 
 namespace Debond
 {
@@ -86,6 +87,26 @@ namespace Debond
 
 
 
+  bool
+  is_default(const SceneEntry &entry)
+  {
+    const auto text = [](const SceneEntry &e) {
+      return e.full_name() + " = " + e.value;
+    };
+    static const std::set<std::string> defaults = [&] {
+      Scene      scene;
+      EntryTable table;
+      scene.declare(table);
+      std::set<std::string> texts;
+      for (const SceneEntry &e : read_scene_text(table.text(), "defaults"))
+        texts.insert(text(e));
+      return texts;
+    }();
+    return defaults.count(text(entry)) > 0;
+  }
+
+
+
   Scene
   Scene::from_entries(const std::vector<SceneEntry> &entries,
                       const std::string             &name)
@@ -95,15 +116,10 @@ namespace Debond
     scene.name    = name;
     EntryTable table;
     scene.declare(table);
-    // the same for all scenes
-    static const auto usual = read_scene_text(table.text(), "defaults");
     for (const SceneEntry &entry : entries)
       {
         table.set(entry);
-        if (std::none_of(usual.begin(), usual.end(), [&](const SceneEntry &e) {
-              return e.full_name() == entry.full_name() &&
-                     e.value == entry.value;
-            }))
+        if (!is_default(entry))
           scene.changed_entries.push_back(entry);
       }
     if (scene.model == ModelKind::automatic)

@@ -103,29 +103,34 @@ namespace Debond
 
 
     void
-    declare_rig(CalibrationParameters &calibration, EntryTable &table)
+    declare_rig(EntryTable &table)
     {
       table.add("Angle offset",
-                calibration.angle_offset,
+                "0",
+                nullptr,
                 Allowed::number("deg"),
                 "Angle [deg] that the instrument shows where the implant has "
                 "not turned.");
       table.add("Slack",
-                calibration.slack,
+                "0",
+                nullptr,
                 Allowed::number("deg"),
                 "Angle [deg] that the machine turns before it takes the "
                 "implant along; after a reversal it turns back by as much.");
       table.add("Machine compliance",
-                calibration.machine_compliance,
+                "0",
+                nullptr,
                 Allowed::number_from(0, "deg/(N mm)"),
                 "How much more the machine turns than the implant, per torque "
                 "[deg/(N mm)].");
       table.add("Torque offset",
-                calibration.torque_offset,
+                "0",
+                nullptr,
                 Allowed::number("N mm"),
                 "Torque [N mm] that the instrument shows without a load.");
       table.add("Torque drift",
-                calibration.torque_drift,
+                "0",
+                nullptr,
                 Allowed::number("N mm"),
                 "By how much the torque that the instrument shows without a "
                 "load grows [N mm] from the first row of the measured file to "
@@ -135,16 +140,18 @@ namespace Debond
 
 
     void
-    declare_noise(CalibrationParameters &calibration, EntryTable &table)
+    declare_noise(EntryTable &table)
     {
       table.add("Noise",
-                calibration.noise,
+                "0",
+                nullptr,
                 Allowed::list(Allowed::number_from(0, ""), 1, 0),
                 "Standard deviation of what is measured, relative to the "
                 "largest value of the curve: of each curve, or one for all. 0: "
                 "unknown, and taken from what the fit leaves of each curve.");
       table.add("Noise columns",
-                calibration.noise_columns,
+                "",
+                nullptr,
                 Allowed::text("columns of the file"),
                 "Columns of the measured file, by name or number, that hold "
                 "the standard deviation of each row, one for each of Curves; "
@@ -154,11 +161,12 @@ namespace Debond
 
 
     void
-    declare_calibration(CalibrationParameters &calibration, EntryTable &table)
+    declare_calibration(EntryTable &table)
     {
       table.enter_subsection("Calibration");
       table.add("Curves",
-                calibration.curves,
+                "",
+                nullptr,
                 Allowed::list(Allowed::text("a column of torque.csv", false),
                               0,
                               0),
@@ -167,41 +175,48 @@ namespace Debond
                 "Reference columns. Empty: the load of Output / Curve.");
       table.add(
         "Over",
-        calibration.over,
+        "",
+        nullptr,
         Allowed::text("a column of torque.csv"),
         "What it has been measured over: time, angle_deg or another "
         "column of torque.csv that begins with chuck_. It is the first "
         "of Output / Reference columns. Empty: the position of Output / "
         "Curve.");
       table.add("Windows",
-                calibration.windows,
+                "",
+                nullptr,
                 Allowed::list(Allowed::number(""), 0, 0),
                 "Parts of the measured curves that are fitted, as pairs of "
                 "bounds in Over: 0, 0.13, 9, 10. Empty: all.");
-      declare_noise(calibration, table);
-      declare_rig(calibration, table);
+      declare_noise(table);
+      declare_rig(table);
       table.add("Measure",
-                calibration.measure,
+                "least squares",
+                nullptr,
                 Allowed::choice("least squares | e_mp | e_rel"),
                 "What is made small: the sum of squares, or the mean of "
                 "relative differences of Eq. (19) or (50), smoothed where they "
                 "are less than a thousandth.");
       table.add("Largest misfit",
-                calibration.largest_misfit,
+                "0.1",
+                nullptr,
                 Allowed::number_above(0, ""),
                 "e_rel, Eq. (50), above which nothing has been found: the "
                 "program says so and ends with the code 2.");
       table.add("Starts",
-                calibration.starts,
+                "20",
+                nullptr,
                 Allowed::whole_number(1, 100000),
                 "Places from which unknowns are searched; the five best of "
                 "them are followed to the end.");
       table.add("Seed",
-                calibration.seed,
+                "1",
+                nullptr,
                 Allowed::whole_number(1, std::numeric_limits<int>::max()),
                 "Of random samples, for intervals of e_mp and e_rel.");
       table.add("Profiles",
-                calibration.profiles,
+                "false",
+                nullptr,
                 Allowed::choice("false | true"),
                 "Fix each unknown in turn at values around the best one and "
                 "fit the others: profile.csv.");
@@ -348,7 +363,8 @@ namespace Debond
                 "study write none.");
       table.add(
         "Published values",
-        output.published,
+        "",
+        nullptr,
         Allowed::list(Allowed::number(""), 0, 4),
         "T_max, T_inf [N mm], theta_lin, theta_max (of the peak) [deg], the "
         "first of them or all, that the report marks in the curve. Empty: "
@@ -388,7 +404,8 @@ namespace Debond
               "Load steps / Tolerance, and answers with the cheapest model "
               "that is; the program chooses the steps.");
     table.add("Task",
-              task,
+              "simulate",
+              nullptr,
               Allowed::choice("simulate | calibrate"),
               "What to do with the model. `simulate': run it once. "
               "`calibrate': find the numbers that stand in entries as "
@@ -401,7 +418,7 @@ namespace Debond
     load_steps.declare(table);
     declare_closed_form(closed_form, table);
     declare_campaigns(largest_number_of_unknowns, study, table);
-    declare_calibration(calibration, table);
+    declare_calibration(table);
     declare_output(output, table);
   }
 } // namespace Debond

@@ -119,19 +119,9 @@ namespace Debond
              "Cells",
              fitted + "lie around an implant that the bone extends beyond: "
                       "expected numbers");
-      for (const auto &[is_set, entry, expected] :
-           {std::make_tuple(body.layer_grading != 1., "Layer grading", "1"),
-            std::make_tuple(body.lateral_grading != 1., "Lateral grading", "1"),
-            std::make_tuple(body.cells_under_implant > 0,
-                            "Cells under implant",
-                            "0"),
-            std::make_tuple(body.coarser_below, "Coarser below", "false"),
-            std::make_tuple(body.bulk_solver == BulkSolver::lattice,
-                            "Bulk solver",
-                            "auto or direct")})
-        refuse(is_set,
-               entry,
-               fitted + "are as small as they should: expected " + expected);
+      const std::string small = fitted + "are as small as they should";
+      refuse(body.layer_grading != 1., "Layer grading", small + ": expected 1");
+      refuse_entries_of_lattices(body, small, refuse);
     }
 
 
@@ -201,8 +191,9 @@ namespace Debond
                              const std::string              &reason,
                              const BodyGeometry::EntryCheck &refuse)
   {
+    const bool is_fitted = body.geometry().is_lattice();
     for (const auto &[is_set, entry, expected] :
-         {std::make_tuple(body.element == ElementKind::spline,
+         {std::make_tuple(!is_fitted && body.element == ElementKind::spline,
                           "Element",
                           "trilinear or quadratic"),
           std::make_tuple(body.coarser_below, "Coarser below", "false"),
@@ -212,7 +203,8 @@ namespace Debond
           std::make_tuple(body.lateral_grading != 1., "Lateral grading", "1"),
           std::make_tuple(body.bulk_solver == BulkSolver::lattice,
                           "Bulk solver",
-                          "auto, direct or multigrid")})
+                          is_fitted ? "auto or direct" :
+                                      "auto, direct or multigrid")})
       refuse(is_set, entry, reason + ": expected " + expected);
   }
 } // namespace Debond

@@ -1,9 +1,10 @@
 #include <debond/shapes/mesh_builder.h>
 
 #include <boost/algorithm/string/case_conv.hpp>
+#include <boost/iterator/counting_iterator.hpp>
+#include <boost/pending/disjoint_sets.hpp>
 
 #include <locale>
-#include <numeric>
 #include <set>
 
 // The faces of a mesh from a file: who has them, their names, and that they and
@@ -13,38 +14,14 @@ namespace Debond
   namespace
   {
     /** Which of so many things are connected. */
-    class Pieces
-    {
-    public:
-      explicit Pieces(const unsigned int n)
-        : next(n)
-      {
-        std::iota(next.begin(), next.end(), 0);
-      }
-      unsigned int
-      of(unsigned int i)
-      {
-        while (next[i] != i)
-          i = next[i] = next[next[i]];
-        return i;
-      }
-      void
-      join(const unsigned int i, const unsigned int j)
-      {
-        next[of(i)] = of(j);
-      }
-      unsigned int
-      number() const
-      {
-        unsigned int n = 0;
-        for (unsigned int i = 0; i < next.size(); ++i)
-          n += next[i] == i;
-        return n;
-      }
+    using Pieces = boost::disjoint_sets_with_storage<>;
 
-    private:
-      std::vector<unsigned int> next;
-    };
+    unsigned int
+    number_of(Pieces pieces, const unsigned int n_things)
+    {
+      return pieces.count_sets(boost::make_counting_iterator(0U),
+                               boost::make_counting_iterator(n_things));
+    }
 
 
 
@@ -152,9 +129,10 @@ namespace Debond
     Pieces pieces(cells.size());
     for (unsigned int cell = 0; cell < cells.size(); ++cell)
       for (unsigned int p = 20; p < 26; ++p)
-        pieces.join(cell, faces.at(vertices(cell, p)).cell);
-    if (pieces.number() > 1)
-      refuse("its hexahedra are in " + std::to_string(pieces.number()) +
+        pieces.union_set(cell, faces.at(vertices(cell, p)).cell);
+    const unsigned int n = number_of(pieces, cells.size());
+    if (n > 1)
+      refuse("its hexahedra are in " + std::to_string(n) +
              " pieces that have no face in common: expected one body");
   }
 
@@ -194,10 +172,11 @@ namespace Debond
             "more than two faces named contact meet at the edge " +
             at_place(0.5 * (vertex_points[edge[0]] + vertex_points[edge[1]])) +
             ": expected a surface");
-        pieces.join(beside.front(), beside.back());
+        pieces.union_set(beside.front(), beside.back());
       }
-    if (pieces.number() > 1)
-      refuse("its contact face is in " + std::to_string(pieces.number()) +
+    const unsigned int n = number_of(pieces, n_faces);
+    if (n > 1)
+      refuse("its contact face is in " + std::to_string(n) +
              " pieces that have no edge in common: expected one");
   }
 } // namespace Debond

@@ -335,6 +335,18 @@ namespace Debond
 
 
 
+    bool
+    all_meet(const std::exception &error)
+    {
+      return number() == 1 ||
+             (dynamic_cast<const WriteError *>(&error) == nullptr &&
+              (dynamic_cast<const InputError *>(&error) != nullptr ||
+               dynamic_cast<const RunError *>(&error) != nullptr ||
+               dynamic_cast<const Interrupted *>(&error) != nullptr));
+    }
+
+
+
     std::vector<std::string>
     of_first(const std::vector<std::string> &texts)
     {

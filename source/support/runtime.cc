@@ -7,17 +7,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <csignal>
 #include <cstdlib>
-#include <exception>
 #include <fstream>
 #include <iostream>
 #include <limits>
 #include <sstream>
 #include <string>
-#include <thread>
-#include <vector>
 
 // Declared here because the headers of OpenBLAS declare LAPACK, too, and
 // because this program does not use OpenMP itself.
@@ -47,51 +43,10 @@ namespace Debond
   set_number_of_threads(const unsigned int n)
   {
     dealii::MultithreadInfo::set_thread_limit(n);
-    factorise_on_one_thread();
-    openblas_set_num_threads(1);
-  }
-
-
-
-  // CHOLMOD divides small loops among four threads, however few processors
-  // there are: that costs a quarter of a factorisation.
-  void
-  factorise_on_one_thread()
-  {
+    // CHOLMOD divides small loops among four threads, however few processors
+    // there are: that costs a quarter of a factorisation.
     omp_set_max_active_levels(0);
-  }
-
-
-
-  // In ascending order: what comes before an error has begun, and says whether
-  // it fails, too.
-  void
-  for_each_at_once(const unsigned int n,
-                   const unsigned int n_workers,
-                   const std::function<void(unsigned int, unsigned int)> &work)
-  {
-    std::atomic<unsigned int>       next{0};
-    std::vector<std::exception_ptr> errors(n);
-    std::vector<std::thread>        threads;
-    for (unsigned int worker = 0; worker < std::min(n, n_workers); ++worker)
-      threads.emplace_back([&, worker] {
-        factorise_on_one_thread();
-        for (unsigned int i = next++; i < n; i = next++)
-          try
-            {
-              work(i, worker);
-            }
-          catch (...)
-            {
-              errors[i] = std::current_exception();
-              next      = n;
-            }
-      });
-    for (std::thread &thread : threads)
-      thread.join();
-    for (const std::exception_ptr &error : errors)
-      if (error)
-        std::rethrow_exception(error);
+    openblas_set_num_threads(1);
   }
 
 

@@ -34,22 +34,6 @@ namespace Debond
       return {v.begin(), static_cast<Eigen::Index>(v.size())};
     }
 
-    // What deal.II's solvers ask of a matrix is vmult(). No matrix is behind
-    // it, but a function.
-    struct Operator
-    {
-      std::function<Eigen::VectorXd(const Eigen::VectorXd &)> product;
-
-      void
-      vmult(DealVector &y, const DealVector &x) const
-      {
-        const Eigen::VectorXd result = product(as_eigen(x));
-        std::copy(result.begin(), result.end(), y.begin());
-      }
-    };
-
-
-
     // More iterations than this with the bulk as preconditioner, and those with
     // a factorisation, which cost twice as much each but are fewer, are cheaper
     // in the long run. A matrix changes little from one iteration of Newton's
@@ -85,12 +69,19 @@ namespace Debond
                        const double           relative_tolerance,
                        Eigen::VectorXd       &x)
   {
-    const Operator preconditioned{
-      [&](const Eigen::VectorXd &y) -> Eigen::VectorXd {
-        if (factors)
-          return A.product(factors->solve(y));
-        return y + A.interface_product(A.solve_bulk(y));
-      }};
+    // What deal.II's solvers ask of a matrix is vmult(). No matrix is behind
+    // it, but a function.
+    const struct
+    {
+      std::function<void(DealVector &, const DealVector &)> vmult;
+    } preconditioned{[&](DealVector &result, const DealVector &of) {
+      const Eigen::VectorXd       y = as_eigen(of);
+      Eigen::Map<Eigen::VectorXd> to(result.begin(), y.size());
+      if (factors)
+        to = A.product(factors->solve(y));
+      else
+        to = y + A.interface_product(A.solve_bulk(y));
+    }};
     // What cannot be assembled has no other solver behind it, and may iterate
     // as long as GMRES can in exact arithmetic.
     // Relative to |b|. Restarts only then: all vectors are kept, which costs

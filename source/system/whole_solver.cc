@@ -32,20 +32,6 @@ namespace Debond
 
 
 
-    /** What deal.II's solvers ask of a matrix. */
-    struct WholeOperator
-    {
-      std::function<void(Vector &, const Vector &)> product;
-
-      void
-      vmult(Vector &y, const Vector &x) const
-      {
-        product(y, x);
-      }
-    };
-
-
-
     /** The bone's unknowns that are in contact, and all that is beside it. */
     class WholeSystem
     {
@@ -86,7 +72,7 @@ namespace Debond
       }
 
       void
-      multiply(Vector &y, const Vector &x) const
+      vmult(Vector &y, const Vector &x) const
       {
         const Eigen::VectorXd at_unknowns = unknowns_of(x);
         Eigen::VectorXd       forces;
@@ -161,9 +147,10 @@ namespace Debond
     WholeSolution result;
     if (norm != 0.) // NaN included, which does not converge
       {
-        const WholeOperator product{
-          [&](Vector &y, const Vector &v) { system.multiply(y, v); }};
-        const WholeOperator preconditioner{
+        const struct
+        {
+          std::function<void(Vector &, const Vector &)> vmult;
+        } preconditioner{
           [&](Vector &y, const Vector &v) { system.precondition(y, v); }};
         dealii::SolverControl       control(most_cycles,
                                       relative_tolerance * norm,
@@ -174,7 +161,7 @@ namespace Debond
           dealii::SolverGMRES<Vector>::AdditionalData(most_vectors + 2, true));
         try
           {
-            gmres.solve(product, x, right, preconditioner);
+            gmres.solve(system, x, right, preconditioner);
             result.converged = true;
           }
         catch (const dealii::SolverControl::NoConvergence &)

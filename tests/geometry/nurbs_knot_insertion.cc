@@ -154,10 +154,6 @@ main()
   check_bilinear_interpolant(surface);
 
   std::cout << "What is not a knot" << std::endl;
-  expect_refusal("0", [&] { surface.insert_knot(0, 0.); });
-  expect_refusal("1", [&] { surface.insert_knot(1, 1.); });
-  expect_refusal("NaN", [&] { surface.insert_knot(0, std::nan("")); });
-  expect_refusal("direction 2", [&] { surface.insert_knot(2, 0.3); });
   expect_refusal("a third 0.5", [&] { surface.insert_knot(1, 0.5); });
   expect_refusal("0.5 + 1e-14", [&] { surface.insert_knot(1, 0.5 + 1e-14); });
   expect_refusal("decreasing knots", [] {

@@ -1002,7 +1002,8 @@ main()
   setting                = basic;
   setting.old_state.slip = 0.035;
   setting.is_explicit    = true;
-  setting.rub_with(explicit_update(setting.law.joint->friction));
+  setting.law.joint      = friction_under_pressure(
+    {setting.eps_n, setting.law.joint->friction, false, true});
   check("Slip, explicit coefficient", masters, setting, g_n, 0.045, slip);
   setting                    = basic;
   setting.old_state.slip     = 0.018;

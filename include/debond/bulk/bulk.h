@@ -2,6 +2,9 @@
 #define debond_bulk_bulk_h
 
 #include <debond/bulk/bulk_space.h>
+#include <debond/bulk/enriched_cells.h>
+
+#include <deal.II/lac/full_matrix.h>
 
 #include <Eigen/Core>
 
@@ -55,11 +58,11 @@ namespace Debond
     virtual bool
     internal_forces(const Eigen::VectorXd &v,
                     Eigen::VectorXd       &force,
-                    double                &energy) const = 0;
+                    double                &energy) const;
     /** K x for a few columns x, K the tangent at rest over all degrees of
      *  freedom, fixed ones included. */
-    virtual Eigen::MatrixXd
-    product_at_rest(Eigen::MatrixXd x) const = 0;
+    Eigen::MatrixXd
+    product_at_rest(Eigen::MatrixXd x) const;
 
     /**
      * Cauchy stress at the mesh vertices [MPa], in the body's frame and in the
@@ -69,11 +72,42 @@ namespace Debond
      *
      * Nothing is differentiated at the corners: those of the disk are singular.
      */
-    virtual std::vector<Eigen::Matrix3d>
-    vertex_stress(const Eigen::VectorXd &v, bool has_small_strains) const = 0;
+    std::vector<Eigen::Matrix3d>
+    vertex_stress(const Eigen::VectorXd &v, bool has_small_strains) const;
     /** Young's modulus of a cell [MPa], the mean over its Gauss points. */
-    virtual double
-    young_modulus(unsigned int cell) const = 0;
+    double
+    young_modulus(const unsigned int cell) const
+    {
+      return mesh.parameters().young_modulus *
+             cells.stiffness_factors(cell).mean();
+    }
+
+  protected:
+    Bulk(const BulkSpace &mesh, EnrichedCells &&cells)
+      : mesh(mesh)
+      , cells(std::move(cells))
+    {}
+
+    /** Degrees of freedom of a cell, put into @p dofs. */
+    void
+    dofs_of(unsigned int                                  cell,
+            std::vector<dealii::types::global_dof_index> &dofs) const;
+    /** The same, and the stiffness K of the cell [N/mm] in state @p v, for
+     *  distribute_local_to_global(). */
+    void
+    stiffness_of(unsigned int                                  cell,
+                 const Eigen::VectorXd                        &v,
+                 dealii::FullMatrix<double>                   &K,
+                 std::vector<dealii::types::global_dof_index> &dofs) const;
+    /** Adds to sums over the cells of this rank those of others, one entry for
+     *  each vertex. */
+    virtual void
+    add_up_at_vertices(std::vector<Eigen::Matrix3d> & /*stress*/,
+                       std::vector<double> & /*n_cells*/) const
+    {}
+
+    const BulkSpace    &mesh;
+    const EnrichedCells cells;
   };
 
   /** Equivalent stress of von Mises [MPa]. */

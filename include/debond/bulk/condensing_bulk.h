@@ -1,7 +1,7 @@
 #ifndef debond_bulk_condensing_bulk_h
 #define debond_bulk_condensing_bulk_h
 
-#include <debond/bulk/bulk_of_cells.h>
+#include <debond/bulk/bulk.h>
 
 namespace Debond
 {
@@ -9,7 +9,7 @@ namespace Debond
    *  control points that contact can reach, its unknowns:
    *
    *   S = K_cc - K_ci K_ii^-1 K_ic. */
-  class CondensingBulk : public BulkOfCells
+  class CondensingBulk : public Bulk
   {
   public:
     /** S x, S^-1 b. */
@@ -33,7 +33,7 @@ namespace Debond
     correction(const Eigen::VectorXd &dv_c, const Residual &r) const = 0;
 
   protected:
-    using BulkOfCells::BulkOfCells;
+    using Bulk::Bulk;
   };
 } // namespace Debond
 #endif

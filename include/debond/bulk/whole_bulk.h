@@ -1,7 +1,7 @@
 #ifndef debond_bulk_whole_bulk_h
 #define debond_bulk_whole_bulk_h
 
-#include <debond/bulk/bulk_of_cells.h>
+#include <debond/bulk/bulk.h>
 
 #include <memory>
 #include <vector>
@@ -27,7 +27,7 @@ namespace Debond
    *            among them: sums over ranks are over these;
    *   unknowns the same on all ranks.
    */
-  class WholeBulk : public BulkOfCells
+  class WholeBulk : public Bulk
   {
   public:
     virtual unsigned int
@@ -74,7 +74,7 @@ namespace Debond
                     double                &energy) const override;
 
   protected:
-    using BulkOfCells::BulkOfCells;
+    using Bulk::Bulk;
 
     void
     add_up_at_vertices(std::vector<Eigen::Matrix3d> &stress,

@@ -1,9 +1,6 @@
 #ifndef debond_campaigns_run_scene_h
 #define debond_campaigns_run_scene_h
 
-#include <debond/support/input_error.h>
-
-#include <exception>
 #include <iosfwd>
 #include <memory>
 
@@ -26,10 +23,5 @@ namespace Debond
   run_scene(const Scene              &scene,
             std::shared_ptr<BodyPair> bodies = nullptr,
             std::ostream             *plan   = nullptr);
-
-  /** Whether all ranks meet what a run has thrown. What one meets alone, a full
-   *  disk or a lack of memory, the others wait for in vain. */
-  bool
-  is_of_all_ranks(const std::exception &error);
 } // namespace Debond
 #endif

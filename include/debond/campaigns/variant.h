@@ -6,21 +6,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include <limits>
 #include <string>
 #include <vector>
 
 namespace Debond
 {
-  /** A number that is not known. */
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-
-
-  /** A number of a summary; NaN if there is none of this name. */
-  double
-  number_in(const nlohmann::ordered_json &summary, const std::string &name);
-
   /** What tells the variants of a study apart: the @p values of all varied
    *  @p entries, a row for each variant, as "Bone / Size = 8; ...". Where these
    *  are many, or no variant changes all of them, only those that differ from

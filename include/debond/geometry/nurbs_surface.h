@@ -79,8 +79,8 @@ namespace Debond
                  const std::vector<double>                    &weights = {});
 
     /** One surface of several patches. Control points at the same place are
-     *  one, and elements meet where corners of both are at the same place.
-     *  Throws std::invalid_argument if weights differ there. */
+     *  one, and elements meet where corners of both are at the same place:
+     *  there weights must be the same, too. */
     static NurbsSurface
     joined(const std::vector<NurbsSurface> &patches);
 

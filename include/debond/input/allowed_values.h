@@ -77,10 +77,6 @@ namespace Debond
      *  beginning; and not the root of all directories. */
     AllowedValues
     directory();
-
-    /** Only @p value: others may get a meaning some day. */
-    AllowedValues
-    reserved(const std::string &value);
   } // namespace Allowed
 
   /** Reads a whole text as one decimal number, surrounding blanks ignored, that

@@ -35,11 +35,6 @@ namespace Debond
   std::vector<std::string>
   split_csv_line(const std::string &line, char separator);
 
-  /** All lines of a file as csv_line() writes them; at least the first one,
-   *  with the names of the columns. Throws EntryError. */
-  std::vector<std::vector<std::string>>
-  read_csv_texts(const std::string &filename, const std::string &entry);
-
   /** A line of a CSV file. Texts are quoted if they have to be, numbers have
    *  twelve significant digits. */
   std::string

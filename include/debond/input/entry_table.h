@@ -53,7 +53,8 @@ namespace Debond
         const AllowedValues &allowed,
         const std::string   &documentation);
 
-    /** A row whose text is interpreted by @p set, or means nothing yet. */
+    /** A row whose text is interpreted by @p set, or, without it, by Python
+     *  alone. */
     void
     add(const std::string                              &name,
         const std::string                              &value,

@@ -208,7 +208,7 @@ namespace Debond
     bool
     depends_on_rate() const
     {
-      return is_viscous() || law.joint->friction->depends_on_rate();
+      return is_viscous() || law.joint->depends_on_rate();
     }
     bool
     is_viscous() const
@@ -353,11 +353,6 @@ namespace Debond
     }
     const BodyParameters &
     implant() const;
-    const InterfaceParameters &
-    get_parameters() const
-    {
-      return parameters;
-    }
     const InterfaceLaw &
     get_law() const
     {

@@ -112,6 +112,18 @@ namespace Debond
     double             stiffness; ///< eps_n [MPa/mm]
     FrictionLawPointer friction;
     bool               opening_breaks_bond = false;
+    /** `Friction update = explicit': mu is that at which the step begins,
+     *  whatever the distance, so that a softening bond lags behind by a step.
+     *  It has no slope and is never ambiguous. Works are still those of the
+     *  law. See doc/stability.md. */
+    bool explicit_friction = false;
+
+    /** Whether friction depends on the duration of a step. */
+    bool
+    depends_on_rate() const
+    {
+      return !explicit_friction && friction->depends_on_rate();
+    }
   };
 
 
@@ -126,10 +138,12 @@ namespace Debond
    * and rub with a friction law. All functions are pure. How to add a law:
    * CONTRIBUTING.md.
    */
-  class InterfaceLaw
+  class InterfaceLaw : public InterfaceLawParts
   {
   public:
-    explicit InterfaceLaw(const InterfaceLawParts &parts);
+    explicit InterfaceLaw(const InterfaceLawParts &parts)
+      : InterfaceLawParts(parts)
+    {}
     virtual ~InterfaceLaw() = default;
 
     /** @name A point in a step */
@@ -238,11 +252,6 @@ namespace Debond
     }
     //@}
 
-    // What all laws share: eps_n [MPa/mm], and friction under pressure.
-    const double             stiffness;
-    const FrictionLawPointer friction;
-    const bool               opening_breaks_bond;
-
   protected:
     /** phi, mu and its slope after sliding by @p distance, which is negative
      *  only at trial places. A point cannot slide against what pulls it. Where
@@ -254,11 +263,13 @@ namespace Debond
     {
       if (start.frictionless)
         return {};
-      if (distance > 0.)
+      if (distance > 0. && !explicit_friction)
         return friction->coefficient(start.friction(), distance);
       FrictionCoefficient result =
         start.at_rest ? *start.at_rest :
                         friction->coefficient(start.friction(), 0.);
+      if (explicit_friction)
+        result.dmu = 0.;
       if (distance < 0.)
         {
           result.dmu = std::max(0., result.dmu);
@@ -313,11 +324,6 @@ namespace Debond
     trial,       ///< along the gap that it would have without sliding
     previous_gap ///< along that of the step before, Eq. (31) as printed
   };
-
-  /** `Friction update = explicit': the same law with mu at g_s^n, whatever the
-   *  distance. See compared_methods.cc. */
-  FrictionLawPointer
-  explicit_update(FrictionLawPointer law);
 
   /** What governs all points of an interface. */
   struct ContactPointLaw

@@ -166,8 +166,6 @@ namespace Debond
     // history, add_row() says what came of it.
     Steps
     choose_steps() const;
-    bool
-    is_met_by_all_ranks() const;
     void
     solve_first_row();
     void

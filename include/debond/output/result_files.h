@@ -86,5 +86,9 @@ namespace Debond
    *  there is no such file, or something else in it. */
   nlohmann::ordered_json
   read_json(const std::string &filename);
+
+  /** A number of a summary; NaN if there is none of this name. */
+  double
+  number_in(const nlohmann::ordered_json &summary, const std::string &name);
 } // namespace Debond
 #endif

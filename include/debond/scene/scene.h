@@ -26,13 +26,6 @@ namespace Debond
     automatic ///< `auto`
   };
 
-  /** What is done with the model. */
-  enum class Task
-  {
-    simulate, ///< run it once
-    calibrate ///< find unknowns of the scene from measured curves
-  };
-
   /** The subsection `Closed form` of a scene: what the models foundation,
    *  analytical and mathieu need besides the other entries. */
   struct ClosedFormParameters
@@ -52,38 +45,6 @@ namespace Debond
     unsigned int reference_variant = 0; ///< 0: none
     unsigned int factors_at_once   = 0; ///< 0: all combinations
     unsigned int repetitions       = 1; ///< runs of each variant
-  };
-
-  /** What a calibration makes small. */
-  enum class MisfitMeasure
-  {
-    least_squares,
-    e_mp, ///< Eq. (19)
-    e_rel ///< Eq. (50)
-  };
-
-  /** The subsection `Calibration`, for `Task = calibrate`. */
-  struct CalibrationParameters
-  {
-    /** Columns of torque.csv, and what they are drawn over; empty: those of
-     *  `Output / Curve'. */
-    std::vector<std::string> curves;
-    std::string              over;
-    std::vector<double>      windows; ///< pairs of bounds in `over`; empty: all
-    /** Standard deviation over the largest measured value, of each curve or of
-     *  all; 0: from the residuals. */
-    std::vector<double>      noise{0.};
-    std::vector<std::string> noise_columns; ///< of the file, instead of noise
-    double                   angle_offset       = 0; ///< [deg]
-    double                   slack              = 0; ///< [deg]
-    double                   machine_compliance = 0; ///< [deg/(N mm)]
-    double                   torque_offset      = 0; ///< [N mm]
-    double                   torque_drift       = 0; ///< [N mm]
-    MisfitMeasure            measure            = MisfitMeasure::least_squares;
-    double                   largest_misfit     = 0.1; ///< e_rel
-    unsigned int             starts             = 20;
-    unsigned int             seed               = 1;
-    bool                     profiles           = false; ///< of the likelihood
   };
 
   /** The subsection `Output` of a scene. */
@@ -106,9 +67,6 @@ namespace Debond
     double              checkpoint_minutes = 5.;    ///< 0: no such checkpoints
     bool                quiet              = false; ///< warnings only
     bool                report             = true;  ///< write report.html
-    /** T_max, T_inf [N mm], theta_lin, theta_max [deg] to mark in the report.
-     */
-    std::vector<double> published;
     /** Use a directory that holds results of another scene, or the checkpoint
      * of an interrupted run. No entry of the scene: the option --force of the
      *  program. */
@@ -146,13 +104,11 @@ namespace Debond
   {
     std::string          title;
     ModelKind            model = ModelKind::finite_elements;
-    Task                 task  = Task::simulate;
     ClosedFormParameters closed_form;
     /** The subsection `Auto`, for `Model = auto`. */
-    unsigned int          largest_number_of_unknowns = 250000;
-    StudyParameters       study;
-    CalibrationParameters calibration;
-    OutputParameters      output;
+    unsigned int     largest_number_of_unknowns = 250000;
+    StudyParameters  study;
+    OutputParameters output;
 
     /** The entries that the scene sets, and its name: where to look for a
      *  mistake. */
@@ -219,6 +175,10 @@ namespace Debond
     std::vector<Warning>
     warnings() const;
   };
+
+  /** Whether an entry has the value of a scene that nothing was said of. */
+  bool
+  is_default(const SceneEntry &entry);
 
   /** Writes all entries with documentation, what they allow and their values:
    *  those of @p scene, or the defaults without one. */

@@ -184,7 +184,7 @@ namespace Debond
   };
 
   /** Refuses what belongs to cells in columns, with the @p reason why the
-   *  shape of @p body has none. */
+   *  shape of @p body has none, or a shape that has them else has others. */
   void
   refuse_entries_of_lattices(const BodyParameters           &body,
                              const std::string              &reason,

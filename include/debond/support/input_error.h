@@ -77,5 +77,18 @@ namespace Debond
   public:
     using RunError::RunError;
   };
+
+  /** A run or a study that a signal has ended; the message says how to go on.
+   */
+  class Interrupted : public std::runtime_error
+  {
+  public:
+    Interrupted(const int signal, const std::string &message)
+      : std::runtime_error(message)
+      , signal(signal)
+    {}
+
+    const int signal;
+  };
 } // namespace Debond
 #endif

@@ -1,24 +1,10 @@
 #ifndef debond_support_interruption_h
 #define debond_support_interruption_h
 
-#include <stdexcept>
 #include <string>
 
 namespace Debond
 {
-  /** A run or a study that a signal has ended; the message says how to go on.
-   */
-  class Interrupted : public std::runtime_error
-  {
-  public:
-    Interrupted(const int signal, const std::string &message)
-      : std::runtime_error(message)
-      , signal(signal)
-    {}
-
-    const int signal;
-  };
-
   /** Remembers which signals are ignored, as SIGHUP below nohup. Libraries may
    *  catch them while they are loaded, as UCX does: before that. */
   void

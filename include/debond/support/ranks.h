@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <mpi.h>
 
+#include <exception>
 #include <functional>
 #include <memory>
 #include <string>
@@ -107,6 +108,11 @@ namespace Debond
      *  RunError that says so. Collective. */
     void
     in_agreement(const std::function<void()> &work);
+
+    /** Whether all ranks meet what has been thrown. What one of several meets
+     *  alone, a full disk or a lack of memory, the others wait for in vain. */
+    bool
+    all_meet(const std::exception &error);
 
     /** The @p texts of the first rank. Collective. */
     std::vector<std::string>

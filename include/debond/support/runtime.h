@@ -6,7 +6,6 @@
 #include <deal.II/base/timer.h>
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 
@@ -23,18 +22,6 @@ namespace Debond
    *  BLAS threads on a busy machine turn 0.7 ms into 16 ms). */
   void
   set_number_of_threads(unsigned int n);
-
-  /** For each thread that does not belong to the pool and factorises. */
-  void
-  factorise_on_one_thread();
-
-  /** Calls work(i, worker) for i < n in @p n_workers threads, each of which
-   *  factorises. After an error it begins with no more, and throws that of the
-   *  smallest i: the same for any number of threads. */
-  void
-  for_each_at_once(unsigned int n,
-                   unsigned int n_workers,
-                   const std::function<void(unsigned int, unsigned int)> &work);
 
   /** Parts that a loop is divided into. Their number does not depend on the
    *  number of threads: sums that are formed part by part, and then added in

@@ -110,11 +110,6 @@ namespace Debond
     /** What `Bone / Bulk solver' comes to, never automatic, and in words. */
     BulkSolver
     bulk_solver() const;
-    bool
-    is_on_lattice() const
-    {
-      return bulk_solver() == BulkSolver::lattice;
-    }
     std::string
     bulk_solver_in_words() const;
 

@@ -1,4 +1,4 @@
-#include <debond/bulk/bulk_of_cells.h>
+#include <debond/bulk/bulk.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_dgq.h>
@@ -8,9 +8,9 @@ namespace Debond
   // R = int P : dF/dv dV by the true law, Eq. (1), cell by cell
   // and without K.
   bool
-  BulkOfCells::internal_forces(const Eigen::VectorXd &v,
-                               Eigen::VectorXd       &force,
-                               double                &energy) const
+  Bulk::internal_forces(const Eigen::VectorXd &v,
+                        Eigen::VectorXd       &force,
+                        double                &energy) const
   {
     const bool is_valid = cells.internal_forces(v, force, energy);
     mesh.condense(force);
@@ -26,7 +26,7 @@ namespace Debond
   // matrix with the rows of the supports would have to be kept for six
   // products.
   Eigen::MatrixXd
-  BulkOfCells::product_at_rest(Eigen::MatrixXd x) const
+  Bulk::product_at_rest(Eigen::MatrixXd x) const
   {
     const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(x.rows());
     Eigen::MatrixXd       y = Eigen::MatrixXd::Zero(x.rows(), x.cols()), K;
@@ -64,8 +64,8 @@ namespace Debond
 
 
   void
-  BulkOfCells::dofs_of(const unsigned int                            cell,
-                       std::vector<dealii::types::global_dof_index> &dofs) const
+  Bulk::dofs_of(const unsigned int                            cell,
+                std::vector<dealii::types::global_dof_index> &dofs) const
   {
     dofs.clear();
     for (const unsigned int node : mesh.cells()[cell].nodes)
@@ -76,11 +76,10 @@ namespace Debond
 
 
   void
-  BulkOfCells::stiffness_of(
-    const unsigned int                            cell,
-    const Eigen::VectorXd                        &v,
-    dealii::FullMatrix<double>                   &K,
-    std::vector<dealii::types::global_dof_index> &dofs) const
+  Bulk::stiffness_of(const unsigned int                            cell,
+                     const Eigen::VectorXd                        &v,
+                     dealii::FullMatrix<double>                   &K,
+                     std::vector<dealii::types::global_dof_index> &dofs) const
   {
     Eigen::MatrixXd tangent;
     cells.tangent(cell, v, tangent);
@@ -98,8 +97,8 @@ namespace Debond
   // corner, where the disk's parametrisation is singular. It is not continuous
   // from cell to cell; the mean hides that, so it is no measure of the error.
   std::vector<Eigen::Matrix3d>
-  BulkOfCells::vertex_stress(const Eigen::VectorXd &v,
-                             const bool             has_small_strains) const
+  Bulk::vertex_stress(const Eigen::VectorXd &v,
+                      const bool             has_small_strains) const
   {
     const dealii::FE_DGQArbitraryNodes<3> through_points(
       dealii::QGauss<1>(cells.n_along()));

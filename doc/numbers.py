@@ -680,8 +680,10 @@ def stability():
 def auto():
     names = ('main', 'disk pattern, f = 0.55', '3.5 mm off centre, near the edge', '1800 MPa/mm', '18 000 MPa/mm', '180 000 MPa/mm',
              'soft interface, 20 MPa/mm', 'soft implant, 30 MPa', 'tilted by 0.1 degrees', 'force held', 'brittle law')
+    stiff = ('10 000 MPa/mm', '1e6 MPa/mm', '1e5 MPa/mm: disk pattern, f = 0.55', 'tilted by 0.05 degrees', 'force held', 'brittle law',
+             "Poisson's ratio 0.45", '3.5 mm off centre, near the edge')
     lines = []
-    for name, row in zip(names, study('prm/verification/auto.prm')):
+    for name, row in zip(names + stiff, study('prm/verification/auto.prm') + study('prm/verification/auto_stiff.prm')):
         lines.append([name, '%.3g %%' % (100 * row['Load steps / Tolerance']), row['answer'].split(' and ')[0],
                       percent(row['error_estimate']), percent(row['difference_max']),
                       '%.1f' % (row['error_estimate'] / row['difference_max']), '%.1f' % row['wall_seconds']])
@@ -690,10 +692,10 @@ def auto():
 
 @numbers('minutes')
 def auto_levels():
-    scene = 'prm/verification/auto.prm'
-    study(scene)
-    factors = []
-    for file in glob.glob(directory_of(scene, ()) + '/variant-*/auto.csv'):
+    scenes, factors = ('prm/verification/auto.prm', 'prm/verification/auto_stiff.prm'), []
+    for scene in scenes:
+        study(scene)
+    for file in [file for scene in scenes for file in glob.glob(directory_of(scene, ()) + '/variant-*/auto.csv')]:
         with open(file, encoding='utf-8') as text:
             for row in csv.DictReader(text):
                 level = '%s/rung-%s/summary.json' % (os.path.dirname(file), row['rung'])

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Makes prm/verification/data/auto_*.csv: runs prm/verification/auto_reference.prm (about half an hour on two cores), whose
 meshes have 2, 3 and 4 times the cells of the main scene in every direction, finds the order at which the torque curves converge
-and takes them to their limit. Run it at the top of the project. An argument names another directory of results."""
+and takes them to their limit. On stiff interfaces these meshes are too coarse for that; there the curve is that of
+cells that follow the rim, `--stiff' makes only these (some minutes). Run it at the top of the project. An argument names another
+directory of results."""
 import csv
 import math
 import subprocess
@@ -13,6 +15,9 @@ NAMES = ['main', 'disk', 'near_edge', 'penalty_1800', 'penalty_18000', 'penalty_
          'tilted', 'force', 'brittle']
 REFINEMENTS = [2, 3, 4]
 STEP_TOLERANCE = 3e-4
+STIFF_STUDY = 'prm/verification/auto_stiff_reference.prm'
+STIFF_NAMES = ['1e4', '1e6', 'disk', 'tilted', 'force', 'brittle', 'poisson', 'near_edge']
+STIFF = {'penalty_1800': '1800', 'penalty_18000': '18000', 'penalty_180000': '180000'}
 
 
 def read_curve(filename):
@@ -49,10 +54,37 @@ def observed_order(coarse, fine):
     return low
 
 
+def write_stiff(name, scene, cells, tolerance, results):
+    with open('prm/verification/data/auto_%s.csv' % name, 'w') as file:
+        file.write('# Torque of %s, linear bodies, made by\n# doc/verification/auto_reference.py --stiff: %s, steps that keep %s.\n'
+                   'angle_deg,torque_Nmm\n' % (scene, cells, tolerance))
+        file.writelines('%.9g,%.8g\n' % row for row in read_curve(results + '/torque.csv'))
+
+
+def make_stiff_references():
+    for name, eps in STIFF.items():
+        results = 'output/verification/auto_' + name
+        subprocess.run([PROGRAM, 'prm/coin_stiff.prm', '--force'] + [word for entry in (
+            'Output/Directory=' + results, 'Output/Fields every=0', 'Output/Report=false', 'Bone/Cells=fitted 28, 9, 16, 13',
+            'Implant/Cells=fitted 20, 7, 6', 'Interface/Penalty stiffness=' + eps, 'Load steps/Tolerance=1e-4')
+                                                                    for word in ('--set', entry)], check=True)
+        write_stiff(name, 'scene %d of prm/verification/auto_scenes.prm' % (NAMES.index(name) + 1), 'cells fitted 28, 9, 16, 13 and 20, 7, 6',
+                    '1e-4', results)
+    subprocess.run([PROGRAM, STIFF_STUDY], check=True)
+    for i, name in enumerate(STIFF_NAMES, 1):
+        write_stiff('stiff_' + name, 'scene %d of prm/verification/auto_stiff_scenes.prm' % i,
+                    'cells of prm/verification/auto_stiff_reference.prm', '3e-4', 'output/verification/auto_stiff_reference/variant-%03d' % i)
+
+
+make_stiff_references()
+if sys.argv[1:] == ['--stiff']:
+    sys.exit()
 directory = sys.argv[1] if len(sys.argv) > 1 else 'output/verification/auto_reference'
 if len(sys.argv) == 1:
     subprocess.run([PROGRAM, STUDY, '--set', 'Output/Directory=' + directory], check=True)
 for i, name in enumerate(NAMES):
+    if name in STIFF:
+        continue
     curves = [read_curve('%s/variant-%03d/curve.csv' % (directory, i + 1 + len(NAMES) * k)) for k in range(3)]
     differences = [largest_difference(curves[k], curves[k + 1]) for k in range(2)]
     observed = observed_order(*differences)

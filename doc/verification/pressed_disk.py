@@ -3,7 +3,8 @@
 Run it at the top of the project; it takes some seconds and needs NumPy and SciPy. It knows nothing of finite elements: on rings
 the pressure is constant, the radial traction proportional to the radius, and the surface follows from Hankel transforms
 (Johnson, Contact mechanics, 3.8). As the face of contact does not grow, the radius of stick does not depend on the load
-(Spence 1975, J. Elasticity 5, 297). It checks itself with the limits: without friction (Boussinesq) and where all sticks
+(Spence 1968, Proc. R. Soc. A 305, 55; 1975, J. Elasticity 5, 297). Forces are converged to 1e-5, radii to a ring: the smallest to
+3 %. It checks itself with the limits: without friction (Boussinesq) and where all sticks
 (Mossakovskii), both to 1e-5."""
 import math
 import sys

@@ -66,7 +66,7 @@ work_together(const Ranks::TeamPointer &team, const Work &work)
     {
       const bool of_python =
         dynamic_cast<const py::error_already_set *>(&error) != nullptr;
-      if (!of_python && !Ranks::all_meet(error))
+      if (!of_python && !Ranks::all_meet(std::current_exception()))
         {
           std::cerr << "debond: rank " << Ranks::own() << ": " << error.what()
                     << "; all that it works with end" << std::endl;

@@ -159,19 +159,18 @@ namespace Debond
     const std::size_t n_rows     = all_rows.size(),
                       n_warnings = all_warnings.size();
     last_row.save(*this);
-    is_lost = true;
     try
       {
         if (all_rows.empty())
           solve_first_row();
         else
           solve_row();
-        is_lost = false;
       }
     // Several ranks have to restore their parts of a body together.
-    catch (const std::exception &error)
+    catch (...)
       {
-        if (Ranks::all_meet(error))
+        is_lost = true;
+        if (Ranks::all_meet(std::current_exception()))
           try
             {
               last_row.restore(*this);

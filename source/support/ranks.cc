@@ -336,13 +336,34 @@ namespace Debond
 
 
     bool
-    all_meet(const std::exception &error)
+    all_meet(const std::exception_ptr &thrown)
     {
-      return number() == 1 ||
-             (dynamic_cast<const WriteError *>(&error) == nullptr &&
-              (dynamic_cast<const InputError *>(&error) != nullptr ||
-               dynamic_cast<const RunError *>(&error) != nullptr ||
-               dynamic_cast<const Interrupted *>(&error) != nullptr));
+      if (number() == 1)
+        return true;
+      try
+        {
+          std::rethrow_exception(thrown);
+        }
+      catch (const WriteError &)
+        {
+          return false;
+        }
+      catch (const InputError &)
+        {
+          return true;
+        }
+      catch (const RunError &)
+        {
+          return true;
+        }
+      catch (const Interrupted &)
+        {
+          return true;
+        }
+      catch (...)
+        {
+          return false;
+        }
     }
 
 

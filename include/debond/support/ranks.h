@@ -112,7 +112,7 @@ namespace Debond
     /** Whether all ranks meet what has been thrown. What one of several meets
      *  alone, a full disk or a lack of memory, the others wait for in vain. */
     bool
-    all_meet(const std::exception &error);
+    all_meet(const std::exception_ptr &thrown);
 
     /** The @p texts of the first rank. Collective. */
     std::vector<std::string>

@@ -122,6 +122,8 @@ namespace Debond
           archive &accepted &clearance       &accepted_traction;
           archive &accepted_viscous_traction &accepted_energy;
           archive                            &accepted_viscous_pressure;
+          // what a run that has ended still writes
+          archive &trial.pressure &trial.tangential_traction;
           if (Archive::is_loading::value)
             trial.state = accepted;
         }

@@ -978,10 +978,6 @@ def with_mesh(bone, implant, grading, element, tolerance):
 
 
 BONDED_IN_A_DISK = ('Interface/Bonding/Pattern=disk', 'Interface/Bonding/Bonded fraction=0.55', 'Interface/Bonding/Resolution=quadrature point')
-BONDED_HALF = ('Interface/Bonding/Pattern=expression', 'Interface/Bonding/Expression=x > 0 ? 1 : 0')
-# about an axis half a millimetre beside that of the coin
-OFF_CENTRE = ('Chuck/Translation x/Value=0.5 * (1 - cos(pi / 18 * max(t - 1, 0)))',
-              'Chuck/Translation y/Value=-0.5 * sin(pi / 18 * max(t - 1, 0))')
 TILTED = ('Chuck/Rotation x/Value=0.1 * min(t, 1)',)
 
 
@@ -999,6 +995,10 @@ def errors_elsewhere(scenes, fine, choices):
 
 @numbers('minutes')
 def splines_elsewhere():
+    bonded_half = ('Interface/Bonding/Pattern=expression', 'Interface/Bonding/Expression=x > 0 ? 1 : 0')
+    # about an axis half a millimetre beside that of the coin
+    off_centre = ('Chuck/Translation x/Value=0.5 * (1 - cos(pi / 18 * max(t - 1, 0)))',
+                  'Chuck/Translation y/Value=-0.5 * sin(pi / 18 * max(t - 1, 0))')
     choices = (('trilinear 30 x 30 x 8 / 6 x 6 x 8', with_mesh('30, 30, 8', '6, 8', 1.5, 'trilinear', '1e-3')),
                ('splines 32 x 32 x 8 / 6 x 6 x 4', with_mesh('32, 32, 8', '6, 4', 2, 'spline', '3e-4')),
                ('trilinear 60 x 60 x 12 / 12 x 12 x 12', with_mesh('60, 60, 12', '12, 12', 1.5, 'trilinear', '2e-4')),
@@ -1010,7 +1010,7 @@ def splines_elsewhere():
         ("Poisson's ratio of the bone 0.45", ('Bone/Poisson ratio=0.45',)),
         ("Poisson's ratio of the bone 0.49", ('Bone/Poisson ratio=0.49',)),
         ('bonded in a disk, f = 0.55', BONDED_IN_A_DISK),
-        ('one half bonded, turned about an axis 0.5 mm off centre', BONDED_HALF + OFF_CENTRE),
+        ('one half bonded, turned about an axis 0.5 mm off centre', bonded_half + off_centre),
         ('a cap, pressed by 0.02 mm', ('Implant/Shape=cap', 'Chuck/Translation z/Value=-0.02 * min(t, 1)')),
         ('tilted by 0.1 degrees', TILTED),
         ('a force instead of a depth', ('Chuck/Translation z/Control=force', 'Chuck/Translation z/Value=-51.5 * min(t, 1)'))),

@@ -14,6 +14,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
+
 TOP = Path(__file__).resolve().parents[2]
 RESULTS, DATA = Path('output/studies'), Path('prm/studies/data')
 STIFFNESSES = ('585', '1800', '1e4', '1e5', '1e6')
@@ -36,13 +38,8 @@ def curve(variant, name):
 
 def difference(points, lines):
     """Largest difference of a curve of points from one so dense that lines join its points, over the largest torque."""
-    worst, k = 0, 0
-    for angle, torque in points:
-        while lines[k + 1][0] < angle:
-            k += 1
-        (a, s), (b, t) = lines[k:k + 2]
-        worst = max(worst, abs(torque - s - (t - s) * (angle - a) / (b - a)))
-    return worst / max(torque for _, torque in points)
+    angles, torques = np.transpose(points)
+    return np.abs(np.interp(angles, *np.transpose(lines)) - torques).max() / torques.max()
 
 
 def make_references():

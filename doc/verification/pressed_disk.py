@@ -12,7 +12,7 @@ import sys
 import numpy as np
 
 sys.path.insert(0, 'doc/verification')
-from bonds_reference import PULLED, R, bessel_integral, pulled_up  # noqa: E402  E = 18 000 MPa, nu = 0.3
+from bonds_reference import PULLED, R, pulled_up, turned  # noqa: E402  E = 18 000 MPa, nu = 0.3
 
 NU, G, DEPTH = .3, 18000 / 2.6, 1e-3
 
@@ -22,23 +22,13 @@ def rings(n):
     return border, (border[1:] + border[:-1]) / 2
 
 
-def spread(border, r):
-    """Radial displacement at r for a radial traction of s on each ring, s being the radius."""
-    result = np.zeros((len(r), len(border)))
-    for j, b in enumerate(border[1:], 1):
-        within = r < b
-        result[within, j] = b ** 2 * bessel_integral(2, 1, 1, b, r[within])
-        result[~within, j] = b ** 2 * bessel_integral(1, 2, 1, r[~within], b)
-    return (1 - NU) / G * (result[:, 1:] - result[:, :-1])
-
-
 def influence(border, r):
     """[uz; ur] of [p; q], inwards and outwards: what couples them is (1 - 2 nu)/(2 G) times integrals within and beyond r."""
     within, beyond = np.minimum(border, r[:, None]), np.maximum(border, r[:, None])
     coupling = (1 - 2 * NU) / (4 * G)
     ur_of_p = -coupling / r[:, None] * np.diff(within ** 2, axis=1)
-    uz_of_q = -coupling * np.diff(beyond ** 2, axis=1)
-    return np.block([[pulled_up(border, r), uz_of_q], [ur_of_p, spread(border, r)]])
+    uz_of_q = -coupling / r * np.diff(beyond ** 2, axis=1)
+    return np.block([[pulled_up(border, r), uz_of_q], [ur_of_p, (1 - NU) * turned(border, r)]])
 
 
 def pressed(border, r, moved, mu, n_stick):
@@ -46,10 +36,10 @@ def pressed(border, r, moved, mu, n_stick):
     n, matrix = len(r), moved.copy()
     slide = np.arange(n_stick, n)
     matrix[n + slide] = 0
-    matrix[n + slide, n + slide] = r[slide]
+    matrix[n + slide, n + slide] = 1
     matrix[n + slide, slide] = -mu
     p, q = np.split(np.linalg.solve(matrix, np.repeat([DEPTH, 0], n)), 2)
-    return p, q * r, math.pi * np.diff(border ** 2) @ p
+    return p, q, math.pi * np.diff(border ** 2) @ p
 
 
 def force_and_radius(n, mu):

@@ -110,18 +110,18 @@ subsection Implant
 end
 
 subsection Interface                    # first guesses
-  set Penalty stiffness             = 600     # MPa/mm
-  set Tangential penalty stiffness  = 300     # MPa/mm
+  set Normal stiffness             = 600     # MPa/mm
+  set Tangential stiffness  = 300     # MPa/mm
   set Friction coefficient broken   = 0.40
   set Friction coefficient unbroken = 0.60
-  set Sliding threshold             = 0.030   # mm
+  set Characteristic slip distance             = 0.030   # mm
   set Transition factor             = 0.75
 end
 
 subsection Chuck
-  subsection Translation z
+  subsection Press
     set Control = force
-    set Value   = -39.2 * min(t, 1)     # N; 4 kg, applied from time 0 to 1
+    set Value   = 39.2 * min(t, 1)     # N; 4 kg, applied from time 0 to 1
   end
 end
 
@@ -130,7 +130,7 @@ subsection Output
 end
 END
 # What an entry means:
-debond --print-parameters | grep -B 4 "set Sliding threshold"
+debond --print-parameters | grep -B 4 "set Characteristic slip distance"
 # What is to be expected, before anything is run:
 debond --check my_implant.prm | tee check.log
 has check.log "force 39.2 N"
@@ -160,10 +160,10 @@ set Title = My implant, fitted
 set Task  = calibrate
 
 subsection Interface                    # <<NAME: START in LOWER..UPPER>>; log: the order of magnitude is searched
-  set Tangential penalty stiffness  = <<eps_t: 300 in 100..3000 log>>
+  set Tangential stiffness  = <<eps_t: 300 in 100..3000 log>>
   set Friction coefficient broken   = <<mu_b: 0.4 in 0.1..1>>
   set Friction coefficient unbroken = <<mu_ub: 0.6 in 0.1..2>>
-  set Sliding threshold             = <<a_s: 0.03 in 0.003..0.3 log>>
+  set Characteristic slip distance             = <<a_s: 0.03 in 0.003..0.3 log>>
   set Transition factor             = <<b_s: 0.75 in 0.1..5 log>>
 end
 

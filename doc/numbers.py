@@ -59,7 +59,7 @@ def debond(scene, directory, *changes, force=True, ranks=0):
 def run(scene, *changes):
     """The summary of a run, with its rows, those of torque.csv, and the curve between them, those of curve.csv."""
     directory = directory_of(scene, changes)
-    debond(scene, directory, 'Output/Fields every=0', *changes)
+    debond(scene, directory, 'Output/Fields every=none', *changes)
     with open(directory + '/summary.json', encoding='utf-8') as text:
         summary = json.load(text)
     return {**summary, 'curve': rows_of(directory + '/torque.csv'), 'fine curve': fine_curve(directory)}
@@ -291,7 +291,7 @@ SNAP_BACK = 'prm/stability/snap_back%s.prm'
 
 def jump_of_the_closed_form(stiffness):
     """T_max, the machine's angle [deg] at the jump, the torques before and after it, and the energy that it releases [N mm]."""
-    curve = run(SNAP_BACK % '', 'Model=foundation', 'Chuck/Rotation z/Stiffness=0', 'Load steps/Steps=1, 10000')['curve']
+    curve = run(SNAP_BACK % '', 'Model=foundation', 'Chuck/Rotation z/Stiffness=none', 'Load steps/Steps=1, 10000')['curve']
     angles = [math.radians(row['angle_deg']) for row in curve]
     torques = [row['torque_Nmm'] for row in curve]
     machine = [theta + T / stiffness for theta, T in zip(angles, torques)]
@@ -434,8 +434,8 @@ def foundation():
     same = run(MAIN, *LINEAR)
     rows.append(['4.9 um', 585, '15 x 15 x 2', 'the same cells', percent(difference(run(MAIN, 'Model=foundation'), same))])
     for penalty, force in ((585, 51.88), (1000, 82.8), (1800, 137.4)):
-        result = study('prm/verification/foundation.prm', 'Interface/Penalty stiffness=%d' % penalty,
-                       'Chuck/Translation z/Value=-%g * min(t, 1)' % force)
+        result = study('prm/verification/foundation.prm', 'Interface/Normal stiffness=%d' % penalty,
+                       'Chuck/Press/Value=%g * min(t, 1)' % force)
         rows.append(['%g N' % force, penalty, '30 x 30 x 2', 'the same cells', percent(result[1]['difference_max'])])
     return table(['pressed by', 'eps [MPa/mm]', 'stiffness from bone cells', 'against finite elements on', 'largest difference'], rows)
 
@@ -448,7 +448,7 @@ def calibrated():
     scenes, lines = study_with_curves('prm/paper/calibrated.prm'), []
     rows = []  # of each set as printed, with a_s fitted to E_deb, and with b_s in its place
     for i, (a_s, b_s) in enumerate(((.022, 2.33), (.026, 4.81))):
-        rows += scenes[2 * i:2 * i + 2] + [run('prm/paper/data_set_%d_calibrated.prm' % (i + 1), 'Interface/Sliding threshold=%g' % a_s,
+        rows += scenes[2 * i:2 * i + 2] + [run('prm/paper/data_set_%d_calibrated.prm' % (i + 1), 'Interface/Characteristic slip distance=%g' % a_s,
                                                'Interface/Transition factor=%g' % b_s, 'Output/Reference curve=' + STAND_IN % (i + 1))]
     for name, how, paper, digits, missed, value in (
             ('T_max [N mm]', 'fitted', (53.8, 59.5), 2, (), lambda row: row['T_max_Nmm']),
@@ -529,8 +529,8 @@ def table_5():
 def table_7_differences():
     lines = []
     for eps in (585, 1800):
-        coarse, _, fine = study('prm/paper/table_7_meshes.prm', 'Interface/Penalty stiffness=%d' % eps)
-        steps = study('prm/paper/table_7_steps.prm', 'Interface/Penalty stiffness=%d' % eps)[1]
+        coarse, _, fine = study('prm/paper/table_7_meshes.prm', 'Interface/Normal stiffness=%d' % eps)
+        steps = study('prm/paper/table_7_steps.prm', 'Interface/Normal stiffness=%d' % eps)[1]
         lines.append([eps, '%.3f %%' % (100 * coarse['difference_max']), '%.3f %%' % (100 * fine['difference_max']),
                       small(steps['difference_max'])])
     return table(['eps [MPa/mm]', 'coarse to medium', 'medium to fine', '100 to 1000 steps'], lines)
@@ -555,7 +555,7 @@ def table_4():
         for row in study('prm/paper/table_4_set_%d.prm' % data_set):
             mu = row['Interface / Friction coefficient broken']
             off = row['difference_max']
-            lines.append([data_set, '%.2f' % mu, '%.1f' % (1000 * -number(row['Chuck / Translation z / Value'].split()[0])),
+            lines.append([data_set, '%.2f' % mu, '%.1f' % (1000 * number(row['Chuck / Press / Value'].split()[0])),
                           '%.2f' % row['Interface / Friction coefficient unbroken'], printed[data_set][mu], '%.3f' % row['pressure_MPa'],
                           '%.2f' % row['T_max_Nmm'], '%.2f' % row['T_inf_Nmm'],
                           '-' if mu == .4 else small(off, 0) if off < 1e-3 else '%.1f %%' % (100 * off)])
@@ -748,9 +748,9 @@ def largest(curve, reference, low, high):
 
 @numbers('minutes')
 def partial_readings():
-    printed_a_s = 'Interface/Sliding threshold={{0.022||0.021||0.015||0.022}}'
+    printed_a_s = 'Interface/Characteristic slip distance={{0.022||0.021||0.015||0.022}}'
     lines = []
-    stiff = 'Interface/Penalty stiffness=1800', 'Interface/Tangential penalty stiffness=1800'
+    stiff = 'Interface/Normal stiffness=1800', 'Interface/Tangential stiffness=1800'
     for name, changes in (('printed (1800), printed a_s', stiff + (printed_a_s,)), ('calibrated, printed a_s', (printed_a_s,)),
                           ('**calibrated, a_s 42 / 22**', ())):
         rows = study_with_curves('prm/paper/partial_fitted_parameters.prm', *changes)
@@ -777,7 +777,7 @@ def memory():
 # Random patterns
 
 RANDOM = ('Interface/Bonding/Pattern=random', 'Interface/Bonding/Bonded fraction=0.55')
-UNIFORM = ('Interface/Bonding/Pattern=homogeneous', 'Interface/Bonding/Initial bonding=0.55')
+UNIFORM = ('Interface/Bonding/Pattern=homogeneous', 'Interface/Bonding/Bonding degree=0.55')
 
 
 @numbers('minutes')
@@ -785,8 +785,8 @@ def random_patterns():
     angles = (.04, .06, .08, .1, .2, .5, 1, 2, 10)
     common = LINEAR + ('Implant/Cells=20, 2', 'Interface/Quadrature points=3', 'Load steps/Steps=1, 10, 9, 8',
                        'Load steps/Times=0, 1, 1.02, 1.2, 2')
-    ensemble = study(MAIN, *common, *RANDOM, 'Interface/Bonding/Seed={{1..60}}', 'Output/Fields every=0') and rows_of(
-        directory_of(MAIN, common + RANDOM + ('Interface/Bonding/Seed={{1..60}}', 'Output/Fields every=0')) + '/ensemble.csv')
+    ensemble = study(MAIN, *common, *RANDOM, 'Interface/Bonding/Seed={{1..60}}', 'Output/Fields every=none') and rows_of(
+        directory_of(MAIN, common + RANDOM + ('Interface/Bonding/Seed={{1..60}}', 'Output/Fields every=none')) + '/ensemble.csv')
     uniform = run(MAIN, *common, *UNIFORM)
     lines = []
     for angle in angles:
@@ -816,7 +816,7 @@ def ensemble():
 def ensemble_correlation():
     scene = 'prm/studies/ensemble_correlation.prm'
     study(scene)
-    bonded = [run('prm/studies/ensemble_scene.prm', UNIFORM[0], 'Interface/Bonding/Initial bonding=%d' % phi)['T_max_Nmm'] for phi in (0, 1)]
+    bonded = [run('prm/studies/ensemble_scene.prm', UNIFORM[0], 'Interface/Bonding/Bonding degree=%d' % phi)['T_max_Nmm'] for phi in (0, 1)]
     lines = []
     for row in rows_of(directory_of(scene, ()) + '/ensemble_summary.csv'):
         length, sd = row['Interface / Bonding / Correlation length'], row['T_max_sd_Nmm']
@@ -860,7 +860,7 @@ def turning_slip():
             line = [('%s, ' % name if tolerance == '1e-2' else '') + tolerance]
             for direction in ('integrated', 'trial'):
                 result = run(*motion, 'Load steps/Adaptive=true', 'Load steps/Steps=1, 10, 10', 'Load steps/Tolerance=' + tolerance,
-                             'Interface/Slip direction=' + direction)
+                             'Expert/Slip direction=' + direction)
                 line += [str(len(result['curve']))] + [small(error) for error in errors(reference, result['fine curve'])]
             lines.append(line)
     return table(['tolerance', '`integrated`: rows', 'Fx', 'torque', '`trial`: rows', 'Fx', 'torque'], lines)
@@ -897,26 +897,26 @@ def adaptive_scenes():
         ('zig-zag while it turns', 4, {'Translation x': '0.01 * (%s - min(max(t - 4, 0), 1))' % zigzag,
                                        'Translation y': '0.005 * max(t - 1, 0)', 'Rotation z': '0.5 * max(t - 1, 0)'}, mesh),
         ('random patches, 3000 MPa/mm', 1, {'Rotation z': '3 * max(t - 1, 0)'}, mesh + (
-            'Interface/Penalty stiffness=3000', 'Interface/Tangential penalty stiffness=3000', 'Interface/Bonding/Pattern=random',
+            'Interface/Normal stiffness=3000', 'Interface/Tangential stiffness=3000', 'Interface/Bonding/Pattern=random',
             'Interface/Bonding/Bonded fraction=0.5')),
         ('bonded beside the axis', 1, {'Rotation z': '3 * max(t - 1, 0)'}, mesh + (
             'Interface/Bonding/Pattern=expression', 'Interface/Bonding/Expression=(x - 0.6)^2 + y^2 < 1 ? 1 : 0')),
         ('tilt and twist', 1, {'Rotation x': '0.02 * max(t - 1, 0)', 'Rotation z': '3 * max(t - 1, 0)'}, mesh),
         ('twist to and fro', 3, {'Rotation z': '1.5 * (%s)' % zigzag}, mesh),
-        ('pressure that changes', 1, {'Translation z': press + ' - 0.002 * sin(4 * max(t - 1, 0))',
+        ('pressure that changes', 1, {'Press': press + ' + 0.002 * sin(4 * max(t - 1, 0))',
                                       'Translation x': '0.01 * max(t - 1, 0)', 'Rotation z': '2 * max(t - 1, 0)'}, mesh),
         ('circular shear', 2, {'Translation x': '0.01 * (%s + cos(2 * pi * max(t - 2, 0)) - 1)' % twice,
                                'Translation y': '0.01 * sin(2 * pi * max(t - 2, 0))'}, mesh),
         ('fretting: shear by a sine, slow twist', 2, {'Translation x': '0.01 * sin(2 * pi * max(t - 1, 0))',
                                                       'Rotation z': '0.3 * max(t - 1, 0)'}, mesh),
-        ('a cap that rocks about x and y', 1, {'Translation z': '-0.02 * min(t, 1)', 'Rotation x': '0.5 * sin(2 * pi * max(t - 1, 0))',
+        ('a cap that rocks about x and y', 1, {'Press': '0.02 * min(t, 1)', 'Rotation x': '0.5 * sin(2 * pi * max(t - 1, 0))',
                                                'Rotation y': '0.3 * sin(4 * pi * max(t - 1, 0))'}, mesh + ('Implant/Shape=cap',)),
         ('under a moment, to and fro: the angle', 2, {'Rotation z': '49.5 * (%s - 1.8 * max(t - 2, 0))' % twice},
          mesh + ('Chuck/Rotation z/Control=moment',))]
     lines = []
     for name, phases, motion, changes in scenes:
         scene = (MAIN, 'Load steps/Times=' + ', '.join(str(k) for k in range(phases + 2))) + changes + tuple(
-            'Chuck/%s/Value=%s' % entry for entry in {'Translation z': press, 'Rotation z': '0', **motion}.items())
+            'Chuck/%s/Value=%s' % entry for entry in {'Press': press, 'Rotation z': '0', **motion}.items())
         reference = run(*scene, 'Load steps/Steps=30' + ', 800' * phases)['curve']
         groups = [['angle_deg']] if 'under a moment' in name else [FORCES, MOMENTS]
         line = [name]
@@ -930,7 +930,7 @@ def adaptive_scenes():
 def study_of_splines(bone, implant, *changes):
     """On the main scene, with steps whose error does not count."""
     return study('prm/coin_mode3_spline.prm', 'Bone/Cells=' + bone, 'Implant/Cells=' + implant, *changes, 'Load steps/Tolerance=5e-5',
-                 *THREE_PHASES, 'Output/Fields every=0', REFERENCE)
+                 *THREE_PHASES, 'Output/Fields every=none', REFERENCE)
 
 
 @numbers('minutes')
@@ -1005,15 +1005,15 @@ def splines_elsewhere():
                ('splines 60 x 60 x 8 / 12 x 12 x 6', with_mesh('60, 60, 8', '12, 6', 2, 'spline', '2e-4')))
     return errors_elsewhere((
         ('main scene', ()),
-        ('1800 MPa/mm', ('Interface/Penalty stiffness=1800',)),
-        ('6000 MPa/mm', ('Interface/Penalty stiffness=6000',)),
+        ('1800 MPa/mm', ('Interface/Normal stiffness=1800',)),
+        ('6000 MPa/mm', ('Interface/Normal stiffness=6000',)),
         ("Poisson's ratio of the bone 0.45", ('Bone/Poisson ratio=0.45',)),
         ("Poisson's ratio of the bone 0.49", ('Bone/Poisson ratio=0.49',)),
         ('bonded in a disk, f = 0.55', BONDED_IN_A_DISK),
         ('one half bonded, turned about an axis 0.5 mm off centre', bonded_half + off_centre),
-        ('a cap, pressed by 0.02 mm', ('Implant/Shape=cap', 'Chuck/Translation z/Value=-0.02 * min(t, 1)')),
+        ('a cap, pressed by 0.02 mm', ('Implant/Shape=cap', 'Chuck/Press/Value=0.02 * min(t, 1)')),
         ('tilted by 0.1 degrees', TILTED),
-        ('a force instead of a depth', ('Chuck/Translation z/Control=force', 'Chuck/Translation z/Value=-51.5 * min(t, 1)'))),
+        ('a force instead of a depth', ('Chuck/Press/Control=force', 'Chuck/Press/Value=51.5 * min(t, 1)'))),
         with_mesh('120, 120, 12', '16, 10', 2, 'spline', '2e-5') + ('Interface/Quadrature points=8',), choices)
 
 
@@ -1023,11 +1023,11 @@ def stiff_elsewhere():
                ('equal 64 x 64 x 10 / 12 x 12 x 6', with_mesh('64, 64, 10', '12, 6', 2, 'spline', '3e-4')),
                ('fitted 12, 4, 7, 6 / 12, 4, 4', with_mesh('fitted 12, 4, 7, 6', 'fitted 12, 4, 4', 1, 'spline', '3e-4')),
                ('fitted 16, 6, 10, 9 / 12, 5, 5', with_mesh('fitted 16, 6, 10, 9', 'fitted 12, 5, 5', 1, 'spline', '3e-4')))
-    stiff = ('Interface/Penalty stiffness=1e5',)
+    stiff = ('Interface/Normal stiffness=1e5',)
     return errors_elsewhere((
         ('coin_stiff', stiff),
         ('Neo-Hookean', stiff + ('Bone/Material=neo-hookean', 'Implant/Material=neo-hookean')),
-        ('a force instead of a depth', stiff + ('Chuck/Translation z/Control=force', 'Chuck/Translation z/Value=-600 * min(t, 1)')),
+        ('a force instead of a depth', stiff + ('Chuck/Press/Control=force', 'Chuck/Press/Value=600 * min(t, 1)')),
         ('bonded in a disk, f = 0.55', stiff + BONDED_IN_A_DISK),
         ('tilted by 0.1 degrees', stiff + TILTED)),
         with_mesh('fitted 24, 8, 14, 11', 'fitted 20, 6, 6', 1, 'spline', '2e-4'), choices)
@@ -1043,12 +1043,12 @@ def lattice():
     neo_hookean = ('Bone/Material=neo-hookean', 'Implant/Material=neo-hookean')
     lines = []
     for name, cells, changes in (('linear', '60, 60, 6', ()), ('linear, under a force', '60, 60, 6', (
-            'Chuck/Translation z/Control=force', 'Chuck/Translation z/Value=-51.5 * min(t, 1)')),
+            'Chuck/Press/Control=force', 'Chuck/Press/Value=51.5 * min(t, 1)')),
                                  ('Neo-Hookean', '60, 60, 6', neo_hookean), ('linear', '200, 200, 10', ())):
         changes = ('Bone/Cells=' + cells, 'Implant/Cells=8, 4') + changes
         result, *line = measured(*changes)
         if cells == '60, 60, 6':
-            direct, *more = measured(*changes, 'Bone/Bulk solver=direct')
+            direct, *more = measured(*changes, 'Bone/Solver=direct')
             line += more
         else:
             line += ['', '']
@@ -1056,9 +1056,9 @@ def lattice():
     return table(['bone', 'lattice', 'memory', 'direct', 'memory'], lines)
 
 
-TURN = ('Load steps/Times=0, 1, 1.05', 'Load steps/Steps=1, 1', 'Load steps/Residual tolerance=1e-7', 'Output/Fields every=0',
+TURN = ('Load steps/Times=0, 1, 1.05', 'Load steps/Steps=1, 1', 'Load steps/Residual tolerance=1e-7', 'Output/Fields every=none',
         'Implant/Cells=12, 4') + LINEAR + LAYERED
-MULTIGRID = ('Bone/Bulk solver=multigrid',)
+MULTIGRID = ('Bone/Solver=multigrid',)
 
 
 @functools.lru_cache(None)
@@ -1100,10 +1100,10 @@ def multigrid_contrast():
     def cycles(*changes):
         return '%d' % run_on(1, 'Bone/Cells=40, 40, 10', *TURN, *MULTIGRID, *changes)['multigrid_most_cycles']
     lines = [['penalty stiffness 585, 1800, 18 000, 180 000 MPa/mm',
-              ', '.join(cycles('Interface/Penalty stiffness=%d' % eps) for eps in (585, 1800, 18000, 180000))]]
+              ', '.join(cycles('Interface/Normal stiffness=%d' % eps) for eps in (585, 1800, 18000, 180000))]]
     for eps, text in ((585, '585'), (18000, '18 000')):
         lines.append(['Coulomb friction of 0.4, 2, 10, turned by 5 degrees at once, ' + text + ' MPa/mm', ', '.join(
-            cycles('Load steps/Times=0, 1, 1.5', 'Interface/Penalty stiffness=%d' % eps, 'Interface/Friction law=coulomb',
+            cycles('Load steps/Times=0, 1, 1.5', 'Interface/Normal stiffness=%d' % eps, 'Interface/Friction law=coulomb',
                    'Interface/Friction coefficient broken=%g' % mu) for mu in (0.4, 2, 10))])
     for name, where in (('cubes of 0.6 mm', 'sin(pi * x / 0.6) * sin(pi * y / 0.6) * sin(pi * z / 0.6) > 0'), ('a layer of 1 mm', 'z > -1'),
                         ('a layer of 1 mm, softer on top', 'z < -1')):
@@ -1128,7 +1128,7 @@ def multigrid_splines():
 def multigrid_on_splines():
     """Largest difference of the torque on two processes from that of the lattice solver, over the largest torque."""
     changes = ('Bone/Cells=100, 100, 8', 'Implant/Cells=8, 4', 'Load steps/Adaptive=false', 'Load steps/Times=0, 1, 1.5', 'Load steps/Steps=1, 10',
-               'Load steps/Residual tolerance=1e-11', 'Output/Fields every=0')
+               'Load steps/Residual tolerance=1e-11', 'Output/Fields every=none')
     curves = []
     for ranks, more in ((0, ()), (2, MULTIGRID)):
         directory = directory_of('ranks %d' % ranks, ('prm/coin_mode3_spline.prm',) + changes + more)
@@ -1137,7 +1137,7 @@ def multigrid_on_splines():
     return small(max(abs(a - b) for a, b in zip(*curves)) / max(curves[0]))
 
 
-CURVE = ('Output/Fields every=0', 'Implant/Cells=12, 4', 'Load steps/Tolerance=1e-3') + LINEAR + LAYERED + ADAPTIVE
+CURVE = ('Output/Fields every=none', 'Implant/Cells=12, 4', 'Load steps/Tolerance=1e-3') + LINEAR + LAYERED + ADAPTIVE
 VARIES = ('Bone/Young modulus=18000 * exp(x / 10)',)
 
 
@@ -1150,7 +1150,7 @@ def multigrid_crossover():
                 continue
             line = [cells.replace(', ', ' x ') + name, '%d k' % round(n_unknowns(cells) / 1000)]
             for solver in ('direct', 'multigrid'):
-                row = run_on(1, 'Bone/Cells=' + cells, 'Bone/Bulk solver=' + solver, *CURVE, *changes)
+                row = run_on(1, 'Bone/Cells=' + cells, 'Bone/Solver=' + solver, *CURVE, *changes)
                 line += [two_digits(row['wall_seconds']), two_digits(row['peak_memory_MB'] / 1000)]
             lines.append(line + ['%d' % row['multigrid_systems'], '%d' % row['multigrid_cycles']])
     return table(['cells', 'unknowns', 'direct [s]', '[GB]', 'multigrid [s]', '[GB]', 'linear systems', 'cycles in all'], lines)
@@ -1167,7 +1167,7 @@ def multigrid_large():
 @numbers('minutes')
 def multigrid_model():
     """Seconds of a whole curve on P processes: what is dealt out, what all of them do, and messages of an assumed network."""
-    measured = run_on(1, 'Bone/Cells=75, 75, 15', 'Bone/Bulk solver=multigrid', *CURVE, *VARIES)
+    measured = run_on(1, 'Bone/Cells=75, 75, 15', 'Bone/Solver=multigrid', *CURVE, *VARIES)
     cycles = measured['multigrid_cycles']
     of_all = measured['seconds_contact'] + measured['seconds_contact_tangent']
     dealt_out = (measured['seconds_before_steps'] + measured['seconds_multigrid'] + measured['seconds_bulk'] -

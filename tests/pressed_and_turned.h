@@ -7,8 +7,8 @@
  *  degrees until t = 2. */
 inline const std::string pressed_and_turned =
   "subsection Chuck\n"
-  " subsection Translation z\n"
-  "  set Value = -0.0049 * min(t, 1)\n"
+  " subsection Press\n"
+  "  set Value = 0.0049 * min(t, 1)\n"
   " end\n"
   " subsection Rotation z\n"
   "  set Value = 10 * max(t - 1, 0)\n"

@@ -27,7 +27,7 @@ def read_scene(directory):
 def law(entries):
     """mu(g_s [mm], phi_0), Eqs. (11) and (13)."""
     mu_b, mu_ub = float(entries["Friction coefficient broken"]), float(entries["Friction coefficient unbroken"])
-    a_s, b_s = float(entries["Sliding threshold"]), float(entries["Transition factor"])
+    a_s, b_s = float(entries["Characteristic slip distance"]), float(entries["Transition factor"])
 
     def mu(slip, phi_0):
         x = slip / a_s

@@ -41,7 +41,7 @@ row() {
 interface=Interface
 measure=e_mp
 sharpest=0.05
-push="Chuck/Translation z/Value"
+push="Chuck/Press/Value"
 
 # fit LABEL SET MU OPTIONS...: the stages, and all at once
 fit() {
@@ -62,15 +62,15 @@ fit() {
   mu_guess=$(python3 -c "print(1.46 * $mu)")
   local unknown_depth="$push=-<<d: $guess in 0.0005..0.03 log>> * min(t, 1)"
   local unknown_mu="$interface/Friction coefficient unbroken=<<mu_ub: $mu_guess in 0.1..3>>"
-  local unknown_eps="$interface/Tangential penalty stiffness=<<eps_t: 400 in 100..3000 log>>"
-  local unknown_law=("$interface/Sliding threshold=<<a_s: 0.1 in 0.002..0.2 log>>" "$interface/Transition factor=<<b_s: 0.74 in $sharpest..5 log>>")
-  local base=("Output/Reference curve=prm/paper/data/closed_form_b_data_set_$set.csv" "$interface/Penalty stiffness=$eps_n"
+  local unknown_eps="$interface/Tangential stiffness=<<eps_t: 400 in 100..3000 log>>"
+  local unknown_law=("$interface/Characteristic slip distance=<<a_s: 0.1 in 0.002..0.2 log>>" "$interface/Transition factor=<<b_s: 0.74 in $sharpest..5 log>>")
+  local base=("Output/Reference curve=prm/paper/data/closed_form_b_data_set_$set.csv" "$interface/Normal stiffness=$eps_n"
               "Bone/Young modulus=$young" "$interface/Friction coefficient broken=$mu" "$@")
   stage slope prm/coin_mode3_fast.prm "${base[@]}" "$push=-$guess * min(t, 1)" "$interface/Friction law=coulomb" \
     "$interface/Friction coefficient broken=$mu_guess" "$unknown_eps" "Calibration/Windows=0, $linear"
   stage load "$here/slope/fitted.prm" "$interface/Friction coefficient broken=$mu" "$unknown_depth" "Calibration/Windows=9, 10"
   stage peak "$here/load/fitted.prm" "$interface/Friction law=modified coulomb" "$unknown_mu" \
-    "$interface/Sliding threshold=0.3" "Calibration/Windows=$peak"
+    "$interface/Characteristic slip distance=0.3" "Calibration/Windows=$peak"
   stage fall "$here/peak/fitted.prm" "${unknown_law[@]}" "Calibration/Windows=" "Calibration/Measure=$measure"
   row "$label" "$mu" staged "$(value load d)" "$(value peak mu_ub)" fall slope
   stage once prm/coin_mode3_fast.prm "${base[@]}" "$unknown_depth" "$unknown_mu" "$unknown_eps" "${unknown_law[@]}"

@@ -38,21 +38,21 @@ run() {
 draw_pictures() {
   command -v gnuplot > /dev/null || { echo "stability.sh: gnuplot is needed to draw" >&2; exit 1; }
   run slip_direction integrated
-  run slip_direction previous_gap "Interface/Slip direction=previous gap"
-  run slip_direction previous_gap_fine "Interface/Slip direction=previous gap" "Load steps/Steps=1, 1000"
+  run slip_direction previous_gap "Expert/Slip direction=previous gap"
+  run slip_direction previous_gap_fine "Expert/Slip direction=previous gap" "Load steps/Steps=1, 1000"
   run softening implicit "Load steps/Steps=1, 1000"
   for steps in 50 100 1000; do
-    run softening explicit_$steps "Interface/Friction update=explicit" "Load steps/Steps=1, $steps"
+    run softening explicit_$steps "Expert/Friction update=explicit" "Load steps/Steps=1, $steps"
   done
   run chatter nurbs "Load steps/Steps=1, 80"
   run chatter bilinear "Bone/Contact surface=bilinear" "Load steps/Steps=1, 80"
   echo "penalty_MPa_per_mm,iterations" > $results/penalty.csv
   for penalty in 6 60 585 1800 18000 60000 180000 600000; do
-    run coin penalty "Interface/Penalty stiffness=$penalty"
+    run coin penalty "Interface/Normal stiffness=$penalty"
     echo "$penalty,$(sed -n 's/.*"newton_iterations": \([0-9]*\).*/\1/p' $results/penalty/summary.json)" >> $results/penalty.csv
   done
   for scene in snap_back snap_back_viscous snap_back_path snap_back_bulk; do run $scene $scene; done
-  run snap_back snap_back_closed_form Model=foundation "Chuck/Rotation z/Stiffness=0"
+  run snap_back snap_back_closed_form Model=foundation "Chuck/Rotation z/Stiffness=none"
   run snap_back_bulk snap_back_bulk_jump "Load steps/Path following=none"
   for picture in $pictures; do gnuplot doc/stability/$picture.gp; done
   echo "Pictures, also as SVG:" $(printf "$results/%s.png " $pictures)

@@ -26,7 +26,7 @@ do for [format in "png svg"] {
   file = dir . "ensemble_fraction/ensemble_summary.csv"
   homogeneous = dir . "ensemble_homogeneous/study.csv"
   fraction = "Interface / Bonding / Bonded fraction"
-  phi_0 = "Interface / Bonding / Initial bonding"
+  phi_0 = "Interface / Bonding / Bonding degree"
   array quantity[2] = ["T_max", "D_adh"]
   array label[2] = ["Largest torque {/:Italic T}_{max} [N mm]", "Adhesive dissipation {/:Italic D}_{adh} [N mm]"]
   set multiplot layout 1, 2

@@ -26,7 +26,7 @@ if [[ $draw_only == false ]]; then
   [[ -x $debond ]] || { echo "ensemble.sh: there is no $debond: build the program first, or set DEBOND" >&2; exit 1; }
   echo "632 runs, some ten minutes on two processors. Each line below is a run."
   "$debond" prm/studies/ensemble_scene.prm "${force[@]}" \
-    --set "Interface/Bonding/Pattern=homogeneous" --set "Interface/Bonding/Initial bonding={{0|0.1|0.2|0.3|0.4|0.5|0.55|0.6|0.7|0.8|0.9|1}}" \
+    --set "Interface/Bonding/Pattern=homogeneous" --set "Interface/Bonding/Bonding degree={{0|0.1|0.2|0.3|0.4|0.5|0.55|0.6|0.7|0.8|0.9|1}}" \
     --set "Output/Directory=$results/ensemble_homogeneous"
   for study in ensemble ensemble_fraction ensemble_correlation; do
     echo "== $(date +%H:%M) $study"

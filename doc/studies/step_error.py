@@ -33,12 +33,12 @@ RIGID = {'Bone/Material': 'rigid', 'Implant/Material': 'rigid', 'Implant/Cells':
 CASES = [
     ('rigid bodies: shear then twist', 2, SHEAR_THEN_TWIST, RIGID),
     ('shear then twist', 2, SHEAR_THEN_TWIST, COARSE),
-    ('trial', 2, SHEAR_THEN_TWIST, {**COARSE, 'Interface/Slip direction': 'trial'}),
+    ('trial', 2, SHEAR_THEN_TWIST, {**COARSE, 'Expert/Slip direction': 'trial'}),
     ('the same with the bone as slave', 2, SHEAR_THEN_TWIST, {**COARSE, 'Interface/Slave': 'bone'}),
     ('a cap', 2, SHEAR_THEN_TWIST, {**COARSE, 'Implant/Shape': 'cap'}),
-    ('pressed and turned at once', 1, {'Translation z': '-0.0049 * min(t, 1) - 0.003 * max(t - 1, 0)', 'Translation x': '0.01 * max(t - 1, 0)',
+    ('pressed and turned at once', 1, {'Press': '0.0049 * min(t, 1) + 0.003 * max(t - 1, 0)', 'Translation x': '0.01 * max(t - 1, 0)',
                                        'Rotation z': '2 * max(t - 1, 0)'}, COARSE),
-    ('pressure to and fro', 1, {'Translation z': PRESS + ' - 0.002 * sin(4 * max(t - 1, 0))', 'Translation x': '0.01 * max(t - 1, 0)',
+    ('pressure to and fro', 1, {'Press': PRESS + ' + 0.002 * sin(4 * max(t - 1, 0))', 'Translation x': '0.01 * max(t - 1, 0)',
                                 'Rotation z': '2 * max(t - 1, 0)'}, COARSE),
     ('fretting', 1, {'Translation x': '0.01 * sin(2 * pi * max(t - 1, 0))', 'Rotation z': '0.3 * max(t - 1, 0)'}, COARSE),
     ('circle', 2, {'Translation x': '0.01 * (min(max(t - 1, 0), 1) + cos(2 * pi * max(t - 2, 0)) - 1)',
@@ -48,7 +48,7 @@ REFERENCE_STEPS = 2000
 
 # the same cells for CalculiX; a constant coefficient is what it knows
 CODES = {'Bone/Cells': '15, 15, 2', 'Implant/Cells': '6, 2', 'Bone/Material': 'linear', 'Implant/Material': 'linear',
-         'Interface/Friction law': 'coulomb', 'Interface/Friction coefficient broken': '0.58'}
+         'Interface/Friction law': 'coulomb', 'Interface/Friction coefficient': '0.58'}
 CODE_STEPS = [5, 10, 20, 40, 80]
 CODE_REFERENCE_STEPS = 320
 FORCE = '--force' in sys.argv
@@ -61,7 +61,7 @@ def rows_of(file):
 
 def settings(phases, motion, entries, **load_steps):
     times = ', '.join(str(k) for k in range(phases + 2))
-    values = {'Translation z': PRESS, 'Rotation z': '0', **motion}
+    values = {'Press': PRESS, 'Rotation z': '0', **motion}
     result = ['Load steps/Times=' + times] + ['Load steps/%s=%s' % entry for entry in load_steps.items()]
     return result + ['Chuck/%s/Value=%s' % entry for entry in values.items()] + ['%s=%s' % entry for entry in entries.items()]
 
@@ -71,7 +71,7 @@ def run(name, entries):
     directory = '%s/%s' % (RESULTS, name)
     if FORCE or not os.path.exists(directory + '/summary.json'):
         command = [DEBOND, 'prm/coin_mode3.prm', '--force']
-        for entry in entries + ['Output/Directory=' + directory, 'Output/Fields every=0', 'Output/Console=quiet']:
+        for entry in entries + ['Output/Directory=' + directory, 'Output/Fields every=none', 'Output/Console=quiet']:
             command += ['--set', entry]
         timed(command, directory)
     return directory
@@ -167,7 +167,7 @@ def codes():
         print('%-28s %4s steps, %6.2f s, error %.2g' % (code, n, seconds, error), flush=True)
 
     def ours(name, direction, **load_steps):
-        directory = run(name, settings(2, SHEAR_THEN_TWIST, {**CODES, 'Interface/Slip direction': direction}, **load_steps))
+        directory = run(name, settings(2, SHEAR_THEN_TWIST, {**CODES, 'Expert/Slip direction': direction}, **load_steps))
         fine = directory + '/curve.csv'
         with open(directory + '/wall_seconds', encoding='utf-8') as file:
             return rows_of(fine if os.path.exists(fine) else directory + '/torque.csv'), float(file.read())

@@ -74,8 +74,8 @@ def gather():
         cells = '%s / %s' % (row['Bone / Cells'], row['Implant / Cells'])
         seconds = float(row['wall_seconds']) + float(row.get('seconds_shared_set_up') or 0)
         error = float(row['difference_max'])
-        lines.append((row['Interface / Penalty stiffness'], family(row), cells, seconds, error))
-        meshes.setdefault((family(row), cells), {})[row['Interface / Penalty stiffness']] = (seconds, error)
+        lines.append((row['Interface / Normal stiffness'], family(row), cells, seconds, error))
+        meshes.setdefault((family(row), cells), {})[row['Interface / Normal stiffness']] = (seconds, error)
     with open(RESULTS / 'stiffness.csv', 'w') as file:
         file.write('stiffness,family,cells,seconds,error\n')
         file.writelines('%s,%s,"%s",%.3g,%.3g\n' % line for line in lines)

@@ -1,4 +1,4 @@
-# The varied entries of a variant of a study, "Penalty stiffness 585, Model foundation", for doc/plot_study.gp:
+# The varied entries of a variant of a study, "Normal stiffness 585, Model foundation", for doc/plot_study.gp:
 #   awk -v variant=2 -f doc/studies/variant_name.awk DIR/study.csv
 # The columns of varied entries lie between the number of the variant and the first result.
 function fields(line, field,    n, quoted, i, c) {

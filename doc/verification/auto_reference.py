@@ -65,8 +65,8 @@ def make_stiff_references():
     for name, eps in STIFF.items():
         results = 'output/verification/auto_' + name
         subprocess.run([PROGRAM, 'prm/coin_stiff.prm', '--force'] + [word for entry in (
-            'Output/Directory=' + results, 'Output/Fields every=0', 'Output/Report=false', 'Bone/Cells=fitted 28, 9, 16, 13',
-            'Implant/Cells=fitted 20, 7, 6', 'Interface/Penalty stiffness=' + eps, 'Load steps/Tolerance=1e-4')
+            'Output/Directory=' + results, 'Output/Fields every=none', 'Output/Report=false', 'Bone/Cells=fitted 28, 9, 16, 13',
+            'Implant/Cells=fitted 20, 7, 6', 'Interface/Normal stiffness=' + eps, 'Load steps/Tolerance=1e-4')
                                                                     for word in ('--set', entry)], check=True)
         write_stiff(name, 'scene %d of prm/verification/auto_scenes.prm' % (NAMES.index(name) + 1), 'cells fitted 28, 9, 16, 13 and 20, 7, 6',
                     '1e-4', results)

@@ -1,7 +1,7 @@
 """debond from Python: scenes, curves as NumPy arrays, steps that a script drives, fits to measured curves.
 
     import debond
-    scene = debond.Scene("prm/coin_mode3_fast.prm", {"Interface/Sliding threshold": 0.03})
+    scene = debond.Scene("prm/coin_mode3_fast.prm", {"Interface/Characteristic slip distance": 0.03})
     result = scene.run()
     result.rows["torque_Nmm"].max()
     fit = debond.fit("prm/calibrate/data_set_1.prm")

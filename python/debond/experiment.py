@@ -52,14 +52,14 @@ class Experiment:
         self.unknowns, self.number, self.given = unknowns, number, entries
         entries = _debond.with_values(entries, unknowns.entries(number, unknowns.starts))
         # runs read no measured curve; the file is read once, by this module
-        without = _debond.changed(entries, ["Output/Reference curve=", "Output/Reference columns="], "--set")
+        without = _debond.changed(entries, ["Output/Reference curve=none", "Output/Reference columns=auto"], "--set")
         self.scene = _debond.Scene(entries if measured is None else without, name, _debond.Team(0))
         self.name = name
         self.values = self.scene.values
         over, load = self.scene.curve
         self.columns = [measurement.curve_column(self.scene, column.strip(), "Calibration / Curves")
-                        for column in (self.values["Calibration / Curves"] or load).split(",")]
-        self.over = measurement.curve_column(self.scene, self.values["Calibration / Over"] or over, "Calibration / Over")
+                        for column in (measurement.given(self.values["Calibration / Curves"]) or load).split(",")]
+        self.over = measurement.curve_column(self.scene, measurement.given(self.values["Calibration / Over"]) or over, "Calibration / Over")
         self.measured = measured or measurement.read(self.scene, self.values, self.columns, self.over, self._largest_shift())
         self.text = _debond.text_of(without)
         self.curve = _debond.VaryingCurve(without, name)
@@ -136,7 +136,7 @@ class Experiment:
         compliance = numpy.array(self.curve.compliance_of_bodies(list(self.changes(values)[0])))
         slopes = numpy.zeros((2, len(values)))
         for j, unknown in enumerate(self.unknowns.list):
-            of_bodies = any(re.match("Bone / |Implant / |.*enalty stiffness", name) for name in self._held_in[j])
+            of_bodies = any(re.match("Bone / |Implant / |Interface / (Normal|Tangential) stiffness", name) for name in self._held_in[j])
             if of_bodies and compliance.all():
                 other = values.copy()
                 h = 1e-2 * max(abs(values[j]), 1e-2 * (unknown.upper - unknown.lower))

@@ -20,7 +20,7 @@ import _debond
 from . import intervals, known, noise
 from .errors import RunError
 from .experiment import Experiment
-from .measurement import numbers_of
+from .measurement import stated_noise
 from .problem import Optimum, Problem, Runs
 from .scene import Scene
 from .unknowns import Unknowns
@@ -300,7 +300,7 @@ class Fit:
                 continue
             derivatives = own.derivatives(self.values, closed)
             scales = abs(curve.reshape(len(experiment.columns), -1)).max(axis=1)
-            stated = numpy.array(numbers_of(experiment.values, "Noise"))
+            stated = numpy.array(stated_noise(experiment.values))
             sd = numpy.repeat(scales * numpy.where(stated > 0, stated, 1), len(experiment.measured.over))
             result.append((experiment.number, intervals.with_test(problem, self.told, derivatives / sd[:, None])))
         return result

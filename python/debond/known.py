@@ -10,10 +10,10 @@ from .experiment import RIG, Experiment
 
 # Entries of a scene, and by what each of them is changed: a factor, or 0: a part of the angle or torque of the peak.
 _FACTORS = ["Implant / Radius", "Implant / Height", "Bone / Outer radius", "Interface / Interference", "Bone / Young modulus", "Implant / Young modulus",
-            "Interface / Penalty stiffness", "Interface / Tangential penalty stiffness", "Interface / Friction coefficient broken",
-            "Interface / Friction coefficient unbroken", "Interface / Sliding threshold", "Interface / Transition factor",
-            "Chuck / Translation z / Value"]
-_BONDING = "Interface / Bonding / Initial bonding"
+            "Interface / Normal stiffness", "Interface / Tangential stiffness", "Interface / Friction coefficient broken",
+            "Interface / Friction coefficient unbroken", "Interface / Characteristic slip distance", "Interface / Transition factor",
+            "Chuck / Press / Value", "Chuck / Translation z / Value"]
+_BONDING = "Interface / Bonding / Bonding degree"
 
 
 def _unit_of(entry, values):
@@ -21,7 +21,7 @@ def _unit_of(entry, values):
     if entry.endswith("Interference"):
         return "mm"
     if "Chuck" in entry:
-        return "N" if values["Chuck / Translation z / Control"] == "force" else "mm"
+        return "N" if values[entry.replace("Value", "Control")] == "force" else "mm"
     return _debond.unit_of(entry) or ("MPa" if "modulus" in entry else "")
 
 

@@ -77,12 +77,22 @@ class Measurement:
     n_left_out: int = 0  # rows that are not fitted
 
 
+def given(text):
+    """The text of an entry; nothing if it is `auto` or `none`."""
+    return "" if text in ("auto", "none") else text
+
+
 def _list_of(text):
-    return [item.strip() for item in text.split(",") if item.strip()]
+    return [item.strip() for item in given(text).split(",") if item.strip()]
 
 
 def numbers_of(values, name):
     return [float(item) for item in _list_of(values["Calibration / " + name])]
+
+
+def stated_noise(values):
+    """Standard deviations relative to the largest value; [0] if the scene states none."""
+    return numbers_of(values, "Noise") or [0.0]
 
 
 def _places(scene, over, times):
@@ -143,11 +153,9 @@ def _used_rows(scene, values, columns, over, table, branch, reach):
 def _check(scene, values, columns):
     if len(numbers_of(values, "Windows")) % 2:
         scene.refuse("Calibration / Windows", "expected pairs of bounds, an even number of them")
-    noise = numbers_of(values, "Noise")
+    noise = stated_noise(values)
     if len(noise) not in (1, len(columns)):
         scene.refuse("Calibration / Noise", "expected one number, or one for each of Curves")
-    if noise.count(0) % len(noise):
-        scene.refuse("Calibration / Noise", "either that of all curves is known, or that of none: 0")
 
 
 def _proposed(scene, columns, over, least_turn):
@@ -165,11 +173,11 @@ def read(scene, values, columns, over, largest_shift):
     """The Measurement of a scene, whose entries are `values`: `columns` along `over`. The rig may show `largest_shift` [deg]
     more than the implant has turned. Raises SceneError."""
     _check(scene, values, columns)
-    planned, file = _places(scene, over, scene.sample_times), values[ENTRY]
+    planned, file = _places(scene, over, scene.sample_times), given(values[ENTRY])
     least_turn = _least_turn(planned)
     if not file:
         return _proposed(scene, columns, over, least_turn)
-    table = _read(scene, file, [column.name for column in (over, *columns)], values["Output / Reference columns"])
+    table = _read(scene, file, [column.name for column in (over, *columns)], given(values["Output / Reference columns"]))
     branch = branches_of(table[:, 0], least_turn)
     reach = _reach(planned, largest_shift if over.is_angle else 0)
     used, window = _used_rows(scene, values, columns, over, table, branch, reach)
@@ -197,7 +205,7 @@ def _stated_noise(scene, values, columns, used, scale):
     """Standard deviations as the scene states them (n x curves), or None."""
     choice, entry = _list_of(values["Calibration / Noise columns"]), "Calibration / Noise columns"
     if not choice:
-        noise = numpy.array(numbers_of(values, "Noise"))
+        noise = numpy.array(stated_noise(values))
         return numpy.tile(noise * scale, (len(used), 1)) if noise[0] > 0 else None
     if len(choice) != len(columns):
         scene.refuse(entry, "expected one for each of Curves")

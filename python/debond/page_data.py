@@ -74,7 +74,7 @@ def numbers(texts):
 
 
 def read_entries(path):
-    """The entries of a file of parameters, {"Chuck / Rotation z / Value": text}."""
+    """The entries of a file of parameters that say more than `auto` or `none`, {"Chuck / Rotation z / Value": text}."""
     entries, sections = {}, []
     if os.path.exists(path):
         with open(path, encoding="utf-8", errors="replace") as file:
@@ -85,7 +85,8 @@ def read_entries(path):
                     sections.pop()
                 elif line.startswith("set "):
                     name, _, value = line[len("set "):].partition("=")
-                    entries[" / ".join([*sections, name.strip()])] = value.strip()
+                    if value.strip() not in ("auto", "none"):
+                        entries[" / ".join([*sections, name.strip()])] = value.strip()
     return entries
 
 

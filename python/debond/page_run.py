@@ -53,7 +53,7 @@ def curve_of(directory, summary, entries):
     plot.add("reference", "points", *reference_of(directory, axes), "#555555")
     plot.add("debond", "line", xs, ys, "#c03028")
     if "curve" not in summary:
-        add_marks_of_torque(plot, xs, ys, summary, entries.get("Output / Published values", ""))
+        add_marks_of_torque(plot, xs, ys, summary, entries.get("Output / Reference marks", ""))
     elif xs:
         at, largest = number(summary["curve"]["at"]), number(summary["curve"]["largest"])
         plot.add(f"largest: {with_unit(largest, y[1])} at {with_unit(at, x[1])}", "marks", [at], [largest], "#2c1e5c")

@@ -16,7 +16,7 @@ from scipy import optimize
 from scipy.stats import qmc
 
 from .errors import RunError, SceneError
-from .measurement import numbers_of
+from .measurement import stated_noise
 from .experiment import Experiment, run_task, run_task_in
 
 SMOOTH = 1e-3  # below this difference magnitudes are smoothed, for the measures e_mp and e_rel
@@ -126,9 +126,9 @@ class Problem:
 
     def _check_noise(self):
         for experiment in self.experiments:
-            stated = experiment.measured.sd is not None if experiment.is_done else numbers_of(experiment.values, "Noise")[0] > 0
+            stated = experiment.measured.sd is not None if experiment.is_done else stated_noise(experiment.values)[0] > 0
             if self.done and stated != self.noise_is_known:
-                experiment.scene.refuse("Calibration / Noise", "either all curves of all experiments have a known noise, or none: 0; "
+                experiment.scene.refuse("Calibration / Noise", "either all curves of all experiments have a known noise, or none: auto; "
                                                                "tests that have not been done need it here")
 
     def _weights_of_measure(self):

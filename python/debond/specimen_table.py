@@ -113,7 +113,7 @@ def _specimen(place, fields, known, has_decimal_commas, directory):
 
 def _scene_of(template, changes=()):
     """The scene with unknowns at their starts, without a measured curve. Raises SceneError."""
-    entries, _ = _debond.variants(_debond.changed(template, [*changes, "Output/Reference curve=", "Task=calibrate"]))[0]
+    entries, _ = _debond.variants(_debond.changed(template, [*changes, "Output/Reference curve=none", "Task=calibrate"]))[0]
     unknowns = Unknowns([(entries, [])])
     if not unknowns.list:
         raise InputError("the template has no unknowns: write <<START in LOWER..UPPER>> in the place of numbers that are to be "

@@ -440,7 +440,7 @@ namespace Debond
       }
     for (unsigned int rank = 0; rank < n_ranks; ++rank)
       if (std::count(owner.begin(), owner.end(), rank) == 0)
-        throw EntryError("Bone / Bulk solver",
+        throw EntryError("Bone / Solver",
                          std::to_string(n_ranks) + " processes cannot share " +
                            std::to_string(all_cells.size()) +
                            " cells: expected fewer");

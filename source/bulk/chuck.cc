@@ -19,10 +19,11 @@ namespace Debond
 
 
   std::string
-  ChuckParameters::entry_name(const unsigned int component,
-                              const std::string &entry)
+  ChuckParameters::entry_name(const unsigned int k,
+                              const std::string &entry) const
   {
-    return std::string("Chuck / ") + names[component] + " / " + entry;
+    return std::string("Chuck / ") +
+           (component[k].into_bone ? "Press" : names[k]) + " / " + entry;
   }
 
 
@@ -39,38 +40,101 @@ namespace Debond
 
 
 
+  // What presses has no column of torque.csv, whose forces are along z.
+  std::string
+  ChuckParameters::file_column(const unsigned int k) const
+  {
+    const bool loaded = component[k].loaded;
+    return !component[k].into_bone ? column_name(k, loaded) :
+           loaded                  ? "press_N" :
+                                     "press_mm";
+  }
+
+
+
   namespace
   {
     void
     declare_file(ChuckComponentParameters &component,
-                 const unsigned int        k,
+                 const std::string        &columns,
                  EntryTable               &table)
     {
       table.add("File",
                 component.file,
-                Allowed::text("the name of a CSV file"),
+                Allowed::text("the name of a CSV file", false)
+                  .or_word_for("none", ""),
                 "Table of values over time or angle, as an instrument or a "
                 "spreadsheet writes it, or the torque.csv of a run, with two "
-                "rows or more and monotone cubics between them; empty: none. "
-                "It has to hold all times, or all angles, of the scene. The "
-                "path is relative to the working directory.");
-      table.add("File over",
-                component.over_angle,
-                Allowed::choice("time | angle"),
-                "What File has values over: the `time', or the `angle' [deg] "
-                "that Rotation z prescribes at that time.");
-      table.add("File columns",
-                component.columns,
-                Allowed::text("two columns, the time or angle and the value"),
-                "Which columns of File are time or angle, and value, each by "
-                "its name there or its number from 1, with a unit where the "
-                "file has none: 1 [deg], force [kN]. Empty: time or angle_deg, "
-                "and " +
-                  ChuckParameters::column_name(k, false) + " or " +
-                  ChuckParameters::column_name(k, true) +
-                  " as Control says, else the only columns with such units.");
+                "rows or more and monotone cubics between them. It has to hold "
+                "all times, or all angles, of the scene. The path is relative "
+                "to the working directory.");
+      table.add(
+        "File columns",
+        component.columns,
+        Allowed::list(Allowed::text("a column", false), 2, 2)
+          .or_word_for("auto", ""),
+        "Which columns of File are time or angle, and value, each by its name "
+        "there or its number from 1, with a unit where the file has none: 1 "
+        "[deg], force [kN]; a minus before the unit, [-kN], turns the sign. An "
+        "angle (deg, rad) is that which Rotation z prescribes. `auto': time, "
+        "or else angle_deg, and " +
+          columns +
+          " as Control says, else the only columns with such units.");
     }
   } // namespace
+
+
+
+  void
+  ChuckParameters::declare_component(const unsigned int k,
+                                     const bool         into_bone,
+                                     EntryTable        &table)
+  {
+    const bool                rotation = is_rotation(k);
+    ChuckComponentParameters &own      = into_bone              ? press :
+                                         component[k].into_bone ? unset :
+                                                                  component[k];
+    table.enter_subsection(into_bone ? "Press" : names[k]);
+    table.add(
+      "Control",
+      own.loaded,
+      Allowed::choice(rotation ? "angle | moment" : "displacement | force"),
+      std::string("What Value means: ") +
+        (rotation ? "`angle' [deg], or the `moment' [N mm] that does the work "
+                    "along it, of the chuck, positive about +" :
+                    "`displacement' [mm] or `force' [N] of the chuck, "
+                    "positive ") +
+        (into_bone ? "into the bone, along -z. Press and Translation z are one "
+                     "motion: a scene sets one of them" :
+                     std::string(rotation ? "" : "along +") + "xyz"[k % 3]) +
+        ".");
+    table.add("Value",
+              own.value,
+              Allowed::text(std::string("an expression in t, in ") +
+                              (rotation ? "degrees or N mm" : "mm or N"),
+                            false),
+              std::string("Expression in the time t (constants pi and R [mm]), "
+                          "in ") +
+                (rotation ? "degrees for angle, N mm for moment" :
+                            "mm for displacement, N for force") +
+                ". Note that sin and cos expect radians: sin(2 * pi * t). "
+                "With File also in table, the value of the table; then the "
+                "default 0 means table.");
+    declare_file(own,
+                 into_bone ? "press_mm or press_N" :
+                             column_name(k, false) + " or " +
+                               column_name(k, true),
+                 table);
+    table.add(
+      "Stiffness",
+      own.stiffness,
+      Allowed::number_between(1e-9, 1e18, rotation ? "N mm/rad" : "N/mm")
+        .or_word_for("none", "0"),
+      std::string("Stiffness ") + (rotation ? "[N mm/rad]" : "[N/mm]") +
+        " of a spring between the machine and the implant in this direction. "
+        "`none': the machine is rigid.");
+    table.leave_subsection();
+  }
 
 
 
@@ -85,44 +149,9 @@ namespace Debond
       "Point x, y, z [mm] of the implant that Translation moves, that Rotation "
       "turns about, and that forces act at: a machine may hold the implant by a "
       "lever, or push at its edge. `auto': the centre of its top.");
-    for (unsigned int c = 0; c < n_components; ++c)
-      {
-        const bool rotation = is_rotation(c);
-        table.enter_subsection(names[c]);
-        table.add("Control",
-                  component[c].loaded,
-                  Allowed::choice(rotation ? "angle | moment" :
-                                             "displacement | force"),
-                  std::string("What Value means: ") +
-                    (rotation ? "`angle' [deg], or the `moment' [N mm] that "
-                                "does the work along it (doc/model.md), of the "
-                                "chuck, positive about +" :
-                                "`displacement' [mm] or `force' [N] of the "
-                                "chuck, positive along +") +
-                    "xyz"[c % 3] + ".");
-        table.add("Value",
-                  component[c].value,
-                  Allowed::text(std::string("an expression in t, in ") +
-                                  (rotation ? "degrees or N mm" : "mm or N"),
-                                false),
-                  std::string("Expression in the time t (muParser; constants "
-                              "pi and R [mm]), in ") +
-                    (rotation ? "degrees for angle, N mm for moment" :
-                                "mm for displacement, N for force") +
-                    ". Note that sin and cos expect radians: sin(2 * pi * t). "
-                    "With File also in table, the value of the table; then "
-                    "the default 0 means table.");
-        declare_file(component[c], c, table);
-        table.add(
-          "Stiffness",
-          component[c].stiffness,
-          Allowed::number_between(1e-9, 1e18, rotation ? "N mm/rad" : "N/mm")
-            .or_number(0),
-          std::string("Stiffness ") + (rotation ? "[N mm/rad]" : "[N/mm]") +
-            " of the machine in series with this component; 0: a rigid "
-            "machine.");
-        table.leave_subsection();
-      }
+    declare_component(ChuckComponent::translation_z, true, table);
+    for (unsigned int k = 0; k < n_components; ++k)
+      declare_component(k, false, table);
     table.leave_subsection();
   }
 
@@ -148,6 +177,7 @@ namespace Debond
       {
         const auto &component = parameters.component[k];
         value_functions.push_back(parameters.value_over_time(k, radius));
+        value_entries.push_back(parameters.entry_name(k, "Value"));
         stiffness[k]  = component.stiffness;
         loaded[k]     = component.loaded;
         compliant[k]  = stiffness[k] > 0.;
@@ -176,8 +206,7 @@ namespace Debond
           }
         catch (const InputError &error)
           {
-            throw EntryError(ChuckParameters::entry_name(k, "Value"),
-                             error.what());
+            throw EntryError(value_entries[k], error.what());
           }
       }
     return result;

@@ -23,70 +23,67 @@ namespace Debond
 
 
 
-    /** The rows of the file of component @p k: time or angle, and value. */
     std::vector<std::vector<double>>
-    read_rows(const ChuckComponentParameters &component, const unsigned int k)
+    read_rows(const ChuckParameters &chuck, const unsigned int k)
     {
+      const ChuckComponentParameters &component = chuck.component[k];
       return read_measured_table(
         component.file,
-        ChuckParameters::entry_name(k, "File"),
-        {abscissa_of(component),
-         ChuckParameters::column_name(k, component.loaded)},
+        chuck.entry_name(k, "File"),
+        {abscissa_of(component), chuck.file_column(k)},
         component.columns,
-        ChuckParameters::entry_name(k, "File columns"));
+        chuck.entry_name(k, "File columns"));
     }
 
 
 
-    /** The same; says if the file could be read over the angle only. */
+    /** The rows of the file of component @p k: time, or else angle, and value.
+     *  Sets which of them it is. */
     std::vector<std::vector<double>>
-    read_rows_or_hint(const ChuckComponentParameters &component,
-                      const unsigned int              k)
+    read_rows_over_time_or_angle(ChuckParameters &chuck, const unsigned int k)
     {
+      bool &over_angle = chuck.component[k].over_angle;
+      over_angle       = false;
       try
         {
-          return read_rows(component, k);
+          return read_rows(chuck, k);
         }
       catch (const EntryError &error)
         {
-          ChuckComponentParameters other = component;
-          other.over_angle               = true;
+          over_angle = true;
           try
             {
-              read_rows(other, k);
+              return read_rows(chuck, k);
             }
           catch (const EntryError &)
             {
+              over_angle = false;
               throw error;
             }
-          throw EntryError(error.entry,
-                           error.why +
-                             "; with File over = angle it is read over the "
-                             "angle",
-                           error.value);
         }
     }
 
 
 
     std::shared_ptr<const MonotoneCurve>
-    read_table(const ChuckComponentParameters &component, const unsigned int k)
+    read_table(ChuckParameters &chuck, const unsigned int k)
     {
       const auto expect = [&](const bool is_right, const std::string &why) {
         if (!is_right)
-          throw EntryError(ChuckParameters::entry_name(k, "File"),
+          throw EntryError(chuck.entry_name(k, "File"),
                            why,
-                           component.file);
+                           chuck.component[k].file);
       };
       std::vector<double> x, values;
-      for (const std::vector<double> &row : read_rows_or_hint(component, k))
+      for (const std::vector<double> &row :
+           read_rows_over_time_or_angle(chuck, k))
         {
           // an instrument at rest
           if (!x.empty() && row[0] == x.back() && row[1] == values.back())
             continue;
           expect(x.empty() || row[0] > x.back(),
-                 abscissa_of(component) + " = " + to_text(row[0]) + " after " +
-                   (x.empty() ? "" : to_text(x.back())) +
+                 abscissa_of(chuck.component[k]) + " = " + to_text(row[0]) +
+                   " after " + (x.empty() ? "" : to_text(x.back())) +
                    ": expected rows that ascend, or repeat the one before");
           x.push_back(row[0]);
           values.push_back(row[1]);
@@ -94,16 +91,42 @@ namespace Debond
       expect(x.size() >= 2, "expected at least two rows that differ");
       return std::make_shared<const MonotoneCurve>(x, values);
     }
+
+
+
+    bool
+    is_set(const ChuckComponentParameters &component)
+    {
+      return component.value != "0" || !component.file.empty() ||
+             component.is_unknown();
+    }
   } // namespace
+
+
+
+  void
+  ChuckParameters::take_press()
+  {
+    ChuckComponentParameters &z = component[ChuckComponent::translation_z];
+    if (!is_set(press) || z.into_bone)
+      return;
+    if (is_set(z))
+      throw EntryError("Chuck / Press / Value",
+                       "Press and Translation z are one motion, with opposite "
+                       "signs: expected one of them");
+    z           = press;
+    z.into_bone = true;
+  }
 
 
 
   void
   ChuckParameters::read_tables()
   {
+    take_press();
     for (unsigned int k = 0; k < n_components; ++k)
       component[k].table =
-        component[k].file.empty() ? nullptr : read_table(component[k], k);
+        component[k].file.empty() ? nullptr : read_table(*this, k);
   }
 
 
@@ -120,7 +143,7 @@ namespace Debond
 
 
   TimeFunction
-  ChuckParameters::value_over_time(const unsigned int k,
+  ChuckParameters::value_as_given(const unsigned int k,
                                    const double       radius) const
   {
     const auto &[table, value, function] =
@@ -144,6 +167,18 @@ namespace Debond
 
 
 
+  TimeFunction
+  ChuckParameters::value_over_time(const unsigned int k,
+                                   const double       radius) const
+  {
+    const TimeFunction given = value_as_given(k, radius);
+    if (!component[k].into_bone)
+      return given;
+    return [given](const double time) { return -given(time); };
+  }
+
+
+
   void
   ChuckParameters::check() const
   {
@@ -151,7 +186,7 @@ namespace Debond
     for (unsigned int k = 0; k < n_components; ++k)
       {
         const ChuckComponentParameters &c         = component[k];
-        const auto                      refuse_if = [k](const bool         is_so,
+        const auto                      refuse_if = [&](const bool         is_so,
                                    const std::string &entry,
                                    const std::string &why) {
           if (is_so)
@@ -162,22 +197,22 @@ namespace Debond
           std::regex_search(c.value, std::regex("\\btable\\b"));
         refuse_if(!has_file && has_table,
                   "Value",
-                  "table is the value of the table in File, which is empty");
+                  "table is the value of the table in File, and there is none");
         refuse_if(has_file && !has_table && c.value != "0",
                   "Value",
                   "with File expected an expression in t and table, as min(t, "
                   "1) * table, or 0 for table");
-        refuse_if(!has_file && c.over_angle, "File over", "there is no File");
         refuse_if(!has_file && !c.columns.empty(),
                   "File columns",
                   "there is no File");
         refuse_if(c.over_angle && k == twist,
-                  "File over",
-                  "the angle is that of Rotation z itself: expected time");
+                  "File",
+                  "its values are over the angle, which is that of Rotation z "
+                  "itself: expected values over the time");
         refuse_if(c.over_angle && component[twist].loaded,
-                  "File over",
-                  "for Rotation z a moment is prescribed, and no angle: "
-                  "expected time");
+                  "File",
+                  "its values are over the angle, and for Rotation z a moment "
+                  "is prescribed: expected values over the time");
         refuse_if(has_file && !c.table, "File", "it has not been read");
       }
   }

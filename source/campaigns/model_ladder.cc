@@ -77,7 +77,7 @@ namespace Debond
           for (unsigned int k = 0; k < z; ++k)
             if (has_turned && move[z] == 0. && move[k] != 0.)
               throw EntryError(
-                ChuckParameters::entry_name(k, "Value"),
+                scene.chuck.entry_name(k, "Value"),
                 "Model = auto compares torques over the angle and would not "
                 "see what this does while the rotation about z pauses or has "
                 "ended; it may change before the rotation begins and during "

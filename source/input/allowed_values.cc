@@ -74,6 +74,34 @@ namespace Debond
 
 
 
+  AllowedValues
+  AllowedValues::or_word_for(const std::string &word,
+                             const std::string &text) const
+  {
+    AllowedValues result = or_word(word);
+    result.word          = word;
+    result.word_value    = text;
+    return result;
+  }
+
+
+
+  std::string
+  AllowedValues::in_words(const std::string &value) const
+  {
+    return value == word_value && !word.empty() ? word : value;
+  }
+
+
+
+  std::string
+  AllowedValues::without_words(const std::string &text) const
+  {
+    return text == word && !word.empty() ? word_value : text;
+  }
+
+
+
   std::optional<double>
   read_number(const std::string &text)
   {

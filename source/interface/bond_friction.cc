@@ -30,21 +30,27 @@ namespace Debond
 
 
 
-  // The entries of mu_b and mu_ub, which all laws of this kind have, and those
-  // of the law itself. 0 is allowed, for faces without friction; anything else
-  // below 1e-9 is taken for a slip of the pen.
+  // 0 is allowed, for faces without friction; anything else below 1e-9 is taken
+  // for a slip of the pen.
+  AllowedValues
+  BondFriction::allowed_coefficient()
+  {
+    return Allowed::number_between(1e-9, 1e6, "").or_number(0);
+  }
+
+
+
   std::vector<LawEntry>
   BondFriction::entries(const std::vector<LawEntry> &more)
   {
-    const AllowedValues coefficient =
-      Allowed::number_between(1e-9, 1e6, "").or_number(0);
+    const AllowedValues       coefficient = allowed_coefficient();
     std::vector<LawEntry> all{
       {"",
        "Friction coefficient broken",
        "0.40",
        coefficient,
-       "Coefficient mu_b of a debonded point, dimensionless; the coefficient of "
-       "plain coulomb."},
+       "Coefficient mu_b of a debonded point, dimensionless. Used by modified "
+       "coulomb and table."},
       {"",
        "Friction coefficient unbroken",
        "0.58",

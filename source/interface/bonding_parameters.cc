@@ -39,7 +39,7 @@ namespace Debond
       "cap; `annulus': outside the disk that holds the rest. `random': as many "
       "elements, drawn by Seed, as make up Bonded fraction. `expression': see "
       "Expression. `image', `file': see File.");
-    table.add("Initial bonding",
+    table.add("Bonding degree",
               initial_bonding,
               Allowed::number_between(0, 1, ""),
               "Degree of osseointegration phi_0 of bonded points, "
@@ -88,7 +88,7 @@ namespace Debond
     table.add(
       "File",
       file,
-      Allowed::text("the name of a file"),
+      Allowed::text("the name of a file", false).or_word_for("none", ""),
       "Pattern image: PNG or PGM, grey levels from 0 (black) to 1 (white) are "
       "phi_0; the picture spans the square around the contact face (of a "
       "block: the rectangle), its right is +x and its top +y. Pattern file: "
@@ -100,16 +100,16 @@ namespace Debond
       "relative to the working directory.");
     table.add("White level",
               white_level,
-              Allowed::whole_number(0, 65535),
+              Allowed::whole_number(1, 65535).or_word_for("auto", "0"),
               "Pattern image: the level of the file that is white, phi_0 = 1, "
-              "such as 4095 for 12 bits in a file of 16. 0: the largest that "
+              "such as 4095 for 12 bits in a file of 16. `auto': the largest that "
               "the file has room for: 255, 65535, or what a PGM file says.");
     table.add(
       "Threshold",
       threshold,
-      Allowed::number_between(0, 0.9999, "").or_number(-1),
+      Allowed::number_between(0, 0.9999, "").or_word_for("none", "-1"),
       "Pattern image: grey level, from 0 (black) to 1 (white), above which "
-      "phi_0 = 1; it is 0 elsewhere. -1: grey levels as they are.");
+      "phi_0 = 1; it is 0 elsewhere. `none': grey levels as they are.");
   }
 
 
@@ -131,7 +131,7 @@ namespace Debond
          {Row{is_disk || is_random,
               bonded_fraction != 1,
               "Bonded fraction",
-              "disk, annulus or random (Initial bonding lowers the degree of "
+              "disk, annulus or random (Bonding degree lowers the degree of "
               "bonding)"},
           Row{is_random, seed != 1, "Seed", "random"},
           Row{

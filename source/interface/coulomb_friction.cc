@@ -56,7 +56,7 @@ namespace Debond
       std::string
       entries_against_fall() const override
       {
-        return "Sliding threshold or Transition factor";
+        return "Characteristic slip distance or Transition factor";
       }
 
       // that of all such laws; here the compiler knows whose decay() it calls
@@ -138,36 +138,37 @@ namespace Debond
 
 
 
-    // The entries of all laws in this file: they share them, so that a scene
-    // may change its law and keep its numbers. Tables of allowed values keep
-    // a_s and b_s above zero, by which Eq. (13) divides.
+    // Of the bond. Tables of allowed values keep a_s and b_s above zero, by which
+    // Eq. (13) divides.
     std::vector<LawEntry>
-    coulomb_entries()
+    decay_entries()
     {
-      return BondFriction::entries(
-        {{"",
-          "Sliding threshold",
-          "0.022",
-          Allowed::number_between(1e-9, 1e6, "mm"),
-          "Sliding distance a_s [mm] up to which a point stays fully bonded. "
-          "Used by modified coulomb, and by coulomb with Law = adhesive."},
-         {"",
-          "Transition factor",
-          "0.74",
-          Allowed::number_between(1e-9, 1e6, ""),
-          "Factor b_s, dimensionless: a point is fully debonded once it has "
-          "slid (1 + 2 b_s) a_s. Used as the Sliding threshold."}});
+      return {{"",
+               "Characteristic slip distance",
+               "0.022",
+               Allowed::number_between(1e-9, 1e6, "mm"),
+               "Sliding distance a_s [mm] up to which a point stays fully "
+               "bonded. Used by modified coulomb, and by coulomb with Law = "
+               "adhesive."},
+              {"",
+               "Transition factor",
+               "0.74",
+               Allowed::number_between(1e-9, 1e6, ""),
+               "Factor b_s, dimensionless: a point is fully debonded once it "
+               "has slid (1 + 2 b_s) a_s. Used as the Characteristic slip "
+               "distance."}};
     }
 
 
 
-    /** What the entries say; laws that are special cases change it. */
     ModifiedCoulombParameters
-    coulomb_parameters(const LawChoice &choice)
+    parameters_of(const LawChoice &choice,
+                  const double     mu_broken,
+                  const double     mu_unbroken)
     {
-      return {choice.number("Friction coefficient broken"),
-              choice.number("Friction coefficient unbroken"),
-              choice.number("Sliding threshold"),
+      return {mu_broken,
+              mu_unbroken,
+              choice.number("Characteristic slip distance"),
               choice.number("Transition factor")};
     }
   } // namespace
@@ -215,36 +216,41 @@ namespace Debond
 
 
 
-  // Three names of one class. The first sets both coefficients to 0: a closed
+  // Three names of one class. The first has the coefficient 0: a closed
   // point is then projected on the master, without a tangential traction.
   FrictionLawPlugin
   frictionless_plugin()
   {
     return {"frictionless",
             "no tangential traction",
-            coulomb_entries(),
+            decay_entries(),
             [](const LawChoice &choice) {
-              auto parameters      = coulomb_parameters(choice);
-              parameters.mu_broken = parameters.mu_unbroken = 0.;
-              parameters.frictionless                       = true;
+              auto parameters         = parameters_of(choice, 0., 0.);
+              parameters.frictionless = true;
               return modified_coulomb(parameters);
             }};
   }
 
 
 
-  // Eq. (8): only mu_b counts. It is what the debonded implant slides with at
-  // the end of the paper's test.
+  // Eq. (8). It is what the debonded implant slides with at the end of the
+  // paper's test.
   FrictionLawPlugin
   coulomb_plugin()
   {
+    std::vector<LawEntry> entries = decay_entries();
+    entries.insert(entries.begin(),
+                   {"",
+                    "Friction coefficient",
+                    "0.40",
+                    BondFriction::allowed_coefficient(),
+                    "Coefficient mu of Friction law = coulomb, dimensionless."});
     return {"coulomb",
-            "the constant coefficient Friction coefficient broken",
-            coulomb_entries(),
+            "the constant coefficient Friction coefficient",
+            entries,
             [](const LawChoice &choice) {
-              auto parameters        = coulomb_parameters(choice);
-              parameters.mu_unbroken = parameters.mu_broken;
-              return modified_coulomb(parameters);
+              const double mu = choice.number("Friction coefficient");
+              return modified_coulomb(parameters_of(choice, mu, mu));
             }};
   }
 
@@ -260,9 +266,12 @@ namespace Debond
             "the coefficient falls from its unbroken to its broken value as "
             "the accumulated sliding distance of a point grows (Eqs. 11 to 13 "
             "of the paper)",
-            coulomb_entries(),
+            BondFriction::entries(decay_entries()),
             [](const LawChoice &choice) {
-              return modified_coulomb(coulomb_parameters(choice));
+              return modified_coulomb(
+                parameters_of(choice,
+                              choice.number("Friction coefficient broken"),
+                              choice.number("Friction coefficient unbroken")));
             }};
   }
 } // namespace Debond

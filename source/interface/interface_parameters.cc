@@ -28,15 +28,17 @@ namespace Debond
       "Gauss points per direction and slave surface element. `auto': 5; if a "
       "body has splines 6 (5 if both have fitted cells), or as many as keep the distance between points "
       "below the width of the other body's cells.");
-    table.add("Penalty stiffness",
+    table.add("Normal stiffness",
               normal_penalty,
               Allowed::number_between(1e-6, 1e15, "MPa/mm"),
               "Normal stiffness eps_n [MPa/mm] of the interface: pressure per "
               "penetration.");
-    table.add("Tangential penalty stiffness",
+    table.add("Tangential stiffness",
               tangential_penalty,
-              Allowed::number_between(1e-6, 1e15, "MPa/mm").or_number(0),
-              "Tangential stiffness eps_t [MPa/mm] of the interface. 0: the "
+              Allowed::number_between(1e-6, 1e15, "MPa/mm")
+                .or_word_for("auto", "0"),
+              "Tangential stiffness eps_t [MPa/mm] of the interface: shear "
+              "traction per relative displacement before slip. `auto': the "
               "same as the normal one.");
     declare_interface_laws(table, law_choice);
     declare_friction_laws(table, friction_choice);
@@ -56,7 +58,7 @@ namespace Debond
               Allowed::choice("false | true"),
               "Whether a bonded point that opens is debonded for good; in the "
               "paper it is not.");
-    declare_variants(table);
+    declare_viscosity(table);
     bonding.declare(table);
     table.leave_subsection();
   }
@@ -133,7 +135,7 @@ namespace Debond
 
 
   void
-  InterfaceParameters::declare_variants(EntryTable &table)
+  InterfaceParameters::declare_viscosity(EntryTable &table)
   {
     table.add(
       "Viscosity",
@@ -144,10 +146,19 @@ namespace Debond
       "slides with the speed v carries mu p + eta v. One that sticks carries "
       "none of it, nor one without friction. With it a bond that would break "
       "in a jump breaks in time instead: the local solution is unique while |d "
-      "mu/d g_s| p is below the tangential penalty stiffness plus eta over the "
+      "mu/d g_s| p is below the tangential stiffness plus eta over the "
       "(sub-)step's duration. Time is then more than a parameter of the load: "
       "results depend on the rate. Must be 0 with Friction law = "
       "frictionless.");
+  }
+
+
+
+  // Methods that are there to show how they fail.
+  void
+  InterfaceParameters::declare_expert(EntryTable &table)
+  {
+    table.enter_subsection("Expert");
     table.add(
       "Slip direction",
       slip_direction,
@@ -157,7 +168,7 @@ namespace Debond
       "in the step. `trial': that of the gap which it would have without "
       "sliding in this step, of first order where the direction turns. "
       "`previous gap': that of the step before, Eq. (31) as printed, which can "
-      "never turn. The last two are there to compare with.");
+      "never turn. The last two are there to show how they fail.");
     table.add(
       "Friction update",
       explicit_friction,
@@ -165,6 +176,7 @@ namespace Debond
       "`implicit': the friction coefficient belongs to the sliding distance at "
       "the end of the step. `explicit': to that at its beginning, so that a "
       "softening bond lags behind by a step.");
+    table.leave_subsection();
   }
 
 

@@ -224,9 +224,10 @@ namespace Debond
           row(
             "Initial state",
             "0",
-            Allowed::number_between(1e-30, 1e30, "units of time").or_number(0),
-            "theta [unit of time] when friction starts. 0: Sliding distance "
-            "/ Reference speed, the steady state at Reference speed."),
+            Allowed::number_between(1e-30, 1e30, "units of time")
+              .or_word_for("auto", "0"),
+            "theta [unit of time] when friction starts. `auto': Sliding "
+            "distance / Reference speed, the steady state at Reference speed."),
           row("Evolution",
               "ageing",
               Allowed::choice("ageing | slip"),

@@ -237,7 +237,7 @@ namespace Debond
         {{"",
           "Friction table",
           "",
-          Allowed::text("the name of a CSV file"),
+          Allowed::text("the name of a CSV file", false).or_word_for("none", ""),
           "CSV file with the columns slip_mm, the sliding distance g_s [mm], "
           "ascending from 0, and phi, the bonding state there of a point that "
           "was fully bonded, from 1 to 0, dimensionless, which may not rise. "

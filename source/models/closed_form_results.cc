@@ -57,8 +57,8 @@ namespace Debond
     settings.contact_area_mm2 = M_PI * std::pow(scene.implant.radius, 2);
     settings.mean_phi_0 = bonding.initial_bonding * bonding.bonded_fraction;
     settings.is_bonded =
-      scene.model == ModelKind::mathieu || settings.mean_phi_0 > 0.;
-    if (scene.model == ModelKind::analytical)
+      scene.model == ModelKind::crack || settings.mean_phi_0 > 0.;
+    if (scene.model == ModelKind::prescribed_angles)
       settings.full_sliding_angle_deg = scene.closed_form.full_sliding;
     settings.phase_times = scene.load_steps.times;
     return settings;
@@ -128,8 +128,8 @@ namespace Debond
     const ModelKind      model = solution.scene.model;
     out << "Model "
         << (model == ModelKind::foundation ? "foundation" :
-            model == ModelKind::analytical ? "analytical" :
-                                             "mathieu")
+            model == ModelKind::prescribed_angles ? "prescribed angles" :
+                                             "crack")
         << ", pressure " << solution.model->disk.pressure << " MPa";
     if (solution.normal_stiffness > 0.)
       out << ", normal stiffness " << solution.normal_stiffness << " MPa/mm";

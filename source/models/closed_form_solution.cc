@@ -30,11 +30,6 @@ namespace Debond
         throw EntryError(entry, why + more_can_do);
     }
 
-    /** "Chuck / Rotation z / Value" and the like. */
-    const auto entry_name = &ChuckParameters::entry_name;
-
-
-
     void
     check_scene_is_simple(const Scene &scene)
     {
@@ -49,9 +44,9 @@ namespace Debond
                 "Interface / Bonding / Pattern",
                 std::string("this closed form knows homogeneous bonding ") +
                   (is_foundation ? "and the disk only" : "only"));
-      refuse_if(scene.model == ModelKind::mathieu &&
+      refuse_if(scene.model == ModelKind::crack &&
                   bonding.initial_bonding != 1,
-                "Interface / Bonding / Initial bonding",
+                "Interface / Bonding / Bonding degree",
                 "this closed form knows a fully bonded surface only");
       refuse_if(!scene.interface.is_friction_only(),
                 "Interface / Law",
@@ -60,7 +55,7 @@ namespace Debond
                 "Interface / Viscosity",
                 "closed forms do not depend on the rate");
       refuse_if(scene.interface.explicit_friction,
-                "Interface / Friction update",
+                "Expert / Friction update",
                 "closed forms have no steps to lag behind by");
       refuse_if(scene.chuck.point != "auto",
                 "Chuck / Point",
@@ -69,10 +64,10 @@ namespace Debond
         {
           const ChuckComponentParameters &component = scene.chuck.component[k];
           refuse_if(component.loaded && k != push,
-                    entry_name(k, "Control"),
+                    scene.chuck.entry_name(k, "Control"),
                     "closed forms take this motion as prescribed");
           refuse_if(component.stiffness != 0 && !(k == twist && is_foundation),
-                    entry_name(k, "Stiffness"),
+                    scene.chuck.entry_name(k, "Stiffness"),
                     "closed forms have no compliant machine, but that the "
                     "foundation's Rotation z may be driven by one");
         }
@@ -109,8 +104,8 @@ namespace Debond
         const Chuck::Vector6 q = chuck.values(time);
         for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
           refuse_if(k != push && k != twist && q[k] != 0.,
-                    entry_name(k, "Value"),
-                    "closed forms know Translation z and Rotation z only");
+                    scene.chuck.entry_name(k, "Value"),
+                    "closed forms know Press (or Translation z) and Rotation z only");
         return {time, -q[push], q[twist]};
       }
 
@@ -119,7 +114,7 @@ namespace Debond
       {
         const Load &last = loads.back();
         refuse_if(loads.front().angle != 0.,
-                  entry_name(twist, "Value"),
+                  scene.chuck.entry_name(twist, "Value"),
                   "closed forms begin with an angle of zero");
         double largest_push = 0.;
         for (const Load &load : loads)
@@ -129,12 +124,12 @@ namespace Debond
             const Load &begin = loads[i - 1], &end = loads[i];
             refuse_if((end.angle - begin.angle) * (last.angle < 0. ? -1. : 1.) <
                         0.,
-                      entry_name(twist, "Value"),
+                      scene.chuck.entry_name(twist, "Value"),
                       "closed forms know no rotation that reverses");
             if (end.angle == 0.)
               continue;
             refuse_if(std::abs(end.push - begin.push) > 1e-9 * largest_push,
-                      entry_name(push, "Value"),
+                      scene.chuck.entry_name(push, "Value"),
                       "closed forms know no push-in that changes while it "
                       "turns");
             refuse_if(!scene.has_friction_after(begin.time),
@@ -249,7 +244,7 @@ namespace Debond
       if (bonding.pattern == BondingPatternKind::disk)
         disk.bonded_radius = disk.radius * std::sqrt(bonding.bonded_fraction);
       refuse_if(!(disk.pressure > 0.),
-                entry_name(push, "Value"),
+                scene.chuck.entry_name(push, "Value"),
                 "closed forms need pressure while they turn");
       return disk;
     }
@@ -280,17 +275,17 @@ namespace Debond
           refuse_jumps(disk);
           return std::make_unique<RigidBodiesTorsion>(disk);
         }
-      if (scene.model == ModelKind::mathieu)
-        return mathieu_torsion(disk,
+      if (scene.model == ModelKind::crack)
+        return crack_torsion(disk,
                                given.shear_modulus,
                                1e-3 * given.adhesion_energy, // N/mm
                                disk.pressure *
                                  disk.friction->mu_without_bond());
       if (given.full_sliding < given.linear_limit)
         throw EntryError("Closed form / Linear limit angle",
-                         "it is more than Full sliding angle, " +
+                         "it is more than Slip counts from angle, " +
                            to_text(given.full_sliding) + " deg");
-      return analytical_torsion(disk,
+      return prescribed_angles_torsion(disk,
                                 given.linear_limit * degree,
                                 given.full_sliding * degree);
     }

@@ -391,7 +391,7 @@ namespace Debond
 
 
   std::unique_ptr<TorsionModel>
-  analytical_torsion(const TorsionModel::Disk &disk,
+  prescribed_angles_torsion(const TorsionModel::Disk &disk,
                      const double              linear_limit,
                      const double              full_sliding)
   {
@@ -408,7 +408,7 @@ namespace Debond
 
 
   std::unique_ptr<TorsionModel>
-  mathieu_torsion(const TorsionModel::Disk &disk,
+  crack_torsion(const TorsionModel::Disk &disk,
                   const double              shear_modulus,
                   const double              adhesion_energy,
                   const double              friction_stress)

@@ -28,7 +28,7 @@ namespace Debond
     const std::set<std::string> free_entries{"Title",
                                              "Output / Directory",
                                              "Output / Console",
-                                             "Bone / Bulk solver",
+                                             "Bone / Solver",
                                              "Output / Checkpoint every",
                                              "Output / Checkpoint minutes",
                                              "Output / Report"};

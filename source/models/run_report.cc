@@ -217,7 +217,7 @@ namespace Debond
         missed += (missed.empty() ? "" : ", ") + to_text(angle, 6);
     if (converged && !missed.empty())
       console.warn("curve at",
-                   "Output / Curve at: the implant never turns through " +
+                   "Output / Curve angles: the implant never turns through " +
                      missed + " deg");
     const CurveComparison comparison(curve_of(fine, output.axes),
                                      reference,

@@ -167,7 +167,7 @@ namespace Debond
                     << " open points lie between closed ones: "
                        "the faces of these cells cannot follow a stiff "
                        "interface, and pressure and stiffness are too large: "
-                       "finer Cells, or a smaller Penalty stiffness");
+                       "finer Cells, or a smaller Normal stiffness");
       if (interface.n_unprojected() > 0)
         note("projection",
              Text() << "for " << interface.n_unprojected()

@@ -69,7 +69,7 @@ namespace Debond
         }
       catch (const InputError &error)
         {
-          throw EntryError(ChuckParameters::entry_name(c, "Value"),
+          throw EntryError(scene.chuck.entry_name(c, "Value"),
                            error.what());
         }
     }
@@ -147,7 +147,7 @@ namespace Debond
         {
           const ChuckComponentParameters &component = scene.chuck.component[c];
           if (component.loaded && component.stiffness != 0)
-            throw EntryError(ChuckParameters::entry_name(c, "Stiffness"),
+            throw EntryError(scene.chuck.entry_name(c, "Stiffness"),
                              std::string(
                                "it has no effect where the machine prescribes "
                                "a load: it is for Control = ") +
@@ -159,8 +159,8 @@ namespace Debond
         throw EntryError("",
                          "nothing moves in this scene: all six chuck "
                          "components have constant values and none carries a "
-                         "load. Give for instance Chuck / Translation z / "
-                         "Value = -0.0049 * min(t, 1)");
+                         "load. Give for instance Chuck / Press / Value = "
+                         "0.0049 * min(t, 1)");
     }
 
 
@@ -231,7 +231,7 @@ namespace Debond
         return;
       const std::pair<bool, const char *> without_rate[] = {
         {scene.load_steps.follow_path, "Load steps / Path following"},
-        {scene.interface.explicit_friction, "Interface / Friction update"},
+        {scene.interface.explicit_friction, "Expert / Friction update"},
         {scene.output.friction_law_curve, "Output / Friction law curve"},
         {scene.model != ModelKind::finite_elements, "Model"}};
       for (const auto &[is_wanted, entry] : without_rate)
@@ -248,7 +248,7 @@ namespace Debond
     check_explicit_friction(const Scene &scene)
     {
       if (scene.load_steps.adaptive && scene.interface.explicit_friction)
-        throw EntryError("Interface / Friction update",
+        throw EntryError("Expert / Friction update",
                          "explicit depends on the size of the steps, which "
                          "Load steps / Adaptive = true chooses: compare it in "
                          "equal steps");
@@ -348,7 +348,7 @@ namespace Debond
                      output.directory);
     for (unsigned int c = 0; c < ChuckParameters::n_components; ++c)
       check_input_file(chuck.component[c].file,
-                       ChuckParameters::entry_name(c, "File"),
+                       chuck.entry_name(c, "File"),
                        output.directory);
     for (const auto &[body, section] :
          {std::pair(&bone, "Bone"), std::pair(&implant, "Implant")})
@@ -361,7 +361,7 @@ namespace Debond
                        "one that varies is for Model = finite elements, and "
                        "closed forms know none: expected a number");
     if (bone.bulk_solver == BulkSolver::lattice && !why_not_lattice().empty())
-      throw EntryError("Bone / Bulk solver",
+      throw EntryError("Bone / Solver",
                        why_not_lattice() +
                          ": expected auto, direct or multigrid");
   }

@@ -140,7 +140,7 @@ namespace Debond
       note(ratio > 10.,
            "stiffness of the bond",
            "pressed, the interface is as stiff as " + to_text(eps_n, 3) +
-             " MPa/mm (Penalty stiffness), pulled as " +
+             " MPa/mm (Normal stiffness), pulled as " +
              to_text(bond.stiffness, 3) +
              " MPa/mm: they differ by a factor of more than ten");
     }
@@ -283,7 +283,7 @@ namespace Debond
       note(!z.loaded && push > 0. && limit < 0.01,
            "pressure of the push",
            entry + " presses with less than " + to_text(limit, 3) +
-             " MPa, the Penalty stiffness times " + to_text(push, 3) +
+             " MPa, the Normal stiffness times " + to_text(push, 3) +
              " mm: lengths are mm, stiffnesses MPa/mm");
       // Soft bodies may be meant to be pressed by little.
       const double p = push / (implant.width(0) * implant.width(1) *
@@ -418,9 +418,9 @@ namespace Debond
             values.push_back(value_at(time));
           const std::string entry =
             component.file.empty() ?
-              ChuckParameters::entry_name(k, "Value") + " = " +
+              scene.chuck.entry_name(k, "Value") + " = " +
                 component.value :
-              ChuckParameters::entry_name(k, "File") + " = " + component.file;
+              scene.chuck.entry_name(k, "File") + " = " + component.file;
           note(values == std::vector<double>(values.size(), values[0]) &&
                  changes_later(component, value_at, times),
                entry,
@@ -468,9 +468,6 @@ namespace Debond
          scene.bone.cells_under_implant > 0,
          "Cells under implant"},
         {"Implant / Young", !scene.implant.is_rigid(), "bodies that deform"},
-        {"Interface / Friction coefficient unbroken",
-         law_name != "coulomb",
-         "laws with a bond"},
         {"Interface / Friction starts at",
          !law.is_frictionless(),
          "laws with friction"},

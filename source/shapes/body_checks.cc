@@ -82,7 +82,7 @@ namespace Debond
                    std::to_string(n) + " less 2, 4, ...");
           refuse(under > 0 && !(body.rim[d] < 0.499 * body.size[d]),
                  "Cells under implant",
-                 "the implant has no rim above this bone: expected 0");
+                 "the implant has no rim above this bone: expected none");
           double     thin      = 1.;
           const auto fractions = body.lateral_fractions(d);
           for (unsigned int i = 0; i < n; ++i)
@@ -199,10 +199,10 @@ namespace Debond
           std::make_tuple(body.coarser_below, "Coarser below", "false"),
           std::make_tuple(body.cells_under_implant > 0,
                           "Cells under implant",
-                          "0"),
+                          "none"),
           std::make_tuple(body.lateral_grading != 1., "Lateral grading", "1"),
           std::make_tuple(body.bulk_solver == BulkSolver::lattice,
-                          "Bulk solver",
+                          "Solver",
                           is_fitted ? "auto or direct" :
                                       "auto, direct or multigrid")})
       refuse(is_set, entry, reason + ": expected " + expected);

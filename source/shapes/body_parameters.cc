@@ -145,11 +145,11 @@ namespace Debond
       table.add(
         "Cells under implant",
         bone.cells_under_implant,
-        Allowed::whole_number(0, 1000000000),
+        Allowed::whole_number(1, 1000000000).or_word_for("none", "0"),
         "How many of the cells across are under the implant, within its "
         "rim, the others as many to the left as to the right: cells "
         "become smaller towards the rim, where the pressure changes "
-        "most. 0: cells do not heed the rim. It is for Element = spline "
+        "most. `none': cells do not follow the rim. It is for Element = spline "
         "or quadratic; trilinear cells become too stiff below the rim.");
       table.add(
         "Rim grading",
@@ -166,7 +166,7 @@ namespace Debond
     declare_solver(BodyParameters &bone, EntryTable &table)
     {
       table.add(
-        "Bulk solver",
+        "Solver",
         bone.bulk_solver,
         Allowed::choice("auto | direct | lattice | multigrid"),
         "How the stiffness of the bone is solved. `direct': by a sparse "
@@ -223,14 +223,15 @@ namespace Debond
               "held, its sides slide along themselves.");
     table.add("Outer radius",
               outer_radius,
-              AllowedValues(allowed_length).or_number(0),
+              AllowedValues(allowed_length).or_word_for("none", "0"),
               "Outer radius [mm] of a sleeve or of a cavity that is a shell; "
-              "the inner one is that of the implant. 0: a cavity is a block.");
+              "the inner one is that of the implant. `none': a cavity is a "
+              "block.");
     table.add("Height",
               sleeve_height,
-              AllowedValues(allowed_length).or_number(0),
-              "Height [mm] of a sleeve, from its top at z = 0 down; 0: that of "
-              "the implant.");
+              AllowedValues(allowed_length).or_word_for("auto", "0"),
+              "Height [mm] of a sleeve, from its top at z = 0 down. `auto': "
+              "that of the implant.");
     table.add(
       "Ends",
       ends,
@@ -240,11 +241,11 @@ namespace Debond
       "along the axis only. `held': not at all.");
     table.add("Support radius",
               support_radius,
-              AllowedValues(allowed_length).or_number(0),
+              AllowedValues(allowed_length).or_word_for("none", "0"),
               "Radius [mm] of the hole in a plate on which a sleeve stands, as "
-              "in push-out tests: its bottom is held from there outwards - "
-              "cells whose middle is beyond it -, its outer face is free. 0: "
-              "the outer face is held.");
+              "in push-out tests: its bottom is held from there outwards "
+              "(cells whose middle is beyond it), its outer face is free. "
+              "`none': the outer face is held.");
     declare_cells(
       table,
       true,
@@ -346,7 +347,8 @@ namespace Debond
       text);
     table.add("Mesh file",
               mesh_file,
-              Allowed::text("the name of a file of hexahedra"),
+              Allowed::text("the name of a file of hexahedra", false)
+                .or_word_for("none", ""),
               "File with the cells of the body, for Shape = file, relative to "
               "the working directory: Gmsh (.msh), Abaqus (.inp) or VTK "
               "(.vtk); lengths in mm, the contact face near z = 0, the chuck "
@@ -408,10 +410,11 @@ namespace Debond
         "it.");
     table.add("Voxel file",
               voxel_file,
-              Allowed::text("the name of a file of voxels"),
+              Allowed::text("the name of a file of voxels", false)
+                .or_word_for("none", ""),
               "File with a grey value for each voxel of the bone, as a "
               "computed tomograph writes it, relative to the working "
-              "directory; empty: none. MetaImage (.mhd, .mha), NIfTI (.nii, "
+              "directory. MetaImage (.mhd, .mha), NIfTI (.nii, "
               ".nii.gz), or CSV with columns x,y,z,grey of the centres [mm]. "
               "Young modulus says what grey values mean.");
     const AllowedValues places = Allowed::list(Allowed::number("mm"), 3, 3);
@@ -498,7 +501,7 @@ namespace Debond
       "contact face with that in the place of a side, as in the paper. "
       "`quadratic': the same with 27 nodes. `spline': quadratic splines in all "
       "three directions, with continuous strains: less error for the same "
-      "time, most of all with cells that heed the rim.");
+      "time, most of all with cells that follow the rim.");
     table.add(
       "Layer grading",
       layer_grading,

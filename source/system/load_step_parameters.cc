@@ -27,18 +27,18 @@ namespace Debond
         "everything sticks planned steps are taken.");
       table.add("Largest slip step",
                 parameters.largest_slip_step,
-                Allowed::number_from(0, "mm"),
+                Allowed::number_above(0, "mm").or_word_for("auto", "0"),
                 "With Path following: largest step of the sliding distance, "
-                "and of the opening, averaged over the contact face [mm]. 0: a "
-                "twentieth of the distance over which friction falls, 2 a_s "
+                "and of the opening, averaged over the contact face [mm]. "
+                "`auto': a twentieth of the distance over which friction falls, 2 a_s "
                 "b_s, of a_s, or of the gap over which a bond opens, whichever "
                 "is least.");
       table.add("Path ends at slip",
                 parameters.path_ends_at_slip,
-                Allowed::number_from(0, "mm"),
+                Allowed::number_above(0, "mm").or_word_for("auto", "0"),
                 "With Path following: the run ends when the mean sliding "
-                "distance reaches this [mm], if not at the last time. 0: the "
-                "radius of the implant. A moment larger than the interface can "
+                "distance reaches this [mm], if not at the last time. `auto': "
+                "the radius of the implant. A moment larger than the interface can "
                 "carry has no last time: the implant would turn for ever.");
     }
 

@@ -146,7 +146,7 @@ namespace Debond
               "step's duration), "
            << summary.softening_slope / summary.steepest_softening
            << " MPa/mm. What helps: Interface / Viscosity, a larger Interface "
-              "/ Tangential penalty stiffness, a larger "
+              "/ Tangential stiffness, a larger "
            << interface.friction->entries_against_fall();
       if (interface.joint()->pulls())
         text << ", a smaller Adhesive friction or Strength";

@@ -49,8 +49,8 @@ subsection Implant
   set Material = rigid
 end
 subsection Chuck
-  subsection Translation z
-    set Value = -0.01 * t
+  subsection Press
+    set Value = 0.01 * t
   end
 end
 subsection Load steps
@@ -65,7 +65,7 @@ end
   const double      compliance = 1. / scene.interface.normal_penalty +
                             by_E * (1. / 18000 + 1.5 / 500 + 2.5 / 3000);
   for (const Changes &changes :
-       {Changes{}, Changes{"Bone/Bulk solver=multigrid"}})
+       {Changes{}, Changes{"Bone/Solver=multigrid"}})
     {
       Simulation simulation(Scene::from_text(scene_text, changes));
       simulation.run();
@@ -78,7 +78,7 @@ end
   Simulation soft(Scene::from_text(
     scene_text,
     {"Bone/Young modulus=if(z > -3, 18000, if(z > -4, 5, 18000))",
-     "Chuck/Translation z/Value=-0.4 * t"}));
+     "Chuck/Press/Value=0.4 * t"}));
   bool       is_warned = false;
   soft.signals.warning.connect([&](const Warning &warning) {
     is_warned = is_warned || warning.check == "strain of the bone";
@@ -435,7 +435,7 @@ void
 check_solvers()
 {
   const std::string layers = "Bone/Young modulus=2000 + 16000 * exp(2 * z)";
-  const std::string direct = "Bone/Bulk solver=direct";
+  const std::string direct = "Bone/Solver=direct";
   report("layers on the lattice",
          difference_of_torques({layers}, {layers, direct}),
          1e-6);
@@ -461,8 +461,8 @@ check_multigrid()
        {"18000 * exp(x / 2)", "if(x > 0.1, 18000, 18)"})
     report("by multigrid, " + modulus,
            difference_of_torques(
-             {"Bone/Young modulus=" + modulus, "Bone/Bulk solver=multigrid"},
-             {"Bone/Young modulus=" + modulus, "Bone/Bulk solver=direct"}),
+             {"Bone/Young modulus=" + modulus, "Bone/Solver=multigrid"},
+             {"Bone/Young modulus=" + modulus, "Bone/Solver=direct"}),
            1e-8);
 }
 

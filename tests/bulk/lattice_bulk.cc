@@ -121,7 +121,7 @@ check(const std::string &name, BodyParameters parameters)
   catch (const EntryError &error)
     {
       report("  contact at a side is refused",
-             error.entry == "Bone / Bulk solver");
+             error.entry == "Bone / Solver");
     }
 }
 

@@ -23,8 +23,8 @@ subsection Implant
   set Element       = spline
 end
 subsection Chuck
-  subsection Translation z
-    set Value = -0.0049 * min(t, 1)
+  subsection Press
+    set Value = 0.0049 * min(t, 1)
   end
   subsection Rotation z
     set Value = 10 * max(t - 1, 0)
@@ -42,8 +42,8 @@ end
 using Changes = std::vector<std::string>;
 
 const Changes linear{"Bone/Material=linear", "Implant/Material=linear"},
-  pressed_by_force{"Chuck/Translation z/Control=force",
-                   "Chuck/Translation z/Value=-10 - 41.5 * min(t, 1)"};
+  pressed_by_force{"Chuck/Press/Control=force",
+                   "Chuck/Press/Value=10 + 41.5 * min(t, 1)"};
 
 Changes
 operator+(Changes a, const Changes &b)
@@ -89,9 +89,9 @@ check_results(const std::string &name, const Changes &changes)
 {
   std::cout << name << '\n';
   Simulation lattice(
-    Scene::from_text(coin, changes + Changes{"Bone/Bulk solver=lattice"}));
+    Scene::from_text(coin, changes + Changes{"Bone/Solver=lattice"}));
   Simulation direct(
-    Scene::from_text(coin, changes + Changes{"Bone/Bulk solver=direct"}));
+    Scene::from_text(coin, changes + Changes{"Bone/Solver=direct"}));
   lattice.run();
   direct.run();
   const auto &rows = lattice.rows(), &expected = direct.rows();
@@ -130,7 +130,7 @@ main()
   check_choice("linear", linear);
   check_choice("Neo-Hookean", {});
   check_choice("Neo-Hookean, pressed deeply",
-               {"Chuck/Translation z/Value=-0.1 * min(t, 1)"});
+               {"Chuck/Press/Value=0.1 * min(t, 1)"});
   check_choice("Neo-Hookean, hardly tilted",
                {"Chuck/Rotation x/Value=0.02 * min(t, 1)"});
   check_choice("Neo-Hookean, tilted",
@@ -153,7 +153,7 @@ main()
                linear + Changes{"Bone/Cells under implant=8"});
   check_choice("rigid", {"Bone/Material=rigid"});
   check_choice("direct, as it is in the scene",
-               linear + Changes{"Bone/Bulk solver=direct"});
+               linear + Changes{"Bone/Solver=direct"});
 
   check_results("Pressed by a force, free to tilt under a moment",
                 linear + pressed_by_force +

@@ -9,8 +9,8 @@
 
 const char *const scene_text = R"(
 subsection Chuck
-  subsection Translation z
-    set Value = -0.0049 * min(t, 1)
+  subsection Press
+    set Value = 0.0049 * min(t, 1)
   end
   subsection Rotation z
     set Value = 10 * max(t - 1, 0)
@@ -72,7 +72,7 @@ compare_estimate(const std::string &what,
     "subsection Interface\n"
     "  set Friction law = coulomb\n"
     "  set Friction coefficient broken = 10\n"
-    "  set Penalty stiffness = 1000\n"
+    "  set Normal stiffness = 1000\n"
     "end\n"
     "subsection Chuck\n"
     "  subsection Translation x\n set Control = force\n set Value = " +

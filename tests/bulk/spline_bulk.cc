@@ -102,8 +102,8 @@ subsection Interface
   set Slip direction    = trial
 end
 subsection Chuck
-  subsection Translation z
-    set Value = -0.0049 * min(t, 1)
+  subsection Press
+    set Value = 0.0049 * min(t, 1)
   end
   subsection Rotation z
     set Value = 10 * max(t - 1, 0)

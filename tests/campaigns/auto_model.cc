@@ -23,8 +23,8 @@ using namespace Debond;
 const char *const twisted_coin = R"(
 set Model = auto
 subsection Chuck
-  subsection Translation z
-    set Value = -0.0049 * min(t, 1)
+  subsection Press
+    set Value = 0.0049 * min(t, 1)
   end
   subsection Rotation z
     set Value = 10 * max(t - 1, 0)
@@ -114,8 +114,8 @@ test_holds()
   show_refusal({times,
                 steps,
                 twist_hold_twist,
-                "Chuck/Translation z/Value="
-                "-0.0049 * (min(t, 1) + 0.2 * min(max(t - 2, 0), 1))"});
+                "Chuck/Press/Value="
+                "0.0049 * (min(t, 1) + 0.2 * min(max(t - 2, 0), 1))"});
   show_refusal({times,
                 steps,
                 "Chuck/Rotation z/Value=5 * min(max(t - 1, 0), 1)",
@@ -123,7 +123,7 @@ test_holds()
   report_accepted("a hold in which nothing moves",
                   {times, steps, twist_hold_twist});
   report_accepted("pressed deeper during the rotation",
-                  {"Chuck/Translation z/Value=-0.0049 * t"});
+                  {"Chuck/Press/Value=0.0049 * t"});
 }
 
 

@@ -94,9 +94,9 @@ subsection Implant
   set Material = linear
 end
 subsection Chuck
-  subsection Translation z
+  subsection Press
     set Control = force
-    set Value   = -51.88 * min(t, 1)
+    set Value   = 51.88 * min(t, 1)
   end
   subsection Rotation z
     set Value = 10 * max(t - 1, 0)

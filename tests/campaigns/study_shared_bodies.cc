@@ -31,8 +31,8 @@ subsection Chuck
   subsection Translation x
     set Value = 0.9 * max(t - 1, 0)
   end
-  subsection Translation z
-    set Value = -0.0049 * min(t, 1)
+  subsection Press
+    set Value = 0.0049 * min(t, 1)
   end
   subsection Rotation z
     set Value = 2 * max(t - 1, 0)
@@ -42,7 +42,7 @@ subsection Load steps
   set Steps = 1, 6
 end
 subsection Output
-  set Fields every = 0
+  set Fields every = none
 end
 )";
 
@@ -209,8 +209,8 @@ void
 check_what_is_shared()
 {
   for (const char *const change : {"Interface/Friction coefficient unbroken=1",
-                                   "Interface/Penalty stiffness=1000",
-                                   "Interface/Bonding/Initial bonding=0.5",
+                                   "Interface/Normal stiffness=1000",
+                                   "Interface/Bonding/Bonding degree=0.5",
                                    "Load steps/Steps=1, 7",
                                    "Output/Directory=elsewhere"})
     report(std::string("bodies are shared with ") + change,

@@ -109,10 +109,10 @@ def multiple(curve, factor, name, age):
 
 
 def check_reference_curve():
-    options = with_entries('Model=foundation', 'Interface/Sliding threshold={{0.1|0.2}}', 'Output/Reference curve=measured.csv',
+    options = with_entries('Model=foundation', 'Interface/Characteristic slip distance={{0.1|0.2}}', 'Output/Reference curve=measured.csv',
                            'Output/Directory=study')
-    plain = with_entries('Model=foundation', 'Interface/Sliding threshold=0.1', 'Output/Reference curve=measured.csv')
-    call('scene.prm', *with_entries('Model=foundation', 'Interface/Sliding threshold=0.1'))
+    plain = with_entries('Model=foundation', 'Interface/Characteristic slip distance=0.1', 'Output/Reference curve=measured.csv')
+    call('scene.prm', *with_entries('Model=foundation', 'Interface/Characteristic slip distance=0.1'))
     curve = 'curve.csv'
     shutil.copy('results/curve.csv' if os.path.exists('results/curve.csv') else 'results/torque.csv', curve)
     shutil.rmtree('results')
@@ -167,8 +167,8 @@ def check_reference_curve():
 
 def check_reference_profiles():
     options = with_entries('Model=foundation', 'Output/Profile angles=0.5', 'Output/Directory=study',
-                           'Output/Reference profiles=profiles.csv', 'Interface/Sliding threshold={{0.1|0.2}}')
-    call('scene.prm', *with_entries('Model=foundation', 'Output/Profile angles=0.5', 'Interface/Sliding threshold=0.1'))
+                           'Output/Reference profiles=profiles.csv', 'Interface/Characteristic slip distance={{0.1|0.2}}')
+    call('scene.prm', *with_entries('Model=foundation', 'Output/Profile angles=0.5', 'Interface/Characteristic slip distance=0.1'))
     rows = table('results/profiles.csv')
     for factor, age in (2, 0), (4, 1000):
         with open('multiple', 'w', newline='') as file:
@@ -183,7 +183,7 @@ def check_reference_profiles():
 
 
 def check_other_program():
-    options = with_entries('Model=foundation', 'Interface/Sliding threshold={{0.1|0.2}}', 'Output/Directory=study')
+    options = with_entries('Model=foundation', 'Interface/Characteristic slip distance={{0.1|0.2}}', 'Output/Directory=study')
     call('scene.prm', *options)
     name = 'study/variant-002/summary.json'
     summary = json.loads(contents(name))

@@ -35,8 +35,8 @@ SCENES = {
     'slide_off': ('stability/slide_off', [], 1),
     'snap_back_path': ('stability/snap_back_path', [], 6),
     'study_of_six': ('coin_mode3_fast', ['--set', 'Load steps/Cyclic symmetry=none',
-                                         '--set', 'Interface/Sliding threshold={{0.015|0.022|0.04}}',
-                                         '--set', 'Interface/Bonding/Initial bonding={{1|0.5}}'], 3),
+                                         '--set', 'Interface/Characteristic slip distance={{0.015|0.022|0.04}}',
+                                         '--set', 'Interface/Bonding/Bonding degree={{1|0.5}}'], 3),
 }
 FOLLOWS_PATH = {'snap_back_path'}
 LEFT_OUT = {'step', 'newton_iterations', 'variant'}
@@ -72,7 +72,7 @@ def read(filename, variant):
 def run(debond, name, more):
     scene, arguments, _ = SCENES[name]
     with tempfile.TemporaryDirectory() as directory:
-        result = subprocess.run([debond, 'prm/%s.prm' % scene, *arguments, *more, '--set', 'Output/Fields every=0',
+        result = subprocess.run([debond, 'prm/%s.prm' % scene, *arguments, *more, '--set', 'Output/Fields every=none',
                                  '--set', 'Output/Report=false', '--set', 'Output/Directory=' + directory + '/result'],
                                 cwd=os.path.join(here, '..', '..'), text=True, capture_output=True)
         if result.returncode != 0:

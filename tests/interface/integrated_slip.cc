@@ -1,4 +1,4 @@
-// Slip that is integrated over the step (Interface / Slip direction =
+// Slip that is integrated over the step (Expert / Slip direction =
 // integrated). One point on a turning disk, whose string is of constant length:
 // against its equation of motion, integrated by Boost's odeint. A rigid coin
 // that is sheared, then twisted: of second order in the step, where slip along
@@ -92,7 +92,7 @@ const std::string rigid_coin =
   "subsection Bone\n set Material = rigid\nend\n"
   "subsection Implant\n set Material = rigid\n set Cells = 12, 2\nend\n"
   "subsection Chuck\n"
-  "  subsection Translation z\n set Value = -0.0049 * min(t, 1)\n end\n"
+  "  subsection Press\n set Value = 0.0049 * min(t, 1)\n end\n"
   "  subsection Translation x\n"
   "    set Value = 0.02 * min(max(t - 1, 0), 1)\n"
   "  end\n"
@@ -108,7 +108,7 @@ rows(const std::string &direction, const unsigned int n)
   const std::string steps = std::to_string(n);
   Simulation        simulation(
     Scene::from_text(rigid_coin,
-                     {"Interface/Slip direction=" + direction,
+                     {"Expert/Slip direction=" + direction,
                              "Load steps/Steps=1, " + steps + ", " + steps}));
   simulation.run();
   return simulation.rows();

@@ -17,8 +17,8 @@ subsection Implant
   set Material = linear
 end
 subsection Chuck
-  subsection Translation z
-    set Value = -0.0049 * min(t, 1)
+  subsection Press
+    set Value = 0.0049 * min(t, 1)
   end
   subsection Rotation z
     set Value = 10 * max(t - 1, 0)
@@ -59,9 +59,9 @@ void
 check_slip_direction()
 {
   std::cout << "Slip along the previous gap" << std::endl;
-  const std::string variant  = "Interface/Slip direction=previous gap";
+  const std::string variant  = "Expert/Slip direction=previous gap";
   const auto        coarse   = run(100, variant);
-  const auto        expected = run(100, "Interface/Slip direction=trial");
+  const auto        expected = run(100, "Expert/Slip direction=trial");
   report("  0.1 degree steps: largest torque 10.7 N mm, deviation",
          std::abs(largest_torque(coarse) - 10.7),
          0.05);
@@ -93,9 +93,9 @@ check_friction_update()
   unsigned int i                = 0;
   for (const unsigned int n_steps : {50, 100, 1000})
     {
-      const auto implicit = run(n_steps, "Interface/Friction update=implicit");
+      const auto implicit = run(n_steps, "Expert/Friction update=implicit");
       const auto explicitly =
-        run(n_steps, "Interface/Friction update=explicit");
+        run(n_steps, "Expert/Friction update=explicit");
       double error = 0;
       // row 1 ends the push-in
       for (std::size_t k = 2; k < implicit.size(); ++k)
@@ -130,7 +130,7 @@ check_penetration()
                                "Bone/Material=rigid",
                                "Implant/Material=rigid",
                                "Load steps/Steps=4,1",
-                               "Chuck/Translation z/Value=-0.4*min(t,1)",
+                               "Chuck/Press/Value=0.4*min(t,1)",
                                "Chuck/Rotation z/Value=0"});
   report("  rows of 0, 0.1, 0.2, 0.3 mm pass, of 0.4 mm not",
          rows_with_warnings(rows) == 2 && rows[3].warnings == 0 &&

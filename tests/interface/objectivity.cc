@@ -11,8 +11,8 @@ subsection Bone
   set Cells = 9, 9, 2
 end
 subsection Chuck
-  subsection Translation z
-    set Value = if(t <= 2, 0.01 * min(t, 1), max(0.01 - 0.0149 * (t - 2), -0.0049))
+  subsection Press
+    set Value = -(if(t <= 2, 0.01 * min(t, 1), max(0.01 - 0.0149 * (t - 2), -0.0049)))
   end
 end
 subsection Load steps

@@ -7,8 +7,8 @@
 // twisted again.
 const char *const twice = R"(
 subsection Chuck
-  subsection Translation z
-    set Value = -0.0049 * if(t < 2, min(t, 1), if(t < 4, 1 - 2 * min(t - 2, 1), 2 * min(t - 4, 1) - 1))
+  subsection Press
+    set Value = 0.0049 * if(t < 2, min(t, 1), if(t < 4, 1 - 2 * min(t - 2, 1), 2 * min(t - 4, 1) - 1))
   end
   subsection Rotation z
     set Value = 1.2 * min(max(t - 1, 0), 1) - 0.3 * min(max(t - 3, 0), 1) + max(t - 5, 0)
@@ -124,7 +124,7 @@ check_opening_breaks_bond()
 {
   std::cout << "opening breaks the bond" << std::endl;
   DrivenScene broken(twice, {"Interface/Opening breaks bond=true"}),
-    unbonded(once, {"Interface/Bonding/Initial bonding=0"});
+    unbonded(once, {"Interface/Bonding/Bonding degree=0"});
   broken.advance_to(2);
   report("  bonded before", broken.system.interface.summarise().phi_mean > 0.1);
   broken.advance_to(5);
@@ -146,8 +146,8 @@ check_tilting()
     {
       DrivenScene driven(R"(
 subsection Chuck
-  subsection Translation z
-    set Value = -0.0049 * min(t, 1)
+  subsection Press
+    set Value = 0.0049 * min(t, 1)
   end
   subsection Rotation x
     set Value = 0.2 * max(0, 1 - abs(t - 2))

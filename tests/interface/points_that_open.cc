@@ -47,8 +47,8 @@ lifted(const std::array<double, 2>    &before,
   std::vector<std::string> entries = {
     "Implant/Cells=6, 2",
     "Interface/Friction coefficient broken=" + std::to_string(mu),
-    "Interface/Penalty stiffness=" + std::to_string(eps),
-    "Chuck/Translation z/Value=-0.0049 * min(t, 1) + 0.0098 * max(t - 2, 0)",
+    "Interface/Normal stiffness=" + std::to_string(eps),
+    "Chuck/Press/Value=0.0049 * min(t, 1) - 0.0098 * max(t - 2, 0)",
     "Chuck/Translation x/Value=" + shift(before[0], while_lifted[0]),
     "Chuck/Translation y/Value=" + shift(before[1], while_lifted[1]),
     "Load steps/Times=0, 1, 2, 3",
@@ -170,7 +170,7 @@ check_bodies()
         "Bone/Material=linear",
         "Implant/Material=linear",
         "Interface/Friction starts at=1",
-        std::string("Interface/Penalty stiffness=") + stiffness};
+        std::string("Interface/Normal stiffness=") + stiffness};
       const std::string name = std::string(", ") + stiffness + " MPa/mm";
       check_steps(
         "slid, lifted" + name, {{0.02, 0.}}, {{0., 0.}}, 200, elastic);
@@ -202,8 +202,8 @@ check_edge(const double coefficient)
                "Implant/Cells=20, 4, 2",
                "Interface/Friction coefficient broken=" +
                  std::to_string(coefficient),
-               "Interface/Penalty stiffness=" + std::to_string(eps),
-               "Chuck/Translation z/Value=-0.0049 * min(t, 1)",
+               "Interface/Normal stiffness=" + std::to_string(eps),
+               "Chuck/Press/Value=0.0049 * min(t, 1)",
                "Chuck/Translation x/Value=3 * max(t - 1, 0)",
                "Load steps/Times=0, 1, 1.001, 2",
                "Load steps/Steps=1, 10, 37"});

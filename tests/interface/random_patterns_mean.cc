@@ -24,8 +24,8 @@ subsection Interface
   set Quadrature points = 3
 end
 subsection Chuck
-  subsection Translation z
-    set Value = -0.0049 * min(t, 1)
+  subsection Press
+    set Value = 0.0049 * min(t, 1)
   end
   subsection Rotation z
     set Value = max(t - 1, 0)

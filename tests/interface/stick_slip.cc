@@ -144,8 +144,8 @@ subsection Interface
   end
 end
 subsection Chuck
-  subsection Translation z
-    set Value = -2.6 / 585 * min(t, 1)
+  subsection Press
+    set Value = 2.6 / 585 * min(t, 1)
   end
   subsection Rotation z
     set Value     = 10 * max(t - 1, 0)

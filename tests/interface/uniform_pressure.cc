@@ -20,8 +20,8 @@ subsection Implant
   set Poisson ratio = 0
 end
 subsection Chuck
-  subsection Translation z
-    set Value = -0.02 * t
+  subsection Press
+    set Value = 0.02 * t
   end
 end
 subsection Load steps

@@ -17,12 +17,12 @@ subsection Implant
   set Material = rigid
 end
 subsection Interface
-  set Sliding threshold = 0.001
+  set Characteristic slip distance = 0.001
   set Transition factor = 0.5
 end
 subsection Chuck
-  subsection Translation z
-    set Value = -0.0049 * t
+  subsection Press
+    set Value = 0.0049 * t
   end
   subsection Rotation z
     set Value = 2 * max(t - 1, 0)
@@ -82,7 +82,7 @@ void
 test()
 {
   const auto stiffness = [](const double eps_t) {
-    return "Interface/Tangential penalty stiffness=" + std::to_string(eps_t);
+    return "Interface/Tangential stiffness=" + std::to_string(eps_t);
   };
   const auto viscosity = [](const double eta) {
     return "Interface/Viscosity=" + std::to_string(eta);
@@ -124,9 +124,9 @@ test()
 
   std::cout << "Where uniqueness is no matter" << std::endl;
   for (const char *override : {"Interface/Friction law=coulomb",
-                               "Interface/Friction update=explicit",
+                               "Expert/Friction update=explicit",
                                "Interface/Friction starts at=2",
-                               "Interface/Bonding/Initial bonding=0"})
+                               "Interface/Bonding/Bonding degree=0"})
     report(std::string("  ") + override,
            run({stiffness(0.65 * needed), override}).rows.size() == 51);
 }

@@ -121,12 +121,12 @@ subsection Implant
   set Cells    = 6, 2
 end
 subsection Interface
-  set Sliding threshold = 0.005
+  set Characteristic slip distance = 0.005
   set Transition factor = 0.3
 end
 subsection Chuck
-  subsection Translation z
-    set Value = -2.6 / 585 * min(t, 1)
+  subsection Press
+    set Value = 2.6 / 585 * min(t, 1)
   end
   subsection Rotation z
     set Value     = 2 * max(t - 1, 0)

@@ -7,7 +7,7 @@ locale.setlocale(locale.LC_ALL, sys.argv[1])
 import debond
 
 print(locale.localeconv()["decimal_point"], file=sys.stderr)
-scene = debond.Scene(sys.argv[2], {"Interface/Sliding threshold": 0.0225})
+scene = debond.Scene(sys.argv[2], {"Interface/Characteristic slip distance": 0.0225})
 print(scene.parameters)
 result = scene.run()
 for name, values in result.rows.items():

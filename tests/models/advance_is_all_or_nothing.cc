@@ -33,8 +33,8 @@ subsection Implant
   set Cells    = 2, 2
 end
 subsection Chuck
-  subsection Translation z
-    set Value = -0.0049 * min(t, 1)
+  subsection Press
+    set Value = 0.0049 * min(t, 1)
   end
   subsection Rotation z
     set Value = 3 * max(t - 1, 0)
@@ -381,16 +381,16 @@ check_all()
   check("Along a path, with a compliant machine",
         {"Load steps/Path following=slip",
          "Chuck/Rotation z/Stiffness=3000",
-         "Interface/Sliding threshold=0.01"});
+         "Interface/Characteristic slip distance=0.01"});
   check("Under a moment",
         {"Chuck/Rotation z/Control=moment",
          "Chuck/Rotation z/Value=40 * max(t - 1, 0)"});
   check("Rate and state friction",
         {"Interface/Friction law=rate and state", turns});
-  check("Multigrid", {"Bone/Bulk solver=multigrid", turns, large_x}, 5);
+  check("Multigrid", {"Bone/Solver=multigrid", turns, large_x}, 5);
   check(
     "Multigrid, a Neo-Hookean bone",
-    {"Bone/Bulk solver=multigrid", "Bone/Material=neo-hookean", turns, large_x},
+    {"Bone/Solver=multigrid", "Bone/Material=neo-hookean", turns, large_x},
     6);
   check_refused_load();
   check_resumed();

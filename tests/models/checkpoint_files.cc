@@ -166,8 +166,8 @@ small_scene(const std::vector<std::string> &overrides = {})
       end
     end
     subsection Chuck
-      subsection Translation z
-        set Value = -0.0049 * min(t, 1)
+      subsection Press
+        set Value = 0.0049 * min(t, 1)
       end
       subsection Rotation z
         set Value = max(t - 1, 0)
@@ -337,8 +337,8 @@ test_errors_of_writing()
   fs::remove_all(directory);
   print_error<WriteError>("A torque curve on a full disk", [] {
     const FullDisk full(8000);
-    DebondingProblem(small_scene({"Output/Fields every=0",
-                                  "Output/Checkpoint every=0",
+    DebondingProblem(small_scene({"Output/Fields every=none",
+                                  "Output/Checkpoint every=none",
                                   "Load steps/Steps=1, 60"}))
       .run();
   });

@@ -204,12 +204,12 @@ check_bonded_disk()
  *  modified law beyond theta_max the numbers of tests/verification/
  *  closed_form_b.prm, which says where they are from. */
 void
-check_analytical()
+check_prescribed_angles()
 {
   TorsionModel::Disk disk;
   disk.radius        = 2.5;
   disk.pressure      = 2.8113;
-  const auto form    = analytical_torsion(disk, 0.13 * degree, 1.13 * degree);
+  const auto form    = prescribed_angles_torsion(disk, 0.13 * degree, 1.13 * degree);
   double     largest = 0;
   for (const double angle : {0.05, 0.13, 0.2, 0.8, 1.12})
     {
@@ -233,11 +233,11 @@ check_analytical()
 
 
 void
-check_mathieu()
+check_crack()
 {
   TorsionModel::Disk disk;
   disk.radius      = 2.5;
-  const auto form  = mathieu_torsion(disk, 40, 0.07, 1.1);
+  const auto form  = crack_torsion(disk, 40, 0.07, 1.1);
   const auto angle = [](const double c) { // Eq. (14)
     return std::sqrt(pi * 0.07 / (4. * c * 40)) +
            1.1 / (2. * 40) * std::acosh(2.5 / c);
@@ -287,6 +287,6 @@ main()
   check_points();
   check_uniqueness();
   check_bonded_disk();
-  check_analytical();
-  check_mathieu();
+  check_prescribed_angles();
+  check_crack();
 }

@@ -10,8 +10,8 @@
 
 const char *const scene_text = R"(
 subsection Chuck
-  subsection Translation z
-    set Value = -0.0049 * min(t, 1)
+  subsection Press
+    set Value = 0.0049 * min(t, 1)
   end
   subsection Translation x
     set Control = force

@@ -69,11 +69,11 @@ refuse(const std::string &what, const std::vector<std::string> &overrides)
 int
 main()
 {
-  const std::string push = "Chuck/Translation z/", twist = "Chuck/Rotation z/",
+  const std::string push = "Chuck/Press/", twist = "Chuck/Rotation z/",
                     bonding = "Interface/Bonding/";
   compare("main scene", {});
   compare("both rigid", {"Bone/Material=rigid", "Implant/Material=rigid"});
-  compare("stiff interface", {"Interface/Penalty stiffness=6000"});
+  compare("stiff interface", {"Interface/Normal stiffness=6000"});
   compare("deep bone", {"Bone/Size=12.5, 12.5, 10", "Bone/Cells=15, 15, 4"});
   compare("thin bone", {"Bone/Size=12.5, 12.5, 1.5", "Bone/Cells=15, 15, 3"});
   compare("narrow bone", {"Bone/Size=7, 7, 5", "Bone/Cells=9, 9, 3"});
@@ -84,7 +84,7 @@ main()
            "Bone/Size=12.5, 12.5, 1.5",
            "Bone/Cells=15, 15, 3"});
   compare("stiff interface on thin bone",
-          {"Interface/Penalty stiffness=6000",
+          {"Interface/Normal stiffness=6000",
            "Bone/Size=12.5, 12.5, 1.5",
            "Bone/Cells=15, 15, 3"});
   compare("spring against the push", {push + "Stiffness=5000"});
@@ -92,9 +92,9 @@ main()
   compare("half bonded",
           {bonding + "Pattern=disk", bonding + "Bonded fraction=0.5"});
   compare("under a force",
-          {push + "Control=force", push + "Value=-51 * min(t, 1)"});
+          {push + "Control=force", push + "Value=51 * min(t, 1)"});
 
-  refuse("deeper while it turns", {push + "Value=-0.0049 * t"});
+  refuse("deeper while it turns", {push + "Value=0.0049 * t"});
   refuse("half off the bone",
          {"Chuck/Translation x/Value=6", "Load steps/Times=0, 1, 2, 3, 4"});
   refuse("tilted", {"Chuck/Rotation x/Value=0.01 * min(t, 1)"});
@@ -104,6 +104,6 @@ main()
   refuse("viscous", {"Interface/Viscosity=0.1"});
   refuse("half bonded outside",
          {bonding + "Pattern=annulus", bonding + "Bonded fraction=0.5"});
-  refuse("a bond that breaks in a jump", {"Interface/Sliding threshold=5e-4"});
-  refuse("lifted at the end", {push + "Value=-0.0049 * t * (1.5 - t)"});
+  refuse("a bond that breaks in a jump", {"Interface/Characteristic slip distance=5e-4"});
+  refuse("lifted at the end", {push + "Value=0.0049 * t * (1.5 - t)"});
 }

@@ -107,8 +107,8 @@ subsection Bone
   set Cells = 8, 8, 2
 end
 subsection Chuck
-  subsection Translation z
-    set Value = -0.0049 * min(t, 1)
+  subsection Press
+    set Value = 0.0049 * min(t, 1)
   end
   subsection Rotation z
     set Value = 3 * max(t - 1, 0)
@@ -212,7 +212,7 @@ check_extension(const std::string &name, const std::string &changes)
   report(
     "  another stiffness",
     is_refused(
-      {further[0], further[1], further[2], "Interface/Penalty stiffness=99"}));
+      {further[0], further[1], further[2], "Interface/Normal stiffness=99"}));
   std::ostringstream none;
   auto *const        console = std::cout.rdbuf(none.rdbuf());
   {
@@ -271,9 +271,9 @@ main()
     end)");
   check("A loaded chuck", linear + R"(
     subsection Chuck
-      subsection Translation z
+      subsection Press
         set Control = force
-        set Value   = -50 * (0.2 + min(t, 1))
+        set Value   = 50 * (0.2 + min(t, 1))
       end
       subsection Rotation x
         set Control = moment
@@ -294,8 +294,8 @@ main()
     subsection Interface
       set Friction coefficient broken   = 0.2
       set Friction coefficient unbroken = 1
-      set Tangential penalty stiffness  = 5000
-      set Sliding threshold = 0.002
+      set Tangential stiffness  = 5000
+      set Characteristic slip distance = 0.002
       set Transition factor = 1
     end
     subsection Chuck
@@ -322,11 +322,11 @@ main()
     end)");
   check("An interface a hundred times as stiff", R"(
     subsection Interface
-      set Penalty stiffness = 58500
+      set Normal stiffness = 58500
     end
     subsection Chuck
-      subsection Translation z
-        set Value = -0.0005 * min(t, 1)
+      subsection Press
+        set Value = 0.0005 * min(t, 1)
       end
     end)");
   check("A soft bone with large strains", R"(
@@ -334,8 +334,8 @@ main()
       set Young modulus = 30
     end
     subsection Chuck
-      subsection Translation z
-        set Value = -0.6 * min(t, 1)
+      subsection Press
+        set Value = 0.6 * min(t, 1)
       end
     end)");
   check("Slides to other elements", linear + R"(
@@ -363,9 +363,9 @@ main()
     end)";
   check("Splines on the lattice, a loaded chuck", linear + splines + R"(
     subsection Chuck
-      subsection Translation z
+      subsection Press
         set Control = force
-        set Value   = -50 * (0.2 + min(t, 1))
+        set Value   = 50 * (0.2 + min(t, 1))
       end
     end)");
   check("Splines on the lattice, Neo-Hookean bodies", splines);
@@ -376,7 +376,7 @@ main()
   check("Steps that are halved",
         R"(
     subsection Interface
-      set Sliding threshold = 0.002
+      set Characteristic slip distance = 0.002
       set Transition factor = 0.3
       set Viscosity         = 0.5
     end)",

@@ -27,7 +27,7 @@ const std::string rigid_coin =
   "subsection Load steps\n set Steps = 1, 50\nend\n"
   "subsection Output\n"
   " set Directory = results\n"
-  " set Fields every = 0\n"
+  " set Fields every = none\n"
   " set Console = quiet\n"
   "end\n";
 
@@ -67,24 +67,24 @@ int
 main()
 {
   const std::string rotation = "Chuck/Rotation z/Value=",
-                    push     = "Chuck/Translation z/Value=",
+                    push     = "Chuck/Press/Value=",
                     law      = "Interface/Friction ";
   show("a bond that breaks", {});
-  show("nothing bonded", {"Interface/Bonding/Initial bonding=0"});
+  show("nothing bonded", {"Interface/Bonding/Bonding degree=0"});
   show("nothing bonded, but observed",
-       {"Interface/Bonding/Initial bonding=0", "Output/Observed bonding=0.5"});
+       {"Interface/Bonding/Bonding degree=0", "Output/Observed bonding=0.5"});
   show("Coulomb's law", {law + "law=coulomb"});
-  show("pressed while turning", {push + "-0.0049 * t / 2"});
+  show("pressed while turning", {push + "0.0049 * t / 2"});
   show("turned from the first time on, in one step with the push",
        {rotation + "5 * t", "Load steps/Times=0, 2", "Load steps/Steps=2"});
-  show("the angle of another curve", {"Output/Full sliding angle=2"});
+  show("the angle of another curve", {"Output/Friction energy from angle=2"});
   show("rows that stand still between the others",
        {rotation + "if(t > 1, floor((t - 1) * 25 + 1e-9) / 2.5, 0)"});
   show("pulled off before it turns",
-       {push + "-0.0049 * min(1 - abs(2 * t - 1), 0.5)"});
+       {push + "0.0049 * min(1 - abs(2 * t - 1), 0.5)"});
   show("the end before the largest torque", {rotation + "0.2 * max(t - 1, 0)"});
   show("the end before the bond is broken", {rotation + "max(t - 1, 0)"});
-  show("the end before full sliding", {"Output/Full sliding angle=11"});
+  show("the end before full sliding", {"Output/Friction energy from angle=11"});
   show("coefficients swapped",
        {law + "coefficient broken=0.58", law + "coefficient unbroken=0.40"});
   show("a rotation that turns back", {rotation + "5 * sin(2 * max(t - 1, 0))"});
@@ -92,12 +92,12 @@ main()
 
   // a brittle bond under a soft machine: rotation control jumps, the path of
   // equilibrium does not
-  const std::vector<std::string> brittle{"Interface/Sliding threshold=0.005",
+  const std::vector<std::string> brittle{"Interface/Characteristic slip distance=0.005",
                                          "Interface/Transition factor=0.3",
                                          rotation + "2 * max(t - 1, 0)",
                                          "Chuck/Rotation z/Stiffness=3000",
                                          "Implant/Cells=12, 2",
-                                         push + "-2.6 / 585 * min(t, 1)",
+                                         push + "2.6 / 585 * min(t, 1)",
                                          "Load steps/Steps=1, 400"};
   const auto                     jumps = summary_with(brittle);
   auto                           path  = brittle;

@@ -16,8 +16,8 @@ subsection Implant
   set Material = rigid
 end
 subsection Chuck
-  subsection Translation z
-    set Value = -2.6 / 585 * min(t, 1)
+  subsection Press
+    set Value = 2.6 / 585 * min(t, 1)
   end
   subsection Rotation z
     set Value = max(t - 1, 0)

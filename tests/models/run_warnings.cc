@@ -43,7 +43,7 @@ int
 main()
 {
   set_up_libraries();
-  const std::string push = "Chuck/Translation z/Value=",
+  const std::string push = "Chuck/Press/Value=",
                     turn = "Chuck/Rotation z/Value=";
   show("3 steps, which go over the peak", {"Load steps/Steps=1, 3"});
   show("100 steps", {"Load steps/Steps=1, 100"});
@@ -51,9 +51,9 @@ main()
   // Linear bodies are off by 1.7 % of the torque there, with a strain of 0.17.
   const std::string soft  = "Bone/Young modulus=40",
                     steps = "Load steps/Steps=4, 8";
-  show("deep in soft bone", {soft, steps, push + "-0.3 * min(t, 1)"});
+  show("deep in soft bone", {soft, steps, push + "0.3 * min(t, 1)"});
   show("the same, Neo-Hookean",
-       {soft, steps, push + "-0.3 * min(t, 1)", "Bone/Material=neo-hookean"});
+       {soft, steps, push + "0.3 * min(t, 1)", "Bone/Material=neo-hookean"});
 
   const std::vector<std::string> stiff = {"Implant/Radius=1.7",
                                           "Bone/Young modulus=700",
@@ -66,7 +66,7 @@ main()
     all.push_back(entry);
     return all;
   };
-  show("too stiff for its cells", with("Interface/Penalty stiffness=1e5"));
+  show("too stiff for its cells", with("Interface/Normal stiffness=1e5"));
   show("the same in larger cells",
        {stiff[0],
         stiff[1],
@@ -74,8 +74,8 @@ main()
         stiff[3],
         stiff[4],
         stiff[5],
-        "Interface/Penalty stiffness=1e5"});
-  show("not too stiff", with("Interface/Penalty stiffness=1e3"));
+        "Interface/Normal stiffness=1e5"});
+  show("not too stiff", with("Interface/Normal stiffness=1e3"));
 
   // A spring throws a block over the edge of the bone.
   show("leap over the edge",
@@ -86,7 +86,7 @@ main()
         "Implant/Shape=block",
         "Implant/Size=4, 4, 2",
         "Implant/Cells=8, 8, 2",
-        "Interface/Sliding threshold=0.005",
+        "Interface/Characteristic slip distance=0.005",
         "Interface/Transition factor=0.3",
         "Chuck/Translation x/Value=4 * max(t - 1, 0)",
         "Chuck/Translation x/Stiffness=10",
@@ -104,7 +104,7 @@ main()
   const auto move_in = [&](const std::string &x, const std::string &z) {
     std::vector<std::string> all = beside;
     all.push_back("Chuck/Translation x/Value=" + x);
-    all.push_back(push + z);
+    all.push_back(push + "-(" + z + ")");
     return all;
   };
   show("from the side", move_in("12 - 8 * t", "-0.05"));

@@ -17,7 +17,7 @@ const std::string coarse =
   "subsection Bone\n set Size = 8, 8, 4\n set Cells = 5, 5, 2\n end\n"
   "subsection Implant\n set Cells = 2, 1\n end\n"
   "subsection Chuck\n"
-  "  subsection Translation z\n set Value = -0.005 * min(t, 1)\n end\n"
+  "  subsection Press\n set Value = 0.005 * min(t, 1)\n end\n"
   "  subsection Translation x\n set Value = 0.006 * max(t - 1, 0)^2\n end\n"
   "  subsection Rotation x\n set Value = 0.02 * max(t - 1, 0)\n end\n"
   "  subsection Rotation z\n set Value = 3 * max(t - 1, 0)\n end\n"
@@ -127,7 +127,7 @@ const std::string rigid_coin =
   "subsection Bone\n set Material = rigid\nend\n"
   "subsection Implant\n set Material = rigid\n set Cells = 8, 2\nend\n"
   "subsection Chuck\n"
-  "  subsection Translation z\n set Value = -0.0049 * min(t, 1)\n end\n"
+  "  subsection Press\n set Value = 0.0049 * min(t, 1)\n end\n"
   "end\n";
 
 /** Largest differences of forces, moments, and the angle, over the largest of
@@ -193,7 +193,7 @@ check_files()
             {"Chuck/Rotation z/Value=2 * max(t - 1, 0)",
              "Load steps/Steps=1, 10",
              "Load steps/Adaptive=true",
-             "Output/Curve at=7, 1.5, 0, 0.5, -3"});
+             "Output/Curve angles=7, 1.5, 0, 0.5, -3"});
   std::ifstream table("results/at angles/curve_at.csv");
   std::string   line;
   std::getline(table, line);
@@ -220,8 +220,8 @@ test()
   check_rates("A machine with springs and loads",
               {"Bone/Material=linear",
                "Implant/Material=linear",
-               "Chuck/Translation z/Control=force",
-               "Chuck/Translation z/Value=-50 * (0.1 + min(t, 1))",
+               "Chuck/Press/Control=force",
+               "Chuck/Press/Value=50 * (0.1 + min(t, 1))",
                "Chuck/Rotation x/Control=moment",
                "Chuck/Rotation x/Value=2 * max(t - 1, 0)",
                "Chuck/Rotation z/Stiffness=20000"});

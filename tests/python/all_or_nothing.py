@@ -20,8 +20,8 @@ subsection Implant
   set Material = linear
 end
 subsection Chuck
-  subsection Translation z
-    set Value = -0.0049 * min(t, 1)
+  subsection Press
+    set Value = 0.0049 * min(t, 1)
   end
   subsection Rotation z
     set Value = 5 * max(t - 1, 0)

@@ -181,7 +181,7 @@ def check_run():
     """The program computes the same measures of the same curves."""
     curve = os.path.join(scenes, "paper", "data", "closed_form_b_data_set_1.csv")
     subprocess.run([debond, os.path.join(scenes, "coin_mode3_fast.prm"), "--set", "Output/Directory=coin", "--set",
-                    "Output/Reference curve=" + curve, "--set", "Output/Fields every=0"], check=True, stdout=subprocess.DEVNULL)
+                    "Output/Reference curve=" + curve, "--set", "Output/Fields every=none"], check=True, stdout=subprocess.DEVNULL)
     with open("coin/summary.json", encoding="utf-8") as file:
         summary = json.load(file)
     found = compare("coin", curve).runs[""]

@@ -25,13 +25,13 @@ subsection Implant
 end
 subsection Interface
   set Friction coefficient unbroken = <<mu_ub: 0.5 in 0.3..1.2>>
-  set Sliding threshold = <<a_s: 0.03 in 0.004..0.1 log>>
-  set Penalty stiffness = 585
-  set Tangential penalty stiffness = 400
+  set Characteristic slip distance = <<a_s: 0.03 in 0.004..0.1 log>>
+  set Normal stiffness = 585
+  set Tangential stiffness = 400
 end
 subsection Chuck
-  subsection Translation z
-    set Value = -0.0049 * min(t, 1)
+  subsection Press
+    set Value = 0.0049 * min(t, 1)
   end
   subsection Rotation z
     set Value = table
@@ -49,7 +49,7 @@ subsection Output
   set Reference curve = measured.csv
 end
 """
-TRUTH = {"Interface/Friction coefficient unbroken": 0.58, "Interface/Sliding threshold": 0.022, "Output/Reference curve": ""}
+TRUTH = {"Interface/Friction coefficient unbroken": 0.58, "Interface/Characteristic slip distance": 0.022, "Output/Reference curve": ""}
 
 
 def check(is_so, message):
@@ -131,7 +131,7 @@ def check_run_many():
     bad = debond.Scene(None, {**TRUTH, "Bone/Cells": "no"}, text=text)
     alone = good.run().rows["torque_Nmm"]
     entries = {"Model": "foundation", "Chuck/Rotation z/Value": "max(t - 1, 0)",
-               "Chuck/Translation z/Value": "-0.005 * min(t, 1)"}
+               "Chuck/Press/Value": "0.005 * min(t, 1)"}
     with ProcessPoolExecutor(2, multiprocessing.get_context("spawn")) as executor:
         for one in (None, executor):
             found = debond.run_many([good, bad, entries, {"No/Entry": 1}], one)

@@ -29,8 +29,8 @@ subsection Implant
   set Material = rigid
 end
 subsection Chuck
-  subsection Translation z
-    set Value = -0.0049 * min(t, 1)
+  subsection Press
+    set Value = 0.0049 * min(t, 1)
   end
   subsection Rotation z
     set Value = 10 * max(t - 1, 0)
@@ -41,13 +41,13 @@ subsection Load steps
 end
 """
 I = "Interface/"
-TRUTH = {I + "Friction coefficient unbroken": 0.58, I + "Sliding threshold": 0.022, I + "Transition factor": 0.74,
-         I + "Penalty stiffness": 585, I + "Tangential penalty stiffness": 700}
-FIVE = {I + "Friction coefficient unbroken": "<<mu_ub: 0.5 in 0.3..1.2>>", I + "Sliding threshold": "<<a_s: 0.01 in 0.004..0.1 log>>",
-        I + "Transition factor": "<<b_s: 0.5 in 0.1..3>>", I + "Penalty stiffness": "<<eps_n: 400 in 100..3000 log>>",
-        I + "Tangential penalty stiffness": "<<eps_t: 400 in 100..3000 log>>"}
-TWO = {I + "Friction coefficient unbroken": "<<mu_ub: 0.5 in 0.3..1.2>>", I + "Sliding threshold": "<<a_s: 0.01 in 0.004..0.1 log>>",
-       I + "Tangential penalty stiffness": 700}
+TRUTH = {I + "Friction coefficient unbroken": 0.58, I + "Characteristic slip distance": 0.022, I + "Transition factor": 0.74,
+         I + "Normal stiffness": 585, I + "Tangential stiffness": 700}
+FIVE = {I + "Friction coefficient unbroken": "<<mu_ub: 0.5 in 0.3..1.2>>", I + "Characteristic slip distance": "<<a_s: 0.01 in 0.004..0.1 log>>",
+        I + "Transition factor": "<<b_s: 0.5 in 0.1..3>>", I + "Normal stiffness": "<<eps_n: 400 in 100..3000 log>>",
+        I + "Tangential stiffness": "<<eps_t: 400 in 100..3000 log>>"}
+TWO = {I + "Friction coefficient unbroken": "<<mu_ub: 0.5 in 0.3..1.2>>", I + "Characteristic slip distance": "<<a_s: 0.01 in 0.004..0.1 log>>",
+       I + "Tangential stiffness": 700}
 failures = []
 n_seeds = int(sys.argv[1]) if len(sys.argv) > 1 else 4
 
@@ -100,12 +100,12 @@ def check_exact_curves():
     check_values("five unknowns", best(FIVE, "clean.csv", Curves="torque_Nmm, chuck_Fz_N"), five)
     measured("rig.csv", angle_offset=0.2, torque_offset=1.5, more=numpy.linspace(0, 0.8, 200))
     tied = {I + "Friction coefficient broken": "<<mu_b: 0.3 in 0.1..0.8>>", I + "Friction coefficient unbroken": "<<1.45 * mu_b>>",
-            I + "Sliding threshold": "<<a_s: 0.01 in 0.004..0.1 log>>", I + "Tangential penalty stiffness": 700}
+            I + "Characteristic slip distance": "<<a_s: 0.01 in 0.004..0.1 log>>", I + "Tangential stiffness": 700}
     rig = {"Angle offset": "<<angle: 0 in -1..1>>", "Torque offset": "<<torque: 0 in -5..5>>", "Torque drift": "<<drift: 0 in -5..5>>"}
     check_values("rig and tie", best(tied, "rig.csv", **rig), {"mu_b": 0.4, "a_s": 0.022, "angle": 0.2, "torque": 1.5, "drift": 0.8})
-    measured("double.csv", {**TRUTH, "Chuck/Translation z/Value": "-0.0098 * min(t, 1)"}, angle_offset=-0.1)
-    two = {I + "Friction coefficient broken": "<<mu_b: 0.3 in 0.1..0.8>>", I + "Sliding threshold": "<<a_s: 0.01 in 0.004..0.1 log>>",
-           I + "Tangential penalty stiffness": 700, "Chuck/Translation z/Value": "{{-0.0049||-0.0098}} * min(t, 1)"}
+    measured("double.csv", {**TRUTH, "Chuck/Press/Value": "0.0098 * min(t, 1)"}, angle_offset=-0.1)
+    two = {I + "Friction coefficient broken": "<<mu_b: 0.3 in 0.1..0.8>>", I + "Characteristic slip distance": "<<a_s: 0.01 in 0.004..0.1 log>>",
+           I + "Tangential stiffness": 700, "Chuck/Press/Value": "{{0.0049||0.0098}} * min(t, 1)"}
     found = best(two, "{{clean.csv||double.csv}}", **{"Angle offset": "{{<<0 in -1..1>>||<<0 in -1..1>>}}"})
     check_values("two experiments, which share the friction and not the offset", found,
                  {"mu_b": 0.4, "a_s": 0.022, "Calibration / Angle offset (experiment 1)": 0, "Calibration / Angle offset (experiment 2)": -0.1})
@@ -213,7 +213,7 @@ def check_few_rows():
     clean = measured("clean.csv")
     rows = [3, 100]
     write("few.csv", {name: values[rows] for name, values in clean.items()})
-    found = fit({**TWO, I + "Sliding threshold": 0.022, I + "Friction coefficient broken": "<<mu_b: 0.3 in 0.1..0.8>>"}, "few.csv",
+    found = fit({**TWO, I + "Characteristic slip distance": 0.022, I + "Friction coefficient broken": "<<mu_b: 0.3 in 0.1..0.8>>"}, "few.csv",
                 Noise=0.02)
     J, scale = found.problem.derivatives(found.values, True), 0.02 * found.problem.series[0].scale
     sd = numpy.sqrt(numpy.diag(numpy.linalg.inv(J.T @ J / scale**2)))
@@ -236,7 +236,7 @@ def check_band():
     widths = []
     for depth in ("0.0049", "<<depth: 0.005 in 0.002..0.02>>"):
         found = fit({I + "Friction coefficient broken": "<<mu_b: 0.3 in 0.1..0.8>>", I + "Friction coefficient unbroken": "<<1.45 * mu_b>>",
-                     I + "Tangential penalty stiffness": 700, "Chuck/Translation z/Value": f"-{depth} * min(t, 1)"}, "noise.csv")
+                     I + "Tangential stiffness": 700, "Chuck/Press/Value": f"{depth} * min(t, 1)"}, "noise.csv")
         curve = found.curves[0]
         widths.append(numpy.mean(curve["torque_Nmm_upper_95"] - curve["torque_Nmm_lower_95"]))
     report("the band of a product is that of one of its factors, to 2 %", abs(widths[1] / widths[0] - 1) < 0.02, widths)
@@ -245,7 +245,7 @@ def check_band():
 def check_what_cannot_be_told():
     measured("clean.csv")
     products = {I + "Friction coefficient broken": "<<mu_b: 0.3 in 0.1..0.8 log>>", I + "Friction coefficient unbroken": "<<1.45 * mu_b>>",
-                I + "Tangential penalty stiffness": 700, "Chuck/Translation z/Value": "-<<depth: 0.006 in 0.002..0.02 log>> * min(t, 1)"}
+                I + "Tangential stiffness": 700, "Chuck/Press/Value": "<<depth: 0.006 in 0.002..0.02 log>> * min(t, 1)"}
     found = fit(products, "clean.csv")
     report("torque alone tells a product", any("mu_b" in text and "depth" in text and "apart: they only appear as a product" in text for text in found.warnings),
            found.warnings)
@@ -294,7 +294,7 @@ def check_ends():
     generator = numpy.random.default_rng(5)
     measured("noise.csv", more=0.03 * 53 * correlated(generator, 200, 0.8))
     found = fit({name: FIVE[name] if "Transition" in name or name in TWO else value for name, value in TRUTH.items()}
-                | {I + "Tangential penalty stiffness": 700}, "noise.csv", Starts=1)
+                | {I + "Tangential stiffness": 700}, "noise.csv", Starts=1)
     problem, told, best = found.problem, found.told, found._best
     unknowns, roots = problem.unknowns, []
     lower, upper = unknowns.to_search(unknowns.lower), unknowns.to_search(unknowns.upper)

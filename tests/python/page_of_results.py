@@ -262,7 +262,7 @@ def test_reference_and_comparison(directory):
 
 
 def test_others():
-    simulate("failed", "Interface/Sliding threshold=1e-6", code=2)
+    simulate("failed", "Interface/Characteristic slip distance=1e-6", code=2)
     text = page("failed")
     with open("failed/summary.json") as file:
         reason = json.load(file)["reason"]
@@ -276,8 +276,8 @@ def test_others():
     text = page("closed")
     check("Contact face</h2>" not in text, "a closed form has maps")
     curve_is_that_of(text, table("closed/torque.csv"), "angle_deg", "torque_Nmm")
-    simulate("pressed", "Chuck/Rotation z/Value=0", "Chuck/Translation z/Control=force",
-             "Chuck/Translation z/Value=-20 * min(t, 1)")
+    simulate("pressed", "Chuck/Rotation z/Value=0", "Chuck/Press/Control=force",
+             "Chuck/Press/Value=20 * min(t, 1)")
     check("force [N] = -20 * min(t, 1)" in words(page("pressed")), "load of a run under a force")
     # what an interruption leaves: rows only, the last of them in part
     os.makedirs("at_work", exist_ok=True)
@@ -293,10 +293,10 @@ def test_others():
 
 
 def test_campaigns():
-    simulate("study", "Interface/Sliding threshold={{0.02|1e-6|0.04}}", code=2)
+    simulate("study", "Interface/Characteristic slip distance={{0.02|1e-6|0.04}}", code=2)
     seen, text = words(page("study")), page("study")
-    for said in ("A <coin> & bone: study of 3 variants", "2 of 3 variants are done", "variant 2, Sliding threshold = 1e-6",
-                 "Sliding threshold = 0.04"):
+    for said in ("A <coin> & bone: study of 3 variants", "2 of 3 variants are done", "variant 2, Characteristic slip distance = 1e-6",
+                 "Characteristic slip distance = 0.04"):
         check(said in seen, f"the page of a study does not say: {said}")
     check(len(paths(text, "line")) == 2 and len(curves(text)[0]["series"]) == 2, "curves of a study")
     row = table("study/study.csv")[2]
@@ -310,17 +310,17 @@ def test_campaigns():
         check(f"mean, Bonded fraction = {fraction}" in seen, "groups of an ensemble")
     check(len(paths(text, "line")) == len(re.findall('<path class="band"[^>]*><title>', text)) == 2, "bands")
     check(curves(text)[0]["y"][0] == 0, "the axis does not begin at 0")
-    simulate("factors", "Model=foundation", "Interface/Sliding threshold={{0.02|0.03}}", "Bone/Young modulus={{15000|16500}}",
+    simulate("factors", "Model=foundation", "Interface/Characteristic slip distance={{0.02|0.03}}", "Bone/Young modulus={{15000|16500}}",
              "Implant/Young modulus={{110000|120000}}", "Study/Factors varied at once=1")
     seen = words(page("factors"))
-    for said in ("1 first values", "2 Sliding threshold = 0.03", "3 Bone / Young modulus = 16500",
+    for said in ("1 first values", "2 Characteristic slip distance = 0.03", "3 Bone / Young modulus = 16500",
                  "4 Implant / Young modulus = 120000"):
         check(said in seen, f"variants are not named by what differs: {said}")
 
 
 def test_calibration():
     simulate("calibration", "Interface/Friction coefficient broken=<<mu_b: 0.3 in 0.1..1>>", "Task=calibrate",
-             "Interface/Sliding threshold=<<a_s: 0.03 in 0.01..0.1>>", "Calibration/Angle offset=0.001",
+             "Interface/Characteristic slip distance=<<a_s: 0.03 in 0.01..0.1>>", "Calibration/Angle offset=0.001",
              "Output/Reference curve=run/torque.csv")
     text = page("calibration")
     with open("calibration/calibration.json") as file:

@@ -25,12 +25,12 @@ subsection Implant
 end
 subsection Interface
   set Quadrature points = 4
-  set Penalty stiffness = 585
-  set Tangential penalty stiffness = 400
+  set Normal stiffness = 585
+  set Tangential stiffness = 400
 end
 subsection Chuck
-  subsection Translation z
-    set Value = -0.0049 * min(t, 1)
+  subsection Press
+    set Value = 0.0049 * min(t, 1)
   end
   subsection Rotation z
     set Value = 5 * max(t - 1, 0)
@@ -41,7 +41,7 @@ subsection Load steps
   set Steps = 2, 40
 end
 subsection Output
-  set Fields every = 0
+  set Fields every = none
 end
 """
 
@@ -82,7 +82,7 @@ def check_program():
     directory = debond.Scene("coin.prm", {"Output/Console": "quiet"}).write("of_python", force=True)
     check("the same files in a directory", open("of_program/torque.csv").read() == open(directory + "/torque.csv").read()
           and os.path.exists(directory + "/report.html"))
-    asked = {"Output/Full sliding angle": 2, "Output/Observed bonding": 0.8, "Output/Reference curve": "of_program/torque.csv"}
+    asked = {"Output/Friction energy from angle": 2, "Output/Observed bonding": 0.8, "Output/Reference curve": "of_program/torque.csv"}
     check("the measures of summary.json", same_as_summary({}) and same_as_summary({"Model": "foundation"}))
     check("and with what Output asks for", same_as_summary(asked) and same_as_summary({"Model": "foundation", **asked}))
     try:
@@ -133,7 +133,7 @@ def check_drive():
     check("and is not elsewhere", numpy.isnan(moved[2]).all())
 
     # a force that depends on what the run has answered
-    force = {"Chuck/Translation z/Control": "force", "Load steps/Times": [0, 1], "Load steps/Steps": 20}
+    force = {"Chuck/Press/Control": "force", "Load steps/Times": [0, 1], "Load steps/Steps": 20}
     simulation = debond.Simulation(debond.Scene(text=coin, entries=force), drive={"Translation z": -50, "Rotation z": 0})
     simulation.advance()
     while not simulation.is_finished:
@@ -149,7 +149,7 @@ def check_law():
     def phi(slip):  # Eq. (13)
         return 0.5 - 0.5 * numpy.sin(numpy.pi / 2 * numpy.clip((slip / a_s - 1) / b_s - 1, -1, 1))
 
-    of_paper = {"Interface/Sliding threshold": a_s, "Interface/Transition factor": b_s}
+    of_paper = {"Interface/Characteristic slip distance": a_s, "Interface/Transition factor": b_s}
     torque = [debond.Scene(**scene).run().rows["torque_Nmm"]
               for scene in (dict(text=coin, entries=of_paper), dict(text=coin, law=(phi, (1 + 2 * b_s) * a_s)))]
     check("a law as a function, Eq. (13) to 2e-4 of T_max", numpy.abs(torque[0] - torque[1]).max() < 2e-4 * torque[0].max())
@@ -223,18 +223,18 @@ def check_calibration():
     debond.Scene(text=coin, entries={"Output/Console": "quiet"}).write("measured", force=True)
     fit = debond.calibrate(debond.Scene(text="set Task = calibrate\n" + coin, entries={
         "Interface/Friction coefficient unbroken": "<<0.5 in 0.3..1.2>>",
-        "Interface/Sliding threshold": "<<0.015 in 0.006..0.1 log>>",
+        "Interface/Characteristic slip distance": "<<0.015 in 0.006..0.1 log>>",
         "Output/Reference curve": "measured/torque.csv", "Output/Reference columns": "angle_deg, torque_Nmm",
         "Output/Directory": "fit", "Calibration/Starts": 4}), force=True)
     found = [unknown["value"] for unknown in fit["unknowns"].values()]
     defaults = debond.Scene(text=coin).parameters
     truth = [float(next(line for line in defaults.splitlines() if f"set {name} " in line).split("=")[1].split("#")[0])
-             for name in ("Friction coefficient unbroken", "Sliding threshold")]
+             for name in ("Friction coefficient unbroken", "Characteristic slip distance")]
     check("a curve gives its parameters back", numpy.allclose(found, truth, rtol=1e-4))
 
 
 def check_defaults():
-    entries = {"Model": "foundation", "Chuck/Translation z/Value": "-0.0049 * min(t, 1)",
+    entries = {"Model": "foundation", "Chuck/Press/Value": "0.0049 * min(t, 1)",
                "Chuck/Rotation z/Value": "10 * max(t - 1, 0)"}
     result = debond.Scene(entries=entries).run()
     check("a scene of entries alone: T_max is 2/3 pi mu_ub p R^3",
@@ -244,11 +244,11 @@ def check_defaults():
 def check_mistakes():
     print("Mistakes")
     error = mistake(lambda: debond.Scene(text=coin, entries={"Interface/Sliding treshold": 0.02}).run())
-    error = mistake(lambda: debond.Scene(text=coin, entries={"Interface/Sliding threshold": -1}).run())
-    check("  entry, value and place", (error.entry, error.value, error.place) == ("Interface / Sliding threshold", "-1", "entries"))
+    error = mistake(lambda: debond.Scene(text=coin, entries={"Interface/Characteristic slip distance": -1}).run())
+    check("  entry, value and place", (error.entry, error.value, error.place) == ("Interface / Characteristic slip distance", "-1", "entries"))
     mistake(lambda: debond.Scene("con.prm").run())
     mistake(lambda: debond.Simulation("coin.prm"))
-    mistake(lambda: debond.Scene({"Interface/Sliding threshold": 0.02}))
+    mistake(lambda: debond.Scene({"Interface/Characteristic slip distance": 0.02}))
     mistake(lambda: debond.Simulation(debond.Scene(text=coin)).advance({"Rotation z": 1}))
     mistake(lambda: debond.Simulation(debond.Scene(text=coin), drive={"Rotation": 0}))
     mistake(lambda: debond.Simulation(debond.Scene(text=coin), drive={"Rotation z": "fast"}))

@@ -14,15 +14,15 @@ COIN = """
 subsection Bone
   set Cells       = 8, 8, 2
   set Material    = linear
-  set Bulk solver = multigrid
+  set Solver = multigrid
 end
 subsection Implant
   set Cells    = 4, 2
   set Material = linear
 end
 subsection Chuck
-  subsection Translation z
-    set Value = -0.0049 * min(t, 1)
+  subsection Press
+    set Value = 0.0049 * min(t, 1)
   end
   subsection Rotation z
     set Value = 5 * max(t - 1, 0)
@@ -38,8 +38,8 @@ subsection Output
   set Report  = false
 end
 """
-DIRECT = {"Bone/Bulk solver": "direct"}
-STIFFER = {"Interface/Penalty stiffness": 1800}
+DIRECT = {"Bone/Solver": "direct"}
+STIFFER = {"Interface/Normal stiffness": 1800}
 LONGER = {"Load steps/Steps": [1, 9], **STIFFER}  # other numbers of sums over processes
 
 
@@ -115,7 +115,7 @@ def unhappy():  # an error of Python in all of them ends them as it always does
 
 
 def of_pool(stiffness):
-    return forces(coin({"Interface/Penalty stiffness": stiffness}).run())
+    return forces(coin({"Interface/Normal stiffness": stiffness}).run())
 
 
 STIFFNESSES = [400, 585, 1800]
@@ -282,7 +282,7 @@ def check_all():
     check("  and solvers", len(said) == 2 and all(same(of_one, by_direct) for of_one in said))
     said = run(3, "futures", "-m", "mpi4py.futures")
     check("  a pool of mpi4py.futures", len(said) == 1 and all(
-        same(found, forces(coin({"Interface/Penalty stiffness": stiffness, **DIRECT}).run()))
+        same(found, forces(coin({"Interface/Normal stiffness": stiffness, **DIRECT}).run()))
         for found, stiffness in zip(said[0], STIFFNESSES)))
     said = run(2, "unhappy")
     check("  an error of Python", said.returncode == 1 and "as it should be" in said.stdout and "MPI_" not in said.stdout)

@@ -119,7 +119,7 @@ def check_example():
     check(held >= 10, f"{held} of 12 intervals hold the true values")  # 9 or fewer once in 50, for independent ones
     check([row["unit"] for row in rows[:2]] == ["", "mm"], f"{rows[:2]}")
     check(all(row["told"] == row["fits"] == "true" for row in rows), f"{rows}")
-    single = debond.fit(debond.Scene(TEMPLATE, {"Implant/Radius": 2.47, "Chuck/Translation z/Value": "-45 * min(t, 1)",
+    single = debond.fit(debond.Scene(TEMPLATE, {"Implant/Radius": 2.47, "Chuck/Press/Value": "45 * min(t, 1)",
                                                 "Output/Reference curve": os.path.join(example, "M1.csv")}))
     for row, value, lower in zip(rows, single.values, single.lower):
         check(float(row["value"]) == value and float(row["lower_95"]) == lower, f"{row}, a single fit {value}, {lower}")
@@ -242,7 +242,7 @@ def check_workbook():
     except ImportError:
         return print("no openpyxl: left out")
     book = openpyxl.Workbook()
-    for row in (("specimen", "curve", "Implant/Radius", "Chuck/Translation z/Value"), (1, "M1.csv", 2.47, "-45 * min(t, 1)")):
+    for row in (("specimen", "curve", "Implant/Radius", "Chuck/Press/Value"), (1, "M1.csv", 2.47, "45 * min(t, 1)")):
         book.active.append(row)
     book.save("copy/one.xlsx")
     found = debond.fit_specimens("copy/template.prm", "copy/one.xlsx", "one")

@@ -12,8 +12,8 @@ subsection Implant
   set Material = linear
 end
 subsection Chuck
-  subsection Translation z
-    set Value = -0.0049 * min(t, 1)
+  subsection Press
+    set Value = 0.0049 * min(t, 1)
   end
   subsection Rotation z
     set Value = 10 * max(t - 1, 0)
@@ -49,13 +49,13 @@ cut -d, -f1-6 alone/torque.csv > rows-1
 numdiff -q -r 1e-7 -a 1e-9 -s ,'\n' rows-1 rows-2 && echo "the rows of one process"
 
 echo "refused"
-ranks 2 $scene --set "Bone/Bulk solver=direct" --set Output/Directory=no || said "that solver is for one process, and here are 2"
+ranks 2 $scene --set "Bone/Solver=direct" --set Output/Directory=no || said "that solver is for one process, and here are 2"
 ranks 5 $scene --set "Bone/Cells=2,2,1" --set Output/Directory=few || said "5 processes cannot share 4 cells"
 ranks 2 $scene --set "Model=auto" --set Output/Directory=no || said "auto runs in one process"
 ranks 2 $scene --set "Bone/Cells=four" --set Output/Directory=no || said "--set: Bone / Cells = 'four'"
 ls no 2> /dev/null
 
-ranks 2 $scene --set "Interface/Sliding threshold={{0.02|0.04}}" --set Output/Directory=no || said "are processes of one machine"
+ranks 2 $scene --set "Interface/Characteristic slip distance={{0.02|0.04}}" --set Output/Directory=no || said "are processes of one machine"
 
 # a modulus that makes no sense in the cells of one process only
 wrong='18000 + if(abs(y + 5.986) < 0.01, -1e5, 0) * abs(x)'
@@ -71,7 +71,7 @@ exec 9<&-
 OMPI_MCA_btl=tcp,self OMPI_MCA_btl_tcp_if_include=lo ranks 2 $scene --set "Load steps/Steps=1,1" --set Output/Directory=tcp && echo "by TCP"
 
 echo "a process that is killed"
-"$run" "$mpirun" 2 "$debond" $scene --set "Load steps/Steps=1,40" --set "Output/Checkpoint minutes=1e-9" --set "Output/Fields every=0" --set Output/Directory=killed > said 2>&1 &
+"$run" "$mpirun" 2 "$debond" $scene --set "Load steps/Steps=1,40" --set "Output/Checkpoint minutes=1e-9" --set "Output/Fields every=none" --set Output/Directory=killed > said 2>&1 &
 job=$!
 while [ ! -e killed/checkpoint-2 ]; do sleep 0.1; done
 kill -9 "$(pgrep -f "Output/Directory=killed" | tail -n 1)"
@@ -84,7 +84,7 @@ kill -0 $job 2> /dev/null || echo "ends the others within 10 s"
 wait $job
 ranks 3 --resume killed || cat said
 said "Going on after step"
-"$debond" $scene --set "Load steps/Steps=1,40" --set "Output/Fields every=0" --set Output/Directory=whole > /dev/null
+"$debond" $scene --set "Load steps/Steps=1,40" --set "Output/Fields every=none" --set Output/Directory=whole > /dev/null
 tail -n 1 killed/torque.csv | cut -d, -f1-4 > last-1
 tail -n 1 whole/torque.csv | cut -d, -f1-4 > last-2
 numdiff -q -r 1e-6 -s ,'\n' last-1 last-2 && echo "goes on with three"

@@ -26,7 +26,7 @@ scene_of(const std::string &change)
 subsection Bone
   set Cells       = 10, 10, 4
   set Material    = linear
-  set Bulk solver = multigrid
+  set Solver = multigrid
 end
 subsection Implant
   set Cells    = 3, 2

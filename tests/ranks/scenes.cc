@@ -100,11 +100,11 @@ compare(const std::string &name,
         const std::string &bone = block)
 {
   const auto whole =
-    rows_of(changes + Changes{"Bone/Bulk solver=multigrid"}, bone);
+    rows_of(changes + Changes{"Bone/Solver=multigrid"}, bone);
   std::vector<TorqueRow> direct;
   {
     const Ranks::Together alone(MPI_COMM_SELF);
-    direct = rows_of(changes + Changes{"Bone/Bulk solver=direct"}, bone);
+    direct = rows_of(changes + Changes{"Bone/Solver=direct"}, bone);
   }
   if (!Ranks::is_first())
     return;
@@ -123,8 +123,8 @@ main()
           {"Bone/Material=neo-hookean", "Implant/Material=neo-hookean"});
   compare("splines", splines);
   compare("pressed by a force, turned by a compliant machine",
-          {"Chuck/Translation z/Control=force",
-           "Chuck/Translation z/Value=-10 - 41.5 * min(t, 1)",
+          {"Chuck/Press/Control=force",
+           "Chuck/Press/Value=10 + 41.5 * min(t, 1)",
            "Chuck/Rotation z/Stiffness=4000"});
   compare("pattern, the bone as slave",
           {"Interface/Bonding/Pattern=expression",
@@ -143,7 +143,7 @@ main()
   compare("splines, an oblique jump of 10, stiff contact",
           splines +
             Changes{"Bone/Young modulus=if(z + 0.2 * x > -1, 1800, 18000)",
-                    "Interface/Penalty stiffness=18000"});
+                    "Interface/Normal stiffness=18000"});
   compare("a cap with bilinear faces, adaptive steps",
           {"Implant/Shape=cap",
            "Implant/Contact surface=bilinear",

@@ -56,7 +56,7 @@ main()
   show("unknown in a scene that is simulated",
        in("Bone", "set Young modulus = <<18000 in 1..2>>"));
   show("study", in("Bone", "set Young modulus = {{18000|21000}}"));
-  show("wrong override", turning, {"Interface/Penalty stiffness=-1"});
+  show("wrong override", turning, {"Interface/Normal stiffness=-1"});
   show("radius of the sphere of a coin", in("Implant", "set Cap radius = 20"));
   show("low cap",
        in("Implant", "set Height = 0.5"),

@@ -30,7 +30,7 @@ show(const std::vector<std::string> &overrides)
 int
 main()
 {
-  const std::string push  = "Chuck/Translation z/",
+  const std::string push  = "Chuck/Press/",
                     twist = "Chuck/Rotation z/Value=",
                     law   = "Interface/Friction ";
   show({"Title=nothing wrong"});
@@ -45,9 +45,9 @@ main()
 
   show({law + "coefficient broken=0.7"});
   show({law + "coefficient broken=0.7", law + "law=coulomb"});
-  show({"Interface/Sliding threshold=22"});
-  show({"Interface/Sliding threshold=22e-6"});
-  show({"Interface/Sliding threshold=22e-6", law + "law=coulomb"});
+  show({"Interface/Characteristic slip distance=22"});
+  show({"Interface/Characteristic slip distance=22e-6"});
+  show({"Interface/Characteristic slip distance=22e-6", law + "law=coulomb"});
   show({"Interface/Law=adhesive"});
   show({"Interface/Law=adhesive", "Interface/Adhesive/Gap at strength=5"});
   show({"Interface/Law=adhesive",
@@ -73,7 +73,7 @@ main()
 
   // the rim over the bone's cells, rows of points over its edge
   const std::string shear = "Chuck/Translation x/Value=",
-                    stiff = "Interface/Penalty stiffness=1e5";
+                    stiff = "Interface/Normal stiffness=1e5";
   show({shear + "2 * max(t - 1, 0)"});
   show({shear + "2 * max(t - 1, 0)", stiff});
   show({shear + "0.1 * max(t - 1, 0)", stiff});
@@ -102,16 +102,16 @@ main()
   show({twist + "0.1745 * sin(20 * pi * t)"});
   show({"Load steps/Times=0, 0.5, 1"});
   show({"Chuck/Rotation x/Value=0 * t"});
-  show({push + "Control=force", push + "Value=50 * min(t, 1)"});
   show({push + "Control=force", push + "Value=-50 * min(t, 1)"});
-  show({push + "Control=force", push + "Value=-0.0049 * min(t, 1)"});
+  show({push + "Control=force", push + "Value=50 * min(t, 1)"});
+  show({push + "Control=force", push + "Value=0.0049 * min(t, 1)"});
   show({push + "Control=force",
-        push + "Value=-0.0049 * min(t, 1)",
+        push + "Value=0.0049 * min(t, 1)",
         "Bone/Young modulus=0.5"});
-  show({push + "Value=0.0049 * (2 * t - 1)"});
-  show({push + "Value=-4.9 * min(t, 1)"});
-  show({push + "Value=-4.9 * min(t, 1)", push + "Stiffness=10"});
-  show({push + "Value=-0.5 * min(t, 1)"});
+  show({push + "Value=-0.0049 * (2 * t - 1)"});
+  show({push + "Value=4.9 * min(t, 1)"});
+  show({push + "Value=4.9 * min(t, 1)", push + "Stiffness=10"});
+  show({push + "Value=0.5 * min(t, 1)"});
 
   show({"Load steps/Tolerance=1e-2"});
   show({"Load steps/Tolerance=1e-2", "Load steps/Adaptive=true"});
@@ -120,13 +120,13 @@ main()
   show({"Model=auto"});
   show({"Load steps/Largest slip step=1e-3"});
   show({"Closed form/Shear modulus=50", "Closed form/Pressure=2"});
-  show({"Closed form/Shear modulus=50", "Model=mathieu"});
+  show({"Closed form/Shear modulus=50", "Model=crack"});
   show({"Bone/Material=rigid", "Bone/Young modulus=17"});
   show({law + "law=frictionless", law + "coefficient broken=0.3"});
   show({law + "coefficient unbroken=58", law + "coefficient broken=40"});
   show({"Implant/Radius=0.0025"});
   show({"Bone/Young modulus=113000", "Implant/Young modulus=18000"});
-  show({"Chuck/Translation z/Value=-4.9e-6 * min(t, 1)"});
+  show({"Chuck/Press/Value=4.9e-6 * min(t, 1)"});
   show({law + "law=coulomb", law + "coefficient unbroken=0.7"});
   show({"Interface/Rate and state/Direct effect=0.02"});
 }

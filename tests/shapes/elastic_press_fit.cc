@@ -55,7 +55,7 @@ error_with(const unsigned int n_around)
                      "end\n"
                      "subsection Interface\n"
                      "  set Interference = 2e-6\n"
-                     "  set Penalty stiffness = 1e5\n"
+                     "  set Normal stiffness = 1e5\n"
                      "end\n"
                      "subsection Chuck\n"
                      "  subsection Rotation z\n"

@@ -3,7 +3,7 @@
 //
 //   # judge: T_max_Nmm = 50.32 within 0.1 %  (where the number is from)
 //   # method: default: right
-//   # method: explicit: wrong --set "Interface/Friction update=explicit"
+//   # method: explicit: wrong --set "Expert/Friction update=explicit"
 //   # comes to: T_max_Nmm = 52.1 within 1 %  (where the number is from)
 //   # method: brittle: refused "not unique" --set ...
 //   # slow method: fine: right --set "Load steps/Steps=1, 1000"

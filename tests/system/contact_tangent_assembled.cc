@@ -80,8 +80,8 @@ check(const std::string    &name,
     end
     subsection Interface
       set Quadrature points            = 4
-      set Penalty stiffness            = 600
-      set Tangential penalty stiffness = 350
+      set Normal stiffness            = 600
+      set Tangential stiffness = 350
     end)" + changes;
   for (const char *component : ChuckParameters::names)
     {

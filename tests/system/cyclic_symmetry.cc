@@ -19,8 +19,8 @@ subsection Implant
   set Material = linear
 end
 subsection Chuck
-  subsection Translation z
-    set Value = -0.0049 * min(t, 1)
+  subsection Press
+    set Value = 0.0049 * min(t, 1)
   end
   subsection Rotation z
     set Value = 3 * max(t - 1, 0)
@@ -215,12 +215,12 @@ test()
            "Implant/Element=spline",
            "Bone/Cells=fitted 16, 2, 3, 3",
            "Implant/Cells=fitted 12, 2, 2",
-           "Interface/Penalty stiffness=1e5"});
+           "Interface/Normal stiffness=1e5"});
   compare("pressed by a force, twisted through a spring",
           4,
           coin,
-          {"Chuck/Translation z/Control=force",
-           "Chuck/Translation z/Value=-60 * min(t, 1)",
+          {"Chuck/Press/Control=force",
+           "Chuck/Press/Value=60 * min(t, 1)",
            "Chuck/Rotation z/Stiffness=50000"});
   compare("bonded in a ring",
           4,
@@ -235,8 +235,8 @@ test()
           4,
           coin,
           {"Bone/Element=spline",
-           "Chuck/Translation z/Control=force",
-           "Chuck/Translation z/Value=-60 * min(t, 1)"});
+           "Chuck/Press/Control=force",
+           "Chuck/Press/Value=60 * min(t, 1)"});
   compare("a bone that is not square", 2, coin, {"Bone/Size=12, 11, 4"});
   compare("solid pin in a sleeve, with a square core", 4, pin);
   compare("hollow pin in a sleeve", 12, pin, {"Implant/Inner radius=1"});
@@ -246,7 +246,7 @@ test()
                coin,
                {"Load steps/Path following=slip",
                 "Chuck/Rotation z/Stiffness=3000",
-                "Interface/Sliding threshold=0.005",
+                "Interface/Characteristic slip distance=0.005",
                 "Load steps/Steps=1, 40",
                 "Load steps/Residual tolerance=1e-9"},
                1e-4);

@@ -8,8 +8,8 @@
 
 const char *const scene_text = R"(
 subsection Chuck
-  subsection Translation z
-    set Value = -0.0049 * min(t, 1)
+  subsection Press
+    set Value = 0.0049 * min(t, 1)
   end
   subsection Rotation z
     set Value = max(t - 1, 0)
@@ -60,7 +60,7 @@ check_stiff_interface()
       std::cout << "first step of " << first << " degrees" << std::endl;
       const bool  only = first == "0.1";
       DrivenScene driven(scene_text,
-                         {"Interface/Penalty stiffness=180000",
+                         {"Interface/Normal stiffness=180000",
                           "Load steps/Times=0, 1, " +
                             (only ? "1.1" : "1" + first.substr(1) + ", 1.1"),
                           only ? "Load steps/Steps=1, 1" :

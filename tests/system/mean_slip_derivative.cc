@@ -33,8 +33,8 @@ check(const std::string &slave)
       set Quadrature points = 4
     end
     subsection Chuck
-      subsection Translation z
-        set Value = -0.005 - 0.001 * t
+      subsection Press
+        set Value = -(-0.005 - 0.001 * t)
       end
       subsection Rotation z
         set Value     = 1.5 * t + t * t

@@ -19,8 +19,8 @@ subsection Implant
   set Material = linear
 end
 subsection Chuck
-  subsection Translation z
-    set Value = -0.0049 * min(t, 1)
+  subsection Press
+    set Value = 0.0049 * min(t, 1)
   end
   subsection Rotation z
     set Value = 0.05 * max(t - 1, 0)
@@ -30,7 +30,7 @@ subsection Load steps
   set Steps = 1, 1
 end
 subsection Output
-  set Fields every = 0
+  set Fields every = none
 end
 )";
 

@@ -18,14 +18,14 @@ subsection Implant
   set Cells    = 8, 1
 end
 subsection Interface
-  set Penalty stiffness           = 2
+  set Normal stiffness           = 2
   set Friction law                = coulomb
   set Friction coefficient broken = 0.5
   set Friction starts at          = 1
 end
 subsection Chuck
-  subsection Translation z
-    set Value = -0.1 * min(t, 1)
+  subsection Press
+    set Value = 0.1 * min(t, 1)
   end
   subsection Rotation z
     set Value = 0.00125 * max(t - 1, 0)
@@ -43,7 +43,7 @@ check_partial_slip(const double eps_t)
   std::cout << "Partial slip, eps_t = " << eps_t << " MPa/mm" << std::endl;
   // steps are not halved here: one that does not converge ends the test
   DrivenScene  scene(partial_slip,
-                    {"Interface/Tangential penalty stiffness=" +
+                    {"Interface/Tangential stiffness=" +
                       std::to_string(eps_t)});
   unsigned int n = 0, most = 0;
   while (scene.advance())
@@ -73,7 +73,7 @@ check_stiffest()
     {
       const auto rows = run_scene("newton_cycles_stiffest",
                                   partial_slip,
-                                  {"Interface/Tangential penalty stiffness=" +
+                                  {"Interface/Tangential stiffness=" +
                                    std::to_string(eps_t)});
       complete        = complete && rows.size() == 7;
       grow(deviation,

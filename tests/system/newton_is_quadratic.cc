@@ -52,14 +52,14 @@ check(const std::string &name,
       set Material = linear
     end
     subsection Chuck
-      subsection Translation z
-        set Value = -0.0049 * min(t, 1)
+      subsection Press
+        set Value = 0.0049 * min(t, 1)
       end
       subsection Rotation z
         set Value = max(t - 1, 0)
       end
     end)" + changes,
-                     {"Chuck/Translation z/Value=-0.0049 * "
+                     {"Chuck/Press/Value=0.0049 *"
                       "min(t, 1) + " +
                       std::to_string(lift / angle) + " * max(t - 1, 0)"});
 
@@ -105,7 +105,7 @@ main()
   set_up_libraries();
   const std::string stiff         = R"(
     subsection Interface
-      set Penalty stiffness = 20000
+      set Normal stiffness = 20000
     end)";
   const std::string rough         = R"(
     subsection Interface
@@ -113,8 +113,8 @@ main()
     end)";
   const std::string soft_in_shear = R"(
     subsection Interface
-      set Penalty stiffness            = 6000
-      set Tangential penalty stiffness = 1000
+      set Normal stiffness            = 6000
+      set Tangential stiffness = 1000
     end)";
   const std::string bone_is_slave = R"(
     subsection Interface

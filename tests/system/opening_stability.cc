@@ -58,16 +58,16 @@ check_compliance()
   report("bone and implant",
          differs(compliance({"Implant/Material=linear"}), bar + 3. / 500.),
          1e-3);
-  const std::string spring = "Chuck/Translation z/Stiffness=10000";
+  const std::string spring = "Chuck/Press/Stiffness=10000";
   report("bone and machine",
          differs(compliance({spring}), bar + 25. / 10000.),
          1e-3);
   report("half a bond",
-         differs(compliance({"Interface/Bonding/Initial bonding=0.5"}),
+         differs(compliance({"Interface/Bonding/Bonding degree=0.5"}),
                  0.5 * bar),
          1e-3);
   report("half a bond, bone and machine",
-         differs(compliance({"Interface/Bonding/Initial bonding=0.5", spring}),
+         differs(compliance({"Interface/Bonding/Bonding degree=0.5", spring}),
                  0.5 * (bar + 25. / 10000.)),
          1e-3);
   report("rigid bodies", compliance({"Bone/Material=rigid"}) == 0.);
@@ -92,8 +92,8 @@ check_compliance()
                  25. * (25. / 12. + 9.) / 10000.),
          1e-3);
   report("a chuck under a load",
-         std::isinf(compliance({"Chuck/Translation z/Control=force",
-                                "Chuck/Translation z/Value=0.1 * t"})));
+         std::isinf(compliance({"Chuck/Press/Control=force",
+                                "Chuck/Press/Value=-0.1 * t"})));
 }
 
 
@@ -113,7 +113,7 @@ check_warning()
              run_scene("opening_stability",
                        blocks,
                        {"Interface/Adhesive/Gap at strength=" + gap,
-                        "Interface/Bonding/Initial bonding=" +
+                        "Interface/Bonding/Bonding degree=" +
                           std::to_string(phi_0)}))
           warned = warned || row.warnings > 0;
         report(softening < 200. ?
@@ -146,7 +146,7 @@ check_shear()
               "Interface/Mixed mode/Shear strength=" + std::to_string(T),
               "Interface/Mixed mode/Fracture energy I=1",
               "Interface/Mixed mode/Fracture energy II=" + std::to_string(G),
-              "Chuck/Translation z/Value=0",
+              "Chuck/Press/Value=0",
               "Chuck/Translation x/Value=0.05 * t",
               "Chuck/Translation x/Stiffness=10000"}))
         warned = warned || row.warnings > 0;

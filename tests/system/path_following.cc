@@ -14,7 +14,7 @@
 
 const char *const brittle_bond = R"(
 subsection Interface
-  set Sliding threshold = 0.005
+  set Characteristic slip distance = 0.005
   set Transition factor = 0.3
 end
 subsection Load steps
@@ -42,8 +42,8 @@ check_rigid_bodies()
       set Cells    = 8, 2
     end
     subsection Chuck
-      subsection Translation z
-        set Value = -2.6 / 585 * min(t^1.5, 1) # none before the first time
+      subsection Press
+        set Value = 2.6 / 585 * min(t^1.5, 1) # none before the first time
       end
       subsection Rotation z
         set Value     = 2 * max(t - 1, 0)
@@ -150,8 +150,8 @@ check_linear_bodies()
       set Friction starts at = 1
     end
     subsection Chuck
-      subsection Translation z
-        set Value = -2.6 / 105 * min(t, 1)
+      subsection Press
+        set Value = 2.6 / 105 * min(t, 1)
       end
       subsection Rotation z
         set Value = 1.5 * max(t - 1, 0)

@@ -173,8 +173,8 @@ check(const std::string &name, const std::string &changes)
   std::cout << name << std::endl;
   const Scene scene = Scene::from_text(R"(
     subsection Chuck
-      subsection Translation z
-        set Value = -0.0049 * min(t, 1)
+      subsection Press
+        set Value = 0.0049 * min(t, 1)
       end
       subsection Rotation z
         set Value = max(t - 1, 0)

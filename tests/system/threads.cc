@@ -9,8 +9,8 @@
 
 const char *const scene_text = R"(
 subsection Chuck
-  subsection Translation z
-    set Value = -0.0049 * min(t, 1)
+  subsection Press
+    set Value = 0.0049 * min(t, 1)
   end
   subsection Rotation x
     set Value = 0.002 * max(t - 1, 0)

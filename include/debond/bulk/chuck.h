@@ -49,9 +49,11 @@ namespace Debond
      *  mm, degrees, N, N mm. */
     std::string              value = "0";
     std::string              file; ///< with a table of values, or empty
-    bool                     over_angle = false; ///< instead of over time
+    bool                     over_angle = false; ///< the file; else over time
     std::vector<std::string> columns;            ///< empty: recognised
     double stiffness = 0; ///< of the machine [N/mm or N mm/rad]; 0: rigid
+    /** Whether value and file are those of `Press', positive into the bone. */
+    bool into_bone = false;
     /** What the file says, over time or over the angle [deg]; null: none. */
     std::shared_ptr<const MonotoneCurve> table;
     /** Of time, in the same units: if it is set, it counts instead of the
@@ -66,7 +68,8 @@ namespace Debond
     }
   };
 
-  /** The subsection `Chuck`: Translation x, y, z, Rotation x, y, z. */
+  /** The subsection `Chuck`: Translation x, y, z, Rotation x, y, z, and Press,
+   *  which is Translation z with the other sign. */
   struct ChuckParameters
   {
     static constexpr unsigned int n_components = 6;
@@ -74,6 +77,9 @@ namespace Debond
     static const std::array<const char *, n_components> names;
 
     std::array<ChuckComponentParameters, n_components> component;
+    /** As a scene gives it; read_tables() puts it in the place of Translation
+     *  z. */
+    ChuckComponentParameters press;
     /** Where forces act and displacements are measured [mm]; or `auto'. */
     std::string point = "auto";
 
@@ -82,11 +88,14 @@ namespace Debond
     place(double height) const;
 
     /** "Chuck / Rotation z / Value" and the like. */
-    static std::string
-    entry_name(unsigned int component, const std::string &entry);
+    std::string
+    entry_name(unsigned int component, const std::string &entry) const;
+    /** The column of the file of a component that holds its values. */
+    std::string
+    file_column(unsigned int component) const;
 
     /** "chuck_Fz_N", "chuck_rz_deg" and the like: what is called so in
-     *  torque.csv has the sign of the component's value. @p of_load: force or
+     *  torque.csv is positive along or about an axis. @p of_load: force or
      *  moment instead of displacement or angle. */
     static std::string
     column_name(unsigned int component, bool of_load);
@@ -94,8 +103,9 @@ namespace Debond
     void
     declare(EntryTable &table);
 
-    /** Reads the tables of all components that have a file, which scenes made
-     *  by a program must do as well. Throws EntryError. */
+    /** Takes Press for Translation z and reads the tables of all components
+     *  that have a file, which scenes made by a program must do as well. Throws
+     *  EntryError. */
     void
     read_tables();
 
@@ -114,6 +124,17 @@ namespace Debond
     check_tables(const std::vector<double> &times, double radius) const;
 
   private:
+    /** The same with the sign of Press. */
+    TimeFunction
+    value_as_given(unsigned int component, double radius) const;
+    void
+    take_press();
+    void
+    declare_component(unsigned int component, bool into_bone, EntryTable &table);
+
+    /** Translation z in the tables of a scene that has Press. */
+    ChuckComponentParameters unset;
+
     /** Time, or angle [deg], that the table of a component is read at. */
     TimeFunction
     abscissa_over_time(unsigned int component, double radius) const;
@@ -347,6 +368,7 @@ namespace Debond
 
     const Eigen::Vector3d     C;
     std::vector<TimeFunction> value_functions;
+    std::vector<std::string>  value_entries; ///< their names
     std::vector<unsigned int> unknown_components;
     Vector6                   stiffness; ///< of the machine, 0: rigid
     Eigen::Array<bool, ChuckParameters::n_components, 1> loaded, compliant,

@@ -20,6 +20,9 @@ namespace Debond
     std::function<std::string(const std::string &)> hint;
     /** What one may choose from, if the entry is a choice. */
     std::vector<std::string> names = {};
+    /** A word, such as `auto' or `none', and the text of the value that it
+     *  stands for. Both may be empty. */
+    std::string word = "", word_value = "";
 
     /** "expected ..." with a hint, or nothing if @p text is allowed. */
     std::string
@@ -31,6 +34,16 @@ namespace Debond
     /** The same values and this word. */
     AllowedValues
     or_word(const std::string &word) const;
+    /** The same values and this word, which stands for the value @p text of a
+     *  member: an empty name, or a number that is none of the others. */
+    AllowedValues
+    or_word_for(const std::string &word, const std::string &text) const;
+
+    /** The text of an entry for the text of a member's value, and back. */
+    std::string
+    in_words(const std::string &value) const;
+    std::string
+    without_words(const std::string &text) const;
   };
 
   /** The kinds of values that occur in a scene. The unit is part of the words

@@ -157,9 +157,9 @@ namespace Debond
   {
     add(
       name,
-      entry_text(member, allowed.names),
-      [&member, names = allowed.names](const std::string &text) {
-        read_entry(text, member, names);
+      allowed.in_words(entry_text(member, allowed.names)),
+      [&member, allowed](const std::string &text) {
+        read_entry(allowed.without_words(text), member, allowed.names);
       },
       allowed,
       documentation);

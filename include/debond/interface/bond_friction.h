@@ -48,6 +48,9 @@ namespace Debond
       return mu_b;
     }
 
+    /** What coefficients of friction may be. */
+    static AllowedValues
+    allowed_coefficient();
     /** The entries of mu_b and mu_ub, and @p more. */
     static std::vector<LawEntry>
     entries(const std::vector<LawEntry> &more);

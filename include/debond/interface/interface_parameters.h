@@ -87,10 +87,13 @@ namespace Debond
 
     void
     declare(EntryTable &table);
+    /** The subsection `Expert`. */
+    void
+    declare_expert(EntryTable &table);
 
   private:
     void
-    declare_variants(EntryTable &table);
+    declare_viscosity(EntryTable &table);
   };
 } // namespace Debond
 #endif

@@ -254,7 +254,7 @@ namespace Debond
    * [rad]. The stiffness of @p disk follows from theta_lin, Eqs. (43) and (46).
    */
   std::unique_ptr<TorsionModel>
-  analytical_torsion(const TorsionModel::Disk &disk,
+  prescribed_angles_torsion(const TorsionModel::Disk &disk,
                      double                    linear_limit,
                      double                    full_sliding);
 
@@ -269,7 +269,7 @@ namespace Debond
    * @p friction_stress tau_0 >= 0 [MPa]. Of @p disk only the radius counts.
    */
   std::unique_ptr<TorsionModel>
-  mathieu_torsion(const TorsionModel::Disk &disk,
+  crack_torsion(const TorsionModel::Disk &disk,
                   double                    shear_modulus,
                   double                    adhesion_energy,
                   double                    friction_stress);

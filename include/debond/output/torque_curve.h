@@ -193,7 +193,7 @@ namespace Debond
     double mean_phi_0 = 1;
     /** Whether there is a bond to break; else nothing is said of adhesion. */
     bool is_bonded = true;
-    /** `Output / Full sliding angle` [deg]; 0: from the curve. */
+    /** `Output / Friction energy from angle` [deg]; 0: from the curve. */
     double full_sliding_angle_deg = 0;
     /** First time and ends of the phases, `Load steps / Times`. */
     std::vector<double> phase_times;

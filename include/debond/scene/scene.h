@@ -21,13 +21,13 @@ namespace Debond
   {
     finite_elements,
     foundation,
-    analytical,
-    mathieu,
+    prescribed_angles,
+    crack,
     automatic ///< `auto`
   };
 
   /** The subsection `Closed form` of a scene: what the models foundation,
-   *  analytical and mathieu need besides the other entries. */
+   *  prescribed angles and crack need besides the other entries. */
   struct ClosedFormParameters
   {
     double pressure            = 0;    ///< p [MPa], 0: from the push-in

@@ -107,7 +107,7 @@ namespace Debond
      *  empty: it can. */
     std::string
     why_not_lattice() const;
-    /** What `Bone / Bulk solver' comes to, never automatic, and in words. */
+    /** What `Bone / Solver' comes to, never automatic, and in words. */
     BulkSolver
     bulk_solver() const;
     std::string

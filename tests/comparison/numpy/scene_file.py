@@ -23,20 +23,20 @@ ENTRIES = {
     'Title': FREE_TEXT, 'Model': ('finite elements',), 'Task': ('simulate',),
     **{'Bone/' + name: value for name, value in BODY.items()},
     'Bone/Size': [12.5, 12.5, 5.], 'Bone/Cells': [15., 15., 2.], 'Bone/Young modulus': 18000.,
-    'Bone/Lateral grading': ('1',), 'Bone/Cells under implant': ('0',), 'Bone/Rim grading': ('1.5',),
+    'Bone/Lateral grading': ('1',), 'Bone/Cells under implant': ('none',), 'Bone/Rim grading': ('1.5',),
     **{'Implant/' + name: value for name, value in BODY.items()},
     'Implant/Shape': ('coin',), 'Implant/Radius': 2.5, 'Implant/Height': 3., 'Implant/Cells': [3., 2.],
     'Implant/Young modulus': 113000.,
     'Interface/Slave': ('implant', 'bone'), 'Interface/Quadrature points': 5.,
-    'Interface/Penalty stiffness': 585., 'Interface/Tangential penalty stiffness': 0.,
+    'Interface/Normal stiffness': 585., 'Interface/Tangential stiffness': 'auto',
     'Interface/Friction law': ('modified coulomb', 'coulomb', 'frictionless', 'table', 'rate and state'),
-    'Interface/Friction coefficient broken': .4, 'Interface/Friction coefficient unbroken': .58,
-    'Interface/Sliding threshold': .022, 'Interface/Transition factor': .74, 'Interface/Friction starts at': 0.,
-    'Interface/Slip direction': ('integrated', 'trial'),
-    'Interface/Opening breaks bond': ('false',), 'Interface/Viscosity': 0., 'Interface/Friction table': '',
+    'Interface/Friction coefficient': .4, 'Interface/Friction coefficient broken': .4, 'Interface/Friction coefficient unbroken': .58,
+    'Interface/Characteristic slip distance': .022, 'Interface/Transition factor': .74, 'Interface/Friction starts at': 0.,
+    'Expert/Slip direction': ('integrated', 'trial'),
+    'Interface/Opening breaks bond': ('false',), 'Interface/Viscosity': 0., 'Interface/Friction table': 'none',
     'Interface/Rate and state/Reference coefficient': .4, 'Interface/Rate and state/Direct effect': .01,
     'Interface/Rate and state/Evolution effect': .015, 'Interface/Rate and state/Reference speed': 1e-3,
-    'Interface/Rate and state/Sliding distance': .01, 'Interface/Rate and state/Initial state': 0.,
+    'Interface/Rate and state/Sliding distance': .01, 'Interface/Rate and state/Initial state': 'auto',
     'Interface/Rate and state/Evolution': ('ageing', 'slip'),
     'Interface/Law': ('friction', 'adhesive', 'mixed mode', 'dilatant'),
     'Interface/Adhesive/Strength': 0., 'Interface/Adhesive/Gap at strength': 1.,
@@ -45,16 +45,17 @@ ENTRIES = {
     **{'Interface/Mixed mode/' + name: 1. for name in ('Normal strength', 'Shear strength', 'Fracture energy I',
                                                        'Fracture energy II', 'Stiffness', 'Exponent')},
     'Interface/Mixed mode/Criterion': ('benzeggagh-kenane', 'power law'),
-    'Interface/Bonding/Pattern': ('homogeneous', 'expression'), 'Interface/Bonding/Initial bonding': 1.,
+    'Interface/Bonding/Pattern': ('homogeneous', 'expression'), 'Interface/Bonding/Bonding degree': 1.,
     'Interface/Bonding/Resolution': ('element', 'quadrature point'), 'Interface/Bonding/Expression': '1',
     'Load steps/Times': [0., 1., 2.], 'Load steps/Steps': [1., 1000.], 'Load steps/Adaptive': ('false',),
     'Load steps/Residual tolerance': 1e-8,
     **{'Output/' + name: FREE_TEXT for name in ('Directory', 'Fields every', 'Console', 'Checkpoint every')},
 }
 COMPONENTS = ['%s %s' % (kind, axis) for kind in ('Translation', 'Rotation') for axis in 'xyz']
-for component in COMPONENTS:
+PRESS = 'Chuck/Press/Value'  # into the bone, instead of Translation z
+for component in [*COMPONENTS, 'Press']:
     ENTRIES['Chuck/%s/Value' % component] = '0'
-    ENTRIES['Chuck/%s/Control' % component] = ('displacement',) if component[0] == 'T' else ('angle',)
+    ENTRIES['Chuck/%s/Control' % component] = ('angle',) if component[0] == 'R' else ('displacement',)
 
 FUNCTIONS = {name: getattr(np, name) for name in ('sin', 'cos', 'tan', 'sqrt', 'exp', 'abs')}
 FUNCTIONS.update(pi=np.pi, min=np.minimum, max=np.maximum)
@@ -120,6 +121,7 @@ class Scene:
         self.radius, self.height = self.entries['Implant/Radius'], self.entries['Implant/Height']
         self.times = self._times()
         self.motion = [_expression(self.entries['Chuck/%s/Value' % name], R=self.radius) for name in COMPONENTS]
+        self.press = _expression(self.entries[PRESS], R=self.radius)
 
     def _times(self):
         """All planned times, the first one included."""
@@ -132,6 +134,7 @@ class Scene:
     def components(self, time):
         """The chuck at a time: translations x, y, z [mm], rotations x, y, z [rad]."""
         values = [float(component(t=time)) for component in self.motion]
+        values[2] -= float(self.press(t=time))
         return values[:3] + [math.radians(angle) for angle in values[3:]]
 
     def _bone(self):
@@ -153,20 +156,28 @@ class Scene:
         if law == 'rate and state':
             names = ('Reference coefficient', 'Direct effect', 'Evolution effect', 'Reference speed',
                      'Sliding distance', 'Initial state')
-            return friction.RateAndState(*(get('Interface/Rate and state/' + name) for name in names),
+            values = [get('Interface/Rate and state/' + name) for name in names]
+            values[-1] = 0. if values[-1] == 'auto' else float(values[-1])
+            return friction.RateAndState(*values,
                                          get('Interface/Rate and state/Evolution') == 'ageing')
         broken, unbroken = (get('Interface/Friction coefficient ' + name) for name in ('broken', 'unbroken'))
         if law == 'table':
             rows = np.genfromtxt(get('Interface/Friction table'), delimiter=',', names=True)
             return friction.Table(unbroken, broken, rows['slip_mm'], rows['phi'])
-        return friction.ModifiedCoulomb(broken if law == 'coulomb' else unbroken, broken,
-                                        get('Interface/Sliding threshold'), get('Interface/Transition factor'))
+        if law == 'coulomb':
+            broken = unbroken = get('Interface/Friction coefficient')
+        return friction.ModifiedCoulomb(unbroken, broken,
+                                        get('Interface/Characteristic slip distance'), get('Interface/Transition factor'))
+
+    def _tangential_stiffness(self):
+        text = self.entries['Interface/Tangential stiffness']
+        return self.entries['Interface/Normal stiffness'] if text == 'auto' else float(text)
 
     def _law(self):
         get = self.entries.get
         law, friction_law = get('Interface/Law'), self._friction_law()
-        normal = get('Interface/Penalty stiffness')
-        stiffness = normal, get('Interface/Tangential penalty stiffness') or normal
+        normal = get('Interface/Normal stiffness')
+        stiffness = normal, self._tangential_stiffness()
         if law == 'friction':
             return joint.Friction(friction_law, stiffness)
         if get('Interface/Friction law') == 'rate and state':
@@ -192,7 +203,7 @@ class Scene:
         if not homogeneous and get('Interface/Slave') == 'bone':
             raise NotSupported('an expression of the bonding needs Slave = implant')
         expression = _expression('1' if homogeneous else get('Interface/Bonding/Expression'), R=self.radius)
-        factor = get('Interface/Bonding/Initial bonding')
+        factor = get('Interface/Bonding/Bonding degree')
         return lambda x, y: factor * expression(x=x, y=y, r=np.hypot(x, y), angle=np.degrees(np.arctan2(y, x)))
 
     def simulation(self):
@@ -201,7 +212,7 @@ class Scene:
         slave, master, towards = (implant, bone, +1) if get('Interface/Slave') == 'implant' else (bone, implant, -1)
         points = int(get('Interface/Quadrature points'))
         contact = interface.Interface(slave, master, towards, self._law(), points, self._bonding(), get('Interface/Viscosity'),
-                                      get('Interface/Slip direction') == 'integrated')
+                                      get('Expert/Slip direction') == 'integrated')
         area = interface.face_quadrature(implant, points)[1].sum()
         return simulation.Simulation(bone, implant, contact, area, self.height, get('Load steps/Residual tolerance'))
 

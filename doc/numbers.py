@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Makes the numbers that stand in README.md, doc/*.md and tests/comparison/README.md
-between <!-- numbers: NAME --> and <!-- end -->, and the tables of doc/parameters.md.
+between <!-- numbers: NAME --> and <!-- end -->, and the entries of doc/reference/parameters.md.
 
     doc/numbers.py                  all that take seconds, into the pages (some two minutes)
     doc/numbers.py NAME...          only these; --all: those that take minutes, too; --list: all names, cost, pages
@@ -1225,9 +1225,9 @@ def step_codes():
 
 @numbers('seconds')
 def parameters():
-    """All entries of a scene, from what debond --print-parameters prints: a table for each subsection."""
+    """All entries of a scene, from what debond --print-parameters prints: an index, and a heading for each entry."""
     text = subprocess.run([options.debond, '--print-parameters'], stdout=subprocess.PIPE, text=True, check=True).stdout
-    sections, path, comment = [('Outside of subsections', [])], [], []
+    sections, path, comment = [('', [])], [], []
     for line in map(str.strip, text.splitlines()[2:]):  # behind the title
         if line.startswith('#'):
             comment.append(line[1:].strip())
@@ -1239,36 +1239,69 @@ def parameters():
         elif line.startswith('set '):
             name, default = (part.strip() for part in line[len('set '):].split('=', 1))
             meaning, allowed = ' '.join(comment).split(' Allowed: ')
-            sections[-1][1].append(entry(name, default, allowed, meaning))
+            sections[-1][1].append((name, default, allowed, meaning))
             comment = []
     parts, others = [], {}  # of subsections x, y, z that say the same of their letters x is there
     for title, rows in sections:
         first = title[:-1] + 'x'
-        if title[-2:] in (' y', ' z') and rows == [[axis(cell, title[-1]) for cell in row] for row in dict(sections)[first]]:
+        if title[-2:] in (' y', ' z') and rows == [tuple(axis(cell, title[-1]) for cell in row) for row in dict(sections)[first]]:
             others[first].append(title)
         elif rows:
             parts.append((title, rows))
             others[title] = []
-    return '\n' + '\n'.join('## %s\n%s%s' % (
-        title, table(['entry', 'default', 'allowed', 'unit', 'meaning'], rows),
-        '\n%s have the same entries, with their letter in the place of x.\n' % ' and '.join('`%s`' % other for other in others[title])
-        if others[title] else '')
-        for title, rows in parts)
+    links = {' / '.join(filter(None, (title, row[0]))): '#' + anchor(' / '.join(filter(None, (title, row[0]))))
+             for title, rows in parts for row in rows}
+    links.update({title: '#' + anchor(title) for title, _ in parts if title})
+    links.update({name: '#' + anchor(first) for first, names in others.items() for name in names})
+    links.update({'%s / %s' % (name, row[0]): '#' + anchor('%s / %s' % (first, row[0]))
+                  for first, names in others.items() for name in names for row in dict(parts)[first]})
+    index = ['- %s: %s%s' % ('[%s](#%s)' % (title, anchor(title)) if title else 'outside of subsections',
+                             ', '.join('[%s](%s)' % (row[0], links[' / '.join(filter(None, (title, row[0])))]) for row in rows),
+                             '; %s alike' % ' and '.join(others[title]) if others[title] else '') for title, rows in parts]
+    pieces = ['\n'.join(index)]
+    for title, rows in parts:
+        pieces.append('## ' + (title or 'Outside of subsections'))
+        if others[title]:
+            pieces.append('%s have the same entries, with their letter in the place of x.' % ' and '.join('`%s`' % other for other in others[title]))
+        for row in rows:
+            own = ' / '.join(filter(None, (title, row[0])))
+            pieces += ['### ' + own, entry(*row[1:], {name: link for name, link in links.items() if name != own})]
+    return '\n\n%s\n\n' % '\n\n'.join(pieces)
 
 
-def entry(name, default, allowed, meaning):
-    """A row of the table: code for names, units apart, no signs that Markdown would take for its own."""
+def anchor(heading):
+    """As GitHub makes it."""
+    return re.sub(r'[^\w\- ]', '', heading.lower()).replace(' ', '-')
+
+
+def entry(default, allowed, meaning, links):
+    """The list below the heading of an entry: code for names, links to other entries that are named in full (`Output / Curve'),
+    the unit apart, no signs that Markdown would take for its own."""
+    names = [name for name in sorted(links, key=len, reverse=True) if ' / ' in name]
+
+    def text_with_links(text):
+        parts = re.split(r'(?<!/ )\b(%s)\b(?! /)' % '|'.join(map(re.escape, names)), text)
+        parts[::2] = [re.sub(r'\(doc/([\w/]+\.md)\)', r'([\1](../\1))', re.sub(r'([\\*<>])', r'\\\1', part)) for part in parts[::2]]
+        parts[1::2] = ['[%s](%s)' % (name, links[name]) for name in parts[1::2]]
+        return ''.join(parts)
+
     def plain(text):
         parts = re.sub(r"`([^']*)'|(<<.*?>>|\{\{.*?\}\})", '\0\\1\\2\0', text).split('\0')  # every second one is code
-        parts[::2] = [re.sub(r'\(doc/(\w+\.md)\)', r'([\1](\1))', re.sub(r'([\\*<>])', r'\\\1', part)) for part in parts[::2]]
-        return '`'.join(parts).replace('|', '\\|')
+        parts[::2] = map(text_with_links, parts[::2])
+        return '`'.join(parts)
     in_brackets = re.search(r' ?\[([^\]]+)\]', allowed)
     in_words = re.search(r'(an expression in t), in (.+)$', allowed)
     unit = in_brackets[1] if in_brackets else in_words[2] if in_words else ''
     allowed = allowed.replace(in_brackets[0], '', 1) if in_brackets else in_words[1] if in_words else allowed
-    if ' | ' in allowed:
-        allowed = ', '.join('`%s`' % choice for choice in allowed.split(' | '))
-    return ['`%s`' % name, '`%s`' % default if default else '', plain(allowed) if '`' not in allowed else allowed, unit, plain(meaning)]
+    choices = allowed.split(' | ') if ' | ' in allowed else []
+    # a line for each choice that is explained, where two or more are
+    labels = '|'.join(map(re.escape, choices))
+    begins = [match.start() for match in re.finditer(r"(?:(?<=^)|(?<=[.:;] ))`(?:%s)'(?:, `(?:%s)')*:" % (labels, labels), meaning)] if choices else []
+    items = [meaning[i:j].strip() for i, j in zip([0] + begins, begins + [len(meaning)])] if len(begins) > 1 else [meaning]
+    lines = ['Default: ' + ('`%s`' % default if default else 'empty'),
+             'Allowed: ' + (', '.join('`%s`' % choice for choice in choices) or plain(allowed))] + ['Unit: ' + unit] * bool(unit)
+    lines.append('Meaning: ' + plain(items[0]) if items[0] else 'Meaning:')
+    return '\n'.join(['- ' + line for line in lines] + ['  - ' + plain(item) for item in items[1:]])
 
 
 def axis(text, letter):
@@ -1277,7 +1310,7 @@ def axis(text, letter):
 
 
 def pages():
-    return ['README.md', 'tests/comparison/README.md'] + sorted(glob.glob('doc/*.md'))
+    return ['README.md', 'tests/comparison/README.md'] + sorted(glob.glob('doc/**/*.md', recursive=True))
 
 
 def compare(name, old, new):

@@ -35,7 +35,10 @@ for reader in "${readers[@]}"; do
   if [[ -e $here/$reader.dict ]]; then
     cat "$here/$reader.dict" > "$work/$reader.dict"
     # entries, choices and values
-    if [[ $reader == scene ]]; then grep -oE '`[^`"\\]+`' doc/parameters.md | sort -u | tr '`' '"' >> "$work/$reader.dict"; fi
+    if [[ $reader == scene ]]; then
+      { grep -oE '`[^`"\\]+`' doc/reference/parameters.md | tr '`' '"'; sed -nE 's|^### (.* / )?(.*)|"\2"|p' doc/reference/parameters.md; } |
+        sort -u >> "$work/$reader.dict"
+    fi
     options+=(-dict="$work/$reader.dict")
   fi
   echo "== $reader"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the pictures of the pages again, and puts them into doc/images as PNG and, but for maps, as SVG: doc/pictures.sh NAME...
-#   geometry        the sketches of doc/model.md
+#   geometry        the sketches and the friction law of doc/explanation
 #   bodies          mesh, fronts and stresses (a minute); needs pvpython, see doc/results.md
 #   paper           the figures of doc/reproduction.md (ten minutes, most of them Fig. 13); fig_1, fig_4, ... alone: see
 #                   doc/paper/reproduce.sh
@@ -62,8 +62,8 @@ make_pictures() {
       cp output/calibrate/data_set_1/fit.png doc/images/calibration_data_set_1.png
       ;;
     geometry)
-      gnuplot doc/geometry.gp && gnuplot doc/towing.gp && gnuplot doc/cell.gp
-      publish output/geometry output/towing output/cell
+      gnuplot doc/geometry.gp && gnuplot doc/towing.gp && gnuplot doc/cell.gp && gnuplot doc/law.gp
+      publish output/geometry output/towing output/cell output/law
       ;;
     bodies) bodies ;;
     paper) doc/paper/reproduce.sh $figures && publish_figures $figures ;;

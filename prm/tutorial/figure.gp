@@ -1,4 +1,4 @@
-# doc/tutorial.md: the measured and the fitted curve. For a fit of your own copy this file and change these two lines.
+# doc/tutorial/fit.md: the measured and the fitted curve. For a fit of your own copy this file and change these two lines.
 fit    = "output/tutorial/fit/fit.csv"
 figure = "output/tutorial/figure.svg"
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes measured.csv, the made-up measurement of doc/tutorial.md. From the top of the project:
+"""Writes measured.csv, the made-up measurement of doc/tutorial/fit.md. From the top of the project:
 
   python3 prm/tutorial/make_measured.py build/release/debond
 

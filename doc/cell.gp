@@ -1,4 +1,4 @@
-# Sketch of an enriched cell for doc/model.md, output/cell.png and cell.svg. At the top of the project:
+# Sketch of an enriched cell for doc/explanation/contact.md, output/cell.png and cell.svg. At the top of the project:
 #   gnuplot doc/cell.gp
 azimuth = 28 * pi / 180; elevation = 24 * pi / 180
 px(x, y, z) = x * cos(azimuth) + y * sin(azimuth)

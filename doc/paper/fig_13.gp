@@ -8,7 +8,7 @@ array published[3] = ['100,2.233\n200,2.242\n500,2.239\n1000,2.240\n2000,2.241\n
   '100,2.186\n200,2.185\n500,2.177\n1000,2.176\n2000,2.176\n2500,2.176']
 do for [format in "png svg"] {
   load "doc/style.gp"
-  eval picture(dir . "fig_13", 1400, 560)
+  eval picture(dir . "fig_13", 1400, 640)
   set multiplot layout 1, 2
   set xlabel "Number of load steps"
   set logscale x

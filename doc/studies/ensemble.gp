@@ -3,7 +3,7 @@ dir = "output/studies/"
 do for [format in "png svg"] {
   # ---- torque band of 200 implants, and the same near the peak
   load "doc/style.gp"
-  eval picture(dir . "ensemble", 1400, 560)
+  eval picture(dir . "ensemble", 1400, 640)
   file = dir . "ensemble/ensemble.csv"
   homogeneous = dir . "ensemble_homogeneous/variant-007/curve.csv"
   set multiplot layout 1, 2
@@ -22,7 +22,7 @@ do for [format in "png svg"] {
 
   # ---- T_max and D_adh over the bonded fraction
   load "doc/style.gp"
-  eval picture(dir . "ensemble_fraction", 1400, 560)
+  eval picture(dir . "ensemble_fraction", 1400, 640)
   file = dir . "ensemble_fraction/ensemble_summary.csv"
   homogeneous = dir . "ensemble_homogeneous/study.csv"
   fraction = "Interface / Bonding / Bonded fraction"
@@ -46,7 +46,7 @@ do for [format in "png svg"] {
 
   # ---- scatter over the correlation length
   load "doc/style.gp"
-  eval picture(dir . "ensemble_correlation", 1400, 560)
+  eval picture(dir . "ensemble_correlation", 1400, 640)
   file = dir . "ensemble_correlation/ensemble_summary.csv"
   length = "Interface / Bonding / Correlation length"
   set multiplot layout 1, 2

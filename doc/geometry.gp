@@ -59,9 +59,9 @@ do for [format in "png svg"] {
   eval "set arrow 3 " . vector(-h - 0.4, -h, -D, 0, 0, D) . " arrowstyle 3"
   set label 3 "5 mm" at px(-h - 0.4, -h, -D / 2), py(-h - 0.4, -h, -D / 2) offset -0.8, 0 right
   set label 4 "Bone: bottom fixed,\nsides held normal to them" at px(-h + 0.25, -h, -D / 2), py(-h + 0.25, -h, -D / 2 + 0.4) left front
-  eval "set arrow 4 " . vector(-R * cos(azimuth) - 0.4, -R * sin(azimuth), 0, 0, 0, H) . " arrowstyle 3"
-  set label 5 "3 mm" at px(-R * cos(azimuth) - 0.7, -R * sin(azimuth), H / 2), \
-    py(-R * cos(azimuth) - 0.7, -R * sin(azimuth), H / 2) right front
+  eval "set arrow 4 " . vector((R + 0.4) * cos(azimuth), (R + 0.4) * sin(azimuth), 0, 0, 0, H) . " arrowstyle 3"
+  set label 5 "3 mm" at px((R + 0.7) * cos(azimuth), (R + 0.7) * sin(azimuth), 0.58 * H), \
+    py((R + 0.7) * cos(azimuth), (R + 0.7) * sin(azimuth), 0.58 * H) left front
   eval "set arrow 5 " . vector(0, 0, 0, R * cos(-0.2), R * sin(-0.2), 0) . " arrowstyle 3"
   set label 6 "{/:Italic R} = 2.5 mm" at px(R + 0.25, 0.2, 0), py(R + 0.25, 0.2, 0) left front
   set label 7 "contact face, {/:Italic z} = 0" at px(0.9, -4.6, 0), py(0.9, -4.6, 0) center front

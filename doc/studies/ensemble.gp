@@ -10,10 +10,10 @@ do for [format in "png svg"] {
   set xlabel angle_label
   set ylabel torque_label
   do for [panel=1:2] {
-    set title (panel == 1 ? "200 implants, 55 % of the surface bonded at random" : "Near the peak")
+    set title (panel == 1 ? "200 implants, 55 % bonded at random" : "Near the peak")
     set xrange [0:(panel == 1 ? 10 : 2.5)]
     set yrange [(panel == 1 ? 0 : 44.4):(panel == 1 ? 50 : 46.9)]
-    if (panel == 1) { set key bottom right } else { unset key }
+    if (panel == 1) { eval key_below(1, -1) } else { unset key }
     plot file using "angle_deg":"torque_p05_Nmm":"torque_p95_Nmm" with filledcurves fillstyle solid 0.5 noborder linecolor rgb sky title "5 to 95 %", \
       "" using "angle_deg":"torque_mean_Nmm" with lines linetype 1 title "mean", \
       homogeneous using "angle_deg":"torque_Nmm" with lines dashtype 2 linetype 4 title "homogeneous, φ_0 = 0.55"
@@ -26,20 +26,21 @@ do for [format in "png svg"] {
   file = dir . "ensemble_fraction/ensemble_summary.csv"
   homogeneous = dir . "ensemble_homogeneous/study.csv"
   fraction = "Interface / Bonding / Bonded fraction"
-  phi_0 = "Interface / Bonding / Initial bonding"
+  phi_0 = "Interface / Bonding / Bonding degree"
   array quantity[2] = ["T_max", "D_adh"]
   array label[2] = ["Largest torque {/:Italic T}_{max} [N mm]", "Adhesive dissipation {/:Italic D}_{adh} [N mm]"]
   set multiplot layout 1, 2
   set xlabel "Bonded fraction of the surface"
   set xrange [0:1]
-  set key top left
+  eval key_below(1, -1)
   do for [i=1:2] {
     col(what) = column(quantity[i] . "_" . what . "_Nmm")
     set ylabel label[i]
-    plot file using (column(fraction)):(col("p05")):(col("p95")) with filledcurves fillstyle solid 0.5 noborder linecolor rgb sky title "20 random patterns, 5 to 95 %", \
-      "" using (column(fraction)):(col("mean")) with linespoints linetype 1 title "their mean", \
+    if (i == 2) { set yrange [0:0.8] }
+    plot file using (column(fraction)):(col("p05")):(col("p95")) with filledcurves fillstyle solid 0.5 noborder linecolor rgb sky title "20 patterns, 5 to 95 %", \
+      "" using (column(fraction)):(col("mean")) with linespoints linetype 1 title "mean", \
       homogeneous using (column(phi_0)):(column(quantity[i] . "_Nmm")) with lines dashtype 2 linetype 4 \
-        title "homogeneous, φ_0 = the fraction"
+        title "homogeneous"
     unset key
   }
   unset multiplot
@@ -54,7 +55,7 @@ do for [format in "png svg"] {
   set xrange [0:2.1]
   set key top left
   set ylabel "Largest torque {/:Italic T}_{max} [N mm]"
-  plot file using (column(length)):"T_max_p05_Nmm":"T_max_p95_Nmm" with filledcurves fillstyle solid 0.5 noborder linecolor rgb sky title "40 random patterns, 5 to 95 %", \
+  plot file using (column(length)):"T_max_p05_Nmm":"T_max_p95_Nmm" with filledcurves fillstyle solid 0.5 noborder linecolor rgb sky title "40 patterns, 5 to 95 %", \
     "" using (column(length)):"T_max_p50_Nmm" with linespoints linetype 1 title "median"
   set ylabel "Standard deviation / mean [%]"
   set yrange [0:*]

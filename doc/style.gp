@@ -13,9 +13,9 @@
 #   eval colours_of("mu")  # or "slip_mm", "pressure_MPa", ...: names of columns
 reset
 if (!exists("format")) { format = "png" }
-picture(name, width, height) = sprintf("set terminal %s font 'DejaVu Sans,%d' size %d, %d enhanced; set output '%s.%s'", \
+picture(name, width, height) = sprintf("set terminal %s font 'DejaVu Sans,%g' size %d, %d enhanced; set output '%s.%s'", \
   format eq "svg" ? "svg linewidth 1.5 background 'white'" : format eq "map" ? "pngcairo" : "pngcairo linewidth 1.5", \
-  width / 70, width, height, name, format eq "svg" ? "svg" : "png")
+  width / (format eq "svg" ? 52.5 : 70.), width, height, name, format eq "svg" ? "svg" : "png")
 set encoding utf8
 set datafile separator comma
 set datafile columnheaders

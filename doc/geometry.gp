@@ -73,7 +73,7 @@ do for [format in "png svg"] {
       py(-6.0 + (d == 1 ? 2.3 : 0), -3.2 + (d == 2 ? 3.4 : 0), d == 3 ? 2.6 : 0) center
   }
   # chuck: translations, and the senses of the rotations
-  set label 20 "" at px(0, 0, H), py(0, 0, H) point pointtype 7 pointsize 1.2 linecolor rgb "#000000" front
+  set label 20 "" at px(0, 0, H), py(0, 0, H) point pointtype 7 pointsize (1.2 * point) linecolor rgb "#000000" front
   set label 21 "{/:Bold C}" at px(0, 0, H), py(0, 0, H) offset -1.5, -0.7 front
   eval "set arrow 20 " . vector(0, 0, H, 4.2, 0, 0) . " arrowstyle 1"
   eval "set arrow 21 " . vector(0, 0, H, 0, 5.2, 0) . " arrowstyle 1"
@@ -111,9 +111,9 @@ do for [format in "png svg"] {
   set label 5 "{/:Italic g}_n {/:Bold n}" at s_1 + normal_gap * n_x / 2, bone(s_1) + normal_gap * n_y / 2 offset -1, -0.2 right textcolor rgb blue front
   set arrow 4 from s_1 + normal_gap * n_x, bone(s_1) + normal_gap * n_y to s_x, x_y arrowstyle 1
   set label 6 "{/:Bold g}_t" at (s_1 + s_x) / 2, x_y offset 0, -1.5 center textcolor rgb blue front
-  set label 7 "{/:Bold x}" at s_x, x_y offset 0.9, 0.7 point pointtype 7 pointsize 1.4 linecolor rgb "#000000" front
-  set label 8 "{/:Bold y}({/:Italic ξ̂})" at s_1, bone(s_1) offset 1.2, 1 point pointtype 7 pointsize 1.4 linecolor rgb "#000000" front
-  set label 9 "{/:Bold y}({/:Italic ξ̂}^{ n})" at s_n, bone(s_n) offset -1, -1.5 point pointtype 6 pointsize 1.4 linecolor rgb "#000000" front
+  set label 7 "{/:Bold x}" at s_x, x_y offset 0.9, 0.7 point pointtype 7 pointsize (1.4 * point) linecolor rgb "#000000" front
+  set label 8 "{/:Bold y}({/:Italic ξ̂})" at s_1, bone(s_1) offset 1.2, 1 point pointtype 7 pointsize (1.4 * point) linecolor rgb "#000000" front
+  set label 9 "{/:Bold y}({/:Italic ξ̂}^{ n})" at s_n, bone(s_n) offset -1, -1.5 point pointtype 6 pointsize (1.4 * point) linecolor rgb "#000000" front
   set label 10 "slip of this step" at (s_n + s_1) / 2 - 0.55, 0.75 center textcolor rgb green front
   set label 11 "{/:Bold g} = {/:Bold x} - {/:Bold y}({/:Italic ξ̂}) = {/:Italic g}_n {/:Bold n} + {/:Bold g}_t\nclosed while {/:Italic g}_n < 0: {/:Italic p} = -ε_n {/:Italic g}_n,\n{/:Bold t}_t = ε_t {/:Bold g}_t,  |{/:Bold t}_t| ≤ {/:Italic μ p}" \
     at 0.1, -3.0 center front

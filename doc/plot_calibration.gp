@@ -52,7 +52,7 @@ set title heading noenhanced
 plot for [i = 1:words(files)] data(i) using over:(column(curve . "_lower_95")):(column(curve . "_upper_95")) \
        with filledcurves linecolor rgb "#9ecae1" fillstyle solid 1 title i == 1 ? "95 % band of the fit" : "", \
      for [i = 1:words(files)] data(i) using over:(column(measured)) \
-       with points pointtype 6 pointsize size_of_points linecolor rgb points_of[colour(i)] title source . name(i), \
+       with points pointtype 6 pointsize (size_of_points * point) linecolor rgb points_of[colour(i)] title source . name(i), \
      for [i = 1:words(files)] data(i) using over:(column(fitted)) with lines linecolor rgb lines_of[colour(i)] title "fit" . name(i)
 
 unset title
@@ -66,5 +66,5 @@ set xlabel over eq "angle_deg" ? angle_label : over
 set ylabel "Residual " . unit
 set xzeroaxis linetype 1 linecolor rgb "#0072b2"
 plot for [i = 1:words(files)] data(i) using over:(column(measured) - column(fitted)) \
-       with points pointtype 6 pointsize size_of_points linecolor rgb points_of[colour(i)] notitle
+       with points pointtype 6 pointsize (size_of_points * point) linecolor rgb points_of[colour(i)] notitle
 unset multiplot

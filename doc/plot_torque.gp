@@ -50,7 +50,7 @@ at_face(i) = abs(column("angle_deg") - word(angles, i)) < 1e-6
 
 do for [i=1:n_faces] { # where on the curve the faces are
   stats faces . "/torque.csv" using (at_face(i) ? column("torque_Nmm") : NaN) nooutput
-  set label 10 + i "" at first real(word(angles, i)), first STATS_max point pointtype 7 pointsize 1.3 linecolor rgb blue
+  set label 10 + i "" at first real(word(angles, i)), first STATS_max point pointtype 7 pointsize (1.3 * point) linecolor rgb blue
 }
 
 set multiplot
@@ -71,7 +71,7 @@ if (exists("published")) {
 if (exists("other")) {
   plot file using "angle_deg":"torque_Nmm" with lines linewidth 2 linecolor rgb blue title label(dir), \
        finest(other) using "angle_deg":"torque_Nmm" with lines linewidth 1 linecolor rgb red notitle, \
-       other . "/torque.csv" using "angle_deg":"torque_Nmm" with points pointtype 7 pointsize 0.6 \
+       other . "/torque.csv" using "angle_deg":"torque_Nmm" with points pointtype 7 pointsize (0.6 * point) \
          linecolor rgb red title label(other)
 } else { if (exists("reference")) {
   plot reference using "angle_deg":"torque_Nmm" with points pointtype 6 linecolor rgb "#555555" title reference, \

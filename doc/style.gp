@@ -15,7 +15,9 @@ reset
 if (!exists("format")) { format = "png" }
 picture(name, width, height) = sprintf("set terminal %s font 'DejaVu Sans,%g' size %d, %d enhanced; set output '%s.%s'", \
   format eq "svg" ? "svg linewidth 1.5 background 'white'" : format eq "map" ? "pngcairo" : "pngcairo linewidth 1.5", \
-  width / (format eq "svg" ? 52.5 : 70.), width, height, name, format eq "svg" ? "svg" : "png")
+  width / 70., width, height, name, format eq "svg" ? "svg" : "png")
+point = format eq "svg" ? 0.55 : 1 # points of an SVG are larger: pointsize (1.5 * point)
+set pointsize point
 set encoding utf8
 set datafile separator comma
 set datafile columnheaders
@@ -34,7 +36,7 @@ colours_of(quantity) = sprintf("set palette defined (%s)", \
 eval colours_of("phi")
 # values printed in a paper: plot marks('X,Y\nX,Y') with points linestyle 1
 marks(points) = "< printf '" . 'x,y\n' . points . '\n' . "'"
-set style line 1 linecolor rgb "#000000" linewidth 1.5 pointtype 2 pointsize 1.6
+set style line 1 linecolor rgb "#000000" linewidth 1.5 pointtype 2 pointsize (1.6 * point)
 
 set grid linetype 1 linecolor rgb "#dddddd" linewidth 0.7
 set border linecolor rgb "#555555"

@@ -23,7 +23,7 @@ do for [format in "png svg"] {
     plot for [mesh=1:3] dir . "study.csv" using (steps[int(column("variant") - 1) / 3 + 1]):(100 * column(quantity)) \
       every 3::(mesh - 1) with linespoints pointtype 3 + 2 * mesh title word("coarse medium fine", mesh), \
       for [mesh=1:3] marks(part == 2 ? published[mesh] : word('1000,1.75 1000,1.71 1000,1.70', mesh)) with points \
-      linestyle 1 pointtype 2 + 2 * mesh pointsize 1.2 title mesh == 1 ? "published" : ""
+      linestyle 1 pointtype 2 + 2 * mesh pointsize (1.2 * point) title mesh == 1 ? "published" : ""
   }
   unset multiplot
 }

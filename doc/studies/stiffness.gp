@@ -26,7 +26,7 @@ do for [format in "png svg"] {
     if (k == 3) { set xlabel "Seconds of the run on one thread" } else { unset xlabel }
     if (k == 3) { set key at screen 0.5, 0.02 bottom center maxrows 2 samplen 2 width 2 } else { unset key }
     plot for [f=1:5] table using (strcol("stiffness") eq word(stiffnesses, k) && strcol("family") eq word(families, f) ? column("seconds") : NaN):"error" \
-      with linespoints pointtype symbol[f] pointsize 1.4 linewidth 1.5 linecolor rgb value(word(colours, f)) title word(labels, f)
+      with linespoints pointtype symbol[f] pointsize (1.4 * point) linewidth 1.5 linecolor rgb value(word(colours, f)) title word(labels, f)
   }
   unset multiplot
 }

@@ -58,9 +58,9 @@ do for [format in "png svg"] {
   set arrow 1 from graph 0, first floor_of_error to graph 1, first floor_of_error nohead dashtype 2 linecolor rgb "#888888"
   set label 2 "error of the reference" at graph 0.02, first floor_of_error * 1.25
   plot for [k=1:words(tiers)] for [m=1:words(meshes)] table using (is(word(tiers, k), word(meshes, m)) ? column("seconds") : NaN):"error_torque" \
-      with points pointtype symbol[m] pointsize 1.5 linecolor rgb (colour(k) + 0x60000000) notitle, \
-    for [k=1:words(tiers)] NaN with points pointtype 7 pointsize 1.6 linecolor rgb colour(k) title short(word(tiers, k)), \
-    for [m=1:words(meshes)] NaN with points pointtype symbol[m] pointsize 1.6 linecolor rgb "#444444" title mesh_name(m), \
+      with points pointtype symbol[m] pointsize (1.5 * point) linecolor rgb (colour(k) + 0x60000000) notitle, \
+    for [k=1:words(tiers)] NaN with points pointtype 7 pointsize (1.6 * point) linecolor rgb colour(k) title short(word(tiers, k)), \
+    for [m=1:words(meshes)] NaN with points pointtype symbol[m] pointsize (1.6 * point) linecolor rgb "#444444" title mesh_name(m), \
     front using "seconds":"error_torque" with steps linewidth 1.5 linecolor rgb "#000000" title "best", \
     front using "seconds":"error_torque":(sprintf("%d", $0 + 1)) with labels offset -0.6, -0.7 right notitle
   unset label
@@ -82,9 +82,9 @@ do for [format in "png svg"] {
     if (i == 2) { unset key }
     error = "error_" . what[i]
     plot for [k=1:words(tiers)] for [m=1:words(meshes)] table using (is(word(tiers, k), word(meshes, m)) ? column("seconds") : NaN):(best(column(error))) \
-        with points pointtype symbol[m] pointsize 1.3 linecolor rgb (colour(k) + 0x60000000) notitle, \
-      for [k=2:words(tiers)] NaN with points pointtype 7 pointsize 1.5 linecolor rgb colour(k) title short(word(tiers, k)), \
-      for [m=1:words(meshes)] NaN with points pointtype symbol[m] pointsize 1.5 linecolor rgb "#444444" title mesh_name(m), \
+        with points pointtype symbol[m] pointsize (1.3 * point) linecolor rgb (colour(k) + 0x60000000) notitle, \
+      for [k=2:words(tiers)] NaN with points pointtype 7 pointsize (1.5 * point) linecolor rgb colour(k) title short(word(tiers, k)), \
+      for [m=1:words(meshes)] NaN with points pointtype symbol[m] pointsize (1.5 * point) linecolor rgb "#444444" title mesh_name(m), \
       dir . "front_" . what[i] . ".csv" using "seconds":error with steps linewidth 1.5 linecolor rgb "#000000" title "best"
   }
   unset multiplot
@@ -115,16 +115,16 @@ do for [format in "png svg"] {
     set label 100 "Cells: bone / implant" at graph 0.62, 0.04 + 0.042 * count_of_semicolons(all_cells) boxed
   }
   plot for [s=1:2] for [m=2:6] ours using (strcol("surface") eq word(surfaces, s) && is("linear", word(meshes, m)) ? column("seconds") : NaN):"error_torque" \
-      with points pointtype symbol[m] pointsize 1.5 linecolor rgb (surface_colour[s] + 0x40000000) notitle, \
+      with points pointtype symbol[m] pointsize (1.5 * point) linecolor rgb (surface_colour[s] + 0x40000000) notitle, \
     ours using (is("splines", "equal_cells") ? column("seconds") : NaN):"error_torque" \
-      with points pointtype symbol[7] pointsize 1.5 linecolor rgb 0x40000000 notitle, \
+      with points pointtype symbol[7] pointsize (1.5 * point) linecolor rgb 0x40000000 notitle, \
     front using "seconds":"error_torque" with steps linewidth 1.5 linecolor rgb "#000000" title "debond, best", \
-    for [s=1:2] NaN with points pointtype 7 pointsize 1.6 linecolor rgb surface_colour[s] title s == 1 ? "trilinear, NURBS" : "trilinear, bilinear", \
-    NaN with points pointtype symbol[7] pointsize 1.6 linecolor rgb black title "splines", \
-    for [m=2:5] NaN with points pointtype symbol[m] pointsize 1.6 linecolor rgb "#444444" title mesh_name(m), \
+    for [s=1:2] NaN with points pointtype 7 pointsize (1.6 * point) linecolor rgb surface_colour[s] title s == 1 ? "trilinear, NURBS" : "trilinear, bilinear", \
+    NaN with points pointtype symbol[7] pointsize (1.6 * point) linecolor rgb black title "splines", \
+    for [m=2:5] NaN with points pointtype symbol[m] pointsize (1.6 * point) linecolor rgb "#444444" title mesh_name(m), \
     for [k=1:words(methods)] others using (of(word(methods, k)) ? column("seconds") : NaN):"error_torque" \
-      with points pointtype open_symbol[k] pointsize 2 linewidth 1.5 linecolor rgb code_colour(word(methods, k)) notitle, \
-    for [k=1:words(methods) + n_blank] keyentry with points pointtype (blank(k) ? -1 : open_symbol[entry(k)]) pointsize 2 linewidth 1.5 \
+      with points pointtype open_symbol[k] pointsize (2 * point) linewidth 1.5 linecolor rgb code_colour(word(methods, k)) notitle, \
+    for [k=1:words(methods) + n_blank] keyentry with points pointtype (blank(k) ? -1 : open_symbol[entry(k)]) pointsize (2 * point) linewidth 1.5 \
       linecolor rgb (blank(k) ? 0xffffff : code_colour(word(methods, entry(k)))) title (blank(k) ? " " : code(word(methods, entry(k))) . " " . method(word(methods, entry(k)))), \
     for [k=1:words(methods)] others using (of(word(methods, k)) ? column("seconds") : NaN):"error_torque":(codes eq "" ? "" : letter(cells(strcol("label")))) \
       with labels offset (k % 2 ? -1.5 : 1.5), 0 textcolor rgb code_colour(word(methods, k)) noenhanced notitle

@@ -31,7 +31,7 @@ do for [format in "png svg"] {
   plot pi * 6.25 * x / brittle_force with lines dashtype 2 linecolor rgb grey title "strength", \
     1 with lines dashtype 3 linecolor rgb "#555555" title "toughness", \
     reference using "strength_MPa":"pull_off" with lines linecolor rgb blue title "reference, adhesive", \
-    $pulled using "strength_MPa":(column("force_N") / brittle_force) with points pointtype 7 pointsize 1.3 linecolor rgb blue title "debond, adhesive"
+    $pulled using "strength_MPa":(column("force_N") / brittle_force) with points pointtype 7 pointsize (1.3 * point) linecolor rgb blue title "debond, adhesive"
 
   set title "Twisted off (mode III)"
   eval key_below(2, -1)
@@ -42,9 +42,9 @@ do for [format in "png svg"] {
     reference using "strength_MPa":"twist_adhesive" with lines linecolor rgb blue title "reference, adhesive", \
     reference using "strength_MPa":"twist_mixed_mode" with lines linecolor rgb red title "reference, mixed mode", \
     "output/bonded_disk_torsion/study.csv" using (tau[int(column("variant") - 1) % 5 + 1]):(column("T_max_Nmm") / brittle_torque) \
-      every ::0::4 with points pointtype 7 pointsize 1.3 linecolor rgb blue title "debond, adhesive", \
+      every ::0::4 with points pointtype 7 pointsize (1.3 * point) linecolor rgb blue title "debond, adhesive", \
     "" using (tau[int(column("variant") - 1) % 5 + 1]):(column("T_max_Nmm") / brittle_torque) \
-      every ::5::9 with points pointtype 7 pointsize 1.3 linecolor rgb red title "debond, mixed mode"
+      every ::5::9 with points pointtype 7 pointsize (1.3 * point) linecolor rgb red title "debond, mixed mode"
   unset multiplot
 }
 unset output

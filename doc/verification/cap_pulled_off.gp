@@ -28,6 +28,6 @@ do for [format in "png svg"] {
   plot 2 with lines linetype 3 dashtype 2 linecolor rgb grey notitle, 1.5 with lines linetype 3 dashtype 2 linecolor rgb grey notitle, \
     exact using "lambda":"dugdale" with lines linetype 1 title "Maugis: constant strength", \
     exact using "lambda":"exponential" with lines linetype 2 title "reference: the law adhesive", \
-    $ours using "lambda":"pull" with points linetype 4 pointsize 1.3 title "debond, {/:Italic E} = 10000 ... 200 MPa"
+    $ours using "lambda":"pull" with points linetype 4 pointsize (1.3 * point) title "debond, {/:Italic E} = 10000 ... 200 MPa"
 }
 unset output
